@@ -11,14 +11,6 @@
 namespace episcope::io {
 namespace {
 
-FieldShape shape_of(const LightField::Samples& samples) {
-  return std::visit(
-      [](const auto& stack) {
-        return FieldShape{stack.grid(), stack.height(), stack.width()};
-      },
-      samples);
-}
-
 DepthMaps read_depth(const Hdf5Input& file, const std::string& name, const FieldShape& shape,
                      MapViews views, const Progress& progress) {
   DepthMaps maps;
@@ -114,7 +106,7 @@ CameraGrid read_camera(const Hdf5Input& file) {
 ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples& samples,
                                 const OpenOptions& options, ConventionReport& report,
                                 const Progress& progress) {
-  const FieldShape shape = shape_of(samples);
+  const FieldShape shape = field_shape(samples);
   ArchiveTruth truth;
   truth.camera = stored_camera(file);
   const auto read = [&](const char* name, double begin, double end) {
@@ -138,6 +130,9 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
     return truth;
   }
   truth.camera = settle(file, reference, samples, truth.camera, options.units, report);
+  if (is_column_major(file, reference.name, shape)) {
+    report.units += ", stored with all axes in the opposite order, as MATLAB writes arrays";
+  }
   const auto finish = [&](DepthMaps& maps, double from) {
     return maps.empty() ? DisparityField{}
                         : disparity_from_depth(std::move(maps), truth.camera, report,

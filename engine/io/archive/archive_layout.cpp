@@ -98,6 +98,15 @@ ArchiveLayout archive_layout(const Hdf5Input& file) {
           dataset.type};
 }
 
+ExpectedOrder expected_order(const Hdf5Input& file) {
+  if (file.text("/", "convention") || file.text(kArchiveLightField, "convention")) {
+    return {{}, "the file states its order in the attribute convention", true};
+  }
+  const bool is_raw = file.number("/", "dH") && file.number("/", "shift");
+  if (is_raw) return {{true, false}, "raw files of the archive store h reversed", true};
+  return {{}, "the file has no attributes of the archive", true};
+}
+
 SceneProbe probe_archive(const fs::path& path, const OpenOptions&) {
   const std::shared_ptr<const Hdf5Input> input = open_archive(path);
   const Hdf5Input& file = *input;

@@ -4,6 +4,7 @@
 #include "engine/io/archive/archive_maps.h"
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/open/scene_probe.h"
+#include "engine/io/order/order_check.h"
 
 #include <filesystem>
 
@@ -22,6 +23,9 @@ struct ArchiveLayout {
 
 /// Throws IoError if there is no such dataset, or if it is not that of a light field.
 [[nodiscard]] ArchiveLayout archive_layout(const Hdf5Input& file);
+
+/// The order of views that attributes promise: as stated, or that of raw archive files.
+[[nodiscard]] ExpectedOrder expected_order(const Hdf5Input& file);
 
 /// What the headers of an archive file, and of labels.h5 beside it, tell. Throws IoError.
 [[nodiscard]] SceneProbe probe_archive(const std::filesystem::path& path,

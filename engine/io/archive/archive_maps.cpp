@@ -6,26 +6,92 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+#include <vector>
+
 namespace episcope::io {
 namespace {
 
-bool is_one_view(const Hdf5Input& file, const Hdf5Dataset& dataset, const FieldShape& shape) {
-  const Hdf5Shape view{static_cast<std::size_t>(shape.height),
-                       static_cast<std::size_t>(shape.width)};
-  const Hdf5Shape single{1, 1, view[0], view[1]};
-  const Hdf5Shape all{static_cast<std::size_t>(shape.grid.v),
-                      static_cast<std::size_t>(shape.grid.u), view[0], view[1]};
+Hdf5Shape reversed(Hdf5Shape shape) {
+  std::ranges::reverse(shape);
+  return shape;
+}
+
+/// How a dataset holds maps.
+struct MapForm {
+  bool is_one_view = false;
+  /// `[x][y][h][v]` or `[x][y]`: as MATLAB and Fortran write `[v][h][y][x]`.
+  bool is_column_major = false;
+};
+
+/// A channel axis of length 1 behind the others says nothing.
+Hdf5Shape map_shape(const Hdf5Dataset& dataset) {
+  Hdf5Shape shape = dataset.shape;
+  const bool has_channel = shape.size() == 3 || shape.size() == 5;
+  if (has_channel && shape.back() == 1) shape.pop_back();
+  return shape;
+}
+
+struct ExpectedShapes {
+  Hdf5Shape view, all;
+};
+
+ExpectedShapes expected_shapes(const FieldShape& shape) {
+  const auto length = [](int value) { return static_cast<std::size_t>(value); };
+  const Hdf5Shape view{length(shape.height), length(shape.width)};
+  return {view, {length(shape.grid.v), length(shape.grid.u), view[0], view[1]}};
+}
+
+std::optional<MapForm> find_form(const Hdf5Dataset& dataset, const FieldShape& shape) {
+  const auto [view, all] = expected_shapes(shape);
+  const Hdf5Shape stored = map_shape(dataset);
+  for (const bool is_column_major : {false, true}) {
+    const Hdf5Shape found = is_column_major ? reversed(stored) : stored;
+    if (found == view || found == Hdf5Shape{1, 1, view[0], view[1]})
+      return {{true, is_column_major}};
+    if (found == all) return {{false, is_column_major}};
+  }
+  return std::nullopt;
+}
+
+MapForm form_of(const Hdf5Input& file, const Hdf5Dataset& dataset, const FieldShape& shape) {
+  if (const auto form = find_form(dataset, shape)) return *form;
+  const auto [view, all] = expected_shapes(shape);
   const std::string expected = shape_text(all) + " or " + shape_text(view);
   const std::string what = "the dataset " + dataset.name + " has ";
-  if (dataset.shape.size() != 2 && dataset.shape.size() != 4) {
+  const std::size_t axes = map_shape(dataset).size();
+  if (axes != 2 && axes != 4) {
     throw IoError(file.path(),
                   fmt::format("{}{} axes ({}), but {} is expected; store it in this form", what,
                               dataset.shape.size(), shape_text(dataset.shape), expected));
   }
-  if (dataset.shape == view || dataset.shape == single) return true;
-  if (dataset.shape == all) return false;
   throw IoError(file.path(), what + "the shape " + shape_text(dataset.shape) + ", but " + expected +
                                  " is expected to fit the light field; store it in this form");
+}
+
+/// Reads `[x][y][h][v]`, or of one view `[x][y]`, all of it, since every view is spread over it.
+template <class T>
+void read_column_major(const Hdf5Input& file, const Hdf5Dataset& dataset, GridShape grid,
+                       ViewStack<T>& stack) {
+  const std::size_t count = static_cast<std::size_t>(grid.count()) * stack.view_size();
+  std::vector<T> stored(count);
+  file.read(dataset.name, {Hdf5Shape(dataset.shape.size(), 0), dataset.shape}, stored.data());
+  const auto rows = static_cast<std::size_t>(stack.height());
+  for (int i = 0; i < stack.grid().count(); ++i) {
+    const ViewIndex view = stack.view_at(i);
+    const ViewIndex at = grid.count() == 1 ? ViewIndex{} : view;
+    const auto out = stack.view(view);
+    for (int y = 0; y < out.height; ++y) {
+      for (int x = 0; x < out.width; ++x) {
+        const std::size_t pixel = static_cast<std::size_t>(x) * rows + static_cast<std::size_t>(y);
+        const std::size_t column =
+            pixel * static_cast<std::size_t>(grid.u) + static_cast<std::size_t>(at.u);
+        out.at(y, x) =
+            stored[column * static_cast<std::size_t>(grid.v) + static_cast<std::size_t>(at.v)];
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -36,9 +102,14 @@ ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name, const Fie
   const Hdf5Dataset dataset = file.dataset(name);
   const auto height = static_cast<std::size_t>(shape.height);
   const auto width = static_cast<std::size_t>(shape.width);
-  if (is_one_view(file, dataset, shape)) {
+  const MapForm form = form_of(file, dataset, shape);
+  if (form.is_one_view) {
     progress.check();
     ViewStack<T> stack({1, 1}, shape.height, shape.width, 1, shape.grid.center());
+    if (form.is_column_major) {
+      read_column_major(file, dataset, {1, 1}, stack);
+      return stack;
+    }
     const Hdf5Shape origin(dataset.shape.size(), 0);
     file.read(name, {origin, dataset.shape}, stack.data());
     return stack;
@@ -47,17 +118,39 @@ ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name, const Fie
   const ViewIndex first = is_center ? shape.grid.center() : ViewIndex{};
   const GridShape grid = is_center ? GridShape{1, 1} : shape.grid;
   ViewStack<T> stack(grid, shape.height, shape.width, 1, first);
+  if (form.is_column_major) {
+    progress.check();
+    read_column_major(file, dataset, shape.grid, stack);
+    return stack;
+  }
   if (!is_center && read_stored_views(file, name, stack, progress)) return stack;
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
     const ViewIndex view = grid.view_at(i, first);
-    const Hdf5Block block{
-        {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0},
-        {1, 1, height, width}};
+    Hdf5Block block{{static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0},
+                    {1, 1, height, width}};
+    block.start.resize(dataset.shape.size(), 0);
+    block.count.resize(dataset.shape.size(), 1);
     file.read(name, block, stack.view(view).data);
     progress.report((i + 1.0) / grid.count());
   }
   return stack;
+}
+
+FieldShape field_shape(const LightField::Samples& samples) {
+  return std::visit(
+      [](const auto& stack) {
+        return FieldShape{stack.grid(), stack.height(), stack.width()};
+      },
+      samples);
+}
+
+bool holds_maps(const Hdf5Input& file, const std::string& name, const FieldShape& shape) {
+  return find_form(file.dataset(name), shape).has_value();
+}
+
+bool is_column_major(const Hdf5Input& file, const std::string& name, const FieldShape& shape) {
+  return form_of(file, file.dataset(name), shape).is_column_major;
 }
 
 template ViewStack<std::uint8_t> read_maps(const Hdf5Input&, const std::string&, const FieldShape&,

@@ -47,15 +47,6 @@ void compare_sizes(const Hdf5Input& file, ConventionReport& report) {
   }
 }
 
-ExpectedOrder expected_order(const Hdf5Input& file) {
-  if (file.text("/", "convention") || file.text(kArchiveLightField, "convention")) {
-    return {{}, "the file states its order in the attribute convention", true};
-  }
-  const bool is_raw = file.number("/", "dH") && file.number("/", "shift");
-  if (is_raw) return {{true, false}, "raw files of the archive store h reversed", true};
-  return {{}, "the file has no attributes of the archive", true};
-}
-
 std::optional<Interval> stated_range(const Hdf5Input& file) {
   const auto min = file.number("/", "disp_min");
   const auto max = file.number("/", "disp_max");

@@ -87,7 +87,7 @@ SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
 }
 
 Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOptions& options,
-                       const Progress& progress) {
+                       const Progress& progress, const OtherArrays& more) {
   const ArrayEntry& entry = light_field_of(file, options);
   ChosenLayout chosen = choose_layout(file, entry, options.axes);
   const std::unique_ptr<ArrayInput> array = file.open(entry);
@@ -107,7 +107,8 @@ Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOpti
   progress.step("reading maps");
   std::vector<const ArrayEntry*> others;
   for (const ArrayEntry& other : file.entries()) {
-    if (&other != &entry) others.push_back(&other);
+    const bool is_owned = more.owns && more.owns(other);
+    if (&other != &entry && !is_owned) others.push_back(&other);
   }
   ArrayMaps maps = read_array_maps(file, others, {chosen.layout, entry.order}, options.needs_truth,
                                    progress.part(0.7, 0.8));
@@ -121,6 +122,7 @@ Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOpti
   parts.files = std::move(maps.uses);
   parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});
   parts.expected.reason = "arrays do not say how their views are ordered";
+  if (more.add) more.add(parts, scene.convention, progress);
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   return scene;
 }

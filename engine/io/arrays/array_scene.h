@@ -4,9 +4,11 @@
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/io/arrays/array_file.h"
+#include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/open_options.h"
 #include "engine/io/open/scene_probe.h"
 
+#include <functional>
 #include <span>
 
 namespace episcope::io {
@@ -18,9 +20,18 @@ namespace episcope::io {
 /// can be one; IoError, Undecided.
 [[nodiscard]] SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options);
 
-/// Reads the light field of a file of arrays, and the maps beside it. A picture of the centre view
-/// is given first. Throws IoError, InvalidInput for options that do not fit, Cancelled.
+/// What a file holds beside arrays that `read_array_maps` knows.
+struct OtherArrays {
+  std::function<bool(const ArrayEntry&)> owns;  ///< Arrays that it alone reads.
+  /// Adds them to the parts, which hold samples and maps in the order of the file.
+  std::function<void(SceneParts&, ConventionReport&, const Progress&)> add;
+};
+
+/// Reads the light field of a file of arrays, and the maps beside it; then, if given, what else
+/// there is. A picture of the centre view is given first. Throws IoError, InvalidInput for options
+/// that do not fit, Cancelled.
 [[nodiscard]] Scene read_array_scene(const ArrayFile& file, const char* reader,
-                                     const OpenOptions& options, const Progress& progress);
+                                     const OpenOptions& options, const Progress& progress,
+                                     const OtherArrays& more = {});
 
 }  // namespace episcope::io

@@ -2,7 +2,9 @@
 #include "engine/io/arrays/hdf5_array_reader.h"
 
 #include "engine/core/text/suffix.h"
+#include "engine/io/archive/archive_depth.h"
 #include "engine/io/archive/archive_group.h"
+#include "engine/io/archive/archive_layout.h"
 #include "engine/io/arrays/array_scene.h"
 #include "engine/io/arrays/choose_layout.h"
 #include "engine/io/arrays/folder_file.h"
@@ -63,9 +65,28 @@ fs::path find_hdf5_array(const fs::path& path, const OpenOptions& options) {
   return !file.empty() && is_meant(file, options) ? file : fs::path();
 }
 
+/// Depth and camera of an archive file whose light field has other axes than the archive's, as
+/// where MATLAB wrote it.
+OtherArrays archive_depth(const Hdf5Input& file, const OpenOptions& options) {
+  if (!file.has("GT_DEPTH") || !read_camera(file).is_known()) return {};
+  const auto add = [&file, options](SceneParts& parts, ConventionReport& report,
+                                    const Progress& progress) {
+    const bool fits = holds_maps(file, "GT_DEPTH", field_shape(parts.samples));
+    parts.files.push_back({kind_text(MapKind::Depth), 1, "GT_DEPTH", fits});
+    if (!fits) return;
+    ArchiveTruth truth = read_archive_depth(file, parts.samples, options, report, progress);
+    parts.truth.field = std::move(truth.field);
+    parts.info.camera = truth.camera;
+    parts.expected = expected_order(file);
+    parts.expected.are_axes_known = false;
+  };
+  return {[](const ArrayEntry& entry) { return entry.name.starts_with("GT_DEPTH"); }, add};
+}
+
 Scene read_hdf5_array(const fs::path& path, const OpenOptions& options, const Progress& progress) {
-  const Hdf5Arrays file(std::make_shared<const Hdf5Input>(path));
-  return read_array_scene(file, kHdf5Reader, options, progress);
+  const auto input = std::make_shared<const Hdf5Input>(path);
+  return read_array_scene(Hdf5Arrays(input), kHdf5Reader, options, progress,
+                          archive_depth(*input, options));
 }
 
 SceneProbe probe_hdf5_array(const fs::path& path, const OpenOptions& options) {

@@ -65,6 +65,17 @@ void compare_size(const ConfigFile& config, Size size, ConventionReport& report)
   compare("image_resolution_y_px", size.height);
 }
 
+/// The number of files counts where they fit no grid of that many cameras.
+void compare_grid(const ConfigFile& config, GridShape grid, ConventionReport& report) {
+  const auto rows = config.number("num_cams_y");
+  const auto columns = config.number("num_cams_x");
+  if (!rows || !columns || (*rows == grid.v && *columns == grid.u)) return;
+  report.warnings.push_back(
+      fmt::format("{} promises {}×{} views, but the files are {}×{}; correct num_cams_x and "
+                  "num_cams_y.",
+                  kBenchmarkConfig, *rows, *columns, grid.v, grid.u));
+}
+
 /// Unknown if the file has none of its keys; if some are missing or wrong, a warning says so.
 CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, Size size,
                        ConventionReport& report) {
@@ -122,13 +133,29 @@ void store(const Image<float>& map, ViewIndex view, DisparityField& field) {
   }
 }
 
+/// Of a map that was written as a gray picture of three channels, one of them. Throws IoError if
+/// they differ.
+Image<float> one_channel(const fs::path& path, Image<float> map) {
+  if (map.channels() == 1) return map;
+  Image<float> first(map.height(), map.width());
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      const float value = map.at(y, x, 0);
+      const bool is_gray =
+          std::isnan(value) || (map.at(y, x, 1) == value && map.at(y, x, 2) == value);
+      if (!is_gray) {
+        throw IoError(path, "this map has 3 channels, but 1 is expected; remove or replace it");
+      }
+      first.at(y, x) = value;
+    }
+  }
+  return first;
+}
+
 Image<float> read_map(const fs::path& path, Size size) {
   Image<float> map = read_pfm(path);
   require_size(path, map, size);
-  if (map.channels() != 1) {
-    throw IoError(path, "this map has 3 channels, but 1 is expected; remove or replace it");
-  }
-  return map;
+  return one_channel(path, std::move(map));
 }
 
 /// Depth of the benchmark is in metres or in millimetres, told apart by the focus distance.
@@ -295,6 +322,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   const Size size = size_of(samples);
   if (config) {
     compare_size(*config, size, report);
+    compare_grid(*config, views.grid, report);
     info.camera = read_camera(folder, *config, size, report);
   }
   GroundTruth truth;

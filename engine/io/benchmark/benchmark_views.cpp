@@ -32,6 +32,18 @@ GridShape square_grid(const fs::path& folder, int count) {
                                     kBenchmarkConfig, count));
 }
 
+/// Rows and columns that the parameter file promises, unless more files are numbered without a gap,
+/// and make a square: then it is that of another scene.
+GridShape promised_grid(GridShape promised, const std::map<int, fs::path>& found) {
+  const auto count = static_cast<int>(found.size());
+  const int side = static_cast<int>(std::lround(std::sqrt(count)));
+  const bool has_gap = found.empty() || found.rbegin()->first - found.begin()->first + 1 != count;
+  if (has_gap || side * side != count || promised.count() >= count) {
+    return promised;
+  }
+  return {side, side};
+}
+
 /// The number in the name of a view, whatever its padding, case and format.
 std::optional<int> view_number(const fs::path& path) {
   constexpr std::size_t kMostDigits = 6;
@@ -109,6 +121,7 @@ ViewFiles benchmark_views(const fs::path& folder, const std::optional<ConfigFile
               "num_cams_x and num_cams_y are {} and {}, which is not possible; correct this file",
               *columns, *rows));
     }
+    grid = promised_grid(grid, found);
   } else {
     grid = square_grid(folder, count);
   }

@@ -18,6 +18,25 @@ std::string trimmed(const std::string& text) {
   return begin < end ? std::string(begin, end) : std::string();
 }
 
+/// Without what a comment adds behind the value: "100.0 ; mm".
+std::string without_comment(const std::string& value) {
+  for (const std::size_t mark :
+       {value.find(" ;"), value.find(" #"), value.find("\t;"), value.find("\t#")}) {
+    if (mark != std::string::npos) return without_comment(trimmed(value.substr(0, mark)));
+  }
+  return value;
+}
+
+/// With a decimal point where a program of a language with decimal commas wrote the file.
+std::string with_point(std::string value) {
+  const std::size_t comma = value.find(',');
+  const bool is_decimal = comma != std::string::npos && comma > 0 &&
+                          value.find_first_not_of("+-0123456789eE,") == std::string::npos &&
+                          value.find(',', comma + 1) == std::string::npos;
+  if (is_decimal) value[comma] = '.';
+  return value;
+}
+
 }  // namespace
 
 ConfigFile::ConfigFile(const std::filesystem::path& path) : path_(path) {
@@ -26,7 +45,8 @@ ConfigFile::ConfigFile(const std::filesystem::path& path) : path_(path) {
   for (std::string line; std::getline(in, line);) {
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos || line[0] == '#' || line[0] == ';') continue;
-    values_[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+    const std::string value = trimmed(line.substr(equals + 1));
+    values_[trimmed(line.substr(0, equals))] = without_comment(value);
   }
 }
 
@@ -38,7 +58,7 @@ std::optional<std::string> ConfigFile::text(const std::string& key) const {
 std::optional<double> ConfigFile::number(const std::string& key) const {
   const auto value = text(key);
   if (!value) return std::nullopt;
-  const auto number = parse_number(*value);
+  const auto number = parse_number(with_point(*value));
   if (number) return number;
   throw IoError(path_, key + " is '" + *value + "', but must be a number; correct this file");
 }

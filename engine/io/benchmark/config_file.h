@@ -9,7 +9,8 @@
 namespace episcope::io {
 
 /// A `parameters.cfg` (INI) of the 2016 benchmark: values by key. Keys are unique over the
-/// sections, so sections are not told apart; `#` and `;` begin comments.
+/// sections, so sections are not told apart; `#` and `;` begin comments, behind a value after a
+/// space. Numbers may have a decimal comma.
 class ConfigFile {
  public:
   /// Throws IoError.

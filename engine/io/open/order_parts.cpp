@@ -2,6 +2,7 @@
 #include "engine/io/open/order_parts.h"
 
 #include "engine/io/order/camera_positions.h"
+#include "engine/io/order/turned_truth.h"
 #include "engine/io/order/view_axes.h"
 
 #include <utility>
@@ -27,6 +28,14 @@ std::string order_axes(SceneParts& parts, bool are_axes_known, ConventionReport&
   return axes.evidence();
 }
 
+/// Undoes how a program wrote the truth of a single view, and says so.
+void turn_truth(SceneParts& parts, ConventionReport& report) {
+  const std::string undone = put_truth_upright(parts.samples, parts.truth.field);
+  if (undone.empty()) return;
+  report.warnings.push_back("The truth was stored with " + undone +
+                            ", as comparing it with the views shows; it was put right.");
+}
+
 /// Adds to what is known of order and sign: swapped axes, and where positions run.
 void complete_order(SceneParts& parts, const std::string& swapped, ConventionReport& report) {
   const GridShape grid = grid_of(parts.samples);
@@ -49,6 +58,7 @@ void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionRep
   const bool are_axes_known = parts.expected.are_axes_known || !options.axes.empty() ||
                               !options.pattern.empty() || !options.grid.empty();
   const std::string swapped = order_axes(parts, are_axes_known, report, progress);
+  turn_truth(parts, report);
   put_in_order(parts.samples, parts.truth, parts.expected, options.flip, report, progress);
   reverse_views(parts.valid, grid_of(parts.samples), flip_of(report));
   complete_order(parts, swapped, report);

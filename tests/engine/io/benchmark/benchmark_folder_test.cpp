@@ -78,6 +78,16 @@ class BenchmarkFolderTest : public QObject {
              scene.convention.units.c_str());
   }
 
+  void truthOfThreeEqualChannels_isRead() {
+    write_views("");
+    const auto center = folder_->scene.disparity.view({1, 1});
+    Image<float> map(center.height, center.width, 3);
+    for (std::size_t i = 0; i < map.size(); ++i) map.data()[i] = center.data[i / 3];
+    io::write_pfm(folder_->path("gt_disp_lowres.pfm"), map.view());
+
+    QCOMPARE(error(folder_->open()), 0.0);
+  }
+
   void viewsInAFolderInside_areFound() {
     write_views("input/");
     write_truth("gt_disp_lowres.pfm", 1);
@@ -94,6 +104,35 @@ class BenchmarkFolderTest : public QObject {
     write_truth("gt_disp.pfm", 1);
 
     QCOMPARE(error(folder_->open()), 0.0);
+  }
+
+  void commentsAndDecimalCommas_areRead() {
+    write_views("");
+    std::ofstream(folder_->path("parameters.cfg"))
+        << "# by hand\r\n[intrinsics]\r\nfocal_length_mm = 100,0 ; mm\r\nsensor_size_mm = 35.0\t# "
+           "mm\r\n"
+           "[extrinsics]\r\nnum_cams_x = 3\r\nnum_cams_y = 3 ; rows\r\nbaseline_mm = 50,5\r\n"
+           "focus_distance_m = 9\r\n";
+
+    const Scene scene = folder_->open();
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{3, 3}));
+    QCOMPARE(scene.light_field->info().camera.baseline, 50.5);
+  }
+
+  void configOfAnotherScene_losesToTheFiles() {
+    write_views("");
+    write_truth("gt_disp_lowres.pfm", 1);
+    std::ofstream(folder_->path("parameters.cfg"))
+        << "[extrinsics]\nnum_cams_x = 2\nnum_cams_y = 3\n";
+
+    const Scene scene = folder_->open();
+
+    QVERIFY2(has_views_in_order(scene), scene.convention.order.c_str());
+    const auto& warnings = scene.convention.warnings;
+    QVERIFY(!warnings.empty());
+    QVERIFY2(warnings.front().find("promises 3×2 views") != std::string::npos,
+             warnings.front().c_str());
   }
 
   void withoutConfig_gridsThatAreNotSquareAreLists() {
