@@ -25,6 +25,9 @@ inline constexpr int kWiderSurfaceLayer = 12;
 /// First of the two layers of the place, column and row.
 inline constexpr int kPlaceLayer = 21;
 
+/// The layer of the disparity's gradient, the last one, with disparity.
+inline constexpr int kDisparityGradientLayer = 23;
+
 /// What each layer of PixelFeatures holds, in their order: "red", "lightness, smoothed", …
 [[nodiscard]] std::vector<std::string> pixel_feature_names(PixelFeatureSet set);
 
