@@ -16,14 +16,12 @@ constexpr double kFarBetter = 0.6;
 
 /// How a map may have been written.
 struct Turn {
-  bool is_upside_down = false;
-  bool is_transposed = false;
+  bool is_transposed = false;  ///< Else upside down.
   const char* text = "";
 };
 
-constexpr Turn kTurns[] = {{true, false, "rows from bottom to top"},
-                           {false, true, "rows and columns exchanged"},
-                           {true, true, "rows and columns exchanged, and upside down"}};
+constexpr Turn kTurns[] = {{false, "rows from bottom to top"},
+                           {true, "rows and columns exchanged"}};
 
 template <class T>
 ViewStack<T> turned(const ViewStack<T>& stack, const Turn& turn) {
@@ -32,9 +30,8 @@ ViewStack<T> turned(const ViewStack<T>& stack, const Turn& turn) {
   const auto from = stack.view(stack.first());
   const auto to = out.view(stack.first());
   for (int y = 0; y < to.height; ++y) {
-    const int row = turn.is_upside_down ? to.height - 1 - y : y;
     for (int x = 0; x < to.width; ++x) {
-      to.at(y, x) = turn.is_transposed ? from.at(x, row) : from.at(row, x);
+      to.at(y, x) = turn.is_transposed ? from.at(x, y) : from.at(to.height - 1 - y, x);
     }
   }
   return out;

@@ -217,9 +217,9 @@ std::vector<Broken> broken_archives() {
        "GT_DEPTH has 3 axes"},
       {"GT_DEPTH of another size",
        [](const fs::path& f) {
-         return archive_of(f, {{"LF", {3, 3, 8, 9, 3}}, {"GT_DEPTH", {9, 8}}});
+         return archive_of(f, {{"LF", {3, 3, 8, 9, 3}}, {"GT_DEPTH", {9, 9}}});
        },
-       "GT_DEPTH has the shape 9×8, but 3×3×8×9 or 8×9"},
+       "GT_DEPTH has the shape 9×9, but 3×3×8×9 or 8×9"},
       {"GT_LABELS of another size",
        [](const fs::path& f) {
          return archive_of(f, {{"LF", {3, 3, 8, 9, 3}}, {"GT_LABELS", {3, 3, 8, 8}}});
