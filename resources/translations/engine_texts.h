@@ -273,6 +273,7 @@ QT_TRANSLATE_NOOP("episcope::Schema", "noise: three times the least difference o
 QT_TRANSLATE_NOOP("episcope::Schema", "noisy")
 QT_TRANSLATE_NOOP("episcope::Schema", "none")
 QT_TRANSLATE_NOOP("episcope::Schema", "occlusion")
+QT_TRANSLATE_NOOP("episcope::Schema", "one and two orientations")
 QT_TRANSLATE_NOOP("episcope::Schema", "one plane of disparity 0.37 px")
 QT_TRANSLATE_NOOP("episcope::Schema", "orientations")
 QT_TRANSLATE_NOOP("episcope::Schema", "paper")

@@ -6124,6 +6124,10 @@ s</translation>
         <source>reading the pictures</source>
         <translation>Bilder werden gelesen</translation>
     </message>
+    <message>
+        <source>one and two orientations</source>
+        <translation>eine und zwei Orientierungen</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>

@@ -3,7 +3,10 @@
 
 #include "engine/core/array/memory_budget.h"
 
+#include <unistd.h>
+
 #include <cstdlib>
+#include <system_error>
 
 namespace episcope {
 namespace {
@@ -19,6 +22,17 @@ std::filesystem::path user_folder(const char* variable, const char* below_home) 
                        : std::filesystem::path();
 }
 
+/// Whether a folder that need not exist yet could be made and written to.
+bool can_be_written(std::filesystem::path folder) {
+  std::error_code error;
+  while (!folder.empty() && !std::filesystem::exists(folder, error)) {
+    const std::filesystem::path above = folder.parent_path();
+    if (above == folder) return false;
+    folder = above;
+  }
+  return access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
 }  // namespace
 
 std::filesystem::path default_cache_folder() {
@@ -27,7 +41,7 @@ std::filesystem::path default_cache_folder() {
 
 void use_cache_for_scratch() {
   const std::filesystem::path cache = default_cache_folder();
-  if (!cache.empty()) set_scratch_folder(cache / "scratch");
+  if (!cache.empty() && can_be_written(cache)) set_scratch_folder(cache / "scratch");
 }
 
 std::filesystem::path default_state_folder() {

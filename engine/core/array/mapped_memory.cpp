@@ -139,15 +139,15 @@ int open_scratch(const std::filesystem::path& folder) {
 }
 
 [[noreturn]] void throw_no_room(const std::filesystem::path& folder, std::size_t bytes, int error) {
-  std::error_code ignored;
-  const auto space = std::filesystem::space(folder, ignored);
-  throw IoError(
-      folder,
-      fmt::format(
-          "{:.2f} GB do not fit into memory and should go here, but that failed ({}; {:.2f} "
-          "GB are free); make room, or name another folder in XDG_CACHE_HOME",
-          static_cast<double>(bytes) / kGigabyte, std::strerror(error),
-          static_cast<double>(space.available) / kGigabyte));
+  std::error_code unknown;
+  const auto space = std::filesystem::space(folder, unknown);
+  const std::string free = unknown ? std::string()
+                                   : fmt::format("; {:.2f} GB are free",
+                                                 static_cast<double>(space.available) / kGigabyte);
+  throw IoError(folder,
+                fmt::format("{:.3f} GB do not fit into memory and should go here, but that failed "
+                            "({}{}); make room, or name another folder in XDG_CACHE_HOME",
+                            static_cast<double>(bytes) / kGigabyte, std::strerror(error), free));
 }
 
 }  // namespace
