@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/benchmark/config_file.h"
 
-#include "engine/core/error.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/maps/parse_number.h"
 
@@ -39,7 +38,7 @@ std::string with_point(std::string value) {
 
 }  // namespace
 
-ConfigFile::ConfigFile(const std::filesystem::path& path) : path_(path) {
+ConfigFile::ConfigFile(const std::filesystem::path& path) {
   require_readable_file(path);
   std::ifstream in(path);
   for (std::string line; std::getline(in, line);) {
@@ -57,10 +56,17 @@ std::optional<std::string> ConfigFile::text(const std::string& key) const {
 
 std::optional<double> ConfigFile::number(const std::string& key) const {
   const auto value = text(key);
-  if (!value) return std::nullopt;
-  const auto number = parse_number(with_point(*value));
-  if (number) return number;
-  throw IoError(path_, key + " is '" + *value + "', but must be a number; correct this file");
+  return value ? parse_number(with_point(*value)) : std::nullopt;
+}
+
+std::vector<std::string> ConfigFile::values_without_number(
+    std::initializer_list<const char*> keys) const {
+  std::vector<std::string> values;
+  for (const char* key : keys) {
+    const auto value = text(key);
+    if (value && !number(key)) values.push_back(std::string(key) + " is '" + *value + "'");
+  }
+  return values;
 }
 
 }  // namespace episcope::io

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace episcope::io {
 
@@ -17,11 +19,13 @@ class ConfigFile {
   explicit ConfigFile(const std::filesystem::path& path);
 
   [[nodiscard]] std::optional<std::string> text(const std::string& key) const;
-  /// Throws IoError if the value is there but is no finite number.
+  /// None as well where the value is no finite number.
   [[nodiscard]] std::optional<double> number(const std::string& key) const;
+  /// Of these keys those whose value is there but is no finite number: "disp_min is 'none'".
+  [[nodiscard]] std::vector<std::string> values_without_number(
+      std::initializer_list<const char*> keys) const;
 
  private:
-  std::filesystem::path path_;
   std::map<std::string, std::string> values_;
 };
 

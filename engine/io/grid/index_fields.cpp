@@ -5,6 +5,7 @@
 #include "engine/io/grid/number_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace episcope::io {
@@ -20,9 +21,32 @@ struct Field {
   bool is_position = false;
   bool is_index = false;              ///< Whole and different from name to name.
   bool has_signed_run = false;        ///< A position of which `run` and `places` are known, too.
+  bool has_even_steps = false;        ///< A position with a fraction: `run` counts its values.
   NumberRun run{{0}};                 ///< Of an index.
   std::vector<std::size_t> places{};  ///< Where in the run each name is.
 };
+
+/// Counts positions by their order, if they lie at equal distances.
+void count_positions(const NameGroup& group, std::size_t number, Field& field) {
+  constexpr double kTolerance = 0.1;  // of a step
+  std::vector<double> values;
+  for (const NumberedImage& image : group.images) {
+    values.push_back(image.numbers[number].position());
+  }
+  std::vector<double> steps = values;
+  std::ranges::sort(steps);
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  const double step = (steps.back() - steps.front()) / std::max<double>(1, steps.size() - 1.0);
+  std::vector<long long> counts;
+  for (const double value : values) {
+    const double place = step > 0 ? (value - steps.front()) / step : 0;
+    if (std::abs(place - std::round(place)) > kTolerance) return;
+    counts.push_back(std::llround(place));
+    field.places.push_back(static_cast<std::size_t>(counts.back()));
+  }
+  field.run = NumberRun(counts);
+  field.has_even_steps = field.run.values.size() == steps.size() && steps.size() > 1;
+}
 
 Field field_of(const NameGroup& group, std::size_t number) {
   const auto all_are = [&](auto&& claim) {
@@ -33,7 +57,10 @@ Field field_of(const NameGroup& group, std::size_t number) {
   Field field;
   field.is_position = !all_are(
       [&](const NameNumber& each) { return each.is_whole && (has_dashes || !each.has_minus); });
-  if (!all_are([](const NameNumber& each) { return each.count().has_value(); })) return field;
+  if (!all_are([](const NameNumber& each) { return each.count().has_value(); })) {
+    if (field.is_position) count_positions(group, number, field);
+    return field;
+  }
   std::vector<long long> values;
   for (const NumberedImage& image : group.images) {
     const NameNumber& each = image.numbers[number];
@@ -100,6 +127,7 @@ class Finder {
     IndexFields found = find_indices();
     if (found.form == Form::None) {
       if (const auto grid = signed_grid()) return *grid;
+      if (const auto grid = position_grid()) return *grid;
     }
     add_positions(found);
     return found;
@@ -171,11 +199,12 @@ class Finder {
     });
   }
 
-  /// Two numbers with signs that form a full grid; nothing if there are more of them.
-  std::optional<IndexFields> signed_grid() const {
+  /// Two positions that form a full grid, of those that `may_be_axis`; nothing if there are more.
+  template <class MayBeAxis>
+  std::optional<IndexFields> full_grid(MayBeAxis&& may_be_axis) const {
     std::vector<std::size_t> axes;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
-      if (fields_[i].has_signed_run) axes.push_back(i);
+      if (may_be_axis(fields_[i])) axes.push_back(i);
     }
     if (axes.size() != 2) return std::nullopt;
     const Field& a = fields_[axes[0]];
@@ -185,8 +214,25 @@ class Finder {
     IndexFields found =
         as_grid({.first = axes[0], .second = axes[1], .words = words_.order_of(axes[0], axes[1])});
     found.form = Form::Grid;
-    found.are_signed = true;
     return found;
+  }
+
+  /// Rows and columns that are numbers with signs.
+  std::optional<IndexFields> signed_grid() const {
+    auto found = full_grid([](const Field& field) { return field.has_signed_run; });
+    if (found) found->are_signed = true;
+    return found;
+  }
+
+  /// Positions alone, of which rows and columns follow.
+  std::optional<IndexFields> position_grid() const {
+    const auto found =
+        full_grid([](const Field& field) { return field.has_even_steps || field.has_signed_run; });
+    if (!found) return std::nullopt;
+    return IndexFields{.form = Form::Grid,
+                       .y = found->row,
+                       .x = found->column,
+                       .is_told_by_words = found->is_told_by_words};
   }
 
   /// A number that counts all names where the others do not form a grid.

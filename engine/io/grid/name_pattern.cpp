@@ -16,7 +16,8 @@ void require_fields(const std::string& text, std::vector<NameField> fields) {
   const auto has = [&](NameField field) {
     return std::ranges::find(fields, field) != fields.end();
   };
-  const bool has_place = has(NameField::Row) || has(NameField::Column);
+  const bool has_place = has(NameField::Row) || has(NameField::Column) ||
+                         (has(NameField::Y) && has(NameField::X) && !has(NameField::Index));
   if (has_place == has(NameField::Index)) {
     throw InvalidInput("the pattern '" + text + "' must contain " +
                        (text.starts_with(kRegexPrefix)

@@ -12,10 +12,10 @@
 namespace episcope::io {
 
 /// A user's pattern for the names of views: the whole name with its suffix, with {row} and {col},
-/// one of them, or {index}, for whole numbers; maybe {y} and {x} for positions of cameras; `*` for
-/// anything and `?` for one character. Upper and lower case of letters are not told apart.
-/// Or `re:` and a regular expression (ECMAScript) for the whole name, with named groups:
-/// `re:(?<row>\d+)of(?<col>\d+).*`.
+/// one of them, or {index}, for whole numbers; maybe {y} and {x} for positions of cameras, which
+/// may stand alone; `*` for anything and `?` for one character. Upper and lower case of letters are
+/// not told apart. Or `re:` and a regular expression (ECMAScript) for the whole name, with named
+/// groups: `re:(?<row>\d+)of(?<col>\d+).*`.
 class NamePattern {
  public:
   /// Throws InvalidInput, with a sentence that says what is wrong, also if it is longer than 250

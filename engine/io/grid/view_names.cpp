@@ -169,9 +169,29 @@ PlacedViews place_in_list(const fs::path& folder, const ViewNames& names) {
   return placed;
 }
 
+/// Numbers the different values of a coordinate, from the smallest on.
+void number_by(std::optional<double> NamedView::*coordinate,
+               std::optional<long long> NamedView::*number, std::vector<NamedView>& views) {
+  std::vector<double> values;
+  for (const NamedView& view : views) values.push_back((view.*coordinate).value_or(0));
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  for (NamedView& view : views) {
+    view.*number =
+        std::ranges::lower_bound(values, (view.*coordinate).value_or(0)) - values.begin();
+  }
+}
+
 }  // namespace
 
 PlacedViews place_views(const fs::path& folder, const ViewNames& names) {
+  const NamedView& first = names.views.front();
+  if (!first.row && !first.column && !first.index) {
+    ViewNames numbered = names;
+    number_by(&NamedView::y, &NamedView::row, numbered.views);
+    number_by(&NamedView::x, &NamedView::column, numbered.views);
+    return place_on_grid(folder, numbered);
+  }
   return names.views.front().index ? place_in_list(folder, names) : place_on_grid(folder, names);
 }
 

@@ -38,7 +38,8 @@ struct PlacedViews {
 };
 
 /// Puts views into the places that their names give: rows and columns in the order of their
-/// numbers, whatever these are. Names with a row or a column only are a single column or row.
+/// numbers, whatever these are, or of their positions where names have nothing else. Names with a
+/// row or a column only are a single column or row.
 /// Throws IoError that names views that are missing, or two views of one place; `folder` is for
 /// messages.
 [[nodiscard]] PlacedViews place_views(const std::filesystem::path& folder, const ViewNames& names);

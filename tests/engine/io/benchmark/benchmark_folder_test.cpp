@@ -55,6 +55,11 @@ class BenchmarkFolderTest : public QObject {
     }
     return largest;
   }
+  static std::string warnings_of(const Scene& scene) {
+    std::string all;
+    for (const std::string& warning : scene.convention.warnings) all += warning + "\n";
+    return all;
+  }
   bool has_views_in_order(const Scene& scene) const {
     const auto& views = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
     return std::equal(views.data(), views.data() + views.size(), folder_->scene.views.data());
@@ -118,6 +123,71 @@ class BenchmarkFolderTest : public QObject {
 
     QCOMPARE(scene.light_field->grid(), (GridShape{3, 3}));
     QCOMPARE(scene.light_field->info().camera.baseline, 50.5);
+  }
+
+  void truthThatDoesNotFit_isLeftOut_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<QString>("content");
+    QTest::addColumn<QString>("reason");
+    const QString disparity = "gt_disp_lowres.pfm";
+    QTest::newRow("another size") << disparity << "Pf\n1 1\n-1\nabcd"
+                                  << "this map has 1×1 px, but the views have";
+    QTest::newRow("cut") << disparity << "Pf\n80 64\n-1\nabcd"
+                         << "truncated";
+    QTest::newRow("boundless") << disparity << "Pf\n65536 65536\n-1\n"
+                               << "0 of 65536 rows are present";
+    QTest::newRow("region") << "mask_planes_lowres.png"
+                            << "no image"
+                            << "cannot be decoded";
+    QTest::newRow("labels") << "objectids_lowres.png"
+                            << "no image"
+                            << "cannot be decoded";
+  }
+  void truthThatDoesNotFit_isLeftOut() {
+    QFETCH(QString, file);
+    QFETCH(QString, content);
+    QFETCH(QString, reason);
+    write_views("");
+    std::ofstream(folder_->path(file.toStdString())) << content.toStdString();
+
+    const Scene scene = folder_->open();
+
+    QVERIFY(has_views_in_order(scene));
+    QVERIFY(!scene.truth || (scene.truth->field.empty() && scene.truth->regions.empty() &&
+                             scene.truth->labels.empty()));
+    QVERIFY2(warns_of(scene, reason.toStdString()), warnings_of(scene).c_str());
+  }
+
+  void truthOfOneViewThatIsDamaged_leavesTheOthers() {
+    write_views("");
+    for (int i = 0; i < 9; ++i) {
+      const auto view = folder_->scene.disparity.view({i / 3, i % 3});
+      io::write_pfm(folder_->path(fmt::format("gt_disp_lowres_Cam{:03}.pfm", i)), view);
+    }
+    fs::resize_file(folder_->path("gt_disp_lowres_Cam002.pfm"), 500);
+
+    const Scene scene = folder_->open();
+
+    QVERIFY2(has_views_in_order(scene), scene.convention.order.c_str());
+    QCOMPARE(error(scene), 0.0);
+    QCOMPARE(count_used(scene, "disparity maps"), 8);
+    const auto lost = scene.truth->field.valid.view({0, 2});
+    QVERIFY(std::all_of(lost.data, lost.data + lost.size(), [](auto valid) { return valid == 0; }));
+    QVERIFY2(warns_of(scene, "1 of 9 disparity maps are left out"), warnings_of(scene).c_str());
+  }
+
+  void valuesThatAreNoNumbers_areNotUsed() {
+    write_views("");
+    std::ofstream(folder_->path("parameters.cfg"))
+        << "focal_length_mm = 100\nsensor_size_mm = 35\nbaseline_mm = 50\nnum_cams_x = many\n"
+           "num_cams_y = 3\nfocus_distance_m = nan\n";
+
+    const Scene scene = folder_->open();
+
+    QVERIFY(has_views_in_order(scene));
+    QVERIFY2(warns_of(scene, "num_cams_x is 'many'"), warnings_of(scene).c_str());
+    QVERIFY2(warns_of(scene, "focus_distance_m is 'nan'"), warnings_of(scene).c_str());
+    QVERIFY2(warns_of(scene, "focus_distance_m is missing"), warnings_of(scene).c_str());
   }
 
   void configOfAnotherScene_losesToTheFiles() {

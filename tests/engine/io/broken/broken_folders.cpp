@@ -176,34 +176,6 @@ std::vector<Broken> broken_folders() {
          return scene;
        },
        "view 4 is missing"},
-      {"benchmark with a broken cfg",
-       [](const fs::path& f) {
-         const fs::path scene = benchmark(f);
-         std::ofstream(scene / "parameters.cfg") << "num_cams_x = many\n";
-         return scene;
-       },
-       "num_cams_x is 'many'"},
-      {"benchmark with truth of another size",
-       [](const fs::path& f) {
-         const fs::path scene = benchmark(f);
-         io::write_pfm(scene / "gt_disp_lowres_Cam002.pfm", Image<float>(3, 3).view());
-         return scene;
-       },
-       "this map has 3×3 px, but the views have 80×64 px"},
-      {"benchmark with cut truth",
-       [](const fs::path& f) {
-         const fs::path scene = benchmark(f);
-         fs::resize_file(scene / "gt_disp_lowres_Cam002.pfm", 5000);
-         return scene;
-       },
-       "truncated"},
-      {"benchmark with truth that claims 65536×65536 px",
-       [](const fs::path& f) {
-         const fs::path scene = benchmark(f);
-         std::ofstream(scene / "gt_disp_lowres_Cam002.pfm") << "Pf\n65536 65536\n-1\n";
-         return scene;
-       },
-       "0 of 65536 rows are present"},
       {"benchmark with a folder in place of a view",
        [](const fs::path& f) {
          const fs::path scene = benchmark(f);

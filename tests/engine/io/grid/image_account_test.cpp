@@ -111,7 +111,7 @@ void ImageAccountTest::benchmarkFolder_isAccountedFor() {
   const QString text = account(io::open_scene(path("scene"), {}, Progress(1)));
 
   QVERIFY2(text.startsWith(
-               "9 views, 1 parameter files, 9 disparity maps, 1 label map of the centre view") &&
+               "9 views, 1 parameter files, 9 disparity maps, 1 label maps of the centre view") &&
                text.endsWith("1 license.txt"),
            qPrintable(text));
 }

@@ -102,6 +102,12 @@ std::vector<Form> grid_forms() {
       {"u{col}_v{row}.png",
        {3, 5},
        [](int r, int c) { return print("u%d_v%d.png", c - 2, r - 1); }},
+      {"{y}_{x}.png",
+       {5, 3},
+       [](int r, int c) { return print("%.1f_%.1f.png", -25 + 12.5 * r, 7.5 * c); }},
+      {"cam_x{x}_y{y}.png",
+       {3, 5},
+       [](int r, int c) { return print("cam_x%g_y%g.png", -5 + 2.5 * c, 0.25 * r); }},
       {"f_{row}_{col}.png", {1, 7}, [](int, int c) { return print("f_00_%02d.png", c); }},
       {"f_{row}_{col}.png", {7, 1}, [](int r, int) { return print("f_%d_1.png", r + 1); }},
   };

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/benchmark/benchmark_truth.h"
+
+#include "engine/core/error.h"
+#include "engine/io/benchmark/benchmark_names.h"
+#include "engine/io/benchmark/high_res_files.h"
+#include "engine/io/beside/map_scale.h"
+#include "engine/io/beside/near_side.h"
+#include "engine/io/grid/decode_image.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/open/scene_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <utility>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Files of one kind, each read or left out.
+class Files {
+ public:
+  /// False, and the error kept, where `read` throws IoError.
+  bool read(const fs::path& file, const std::function<void()>& read) {
+    try {
+      read();
+      outcome_.read.push_back(file);
+      return true;
+    } catch (const IoError& error) {
+      outcome_.failed.push_back(file);
+      if (outcome_.first_error.empty()) outcome_.first_error = error.what();
+      return false;
+    }
+  }
+  [[nodiscard]] bool has_read_any() const { return !outcome_.read.empty(); }
+  void tell(const std::string& kind, const BesideNotes& notes) const { outcome_.tell(kind, notes); }
+
+ private:
+  SetOutcome outcome_;
+};
+
+/// Copies a map into a view of the field; values that are not finite become invalid.
+void store(const Image<float>& map, ViewIndex view, DisparityField& field) {
+  const auto disparity = field.disparity.view(view);
+  const auto valid = field.valid.view(view);
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      const float d = map.at(y, x);
+      valid.at(y, x) = std::isfinite(d) ? 1 : 0;
+      disparity.at(y, x) = std::isfinite(d) ? d : 0;
+    }
+  }
+}
+
+/// Of a map that was written as a gray picture of three channels, one of them. Throws IoError if
+/// they differ.
+Image<float> one_channel(const fs::path& path, Image<float> map) {
+  if (map.channels() == 1) return map;
+  Image<float> first(map.height(), map.width());
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      const float value = map.at(y, x, 0);
+      const bool is_gray =
+          std::isnan(value) || (map.at(y, x, 1) == value && map.at(y, x, 2) == value);
+      if (!is_gray) {
+        throw IoError(path, "this map has 3 channels, but 1 is expected; remove or replace it");
+      }
+      first.at(y, x) = value;
+    }
+  }
+  return first;
+}
+
+Image<float> read_map(const fs::path& path, const BesideViews& views) {
+  Image<float> map = read_pfm(path);
+  require_view_size(path, map.height(), map.width(), views);
+  return one_channel(path, std::move(map));
+}
+
+/// Depth of the benchmark is in metres or in millimetres, told apart by the focus distance.
+void depth_to_disparity(const CameraGrid& camera, Image<float>& map) {
+  double nearest_difference[2] = {0, 0};
+  for (const float depth : map) {
+    if (!std::isfinite(depth) || depth <= 0) continue;
+    nearest_difference[0] += std::abs(std::log(depth / *camera.cam_distance));
+    nearest_difference[1] += std::abs(std::log(1000 * depth / *camera.cam_distance));
+  }
+  const double unit_mm = nearest_difference[1] < nearest_difference[0] ? 1000 : 1;
+  for (float& value : map) {
+    value = static_cast<float>(camera.disparity_from_depth(unit_mm * value));
+  }
+}
+
+/// A field of views without a valid pixel.
+DisparityField invalid_field(const BesideViews& views, GridShape part, ViewIndex first) {
+  DisparityField field{ViewStack<float>(part, views.height(), views.width(), 1, first),
+                       ViewStack<std::uint8_t>(part, views.height(), views.width(), 1, first)};
+  std::fill_n(field.disparity.data(), field.disparity.size(), 0.0F);
+  std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{0});
+  return field;
+}
+
+/// Of every view, or of the centre view alone where that is all that is asked for.
+DisparityField read_of_all_views(const fs::path& folder, const BesideViews& views,
+                                 const BesideNotes& notes, const Progress& progress) {
+  const GridShape grid = views.grid();
+  const bool all = views.map_views == MapViews::All;
+  const GridShape part = all ? grid : GridShape{1, 1};
+  const ViewIndex first = all ? ViewIndex{} : grid.center();
+  DisparityField field = invalid_field(views, part, first);
+  Files files;
+  for (int i = 0; i < part.count(); ++i) {
+    progress.check();
+    const ViewIndex view = part.view_at(i, first);
+    const fs::path file = folder / disparity_file_name(view.v * grid.u + view.u);
+    files.read(file, [&] { store(read_map(file, views), view, field); });
+    progress.report((i + 1.0) / part.count());
+  }
+  files.tell("disparity maps", notes);
+  return files.has_read_any() ? std::move(field) : DisparityField();
+}
+
+/// Of the centre view; `convert` makes disparity of what is stored.
+DisparityField read_of_center(const fs::path& file, const std::string& kind,
+                              const BesideViews& views, const BesideNotes& notes,
+                              const std::function<void(Image<float>&)>& convert) {
+  const ViewIndex center = views.grid().center();
+  DisparityField field = invalid_field(views, {1, 1}, center);
+  Files files;
+  files.read(file, [&] {
+    Image<float> map = read_map(file, views);
+    convert(map);
+    store(map, center, field);
+  });
+  files.tell(kind, notes);
+  return files.has_read_any() ? std::move(field) : DisparityField();
+}
+
+DisparityField read_stored(const fs::path& folder, const BesideViews& views,
+                           const BesideNotes& notes, const Progress& progress) {
+  bool has_all = true;
+  for (int i = 0; i < views.grid().count() && has_all; ++i) {
+    has_all = is_there(folder / disparity_file_name(i));
+  }
+  std::string& units = notes.report.units;
+  if (has_all) {
+    units = "disparity as stored in gt_disp_lowres_Cam*.pfm";
+    DisparityField field = read_of_all_views(folder, views, notes, progress);
+    if (!field.empty()) return field;
+  }
+  const fs::path disparity = folder / kCenterDisparity;
+  if (is_there(disparity)) {
+    units = "disparity as stored in gt_disp_lowres.pfm";
+    DisparityField field = read_of_center(disparity, "disparity maps of the centre view", views,
+                                          notes, [](Image<float>&) {});
+    if (!field.empty()) return field;
+  }
+  const fs::path depth = folder / kCenterDepth;
+  if (is_there(depth) && views.camera.is_known() && views.camera.cam_distance) {
+    units = "disparity from gt_depth_lowres.pfm and the camera of parameters.cfg";
+    DisparityField field =
+        read_of_center(depth, "depth maps of the centre view", views, notes,
+                       [&](Image<float>& map) { depth_to_disparity(views.camera, map); });
+    if (!field.empty()) return field;
+  }
+  units = "no truth in this folder";
+  return {};
+}
+
+/// Disparity whose sign is not that of the benchmark: views show what hides what.
+void correct_sign(const LightField::Samples& samples, DisparityField& field,
+                  ConventionReport& report) {
+  if (field.empty()) return;
+  const GridShape grid = grid_of(samples);
+  const ViewIndex at = field.contains(grid.center()) ? grid.center() : field.disparity.first();
+  const Explanation explanation = explain_views(samples, at, field.view(at), 1);
+  if (!explanation.is_good()) return;
+  const NearSide side = find_near_side(samples, at, field.view(at), 1, explanation);
+  if (!side.is_decided() || side.larger_is_nearer()) return;
+  std::transform(field.disparity.data(), field.disparity.data() + field.disparity.size(),
+                 field.disparity.data(), std::negate<>());
+  report.units += ", negative = nearer";
+  report.units_check = fmt::format(
+      "smaller values hide others in other views (grey error {:.2f}, the hidden ones {:.2f}, {} "
+      "pairs)",
+      side.smaller, side.larger, side.points);
+}
+
+void read_regions(const fs::path& folder, const BesideViews& views, const BesideNotes& notes,
+                  GroundTruth& truth) {
+  std::set<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(folder)) paths.insert(entry.path());
+  Files files;
+  for (const fs::path& path : paths) {
+    const std::string region = region_of(path, kMaskSuffix);
+    if (region.empty()) continue;
+    files.read(path, [&] {
+      const Image<std::int32_t> numbers = decode_numbers(path);
+      require_view_size(path, numbers.height(), numbers.width(), views);
+      Image<std::uint8_t> mask(views.height(), views.width());
+      const std::int32_t largest = is_numbered_region(region) ? 255 : 1;
+      std::transform(numbers.begin(), numbers.end(), mask.begin(), [largest](std::int32_t value) {
+        return static_cast<std::uint8_t>(std::clamp(value, 0, largest));
+      });
+      truth.regions.emplace(region, std::move(mask));
+    });
+  }
+  files.tell("region masks", notes);
+}
+
+void find_high_res(const fs::path& folder, const BesideViews& views, const BesideNotes& notes,
+                   GroundTruth& truth) {
+  const HighResFiles files = find_high_res_files(folder);
+  truth.high_res = high_res_truth(files, views.height(), views.width());
+  if (!truth.high_res) return;
+  notes.account.use(files.disparity, "disparity map of the centre view in high resolution");
+  notes.account.use(files.masks, "region masks in high resolution");
+}
+
+void read_object_ids(const fs::path& folder, const BesideViews& views, const BesideNotes& notes,
+                     GroundTruth& truth) {
+  const fs::path path = folder / kObjectIds;
+  if (!is_there(path)) return;
+  Files files;
+  files.read(path, [&] {
+    const Image<std::int32_t> ids = decode_numbers(path);
+    require_view_size(path, ids.height(), ids.width(), views);
+    truth.labels =
+        ViewStack<std::int32_t>({1, 1}, ids.height(), ids.width(), 1, views.grid().center());
+    std::copy_n(ids.data(), ids.size(), truth.labels.data());
+  });
+  files.tell("label maps of the centre view", notes);
+}
+
+}  // namespace
+
+DisparityField read_benchmark_disparity(const fs::path& folder, const BesideViews& views,
+                                        const BesideNotes& notes, const Progress& progress) {
+  DisparityField field = read_stored(folder, views, notes, progress);
+  correct_sign(views.samples, field, notes.report);
+  return field;
+}
+
+void read_benchmark_masks(const fs::path& folder, const BesideViews& views,
+                          const BesideNotes& notes, GroundTruth& truth) {
+  read_object_ids(folder, views, notes, truth);
+  read_regions(folder, views, notes, truth);
+  find_high_res(folder, views, notes, truth);
+}
+
+}  // namespace episcope::io
