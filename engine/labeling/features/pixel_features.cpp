@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
+#include "engine/labeling/features/disparity_slope.h"
 #include "engine/labeling/features/surface_filter.h"
 
 #include <opencv2/imgproc.hpp>
@@ -33,6 +34,11 @@ cv::Mat smoothed(const cv::Mat& plane, double sigma) {
   cv::Mat out;
   cv::GaussianBlur(plane, out, {}, sigma, sigma, cv::BORDER_REPLICATE);
   return out;
+}
+
+/// Shares the samples, which nobody writes to.
+cv::Mat wrapped(const Image<float>& plane) {
+  return {plane.height(), plane.width(), CV_32F, const_cast<float*>(plane.data())};
 }
 
 cv::Mat derivative(const cv::Mat& plane, int dx, int dy) {
@@ -117,9 +123,7 @@ void add_surface(LayerWriter layers, const std::vector<cv::Mat>& lab, double con
   for (int pass = 0; pass < kSurfacePasses; ++pass) {
     flat = filter_surfaces(flat, {contrast, kSurfaceScale, kSurfaceRadius_px}, progress);
   }
-  for (Image<float>& plane : flat) {
-    layers.add(cv::Mat(plane.height(), plane.width(), CV_32F, plane.data()));
-  }
+  for (const Image<float>& plane : flat) layers.add(wrapped(plane));
 }
 
 void add_shape(LayerWriter& layers, const cv::Mat& lightness) {
@@ -152,7 +156,9 @@ void add_place(LayerWriter& layers, const cv::Mat& disparity, ViewIndex step) {
 
 void add_disparity(LayerWriter& layers, const cv::Mat& disparity) {
   const cv::Mat smooth = smoothed(disparity, kDisparityScale);
-  layers.add(magnitude(derivative(smooth, 1, 0), derivative(smooth, 0, 1)));
+  const DisparitySlopes slopes = disparity_slopes({smooth.ptr<float>(), smooth.rows, smooth.cols});
+  layers.add(smoothed(wrapped(slopes.x), kFineScale));
+  layers.add(smoothed(wrapped(slopes.y), kFineScale));
 }
 
 }  // namespace
@@ -171,7 +177,9 @@ std::vector<std::string> pixel_feature_names(PixelFeatureSet set) {
   names.insert(names.end(),
                {"gradient", "Laplacian", "Hessian, larger", "Hessian, smaller", "structure, larger",
                 "structure, smaller", "column in the centre view", "row in the centre view"});
-  if (set.with_disparity) names.emplace_back("disparity, gradient");
+  if (set.with_disparity) {
+    names.insert(names.end(), {"disparity, slope along x", "disparity, slope along y"});
+  }
   return names;
 }
 

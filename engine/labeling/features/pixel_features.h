@@ -25,8 +25,8 @@ inline constexpr int kWiderSurfaceLayer = 12;
 /// First of the two layers of the place, column and row.
 inline constexpr int kPlaceLayer = 21;
 
-/// The layer of the disparity's gradient, the last one, with disparity.
-inline constexpr int kDisparityGradientLayer = 23;
+/// First of the two layers of the disparity's slope, the last ones, with disparity.
+inline constexpr int kDisparitySlopeLayer = 23;
 
 /// What each layer of PixelFeatures holds, in their order: "red", "lightness, smoothed", …
 [[nodiscard]] std::vector<std::string> pixel_feature_names(PixelFeatureSet set);
@@ -36,7 +36,8 @@ inline constexpr int kDisparityGradientLayer = 23;
 /// scale of 1 px the gradient magnitude, the Laplacian, and the eigenvalues of Hessian and
 /// structure tensor. The place of the pixel, carried along its ray to the centre view, x + d·(u −
 /// u_c) and y + d·(v − v_c) in units of the larger side, so that it means the same in every view.
-/// With `set.with_disparity`: the gradient magnitude of smoothed disparity. Disparity itself would
+/// With `set.with_disparity`: how smoothed disparity is inclined along x and y, beside a jump that
+/// of the pixel's own surface (disparity_slope.h). Disparity itself would
 /// tie labels to the depths at which they were painted: ground at the depth of an object became the
 /// object. label_surfaces.h compares it with the strokes instead.
 ///

@@ -48,8 +48,8 @@ std::vector<std::int32_t> painted_labels(const Scribbles& scribbles, const Light
 void append_samples(const ViewScribbles& painted, VolumeView<const float> features,
                     const std::vector<std::int32_t>& ids, ForestSamples& samples) {
   samples.occasional = {kPlaceLayer, kPlaceLayer + 1};
-  if (features.layers > kDisparityGradientLayer) {
-    samples.occasional.push_back(kDisparityGradientLayer);
+  for (int layer = kDisparitySlopeLayer; layer < features.layers; ++layer) {
+    samples.occasional.push_back(layer);
   }
   for (int y = 0; y < features.height; ++y) {
     for (int x = 0; x < features.width; ++x) {

@@ -18,9 +18,8 @@ namespace episcope {
 
 /// Appends the painted pixels of a view; `ids` (ascending) gives the index of each label.
 /// Occasional features are the place, because short strokes say little about where the rest of a
-/// label is, and the gradient of disparity, because strokes lie in the middle of things: what is
-/// thin lies beside a jump everywhere, and ground only where nobody paints it
-/// (tests/accuracy/tuning.md).
+/// label is, and the slope of disparity, because strokes lie in the middle of things: what is thin
+/// lies beside a jump everywhere (tests/accuracy/tuning.md).
 void append_samples(const ViewScribbles& painted, VolumeView<const float> features,
                     const std::vector<std::int32_t>& ids, ForestSamples& samples);
 

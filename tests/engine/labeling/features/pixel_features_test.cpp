@@ -42,7 +42,7 @@ class PixelFeaturesTest : public QObject {
   void everyFeature_hasAName();
   void constantImage_hasNoGradients();
   void place_isCarriedAlongTheRay();
-  void constantDisparity_hasNoGradient();
+  void constantDisparity_hasNoSlope();
   void disparityAsFeature_mustBeThere();
   void holesInDisparity_takeTheirNeighbours();
 };
@@ -101,14 +101,16 @@ void PixelFeaturesTest::place_isCarriedAlongTheRay() {
   QVERIFY(std::abs(features.view().at(5, column + 1, 10) - (5 - kDisparity) / kWidth) < 1e-5F);
 }
 
-void PixelFeaturesTest::constantDisparity_hasNoGradient() {
+void PixelFeaturesTest::constantDisparity_hasNoSlope() {
   const Image<float> map = constant_map(kDisparity);
   const PixelFeatureSet set{true};
 
   const PixelFeatures features =
       compute_pixel_features(light_field(3, 9), {1, 1}, {map.view(), {}}, set, Progress());
 
-  QVERIFY(std::abs(features.view().at(4, layer_of(set, "disparity, gradient"), 6)) < 1e-4F);
+  const int slope = layer_of(set, "disparity, slope along x");
+  QVERIFY(std::abs(features.view().at(4, slope, 6)) < 1e-4F);
+  QVERIFY(std::abs(features.view().at(4, slope + 1, 6)) < 1e-4F);
 }
 
 void PixelFeaturesTest::disparityAsFeature_mustBeThere() {

@@ -59,10 +59,10 @@ class TrainingSamplesTest : public QObject {
   }
 
   // Strokes lie in the middle of things: that a jump is near says little about what is beside it.
-  void withDisparity_jumpsAreOccasionalAsWell() {
+  void withDisparity_slopeIsOccasionalAsWell() {
     QCOMPARE(names_of_occasional({true}),
              (std::vector<std::string>{"column in the centre view", "row in the centre view",
-                                       "disparity, gradient"}));
+                                       "disparity, slope along x", "disparity, slope along y"}));
   }
 };
 
