@@ -6128,6 +6128,14 @@ s</translation>
         <source>one and two orientations</source>
         <translation>eine und zwei Orientierungen</translation>
     </message>
+    <message>
+        <source>Fill islands</source>
+        <translation>Inseln füllen</translation>
+    </message>
+    <message>
+        <source>One or two pixels nearer than all their neighbours, or farther, take the median of these; off, as in the paper</source>
+        <translation>Ein oder zwei Pixel, die näher oder ferner sind als alle Nachbarn, nehmen deren Median an; aus: wie im Artikel</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>

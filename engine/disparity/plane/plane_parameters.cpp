@@ -17,6 +17,7 @@ Schema<PlaneParameters> plane_pm_schema() {
       .flag("silhouettes", &P::silhouettes,
             {"Place silhouettes",
              "Beside jumps, take the median of the surroundings, weighted by likeness of colour"})
+      .part(&P::islands, island_schema())
       .search("smoothness", {0.75, 1.5, 3})
       .search("rounds", {0, 1, 2});
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/parameter/schema.h"
+#include "engine/disparity/common/islands.h"
 #include "engine/disparity/plane/jump_labeling.h"
 #include "engine/disparity/plane/plane_refinement.h"
 #include "engine/disparity/plane/visible_costs.h"
@@ -18,6 +19,7 @@ struct PlaneParameters {
       .labels = 96, .interpolation = Interpolation::Cubic, .range = {}, .view = {}};
   bool even = true;
   bool silhouettes = true;
+  IslandParameters islands = {};
 };
 [[nodiscard]] Schema<PlaneParameters> plane_pm_schema();
 

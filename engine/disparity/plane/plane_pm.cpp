@@ -53,7 +53,7 @@ Estimator plane_pm_estimator() {
        .reference = "Own; builds on Kolmogorov 2006 [Kol06] and Bredies et al. 2010 [BKP10]",
        .all_views = true,
        .iterative = true,
-       .revision = 6,
+       .revision = 7,
        .devices = {Device::Cpu, Device::Cuda}},
       plane_pm_schema(), estimate_planes, planes_in_blocks);
 }

@@ -14,7 +14,8 @@ namespace episcope {
 ///    for a point (surfaces_in_views.h); labeling again. Before the first, differences in
 ///    brightness between the views are found and taken away, if there are any (even_views.h).
 /// 3. Placed between labels with TGV², and anew where costs leave the labels in doubt
-///    (plane_refinement.h). Silhouettes are moved to the edges of the view (silhouette_median.h).
+///    (plane_refinement.h). Silhouettes are moved to the edges of the view (silhouette_median.h),
+///    islands filled (engine/disparity/common/islands.h).
 /// 4. For all views, also from the outermost views, in one round: what the maps made before show
 ///    there occludes. The maps are carried to every view, and their majority counts (carry.h).
 ///    Beside jumps the samples of each view decide (carried_sides.h). Views that were estimated

@@ -13,11 +13,13 @@ Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
   return Schema<P>()
       .part(&P::labeling, global_labeling_schema())
       .part(&P::matching, stereo_cost_schema(views))
+      .part(&P::islands, island_schema())
       .begin_with(kProfileKey)
       .search("smoothness", {0.3, 0.6, 1.2, 2.4, 5, 10})
       .search("edge_strength", {0, 25})
       .search("epsilon", {0, 0.02, 0.05, kUncapped})
       .preset(kProfileKey, kPaperProfile, plain_labeling())
+      .preset(kProfileKey, kPaperProfile, plain_islands())
       .preset(kProfileKey, kPaperProfile, {{"smoothness", kPaperSmoothness}})
       .preset_search(kProfileKey, kPaperProfile, "smoothness",
                      {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2, 1.6, 2.4});
@@ -78,6 +80,7 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
   estimate.notes = cost_notes(stereo);
   const auto label = stereo.matcher ? label_on_device : label_costs;
   label(lf, stereo, parameters.labeling, estimate, progress.part(0.05, 1));
+  if (parameters.islands.islands) fill_islands(estimate.field.disparity.view(stereo.view));
   return estimate;
 }
 

@@ -108,6 +108,11 @@ double band_bytes(const LightField& lf, const StereoCosts& costs, int rows, int 
          looked_at_bytes(lf, costs, rows);
 }
 
+// The only view.
+void fill_islands(const StereoSmoothParameters& parameters, ViewStack<float>& maps) {
+  if (parameters.islands.islands) episcope::fill_islands(maps.view(maps.first()));
+}
+
 }  // namespace
 
 Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
@@ -133,6 +138,7 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
            "Where neighbouring disparities scatter less than this, in px, the data term gets more "
            "weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper"},
           {0, 1})
+      .part(&P::islands, island_schema())
       .part(&P::local, stereo_local_schema(views))
       .begin_with(kProfileKey)
       .search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
@@ -140,6 +146,7 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
       .search("epsilon", {0, 0.02, kUncapped})
       .search("aggregation", {0, 2})
       .preset(kProfileKey, kPaperProfile, plain_denoising())
+      .preset(kProfileKey, kPaperProfile, plain_islands())
       .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}, {"map_noise", 0.0}})
       .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8});
 }
@@ -198,6 +205,7 @@ Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
       estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85), device);
   denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
           static_cast<float>(parameters.map_noise), device);
+  fill_islands(parameters, estimate.field.disparity);
   return estimate;
 }
 
@@ -220,6 +228,7 @@ BlockwiseRun stereo_smooth_in_blocks(const LightField& lf, MatchedViews views,
     made.finding = denoise(lf, parameters.denoising,
                            {DataWeight{}.minimum, static_cast<float>(parameters.map_noise)},
                            made.maps.field.disparity, made.maps.confidence, part);
+    fill_islands(parameters, made.maps.field.disparity);
     return made;
   };
   run.passes.push_back(std::move(pass));

@@ -3,6 +3,7 @@
 
 #include "engine/disparity/common/denoise.h"
 #include "engine/disparity/common/estimator.h"
+#include "engine/disparity/common/islands.h"
 #include "engine/disparity/common/run_options.h"
 #include "engine/disparity/common/sub_label.h"
 #include "engine/disparity/stereo/stereo_costs.h"
@@ -19,10 +20,12 @@ struct StereoLocalParameters {
 struct StereoSmoothParameters {
   DenoiseParameters denoising{.lambda = 0.1, .weight_power = 2};
   double map_noise = 0.1;  ///< σ₀ of `denoise`, px.
+  IslandParameters islands = {};
   StereoLocalParameters local = {};
 };
 
-/// The profile `paper` has no refinement, and weights neither data nor variation; λ = 0.2.
+/// The profile `paper` has no refinement, weights neither data nor variation, and leaves islands; λ
+/// = 0.2.
 [[nodiscard]] Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views);
 [[nodiscard]] Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views);
 
@@ -42,7 +45,8 @@ struct StereoSmoothParameters {
                                                   const StereoLocalParameters& parameters,
                                                   const Progress& progress);
 
-/// The same, denoised (engine/disparity/common/denoise.h); the duality gap is in the notes.
+/// The same, denoised (engine/disparity/common/denoise.h) and without islands
+/// (engine/disparity/common/islands.h); the duality gap is in the notes.
 [[nodiscard]] Estimate estimate_stereo_smooth(const LightField& light_field, MatchedViews views,
                                               const StereoSmoothParameters& parameters,
                                               const Progress& progress,

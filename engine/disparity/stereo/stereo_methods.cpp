@@ -75,7 +75,7 @@ Estimator st_av_s_estimator() {
                            .summary = "ST_AV_L, denoised with total variation (TV-L2)",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 5},
+                           .revision = 6},
                           MatchedViews::All, stereo_smooth_schema, estimate_stereo_smooth,
                           stereo_smooth_in_blocks);
 }
@@ -86,7 +86,7 @@ Estimator st_ch_s_estimator() {
                            .summary = "ST_CH_L, denoised with total variation (TV-L2)",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 5},
+                           .revision = 6},
                           MatchedViews::CrossHair, stereo_smooth_schema, estimate_stereo_smooth,
                           stereo_smooth_in_blocks);
 }
@@ -97,7 +97,7 @@ Estimator st_av_g_estimator() {
                            .summary = "Globally optimal labeling of the matching costs of ST_AV_L",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 5},
+                           .revision = 6},
                           MatchedViews::All, stereo_global_schema, estimate_stereo_global);
 }
 
@@ -107,7 +107,7 @@ Estimator st_ch_g_estimator() {
                            .summary = "Globally optimal labeling of the matching costs of ST_CH_L",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 5},
+                           .revision = 6},
                           MatchedViews::CrossHair, stereo_global_schema, estimate_stereo_global);
 }
 
