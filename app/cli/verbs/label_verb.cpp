@@ -16,6 +16,7 @@
 #include "engine/core/parallel/stopwatch.h"
 #include "engine/disparity/common/estimator.h"
 #include "engine/io/labels/scribble_file.h"
+#include "engine/io/labels/scribble_pictures.h"
 
 #include <iomanip>
 #include <iostream>
@@ -48,7 +49,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "File of labels to write");
   parser.option("--scribbles", request.scribbles, text_value("LABELS.h5"),
-                "File of scribbles; by default the one next to INPUT");
+                "File of scribbles, a picture of label numbers (0 = unpainted) of the centre view, "
+                "or a folder of scribbles_VV_UU.png; by default the file next to INPUT");
   parser.option(
       "--disparity", request.disparity, text_value("RESULT.h5"),
       std::string("Disparity of all views; by default ") + kLabelingEstimator + " estimates it");
@@ -95,6 +97,10 @@ void check_output(const Request& request) {
 }
 
 Scribbles load_scribbles(const Request& request, Scene& scene, const Progress& progress) {
+  if (io::holds_scribble_pictures(request.scribbles)) {
+    const LightField& lf = *scene.light_field;
+    return io::read_scribble_pictures(request.scribbles, lf.grid(), lf.height(), lf.width());
+  }
   if (!request.scribbles.empty()) {
     return io::read_scribbles(request.scribbles, scene, progress);
   }

@@ -2,12 +2,14 @@
 #include "engine/io/labels/scribble_pictures.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text/suffix.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <regex>
 #include <string>
@@ -53,6 +55,12 @@ Image<std::uint8_t> preview(const Image<std::int32_t>& labels,
   return picture;
 }
 
+ViewIndex require_view(const fs::path& path, ViewIndex view, GridShape grid) {
+  if (grid.contains(view)) return view;
+  throw IoError(path, "the light field has no view (" + view_text(view) +
+                          "); choose pictures of this light field");
+}
+
 ViewScribbles read_picture(const fs::path& path, ViewIndex view, const PixelIndex& size) {
   ViewScribbles one{view, decode_numbers(path)};
   if (one.labels.height() == size.y && one.labels.width() == size.x) return one;
@@ -82,17 +90,27 @@ std::vector<fs::path> write_scribble_pictures(const fs::path& folder, const Scri
   return written;
 }
 
-Scribbles read_scribble_pictures(const fs::path& folder, GridShape grid, int height, int width) {
+bool holds_scribble_pictures(const fs::path& path) {
+  constexpr std::array kSuffixes{".png", ".bmp", ".tif", ".tiff", ".pgm"};
+  std::error_code ignored;
+  return fs::is_directory(path, ignored) ||
+         std::ranges::find(kSuffixes, suffix_of(path)) != kSuffixes.end();
+}
+
+Scribbles read_scribble_pictures(const fs::path& path, GridShape grid, int height, int width) {
   std::error_code error;
   Scribbles scribbles;
+  if (!fs::is_directory(path, error)) {
+    const ViewIndex view = view_of(path.filename().string()).value_or(grid.center());
+    scribbles.views.push_back(read_picture(path, require_view(path, view, grid), {height, width}));
+    return scribbles;
+  }
+  const fs::path& folder = path;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const auto view = view_of(entry.path().filename().string());
     if (!view) continue;
-    if (!grid.contains(*view)) {
-      throw IoError(entry.path(), "the light field has no view (" + view_text(*view) +
-                                      "); choose pictures of this light field");
-    }
-    scribbles.views.push_back(read_picture(entry.path(), *view, {height, width}));
+    scribbles.views.push_back(
+        read_picture(entry.path(), require_view(entry.path(), *view, grid), {height, width}));
   }
   if (error) throw IoError(folder, "the folder cannot be read; check its permissions");
   if (scribbles.empty()) {

@@ -15,9 +15,13 @@ namespace episcope::io {
 std::vector<std::filesystem::path> write_scribble_pictures(const std::filesystem::path& folder,
                                                            const Scribbles& scribbles);
 
-/// Reads the ids of every `scribbles_<v>_<u>.png` in a folder. Throws IoError, also if there is
-/// none, or if one lies outside `grid` or has another size than `height` × `width`.
-[[nodiscard]] Scribbles read_scribble_pictures(const std::filesystem::path& folder, GridShape grid,
+/// Whether this is a folder or a picture, which `read_scribble_pictures` reads, by its name.
+[[nodiscard]] bool holds_scribble_pictures(const std::filesystem::path& path);
+
+/// Reads the ids of every `scribbles_<v>_<u>.png` in a folder; or those of one picture, which is of
+/// the centre view unless its name says another. Throws IoError, also if there is none, or if one
+/// lies outside `grid` or has another size than `height` × `width`.
+[[nodiscard]] Scribbles read_scribble_pictures(const std::filesystem::path& path, GridShape grid,
                                                int height, int width);
 
 }  // namespace episcope::io

@@ -335,6 +335,21 @@ class ScribbleFileTest : public QObject {
     QVERIFY_EXCEPTION_THROWN(
         (void)io::read_scribble_pictures(folder / "none", {5, 5}, kHeight, kWidth), IoError);
   }
+
+  void onePicture_isOfTheCentreViewUnlessItsNameSaysAnother() {
+    const std::filesystem::path folder = folder_->path().toStdString();
+    Scribbles scribbles;
+    scribbles.views.push_back(painted_view({4, 3}, {1, 2}, 7));
+    const auto file = io::write_scribble_pictures(folder, scribbles).front();
+    const auto renamed = folder / "strokes.png";
+    std::filesystem::copy_file(file, renamed);
+
+    QVERIFY(io::holds_scribble_pictures(folder) && io::holds_scribble_pictures(renamed));
+    QVERIFY(!io::holds_scribble_pictures("") && !io::holds_scribble_pictures("labels.h5"));
+    compare(io::read_scribble_pictures(file, {5, 5}, kHeight, kWidth), scribbles);
+    scribbles.views.front().view = {2, 2};
+    compare(io::read_scribble_pictures(renamed, {5, 5}, kHeight, kWidth), scribbles);
+  }
 };
 
 }  // namespace episcope::in_scribble_file_test
