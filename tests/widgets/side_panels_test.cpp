@@ -11,7 +11,6 @@
 #include <QAction>
 #include <QClipboard>
 #include <QGuiApplication>
-#include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
 #include <QProgressBar>
@@ -208,24 +207,6 @@ class SidePanelsTest : public QObject {
     QCOMPARE(exported[0][0].toULongLong(), quint64(2));
     QCOMPARE(tree->topLevelItem(0)->text(2), QString("0.78"));
     QCOMPARE(tree->topLevelItem(1)->text(2), QString("–"));
-  }
-
-  void longResultNames_leaveRoomForTheOtherHeaders() {
-    ResultList list;
-    list.resize(366, 120);
-    std::vector<ResultRow> rows;
-    for (quint64 id = 1; id <= 12; ++id) {
-      rows.push_back(
-          {id, QString("a result with a long name").repeated(3), "defaults", 1, 0.8, {}});
-    }
-    list.setResults(rows);
-    list.show();
-    QVERIFY(QTest::qWaitForWindowExposed(&list));
-
-    const auto& header = *list.findChild<QTreeWidget*>("results.tree")->header();
-
-    const int last = header.count() - 1;
-    QVERIFY(header.sectionSize(last) >= header.sectionSizeHint(last));
   }
 
   void results_keepSelectionAndMarkOverARefresh() {

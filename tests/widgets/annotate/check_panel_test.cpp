@@ -19,7 +19,6 @@ class CheckPanelTest : public QObject {
 
  private slots:
   void longNames_leaveRoomForEachOther();
-  void emptyTable_hasNoGapInItsHeader();
 };
 
 void CheckPanelTest::longNames_leaveRoomForEachOther() {
@@ -37,17 +36,6 @@ void CheckPanelTest::longNames_leaveRoomForEachOther() {
   for (const QHeaderView* header : {&doubts, &pieces}) {
     QVERIFY(header->length() <= header->width());
   }
-}
-
-void CheckPanelTest::emptyTable_hasNoGapInItsHeader() {
-  CheckPanel panel;
-  panel.resize(420, 600);
-  panel.show();
-  QVERIFY(QTest::qWaitForWindowExposed(&panel));
-
-  const auto& labels = *panel.findChild<QTreeWidget*>("check.labels")->header();
-
-  QCOMPARE(labels.length(), labels.width());
 }
 
 }  // namespace episcope::in_check_panel_test
