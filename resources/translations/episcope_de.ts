@@ -4204,6 +4204,13 @@ s</translation>
     </message>
 </context>
 <context>
+    <name>episcope::QuestionBox</name>
+    <message>
+        <source>%1 and %2 more</source>
+        <translation>%1 und %2 weitere</translation>
+    </message>
+</context>
+<context>
     <name>episcope::ReadingQuestion</name>
     <message>
         <source>How is it to be read?</source>
@@ -4565,6 +4572,10 @@ s</translation>
     <message>
         <source>%1 of %2: %3 pixels of %4 may be %5. A stroke here decides.</source>
         <translation>%1 von %2: %3 Pixel von %4 sind vielleicht %5. Ein Strich hier entscheidet.</translation>
+    </message>
+    <message>
+        <source>Open a light field first.</source>
+        <translation>Erst ein Lichtfeld öffnen.</translation>
     </message>
 </context>
 <context>
@@ -6739,10 +6750,6 @@ s</translation>
         <translation>Der erste Punkt wird berechnet.</translation>
     </message>
     <message>
-        <source>Run: the points appear here one after the other.</source>
-        <translation>Starten: die Punkte erscheinen hier nacheinander.</translation>
-    </message>
-    <message>
         <source>The points have no such number.</source>
         <translation>Die Punkte haben keine solche Zahl.</translation>
     </message>
@@ -6773,6 +6780,10 @@ s</translation>
     <message>
         <source>%1 runs on each of %2 centre views, the present values first</source>
         <translation>Je %1 Läufe auf %2 mittleren Ansichten, die jetzigen Werte zuerst</translation>
+    </message>
+    <message>
+        <source>Press Run: a point is plotted here for each value.</source>
+        <translation>„Starten“ zeichnet hier zu jedem Wert einen Punkt.</translation>
     </message>
 </context>
 <context>

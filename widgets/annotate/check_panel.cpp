@@ -6,6 +6,7 @@
 #include "widgets/style/theme.h"
 
 #include <QGridLayout>
+#include <QEvent>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLocale>
@@ -33,12 +34,13 @@ QString count_text(std::int64_t count) {
   return QLocale::c().toString(static_cast<qlonglong>(count));
 }
 
-QTreeWidgetItem* add_row(QTreeWidget* list, const QStringList& texts) {
+// The first columns are names, the others numbers.
+QTreeWidgetItem* add_row(QTreeWidget* list, const QStringList& texts, int names) {
   auto* item = new QTreeWidgetItem(list, texts);
-  for (int column = 1; column < texts.size(); ++column) {
+  for (int column = 0; column < names; ++column) item->setToolTip(column, texts[column]);
+  for (int column = names; column < texts.size(); ++column) {
     item->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
   }
-  item->setToolTip(0, texts.front());
   return item;
 }
 
@@ -64,7 +66,10 @@ CheckPanel::CheckPanel(QWidget* parent)
   pieces_title_->setTextFormat(Qt::PlainText);
   actions_->setSpacing(2);
   actions_->setColumnStretch(kActionColumns, 1);
-  doubts_->headerItem()->setTextAlignment(1, Qt::AlignRight);
+  doubts_->header()->setSectionResizeMode(1, QHeaderView::Stretch);
+  pieces_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  pieces_->header()->setSectionResizeMode(1, QHeaderView::Stretch);
+  labels_->viewport()->installEventFilter(this);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, theme::kSpacing, 0, 0);
   layout->setSpacing(4);
@@ -123,7 +128,7 @@ void CheckPanel::setDoubts(const std::vector<Doubt>& doubts) {
   doubts_->clear();
   for (const Doubt& doubt : doubts) {
     auto* item =
-        add_row(doubts_, {name_of(doubt.label), name_of(doubt.rival), count_text(doubt.pixels)});
+        add_row(doubts_, {name_of(doubt.label), name_of(doubt.rival), count_text(doubt.pixels)}, 2);
     item->setIcon(0, swatch(doubt.label.color, palette()));
     item->setIcon(1, swatch(doubt.rival.color, palette()));
   }
@@ -138,9 +143,10 @@ void CheckPanel::setRows(const std::vector<Row>& rows, int current_label) {
   const QSignalBlocker blocker(labels_);
   labels_->clear();
   for (const Row& row : rows) {
-    auto* item =
-        add_row(labels_, {name_of(row.label), count_text(row.pixels), row.share, row.mean, row.min,
-                          row.max, count_text(row.islands), count_text(row.holes)});
+    auto* item = add_row(labels_,
+                         {name_of(row.label), count_text(row.pixels), row.share, row.mean, row.min,
+                          row.max, count_text(row.islands), count_text(row.holes)},
+                         1);
     item->setIcon(0, swatch(row.label.color, palette()));
     item->setData(0, Qt::UserRole, row.label.id);
     for (const int column : {kMean, kMin, kMax}) item->setToolTip(column, row.tip);
@@ -149,9 +155,9 @@ void CheckPanel::setRows(const std::vector<Row>& rows, int current_label) {
   fitNames();
 }
 
-void CheckPanel::resizeEvent(QResizeEvent* event) {
-  QWidget::resizeEvent(event);
-  fitNames();
+bool CheckPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == labels_->viewport() && event->type() == QEvent::Resize) fitNames();
+  return QWidget::eventFilter(watched, event);
 }
 
 // Names are read before numbers: where both do not fit, the list scrolls.
@@ -173,7 +179,7 @@ void CheckPanel::setPieces(const QString& title, const std::vector<Piece>& piece
   pieces_title_->setText(title);
   pieces_->clear();
   for (const Piece& piece : pieces) {
-    auto* item = add_row(pieces_, {piece.kind, name_of(piece.label), count_text(piece.pixels)});
+    auto* item = add_row(pieces_, {piece.kind, name_of(piece.label), count_text(piece.pixels)}, 2);
     item->setIcon(1, swatch(piece.label.color, palette()));
   }
 }

@@ -66,7 +66,7 @@ class CheckPanel : public QWidget {
   void pieceChosen(int index);
 
  protected:
-  void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   [[nodiscard]] QTreeWidget* makeList(const QString& name, const QString& title,

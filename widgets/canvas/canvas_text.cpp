@@ -1,9 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/canvas/canvas_text.h"
 
-#include <QFontMetricsF>
+#include <QStringList>
+
+#include <algorithm>
 
 namespace episcope {
+
+QString fitted_caption(const QString& text, const QFontMetricsF& metrics, double room) {
+  constexpr int kLeastLetters = 6;  // of the part that is elided
+  const QString separator = QStringLiteral(" · ");
+  QStringList parts = text.split(separator);
+  const auto longest = std::ranges::max_element(parts, {}, &QString::size);
+  const double excess = metrics.horizontalAdvance(text) - room;
+  const double left = metrics.horizontalAdvance(*longest) - excess;
+  if (left < kLeastLetters * metrics.averageCharWidth()) {
+    return metrics.elidedText(text, Qt::ElideMiddle, room);
+  }
+  if (excess > 0) *longest = metrics.elidedText(*longest, Qt::ElideMiddle, left);
+  return parts.join(separator);
+}
 
 QRectF draw_plate(QPainter& painter, const QRectF& canvas, Qt::Alignment corner,
                   const QString& text, const QColor& color, Side side) {
@@ -14,8 +30,7 @@ QRectF draw_plate(QPainter& painter, const QRectF& canvas, Qt::Alignment corner,
   const double height = metrics.height() + 4;
   const double badge = side == Side::None ? 0 : height;
   const QRectF inside = canvas.adjusted(kGap, kGap, -kGap, -kGap);
-  const QString fitting =
-      metrics.elidedText(text, Qt::ElideMiddle, inside.width() - badge - 2 * kPadding + 1);
+  const QString fitting = fitted_caption(text, metrics, inside.width() - badge - 2 * kPadding + 1);
   QRectF plate(0, 0, metrics.horizontalAdvance(fitting) + 2 * kPadding + badge, height);
   plate.moveTopLeft(inside.topLeft());
   if (corner & Qt::AlignRight) plate.moveRight(inside.right());

@@ -3,15 +3,21 @@
 
 #include "widgets/style/side.h"
 
+#include <QFontMetricsF>
 #include <QPainter>
 #include <QRectF>
 #include <QString>
 
 namespace episcope {
 
+/// A caption of parts, "name · number", in so many pixels: what is too long is elided in the middle
+/// of the longest part, so that the others can be read.
+[[nodiscard]] QString fitted_caption(const QString& text, const QFontMetricsF& metrics,
+                                     double room);
+
 /// Text on a translucent dark plate in a corner of a canvas, legible on any picture. Gives the
-/// plate back; draws nothing for an empty text. The badge of a side stands before the text; a text
-/// too long for the canvas is elided in the middle.
+/// plate back; draws nothing for an empty text. The badge of a side stands before the text; the
+/// text is fitted to the canvas.
 QRectF draw_plate(QPainter& painter, const QRectF& canvas, Qt::Alignment corner,
                   const QString& text, const QColor& color, Side side = Side::None);
 

@@ -127,15 +127,18 @@ QWidget* CapturePanel::makePairs() {
   table_->viewport()->installEventFilter(this);
   connect(table_, &QTableWidget::cellChanged, this, &CapturePanel::change);
   connect(table_, &QTableWidget::cellEntered, this, [this](int row) { hover(row); });
-  connect(table_, &QTableWidget::itemSelectionChanged, this, &CapturePanel::emphasisChanged);
+  connect(table_, &QTableWidget::itemSelectionChanged, this, [this] {
+    enableRowButtons();
+    emit emphasisChanged();
+  });
   connect(table_, &QTableWidget::cellDoubleClicked, this, [this](int row, int column) {
     if (column != Name && column != Lock) emit rowChosen(row);
   });
-  auto* remove = make_button(part, "capture.remove", tr("Remove"), tr("Removes the chosen pairs"));
+  remove_ = make_button(part, "capture.remove", tr("Remove"), tr("Removes the chosen pairs"));
   auto* import = make_button(part, "capture.import", tr("Import…"), tr("Adds pairs from CSV"));
-  auto* save = make_button(part, "capture.export", tr("Export…"), tr("Writes all pairs as CSV"));
+  export_ = make_button(part, "capture.export", tr("Export…"), tr("Writes all pairs as CSV"));
   auto* buttons = new QHBoxLayout;
-  for (QWidget* each : std::initializer_list<QWidget*>{remove, undo_, redo_, import, save}) {
+  for (QWidget* each : std::initializer_list<QWidget*>{remove_, undo_, redo_, import, export_}) {
     buttons->addWidget(each);
   }
   auto* next = new QHBoxLayout;
@@ -149,11 +152,12 @@ QWidget* CapturePanel::makePairs() {
   layout->addLayout(buttons);
   connect(snap_, &QCheckBox::toggled, this, &CapturePanel::snapChanged);
   connect(add_, &QPushButton::clicked, this, &CapturePanel::addRequested);
-  connect(remove, &QPushButton::clicked, this, &CapturePanel::removeRequested);
+  connect(remove_, &QPushButton::clicked, this, &CapturePanel::removeRequested);
   connect(undo_, &QToolButton::clicked, this, &CapturePanel::undoRequested);
   connect(redo_, &QToolButton::clicked, this, &CapturePanel::redoRequested);
   connect(import, &QPushButton::clicked, this, &CapturePanel::importRequested);
-  connect(save, &QPushButton::clicked, this, &CapturePanel::exportRequested);
+  connect(export_, &QPushButton::clicked, this, &CapturePanel::exportRequested);
+  enableRowButtons();
   return part;
 }
 
@@ -243,6 +247,12 @@ void CapturePanel::setRows(const std::vector<CaptureRow>& rows) {
     const QString off = row.off_px ? tr("%1 px").arg(*row.off_px, 0, 'f', 2) : QString();
     table_->setItem(i, Off, make_cell(row.is_outlier ? tr("%1, wrong?").arg(off) : off, false));
   }
+  enableRowButtons();
+}
+
+void CapturePanel::enableRowButtons() {
+  remove_->setEnabled(!selectedRows().empty());
+  export_->setEnabled(table_->rowCount() > 0);
 }
 
 void CapturePanel::setNext(const QString& pixel, const std::optional<std::array<double, 3>>& point,

@@ -91,6 +91,7 @@ class CapturePanel : public QWidget {
   QWidget* makeResults();
   void change(int row, int column);
   void hover(std::optional<int> row);
+  void enableRowButtons();
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -107,6 +108,8 @@ class CapturePanel : public QWidget {
   QToolButton* redo_;
   QTableWidget* table_;
   QStackedLayout* stack_;
+  QPushButton* remove_ = nullptr;
+  QPushButton* export_ = nullptr;
   std::vector<QPushButton*> of_pose_;  // need one
   PointCloudView* view_ = nullptr;
   std::optional<int> hovered_;  // row

@@ -50,9 +50,12 @@ QListWidget* BatchDialog::addList(const QString& name, const QString& title,
   auto* list = new QListWidget(this);
   list->setObjectName(name);
   list->setAccessibleName(title);
+  list->setTextElideMode(Qt::ElideMiddle);
+  list->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   for (const Row& row : rows) {
     auto* item = new QListWidgetItem(row.name, list);
     item->setData(Qt::UserRole, row.id);
+    item->setToolTip(row.name);
     item->setFlags(item->flags() | Qt::ItemIsUserCheckable);
     item->setCheckState(row.is_checked ? Qt::Checked : Qt::Unchecked);
   }

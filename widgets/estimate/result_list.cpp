@@ -24,6 +24,7 @@ namespace {
 
 constexpr int kRowPadding = 6;
 constexpr int kWidestMethod = 150;
+constexpr int kNarrowestMethod = 80;
 constexpr int kMethodPadding = 14;
 
 enum Column { kMark, kMethod, kMse, kSeconds, kParameters, kColumnCount };
@@ -209,11 +210,16 @@ void ResultList::fitMethods() {
     const QString name = tree_->topLevelItem(i)->text(kMethod);
     width = std::max(width, QFontMetrics(bold).horizontalAdvance(name));
   }
-  tree_->setColumnWidth(kMethod, std::min(width, kWidestMethod) + kMethodPadding);
+  const QHeaderView& header = *tree_->header();
+  int others = header.sectionSizeHint(kParameters);
+  for (const int column : {kMark, kMse, kSeconds}) others += header.sectionSize(column);
+  const int room = std::max(tree_->viewport()->width() - others, kNarrowestMethod);
+  tree_->setColumnWidth(kMethod, std::min(std::min(width, kWidestMethod) + kMethodPadding, room));
 }
 
 // A click on the mark chooses B; the selection, which is what is shown, stays.
 bool ResultList::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == tree_->viewport() && event->type() == QEvent::Resize) fitMethods();
   if (watched == tree_->viewport() && event->type() == QEvent::MouseButtonPress) {
     const auto* mouse = static_cast<QMouseEvent*>(event);
     const QPoint position = mouse->position().toPoint();

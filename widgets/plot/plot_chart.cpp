@@ -30,7 +30,9 @@ namespace {
 
 constexpr float kLineWidth = 1.6F;
 constexpr float kMarkerSize = 7;
-constexpr double kRoom = 0.05;  // of an axis, beyond the points
+constexpr int kBorder = 14;           // for what of an axis' last number reaches beyond its end
+constexpr double kLegendShare = 0.3;  // of the width, at most, for a name
+constexpr double kRoom = 0.05;        // of an axis, beyond the points
 
 void set_color(vtkTextProperty& text, const QColor& color) {
   text.SetColor(color.redF(), color.greenF(), color.blueF());
@@ -86,7 +88,7 @@ PlotChart::PlotChart()
       chart_(vtkSmartPointer<vtkChartXY>::New()) {
   scene_->AddItem(chart_);
   chart_->SetAutoSize(false);
-  chart_->SetHiddenAxisBorder(0);
+  chart_->SetHiddenAxisBorder(kBorder);
   chart_->GetLegend()->SetDragEnabled(false);
   chart_->GetLegend()->SetInline(false);  // beside the lines, never over them
 }
@@ -114,6 +116,8 @@ void PlotChart::setAxis(int which, const PlotAxis& axis_of, bool is_logarithmic,
 
 void PlotChart::set(const Plot& plot, const QPalette& palette) {
   chart_->ClearPlots();
+  lines_.clear();
+  line_names_.clear();
   const Span x = span_of(plot, &QPointF::x), y = span_of(plot, &QPointF::y);
   if (!(x.max >= x.min)) return;
   const bool is_log_x = plot.x.is_logarithmic && x.min > 0;
@@ -148,17 +152,30 @@ void PlotChart::addLine(const PlotSeries& series, std::size_t place, const QPale
   table->AddColumn(x);
   table->AddColumn(y);
   const SeriesLook look = series_look(place, palette);
-  auto* line = vtkPlotPoints::SafeDownCast(chart_->AddPlot(vtkChart::LINE));
+  const bool is_line = x->GetNumberOfTuples() > 1;
+  auto* line =
+      vtkPlotPoints::SafeDownCast(chart_->AddPlot(is_line ? vtkChart::LINE : vtkChart::POINTS));
   line->SetInputData(table, 0, 1);
-  line->SetLabel(series.name.toStdString());
+  lines_.push_back(line);
+  line_names_.push_back(series.name);
   set_color(*line->GetPen(), look.color);
   line->SetWidth(kLineWidth);
   line->SetMarkerStyle(look.marker);
   line->SetMarkerSize(kMarkerSize);
 }
 
+void PlotChart::fitLegend(const QFontMetrics& metrics, int width) {
+  const int room = static_cast<int>(kLegendShare * width);
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const std::string name =
+        metrics.elidedText(line_names_[i], Qt::ElideMiddle, room).toStdString();
+    if (lines_[i]->GetLabel() != name) lines_[i]->SetLabel(name);
+  }
+}
+
 void PlotChart::paint(QPainter& painter, QSize size) {
   height_ = size.height();
+  fitLegend(painter.fontMetrics(), size.width());
   device_->setPainter(&painter, size.height());
   scene_->SetGeometry(size.width(), size.height());
   chart_->SetSize(

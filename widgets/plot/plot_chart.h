@@ -6,12 +6,17 @@
 #include <QPalette>
 #include <QPointF>
 #include <QSize>
+#include <QString>
 
+#include <vector>
+
+class QFontMetrics;
 class QPainter;
 class vtkAxis;
 class vtkChartXY;
 class vtkContext2D;
 class vtkContextScene;
+class vtkPlot;
 
 namespace episcope {
 
@@ -36,6 +41,8 @@ class PlotChart {
 
  private:
   void addLine(const PlotSeries& series, std::size_t place, const QPalette& palette);
+  /// Shortens the names in the legend, which would take the room of the lines.
+  void fitLegend(const QFontMetrics& metrics, int width);
   void setAxis(int which, const PlotAxis& axis, bool is_logarithmic, const QPalette& palette);
   [[nodiscard]] vtkAxis* axis(int which) const;
 
@@ -43,6 +50,8 @@ class PlotChart {
   vtkSmartPointer<vtkContext2D> context_;
   vtkSmartPointer<vtkContextScene> scene_;
   vtkSmartPointer<vtkChartXY> chart_;
+  std::vector<vtkPlot*> lines_;      // of the chart
+  std::vector<QString> line_names_;  // in full
   int height_ = 0;
 };
 

@@ -10,10 +10,30 @@ namespace episcope {
 namespace {
 
 constexpr int kTabSpace = 12;  // Left and right of the text together.
+constexpr int kGripLength = 24;
+constexpr int kGripWidth = 2;
+
+// What a handle is held by; room is left on either side of it.
+void draw_grip(const QStyleOption& handle, QPainter& painter) {
+  QRect grip(0, 0, kGripWidth, kGripLength);
+  if (handle.rect.width() > handle.rect.height()) grip = grip.transposed();
+  grip.setSize(grip.size().boundedTo(handle.rect.size()));
+  grip.moveCenter(handle.rect.center());
+  painter.fillRect(grip, theme::frame(handle.palette));
+}
 
 }  // namespace
 
 OutlinedStyle::OutlinedStyle() : QProxyStyle("Fusion") {}
+
+void OutlinedStyle::drawControl(ControlElement element, const QStyleOption* option,
+                                QPainter* painter, const QWidget* widget) const {
+  if (element == CE_Splitter) {
+    draw_grip(*option, *painter);
+  } else {
+    QProxyStyle::drawControl(element, option, painter, widget);
+  }
+}
 
 void OutlinedStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option,
                                   QPainter* painter, const QWidget* widget) const {

@@ -8,6 +8,7 @@
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/leave_guards.h"
 #include "app/gui/frame/messages.h"
+#include "app/gui/frame/question_box.h"
 #include "app/session/scene/scribble_place.h"
 #include "engine/core/light_field/shear.h"
 #include "engine/io/labels/scribble_file.h"
@@ -17,7 +18,6 @@
 
 #include <QDir>
 #include <QFileInfo>
-#include <QMessageBox>
 #include <QPushButton>
 
 #include <memory>
@@ -318,13 +318,13 @@ void AnnotationFiles::leave(std::function<void()> go_on) {
     question_->raise();
     return;
   }
-  question_ = new QMessageBox(QMessageBox::Question, tr("Unsaved scribbles"),
-                              tr("The scribbles on “%1” have not been saved.")
-                                  .arg(QString::fromStdString(session_.light_field()->info().name)),
-                              QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
-                              &bench_.window);
-  question_->setObjectName("unsaved_scribbles");
-  question_->setAttribute(Qt::WA_DeleteOnClose);
+  question_ = new_question_box(
+      &bench_.window,
+      {.name = "unsaved_scribbles",
+       .title = tr("Unsaved scribbles"),
+       .text = tr("The scribbles on “%1” have not been saved.")
+                   .arg(QString::fromStdString(session_.light_field()->info().name)),
+       .buttons = QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel});
   question_->setDefaultButton(QMessageBox::Save);
   connect(question_, &QMessageBox::buttonClicked, this,
           [this, box = question_.data(), go_on = std::move(go_on)](QAbstractButton* button) {

@@ -7,12 +7,12 @@
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/messages.h"
+#include "app/gui/frame/question_box.h"
 #include "app/gui/stage/stage.h"
 #include "app/session/session.h"
 #include "widgets/annotate/label_palette.h"
 
 #include <QColorDialog>
-#include <QMessageBox>
 #include <QPushButton>
 
 #include <algorithm>
@@ -182,13 +182,12 @@ void LabelController::remove(int id) {
     removeNow(id);
     return;
   }
-  auto* box = new QMessageBox(QMessageBox::Question, tr("Remove a label"),
-                              tr("Remove “%1” and everything painted with it, on all views?")
-                                  .arg(QString::fromStdString(label->name)),
-                              QMessageBox::Cancel, &bench_.window);
-  box->setObjectName("remove_label");
+  auto* box = new_question_box(
+      &bench_.window, {.name = "remove_label",
+                       .title = tr("Remove a label"),
+                       .text = tr("Remove “%1” and everything painted with it, on all views?")
+                                   .arg(QString::fromStdString(label->name))});
   box->addButton(tr("Remove"), QMessageBox::AcceptRole)->setObjectName("remove_label.remove");
-  box->setAttribute(Qt::WA_DeleteOnClose);
   connect(box, &QDialog::accepted, this, [this, id] { removeNow(id); });
   box->open();
 }

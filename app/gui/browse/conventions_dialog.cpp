@@ -61,7 +61,9 @@ ConventionsDialog::ConventionsDialog(const QString& path,
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(reset, &QPushButton::clicked, form_, &ParameterForm::resetToDefaults);
-  resize(has_names ? kWidthWithNames : kWidth, sizeHint().height());
+  layout->activate();
+  const int width = has_names ? kWidthWithNames : kWidth;
+  resize(width, layout->heightForWidth(width));
 }
 
 PatternPanel* ConventionsDialog::makePatternPanel(const QString& path) {

@@ -225,7 +225,7 @@ void SweepController::showPlots() {
       sweep.scenes, [](const SweepScene& each) { return !each.points.empty(); });
   const QString instead = is_running                ? tr("The first point is being computed.")
                           : !bench_.session.scene() ? tr("Open a light field first.")
-                          : !has_points ? tr("Run: the points appear here one after the other.")
+                          : !has_points ? tr("Press Run: a point is plotted here for each value.")
                                         : tr("The points have no such number.");
   const auto measures = panel_->measures();
   for (std::size_t i = 0; i < charts_.size(); ++i) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/frame/changed_file.h"
 
+#include "app/gui/frame/question_box.h"
+
 #include <QCoreApplication>
-#include <QMessageBox>
 #include <QPushButton>
 
 namespace episcope {
@@ -16,15 +17,14 @@ struct Text {
 
 void ask_about_changed_file(QWidget* window, const QString& path,
                             const ChangedFileAnswers& answers) {
-  auto* box = new QMessageBox(
-      QMessageBox::Warning, Text::tr("The file has changed"),
-      Text::tr("Another program has written %1 since it was read or saved here. Saving replaces "
-               "what that program wrote.")
-              .arg(path) +
-          ' ' + answers.of_reloading,
-      QMessageBox::Cancel, window);
-  box->setObjectName("changed_file");
-  box->setAttribute(Qt::WA_DeleteOnClose);
+  auto* box = new_question_box(
+      window, {.name = "changed_file",
+               .icon = QMessageBox::Warning,
+               .title = Text::tr("The file has changed"),
+               .text = Text::tr("Another program has written %1 since it was read or saved here. "
+                                "Saving replaces what that program wrote.")
+                           .arg(path) +
+                       ' ' + answers.of_reloading});
   const auto add = [box](const char* name, const QString& text, QMessageBox::ButtonRole role,
                          const std::function<void()>& run) {
     QPushButton* button = box->addButton(text, role);

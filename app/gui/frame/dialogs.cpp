@@ -5,6 +5,7 @@
 #include "app/gui/frame/messages.h"
 
 #include <QCoreApplication>
+#include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QSettings>
@@ -24,7 +25,7 @@ QFileDialog* make_dialog(QWidget* window, const FileQuestion& question) {
   auto* dialog = new QFileDialog(window, question.title, QString(), question.filter);
   dialog->setObjectName(question.name);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setDirectory(QSettings().value(kLastFolder).toString());
+  dialog->setDirectory(QSettings().value(kLastFolder, QDir::homePath()).toString());
   QObject::connect(dialog, &QFileDialog::fileSelected, dialog, [](const QString& path) {
     QSettings().setValue(kLastFolder, QFileInfo(path).absolutePath());
   });

@@ -105,7 +105,7 @@ Frame::Frame(QWidget* parent)
   auto* stack = new TabStack(side_);
   panes_->setStack(stack);
   right_ = new QVBoxLayout(side_);
-  right_->setContentsMargins(0, 0, theme::kSpacing, 0);
+  right_->setContentsMargins(theme::kSpacing / 2, 0, theme::kSpacing / 2, 0);
   right_->addWidget(make_books(book_, stack, side_), 1);
 
   auto* split = new QSplitter(Qt::Horizontal, this);

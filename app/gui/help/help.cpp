@@ -7,12 +7,15 @@
 #include "app/gui/help/shortcut_window.h"
 #include "app/gui/help/theme_choice.h"
 #include "engine/core/version.h"
+#include "widgets/style/icon.h"
 
 #include <QCoreApplication>
 #include <QMessageBox>
 
 namespace episcope {
 namespace {
+
+constexpr int kIconSize = 64;
 
 struct Text {
   Q_DECLARE_TR_FUNCTIONS(episcope::Help)
@@ -32,6 +35,8 @@ void show_about(QWidget& window) {
                "<p>BSD 3-Clause licence.</p>")
           .arg(kVersion),
       QMessageBox::Close, &window);
+  box->setObjectName("about");
+  box->setIconPixmap(program_icon().pixmap(kIconSize));
   box->setAttribute(Qt::WA_DeleteOnClose);
   box->open();
 }

@@ -154,6 +154,7 @@ void ShortcutWindow::fillCommands() {
       if (command.menu != menu.menu || command.submenu) continue;
       if (!group) group = add_group(tree_, menu_path(menu.menu));
       auto* item = new QTreeWidgetItem(group, {QString(), command.tip});
+      item->setToolTip(1, command.tip);
       item->setData(0, kWordsRole, menu_path(menu.menu) + ' ' + command.text);
       item->setData(0, kIdRole, command.id);
     }

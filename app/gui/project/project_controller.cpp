@@ -8,6 +8,7 @@
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/leave_guards.h"
 #include "app/gui/frame/messages.h"
+#include "app/gui/frame/question_box.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/opening/scene_switcher.h"
 #include "app/gui/project/autosave.h"
@@ -20,7 +21,6 @@
 #include "app/session/project/stored_project.h"
 
 #include <QFileInfo>
-#include <QMessageBox>
 #include <QPushButton>
 
 #include <algorithm>
@@ -201,14 +201,13 @@ void ProjectController::locate(quint64 scene) {
   const OpenScene* missing = bench_.session.find_scene(scene);
   if (!missing) return;
   const QString input = QString::fromStdString(missing->input);
-  auto* box = new QMessageBox(
-      QMessageBox::Question, tr("Light field not found"),
-      tr("“%1” is no longer at %2. Where is it now? Others that were moved with it are then found "
-         "as well.")
-          .arg(QString::fromStdString(missing->name), input),
-      QMessageBox::Cancel, &bench_.window);
-  box->setObjectName("moved_light_field");
-  box->setAttribute(Qt::WA_DeleteOnClose);
+  auto* box = new_question_box(
+      &bench_.window,
+      {.name = "moved_light_field",
+       .title = tr("Light field not found"),
+       .text = tr("“%1” is no longer at %2. Where is it now? Others that were moved with it are "
+                  "then found as well.")
+                   .arg(QString::fromStdString(missing->name), input)});
   const auto add = [&](const char* name, const QString& text, auto ask) {
     QPushButton* button = box->addButton(text, QMessageBox::AcceptRole);
     button->setObjectName(name);

@@ -3,6 +3,7 @@
 
 #include "app/gui/document/document_controller.h"
 #include "app/gui/frame/jobs.h"
+#include "app/gui/frame/question_box.h"
 #include "app/gui/opening/scene_switcher.h"
 #include "app/gui/project/project_controller.h"
 #include "app/session/scene/load_scene.h"
@@ -19,7 +20,7 @@ namespace {
 QString list_of(const std::vector<std::string>& names) {
   QStringList texts;
   for (const std::string& each : names) texts << QString::fromStdString(each);
-  return texts.join(QStringLiteral(", "));
+  return listed(texts);
 }
 
 // Those of the built-in gantry come with it.
@@ -114,14 +115,12 @@ void ProjectGuard::ask(Leaving what, const Continue& go_on) {
     return;
   }
   const bool has_unsaved = lost.has_unsaved();
-  question_ =
-      new QMessageBox(QMessageBox::Question,
-                      has_unsaved ? tr("Unsaved work") : tr("A method is running"), sentence(lost),
-                      (has_unsaved ? QMessageBox::SaveAll : QMessageBox::NoButton) |
-                          QMessageBox::Discard | QMessageBox::Cancel,
-                      &bench_.window);
-  question_->setObjectName("unsaved_results");
-  question_->setAttribute(Qt::WA_DeleteOnClose);
+  question_ = new_question_box(
+      &bench_.window, {.name = "unsaved_results",
+                       .title = has_unsaved ? tr("Unsaved work") : tr("A method is running"),
+                       .text = sentence(lost),
+                       .buttons = (has_unsaved ? QMessageBox::SaveAll : QMessageBox::NoButton) |
+                                  QMessageBox::Discard | QMessageBox::Cancel});
   question_->setDefaultButton(has_unsaved ? QMessageBox::SaveAll : QMessageBox::Cancel);
   connect(question_, &QMessageBox::buttonClicked, this,
           [this, box = question_.data(), what, go_on](QAbstractButton* button) {

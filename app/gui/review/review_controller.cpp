@@ -155,8 +155,10 @@ CheckPanel::Row ReviewController::rowOf(const LabelSummary& label, std::int64_t 
 void ReviewController::show() {
   if (!review_) {
     panel_->setNote(subject_ ? QString()
-                             : tr("Nothing is segmented yet: paint two labels, then update the "
-                                  "segmentation."));
+                    : !bench_.session.scene()
+                        ? tr("Open a light field first.")
+                        : tr("Nothing is segmented yet: paint two labels, then update the "
+                             "segmentation."));
     panel_->setDoubts({});
     panel_->setRows({}, 0);
     panel_->setPieces(tr("Islands and holes"), {});

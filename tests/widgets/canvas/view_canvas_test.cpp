@@ -43,6 +43,17 @@ class ViewCanvasTest : public QObject {
     QVERIFY(plate.width() > 100);
   }
 
+  void longCaption_keepsItsShortParts() {
+    const QFontMetricsF metrics(canvas_->font());
+    const QString text = "result 12 of a long evening with many parameters · MSE×100 0.80";
+
+    const QString fitted = fitted_caption(text, metrics, metrics.horizontalAdvance(text) / 2);
+
+    QVERIFY2(fitted.endsWith(" · MSE×100 0.80"), qPrintable(fitted));
+    QVERIFY(metrics.horizontalAdvance(fitted) <= metrics.horizontalAdvance(text) / 2);
+    QCOMPARE(fitted_caption(text, metrics, 10'000), text);
+  }
+
   void wheel_keepsThePixelUnderTheCursor_data() {
     QTest::addColumn<QPointF>("at");
     QTest::addColumn<double>("notches");

@@ -38,6 +38,9 @@ class LinePlotTest : public QObject {
   void noPoints_saysWhy();
   void otherTheme_changesTheColours();
   void logarithm_needsPositiveValues();
+  void longNames_leaveTheLinesTheirRoom();
+  void lastNumber_isNotCut();
+  void onePoint_isDrawn();
 
  private:
   std::unique_ptr<LinePlot> plot_;
@@ -127,6 +130,37 @@ void LinePlotTest::logarithm_needsPositiveValues() {
   const double a = plot_->positionOf({0, 0}).x(), b = plot_->positionOf({0, 1}).x(),
                c = plot_->positionOf({0, 2}).x();
   QVERIFY(std::abs((b - a) - (c - b)) < 0.5);
+}
+
+void LinePlotTest::longNames_leaveTheLinesTheirRoom() {
+  Plot plot = two_lines();
+  for (PlotSeries& series : plot.series) series.name += QString(" of a long evening").repeated(5);
+
+  plot_->setPlot(plot);
+  plot_->grab();
+
+  const QPointF first = plot_->positionOf({0, 0}), last = plot_->positionOf({0, 2});
+  QVERIFY(first.x() > 0 && last.x() < plot_->width());
+  QVERIFY2(last.x() - first.x() > plot_->width() / 3, qPrintable(QString::number(last.x())));
+}
+
+void LinePlotTest::lastNumber_isNotCut() {
+  plot_->setPlot({{"x"}, {"y"}, {{"line", {{0, 1}, {1, 2}, {2, 1}}}}});
+
+  const QImage picture = plot_->grab().toImage();
+
+  for (int y = 1; y < picture.height() - 1; ++y) {
+    QCOMPARE(picture.pixelColor(picture.width() - 2, y), plot_->palette().color(QPalette::Base));
+  }
+}
+
+void LinePlotTest::onePoint_isDrawn() {
+  plot_->setPlot({{"x"}, {"y"}, {{"line", {{1, 2}}}}});
+
+  const QImage picture = plot_->grab().toImage();
+
+  QCOMPARE(picture.pixelColor(plot_->positionOf({0, 0}).toPoint()),
+           series_look(0, plot_->palette()).color);
 }
 
 }  // namespace episcope::in_line_plot_test

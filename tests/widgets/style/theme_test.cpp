@@ -27,6 +27,7 @@
 #include <QDir>
 #include <QHeaderView>
 #include <QLabel>
+#include <QSplitter>
 #include <QStyleOption>
 #include <QVBoxLayout>
 
@@ -127,6 +128,33 @@ class ThemeTest : public QObject {
          {QPoint(frame.left(), frame.center().y()), QPoint(frame.center().x(), frame.bottom())}) {
       const QColor color = drawn.pixelColor(at);
       QVERIFY2(theme::contrast_ratio(window, color) >= kSeen, qPrintable(color.name()));
+    }
+  }
+
+  void splitterHandles_areSeenAndTouchNothing_data() { addPalettes(); }
+  void splitterHandles_areSeenAndTouchNothing() {
+    constexpr double kSeen = 3;  // WCAG 2.1 AA for controls
+    QFETCH(QPalette, palette);
+    OutlinedStyle style;
+    QSplitter splitter(Qt::Vertical);
+    for (int i = 0; i < 2; ++i) splitter.addWidget(new QWidget);
+    splitter.resize(200, 100);
+    for (QWidget* each :
+         {static_cast<QWidget*>(&splitter), static_cast<QWidget*>(splitter.handle(1))}) {
+      each->setStyle(&style);
+      each->setPalette(palette);
+      each->setAutoFillBackground(true);
+    }
+    splitter.show();
+
+    const QImage drawn = splitter.handle(1)->grab().toImage();
+
+    const QColor window = palette.color(QPalette::Window);
+    const QColor middle = drawn.pixelColor(drawn.rect().center());
+    QVERIFY2(theme::contrast_ratio(window, middle) >= kSeen, qPrintable(middle.name()));
+    for (int x = 0; x < drawn.width(); ++x) {
+      QCOMPARE(drawn.pixelColor(x, 0), window);
+      QCOMPARE(drawn.pixelColor(x, drawn.height() - 1), window);
     }
   }
 

@@ -95,6 +95,7 @@ class ConventionsTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void everyLabel_isSeenInFull();
   void chosenOrder_readsTheFileAgain();
   void reversedSign_isRememberedAndReversesBack();
   void choice_isRememberedForItsFileOnly();
@@ -345,6 +346,21 @@ void ConventionsTest::rememberedChoiceThatNoLongerFits_isToldAndNotUsed() {
   QVERIFY(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
     return warning.find("not used") != std::string::npos;
   }));
+}
+
+void ConventionsTest::everyLabel_isSeenInFull() {
+  WindowFixture f;
+  f.openSmall();
+
+  QDialog* dialog = open_dialog(f.window);
+
+  QVERIFY(dialog);
+  QVERIFY(QTest::qWaitForWindowExposed(dialog));
+  for (const auto* label : dialog->findChildren<QLabel*>()) {
+    const int wanted = label->wordWrap() ? label->heightForWidth(label->width()) : 0;
+    QVERIFY2(label->height() >= wanted, qPrintable(label->text()));
+  }
+  dialog->reject();
 }
 
 }  // namespace episcope::in_conventions_test

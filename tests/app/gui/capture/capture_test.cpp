@@ -33,7 +33,9 @@ class CaptureTest : public QObject {
     f.openMesh();
     auto* add = f.window.findChild<QPushButton*>("capture.add");
     auto* table = f.window.findChild<QTableWidget*>("capture.pairs");
-    QVERIFY(!add->isEnabled());
+    auto* remove = f.window.findChild<QPushButton*>("capture.remove");
+    auto* write = f.window.findChild<QPushButton*>("capture.export");
+    for (const auto* each : {add, remove, write}) QVERIFY(!each->isEnabled());
     int picked = 0;
     for (std::size_t i = 0; i < f.mesh.vertices.size() && picked < 6; i += 131) {
       const capture::PointPair pair = pair_of("", f.mesh.vertices[i]);
@@ -53,6 +55,8 @@ class CaptureTest : public QObject {
     QVERIFY(f.capture().pose()->reprojection_error_px < 1);  // whole pixels were picked
     QVERIFY2(f.text("capture.pose").contains("px"), qPrintable(f.text("capture.pose")));
 
+    QVERIFY(write->isEnabled());
+    QVERIFY(!remove->isEnabled());
     table->selectRow(0);
     f.click("capture.remove");
     QCOMPARE(table->rowCount(), 5);

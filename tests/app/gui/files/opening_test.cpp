@@ -38,6 +38,7 @@ class OpeningTest : public QObject {
   void brokenFile_isToldAndKeepsTheScene();
   void brokenFile_withoutScene_isDrawnAsError();
   void brokenFile_ofTheDialog_isTold();
+  void firstDialog_beginsAtHome();
   void dialog_remembersItsFolder();
   void droppedFile_isOpened();
   void anotherScene_hasItsOwnResults();
@@ -162,7 +163,17 @@ void OpeningTest::brokenFile_withoutScene_isDrawnAsError() {
                             kPatience);
 }
 
-// It has the signature of HDF5, and ends there.
+void OpeningTest::firstDialog_beginsAtHome() {
+  WindowFixture f;
+
+  f.trigger("file.open");
+
+  auto* dialog = f.window.findChild<QFileDialog*>("open_file");
+  QVERIFY(dialog);
+  QCOMPARE(dialog->directory(), QDir::home());
+  dialog->reject();
+}
+
 void OpeningTest::dialog_remembersItsFolder() {
   WindowFixture f;
   const QString scene = f.writeScene("edge", WindowFixture::smallOptions());
@@ -177,6 +188,7 @@ void OpeningTest::dialog_remembersItsFolder() {
   QCOMPARE(f.window.findChild<QFileDialog*>()->directory().path(), QFileInfo(scene).path());
 }
 
+// It has the signature of HDF5, and ends there.
 void OpeningTest::brokenFile_ofTheDialog_isTold() {
   WindowFixture f;
   f.openSmall();
