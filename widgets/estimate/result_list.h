@@ -21,7 +21,7 @@ struct ResultRow {
   double seconds = 0;  ///< 0 = unknown.
   std::optional<double> mse_100;
   QString detail;  ///< Further tool tip: source, notes.
-  QString note;    ///< What the user wrote.
+  QString note{};  ///< What the user wrote.
 };
 
 /// Results of this light field, newest last, with the shown one (A) and the compared one (B)
