@@ -5,8 +5,25 @@
 namespace episcope::fuzz {
 namespace {
 
+Sweep seed_sweep(const ProjectScene& scene) {
+  const auto point_at = [](double inner) {
+    return SweepPoint{.point = {{"inner_scale", inner}},
+                      .display_range = {-1, 1},
+                      .seconds = 0.5,
+                      .vmv2013 = {{"mse_100", 1.5}},
+                      .benchmark2016 = {{"badpix_7", 20}},
+                      .change_px = 0.25};
+  };
+  Sweep sweep;
+  sweep.base.method = "epi_s";
+  sweep.swept = {{"inner_scale", {0.5, 0.8}}};
+  sweep.scenes = {{scene.id, scene.name, {point_at(0.8), point_at(0.5)}}};
+  return sweep;
+}
+
 Project seed_project(const std::filesystem::path& folder) {
   ProjectScene scene;
+  scene.id = 1;
   scene.name = "a";
   scene.input = (folder / "scenes/a.h5").string();
   scene.reading = {{"flip", std::string("u")}, {"frame", 2}};
@@ -24,6 +41,7 @@ Project seed_project(const std::filesystem::path& folder) {
   scene.place.measured.list.push_back({.name = "line"});
   scene.place.comparison.shows_difference = true;
   Project project;
+  project.sweeps = {seed_sweep(scene)};
   project.scenes = {scene};
   return project;
 }
