@@ -35,8 +35,8 @@ class VariantTest : public QObject {
   void badSettings_areRefused() {
     QFETCH(QString, setting);
 
-    QVERIFY_EXCEPTION_THROWN(std::ignore = accuracy::variants({"st_ch_g"}, {setting.toStdString()}),
-                             InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(
+        InvalidInput, std::ignore = accuracy::variants({"st_ch_g"}, {setting.toStdString()}));
   }
 };
 

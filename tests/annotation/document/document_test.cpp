@@ -110,7 +110,7 @@ class DocumentTest : public QObject {
   void labels_reuseIdsOnlyWhenAllWereGiven() {
     LabelSet labels;
     for (int i = 1; i <= 255; ++i) QCOMPARE(labels.add(), i);
-    QVERIFY_EXCEPTION_THROWN(labels.add(), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.add());
 
     labels.remove(77);
 
@@ -132,13 +132,13 @@ class DocumentTest : public QObject {
     LabelSet labels;
     labels.insert({5, "five", {}});
 
-    QVERIFY_EXCEPTION_THROWN(labels.insert({5, "again", {}}), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(labels.insert({0, "none", {}}), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(labels.insert({256, "high", {}}), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(labels.rename(5, ""), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(labels.rename(5, "two\nlines"), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(labels.rename(5, std::string(201, 'x')), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(labels.remove(6), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.insert({5, "again", {}}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.insert({0, "none", {}}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.insert({256, "high", {}}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.rename(5, ""));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.rename(5, "two\nlines"));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.rename(5, std::string(201, 'x')));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.remove(6));
     QCOMPARE(labels.labels().size(), std::size_t{1});
   }
 
@@ -150,7 +150,7 @@ class DocumentTest : public QObject {
 
     QCOMPARE(document.scribbles().byte_size(), std::size_t{kHeight * kWidth});
     QCOMPARE(document.scribbles().painted_views(), std::vector{kView});
-    QVERIFY_EXCEPTION_THROWN((void)document.scribbles().view({3, 0}), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)document.scribbles().view({3, 0}));
     QCOMPARE(document.scribbles().label_at(kView, {5, 5}), 1);
     QCOMPARE(document.scribbles().label_at(kView, {-1, 5}), 0);
   }
@@ -364,9 +364,9 @@ class DocumentTest : public QObject {
     Stroke stroke(document, kView, {});
     stroke.extend({3, 3});
 
-    QVERIFY_EXCEPTION_THROWN(document.undo(), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(document.add_label(), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(Stroke(document, kView, {}), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, document.undo());
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, document.add_label());
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, Stroke(document, kView, {}));
     QVERIFY(stroke.commit());
     QVERIFY(!document.undo().empty());
   }
@@ -374,18 +374,18 @@ class DocumentTest : public QObject {
   void badStrokes_areRefused() {
     AnnotationDocument document = document_with_labels(1);
 
-    QVERIFY_EXCEPTION_THROWN(Stroke(document, kView, {PaintTool::Brush, 2, 5, false}),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(Stroke(document, kView, {PaintTool::Brush, 0, 5, false}),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(Stroke(document, kView, {PaintTool::Brush, 1, 500, false}),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(Stroke(document, {3, 0}, {}), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(AnnotationDocument({0, 3}, 5, 5), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(AnnotationDocument({1, 1}, 5, 70000), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             Stroke(document, kView, {PaintTool::Brush, 2, 5, false}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             Stroke(document, kView, {PaintTool::Brush, 0, 5, false}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             Stroke(document, kView, {PaintTool::Brush, 1, 500, false}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, Stroke(document, {3, 0}, {}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, AnnotationDocument({0, 3}, 5, 5));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, AnnotationDocument({1, 1}, 5, 70000));
     Edit outside{EditKind::Paint, {{kView, {0, 0, 1, 90}, {{0, 0, 90, 0, 1}}}}, {}};
-    QVERIFY_EXCEPTION_THROWN(document.apply(outside), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(document.remove_label(9), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, document.apply(outside));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, document.remove_label(9));
     QVERIFY(!document.undo().empty());  // nothing is left half open
   }
 };

@@ -31,7 +31,7 @@ class EditEncodingTest : public QObject {
     for (const std::uint64_t number : numbers) QCOMPARE(in.number(), number);
     QCOMPARE(in.text(), std::string("grün"));
     QVERIFY(in.at_end());
-    QVERIFY_EXCEPTION_THROWN((void)in.byte(), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)in.byte());
   }
 
   void randomEdits_comeBack() {
@@ -57,7 +57,7 @@ class EditEncodingTest : public QObject {
     for (const auto& bytes : {label_bytes, encoded(document.history().edit(1))}) {
       for (std::size_t size = 0; size < bytes.size(); ++size) {
         ByteReader in({bytes.data(), size});
-        QVERIFY_EXCEPTION_THROWN((void)read_edit(in), InvalidInput);
+        QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)read_edit(in));
       }
     }
   }

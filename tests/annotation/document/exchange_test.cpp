@@ -65,11 +65,11 @@ class ExchangeTest : public QObject {
     Scribbles scribbles;
     scribbles.views.push_back({{0, 0}, Image<std::int32_t>(4, 5)});
 
-    QVERIFY_EXCEPTION_THROWN((void)document_from(scribbles, {1, 1}, 5, 5), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)document_from(scribbles, {1, 1}, 5, 5));
     scribbles.views[0].labels.at(0, 0) = 256;
-    QVERIFY_EXCEPTION_THROWN((void)document_from(scribbles, {1, 1}, 4, 5), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)document_from(scribbles, {1, 1}, 4, 5));
     scribbles.views[0].view = {1, 0};
-    QVERIFY_EXCEPTION_THROWN((void)document_from(scribbles, {1, 1}, 4, 5), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)document_from(scribbles, {1, 1}, 4, 5));
   }
 };
 

@@ -147,10 +147,10 @@ class BrushTest : public QObject {
   void badPaths_areRefused() {
     const double nan = std::numeric_limits<double>::quiet_NaN();
 
-    QVERIFY_EXCEPTION_THROWN((void)covered_pixels({{1, 1}, {1, 1}, 0.5}, 20, 20), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN((void)covered_pixels({{1, 1}, {1, 1}, 101}, 20, 20), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN((void)covered_pixels({{1, 1}, {1, 1}, nan}, 20, 20), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN((void)covered_pixels({{1, nan}, {1, 1}, 5}, 20, 20), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)covered_pixels({{1, 1}, {1, 1}, 0.5}, 20, 20));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)covered_pixels({{1, 1}, {1, 1}, 101}, 20, 20));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)covered_pixels({{1, 1}, {1, 1}, nan}, 20, 20));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)covered_pixels({{1, nan}, {1, 1}, 5}, 20, 20));
   }
 };
 

@@ -137,7 +137,7 @@ class FloodFillTest : public QObject {
 
     QCOMPARE(region_within_edges(picture.view(), {0, 0}, 0.01).size(), std::size_t{4});
     QVERIFY(region_within_edges(picture.view(), {0, 0}, 0.008).empty());
-    QVERIFY_EXCEPTION_THROWN((void)region_within_edges(picture.view(), {0, 0}, -1), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)region_within_edges(picture.view(), {0, 0}, -1));
   }
 
   void seedsOutside_fillNothing() {

@@ -168,11 +168,11 @@ class PropagateTest : public QObject {
   void misfits_areRefused() {
     const ScribbleLayer painted(kGrid, kSize, kSize);
     DisparityField field;
-    QVERIFY_EXCEPTION_THROWN((void)propagate(painted, field, {}, Progress()), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)propagate(painted, field, {}, Progress()));
     field.disparity = ViewStack<float>({1, 1}, 4, 5);
-    QVERIFY_EXCEPTION_THROWN((void)propagate(painted, field, {}, Progress()), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)propagate(painted, field, {}, Progress()));
     field.disparity = ViewStack<float>({1, 1}, kSize, kSize, 1, {5, 0});
-    QVERIFY_EXCEPTION_THROWN((void)propagate(painted, field, {}, Progress()), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)propagate(painted, field, {}, Progress()));
   }
 
   void cancel_stopsIt() {

@@ -119,9 +119,9 @@ class CalibrateTest : public QObject {
     QCOMPARE(read.focal_y, 560.0);
     QVERIFY(read.distortion == true_camera().distortion);
     std::ofstream(path) << "%YAML:1.0\n---\nfocal: 3\n";
-    QVERIFY_EXCEPTION_THROWN((void)read_camera(path), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_camera(path));
     std::ofstream(path) << "\x01\x02 no yaml {";
-    QVERIFY_EXCEPTION_THROWN((void)read_camera(path), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_camera(path));
   }
 
   void camerasOfHugeMatrices_areRefused_data() {
@@ -141,7 +141,7 @@ class CalibrateTest : public QObject {
                         << "\n   dt: d\n   data: [ 50., 0., 50., 0., 50., 50., 0., 0., 1. ]\n";
     const test::PeakMemory memory;
 
-    QVERIFY_EXCEPTION_THROWN((void)read_camera(path), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_camera(path));
     QVERIFY(memory.used() < (std::uintmax_t{64} << 20));
   }
 

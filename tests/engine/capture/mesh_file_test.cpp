@@ -97,7 +97,7 @@ class MeshFileTest : public QObject {
                 .contains("ends in the middle"));
     QVERIFY(problem("header.ply", "ply\nformat ascii 1.0\n").contains("no end"));
     QVERIFY(problem("mesh.xyz", "0 0 0").contains(".ply, .obj or .stl"));
-    QVERIFY_EXCEPTION_THROWN((void)read_mesh("/nowhere/a.ply", Progress(1)), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_mesh("/nowhere/a.ply", Progress(1)));
   }
 
   void cutBinaryPly_getsASentenceWhereverItIsCut() {

@@ -81,10 +81,10 @@ void ConsistencyTest::consistency_refusesOtherSizes() {
   const Scene scene = render("fronto");
   const ViewStack<std::int32_t> small({5, 5}, 8, 8);
 
-  QVERIFY_EXCEPTION_THROWN((void)label_consistency(small, scene.truth->field, Progress()),
-                           InvalidInput);
-  QVERIFY_EXCEPTION_THROWN((void)label_consistency(scene.truth->labels, {}, Progress()),
-                           InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                           (void)label_consistency(small, scene.truth->field, Progress()));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                           (void)label_consistency(scene.truth->labels, {}, Progress()));
 }
 
 void ConsistencyTest::edges_lieWhereImageOrDisparityJump() {
@@ -125,8 +125,8 @@ void ConsistencyTest::edges_refuseOtherSizes() {
   const Scene scene = render("fronto");
   const DisparityField small{ViewStack<float>({5, 5}, 8, 8), {}};
 
-  QVERIFY_EXCEPTION_THROWN((void)edge_probabilities(*scene.light_field, small, {}, Progress()),
-                           InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                           (void)edge_probabilities(*scene.light_field, small, {}, Progress()));
 }
 
 }  // namespace episcope::in_consistency_test

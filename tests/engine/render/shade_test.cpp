@@ -202,7 +202,7 @@ class ShadeTest : public QObject {
   }
 
   void refocus_outsideTheGridIsRefused() {
-    QVERIFY_EXCEPTION_THROWN((void)refocus(plane<float>(0, 1), {5, 0}, 0), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)refocus(plane<float>(0, 1), {5, 0}, 0));
   }
 };
 

@@ -99,7 +99,7 @@ class RequestTest : public QObject {
   }
 
   void unknownScene_isRefusedWithTheNearest() {
-    QVERIFY_EXCEPTION_THROWN(std::ignore = read_request("randon?seed=1"), Unavailable);
+    QVERIFY_THROWS_EXCEPTION(Unavailable, std::ignore = read_request("randon?seed=1"));
   }
 };
 

@@ -202,7 +202,7 @@ class BenchmarkTest : public QObject {
     fs::create_directories(options_.folder);
     std::ofstream(options_.folder / "thesis.tex") << "years of work";
 
-    QVERIFY_EXCEPTION_THROWN(run(), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, run());
     QCOMPARE(runs_, 0);
   }
 

@@ -129,10 +129,10 @@ class PlanTest : public QObject {
 
     install_plan(plan, options_);
 
-    QVERIFY_EXCEPTION_THROWN(installed(1000), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, installed(1000));
     QCOMPARE(read_plan(options_.folder).tasks.size(), plan.tasks.size());
     QCOMPARE(plan_status(plan, options_.folder).running, Numbers{0});
-    QVERIFY_EXCEPTION_THROWN((void)run_task(plan, 0, options_, load(), Progress()), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)run_task(plan, 0, options_, load(), Progress()));
   }
 
   void failedRuns_areTriedAgain_andThenCollected() {
@@ -164,8 +164,8 @@ class PlanTest : public QObject {
     const BenchmarkPlan plan = installed(1000);
     other_ = "bars";
 
-    QVERIFY_EXCEPTION_THROWN((void)run_task(plan, 0, options_, load(), Progress()), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN((void)collect_plan(plan, options_, load(), Progress()), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)run_task(plan, 0, options_, load(), Progress()));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)collect_plan(plan, options_, load(), Progress()));
     QCOMPARE(plan_status(plan, options_.folder).points.done, std::size_t{0});
   }
 
@@ -182,7 +182,7 @@ class PlanTest : public QObject {
       changed.replace(at, old.size(), std::string("\"name\": \"") + name + '"');
       std::ofstream(file) << changed;
 
-      QVERIFY_EXCEPTION_THROWN((void)read_plan(options_.folder), IoError);
+      QVERIFY_THROWS_EXCEPTION(IoError, (void)read_plan(options_.folder));
     }
     std::ofstream(file) << text.str();
     QCOMPARE(read_plan(options_.folder).scenes[0].name, std::string("edge"));

@@ -21,7 +21,7 @@ class SlurmWordsTest : public QObject {
              (Words{"--partition=gpu", "--time=1:00:00"}));
     QCOMPARE(option_words("--comment='two words' --x=\"it's\" ''"),
              (Words{"--comment=two words", "--x=it's", ""}));
-    QVERIFY_EXCEPTION_THROWN((void)option_words("--comment='a"), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)option_words("--comment='a"));
   }
 
   void gpus_areAskedForOnce() {
@@ -58,7 +58,7 @@ class SlurmWordsTest : public QObject {
     QVERIFY(answer.out.ends_with("20000\na  b\n"));
     QVERIFY(answer.err.ends_with("20000\n"));
     QCOMPARE(run_program("sh", {"-c", "kill -9 $$"}).exit_code, 137);
-    QVERIFY_EXCEPTION_THROWN((void)run_program("no-such-program", {}), Unavailable);
+    QVERIFY_THROWS_EXCEPTION(Unavailable, (void)run_program("no-such-program", {}));
   }
 };
 

@@ -215,7 +215,7 @@ class JournalTest : public QObject {
     write(folder() / "file", {1}, 1);
     AnnotationDocument document(kGrid, kHeight, kWidth);
 
-    QVERIFY_EXCEPTION_THROWN(AnnotationJournal(folder() / "file" / "x", kOwner, document), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, AnnotationJournal(folder() / "file" / "x", kOwner, document));
     document.add_label();  // nothing observes it
   }
 

@@ -92,9 +92,9 @@ class LabelArchiveTest : public QObject {
     LabelerParameters parameters = parameters_with(FeatureSet::Image);
     parameters.regularizer = Regularizer::View;
 
-    QVERIFY_EXCEPTION_THROWN(
-        (void)Labeler(scene.light_field, nullptr).smooth(std::move(one), parameters, Progress()),
-        InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(
+        InvalidInput,
+        (void)Labeler(scene.light_field, nullptr).smooth(std::move(one), parameters, Progress()));
   }
 
   void strangeSamples_areBounded() {

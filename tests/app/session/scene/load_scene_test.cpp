@@ -232,7 +232,7 @@ void LoadSceneTest::sceneWithOptions_isRenderedAndNotKept() {
 }
 
 void LoadSceneTest::unknownBuiltinScene_isRefused() {
-  QVERIFY_EXCEPTION_THROWN((void)load_scene("demo:slamt", {}, Progress()), Unavailable);
+  QVERIFY_THROWS_EXCEPTION(Unavailable, (void)load_scene("demo:slamt", {}, Progress()));
 }
 
 void LoadSceneTest::scribblesBesideAnImageGrid_areRead() {
@@ -276,8 +276,8 @@ void LoadSceneTest::onlyLightFieldBelow_isOpened() {
   QCOMPARE(load_scene(folder.path().toStdString(), {}, Progress()).light_field->sample_hash(),
            scene->light_field->sample_hash());
   write("two");
-  QVERIFY_EXCEPTION_THROWN((void)load_scene(folder.path().toStdString(), {}, Progress()),
-                           IsCollection);
+  QVERIFY_THROWS_EXCEPTION(IsCollection,
+                           (void)load_scene(folder.path().toStdString(), {}, Progress()));
 }
 
 void LoadSceneTest::missingFile_isRefusedWithItsPath() {

@@ -113,16 +113,16 @@ class CameraGridTest : public QObject {
   }
 
   void parameters_mustBePositive() {
-    QVERIFY_EXCEPTION_THROWN(static_cast<void>(camera_grid_from_blender({0, 0.7, 10, 768})),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(static_cast<void>(camera_grid_from_blender({0.2, -0.7, 10, 768})),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(
-        static_cast<void>(camera_grid_from_blender({0.2, 0.7, std::nan(""), 768})), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(static_cast<void>(camera_grid_from_blender({0.2, 0.7, 10, 0})),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(static_cast<void>(camera_grid_from_benchmark({100, 0, 60, 8, 512})),
-                             InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             static_cast<void>(camera_grid_from_blender({0, 0.7, 10, 768})));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             static_cast<void>(camera_grid_from_blender({0.2, -0.7, 10, 768})));
+    QVERIFY_THROWS_EXCEPTION(
+        InvalidInput, static_cast<void>(camera_grid_from_blender({0.2, 0.7, std::nan(""), 768})));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             static_cast<void>(camera_grid_from_blender({0.2, 0.7, 10, 0})));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             static_cast<void>(camera_grid_from_benchmark({100, 0, 60, 8, 512})));
   }
 };
 

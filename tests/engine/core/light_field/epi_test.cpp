@@ -124,10 +124,10 @@ class EpiTest : public QObject {
   void outside_isRefused() {
     const LightField lf = plane_of(0);
 
-    QVERIFY_EXCEPTION_THROWN(static_cast<void>(horizontal_epi(lf, {2, 3}, kHeight)), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(static_cast<void>(horizontal_epi(lf, {5, 3}, 0)), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(static_cast<void>(vertical_epi(lf, {2, 3}, -1)), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(static_cast<void>(vertical_epi(lf, {2, 7}, 0)), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, static_cast<void>(horizontal_epi(lf, {2, 3}, kHeight)));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, static_cast<void>(horizontal_epi(lf, {5, 3}, 0)));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, static_cast<void>(vertical_epi(lf, {2, 3}, -1)));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, static_cast<void>(vertical_epi(lf, {2, 7}, 0)));
   }
 };
 

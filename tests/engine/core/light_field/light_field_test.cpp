@@ -125,11 +125,11 @@ class LightFieldTest : public QObject {
   }
 
   void badStacks_areRefused() {
-    QVERIFY_EXCEPTION_THROWN(LightField(ViewStack<float>{}, {}), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(LightField(ViewStack<float>({1, 1}, 2, 2, 4), {}), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(LightField(ViewStack<float>({1, 1}, 2, 2, 1, {1, 0}), {}),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(LightField(ViewStack<float>({1, 1}, 0, 2), {}), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, LightField(ViewStack<float>{}, {}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, LightField(ViewStack<float>({1, 1}, 2, 2, 4), {}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             LightField(ViewStack<float>({1, 1}, 2, 2, 1, {1, 0}), {}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, LightField(ViewStack<float>({1, 1}, 0, 2), {}));
   }
 };
 

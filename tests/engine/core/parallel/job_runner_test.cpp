@@ -132,7 +132,7 @@ class JobRunnerTest : public QObject {
     inbox.run_until([&] { return is_done; });
 
     QVERIFY(!got.value && !got.was_cancelled());
-    QVERIFY_EXCEPTION_THROWN(std::rethrow_exception(got.failure), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, std::rethrow_exception(got.failure));
   }
 
   void runner_survivesAFailedJob() {

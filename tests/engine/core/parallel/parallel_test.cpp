@@ -90,8 +90,8 @@ class ParallelTest : public QObject {
   void exception_ofAMakerReachesTheCaller() {
     const auto make_worker = []() -> void (*)(int) { throw std::runtime_error("no memory"); };
 
-    QVERIFY_EXCEPTION_THROWN(parallel_for_workers(10, Progress(2), make_worker),
-                             std::runtime_error);
+    QVERIFY_THROWS_EXCEPTION(std::runtime_error,
+                             parallel_for_workers(10, Progress(2), make_worker));
   }
 
   void exception_ofABodyReachesTheCaller() {
@@ -107,7 +107,7 @@ class ParallelTest : public QObject {
       spin(std::chrono::microseconds(10));
     };
 
-    QVERIFY_EXCEPTION_THROWN(parallel_for(1000000, Progress(2), body), std::runtime_error);
+    QVERIFY_THROWS_EXCEPTION(std::runtime_error, parallel_for(1000000, Progress(2), body));
 
     // Ten seconds of items are skipped; the other thread continues until the exception is noticed.
     QVERIFY(after < 500000);
@@ -117,12 +117,11 @@ class ParallelTest : public QObject {
     std::stop_source stop;
     std::atomic<int> begun_late{0};
 
-    QVERIFY_EXCEPTION_THROWN(parallel_for(1000000, Progress(stop.get_token(), nullptr, 2),
-                                          [&](int i) {
-                                            begun_late += stop.stop_requested();
-                                            if (i == 5) stop.request_stop();
-                                          }),
-                             Cancelled);
+    QVERIFY_THROWS_EXCEPTION(
+        Cancelled, parallel_for(1000000, Progress(stop.get_token(), nullptr, 2), [&](int i) {
+          begun_late += stop.stop_requested();
+          if (i == 5) stop.request_stop();
+        }));
 
     // The other thread may have checked just before.
     QVERIFY(begun_late <= 1);
@@ -132,18 +131,16 @@ class ParallelTest : public QObject {
     std::stop_source stop;
     double asked = 0;
 
-    QVERIFY_EXCEPTION_THROWN(parallel_for(100000, Progress(stop.get_token(), nullptr, 2),
-                                          [&](int i) {
-                                            const auto end =
-                                                Clock::now() + std::chrono::milliseconds(1);
-                                            while (Clock::now() < end) {
-                                            }
-                                            if (i == 20) {
-                                              asked = cpu_time_ms();
-                                              stop.request_stop();
-                                            }
-                                          }),
-                             Cancelled);
+    QVERIFY_THROWS_EXCEPTION(
+        Cancelled, parallel_for(100000, Progress(stop.get_token(), nullptr, 2), [&](int i) {
+          const auto end = Clock::now() + std::chrono::milliseconds(1);
+          while (Clock::now() < end) {
+          }
+          if (i == 20) {
+            asked = cpu_time_ms();
+            stop.request_stop();
+          }
+        }));
 
     // An item takes 1 ms.
     QVERIFY(cpu_time_ms() - asked < cpu_limit_of_a_stop_ms());
@@ -154,8 +151,8 @@ class ParallelTest : public QObject {
     stop.request_stop();
     int runs = 0;
 
-    QVERIFY_EXCEPTION_THROWN(
-        parallel_for(10, Progress(stop.get_token(), nullptr), [&](int) { ++runs; }), Cancelled);
+    QVERIFY_THROWS_EXCEPTION(
+        Cancelled, parallel_for(10, Progress(stop.get_token(), nullptr), [&](int) { ++runs; }));
 
     QCOMPARE(runs, 0);
   }

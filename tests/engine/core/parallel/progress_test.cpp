@@ -98,8 +98,8 @@ class ProgressTest : public QObject {
     stop.request_stop();
 
     QVERIFY(part.stop_requested());
-    QVERIFY_EXCEPTION_THROWN(progress.check(), Cancelled);
-    QVERIFY_EXCEPTION_THROWN(part.check(), Cancelled);
+    QVERIFY_THROWS_EXCEPTION(Cancelled, progress.check());
+    QVERIFY_THROWS_EXCEPTION(Cancelled, part.check());
   }
 
   void titles_precedeTheStage() {

@@ -169,16 +169,16 @@ class ParameterTest : public QObject {
   }
 
   void otherType_isRefused() {
-    QVERIFY_EXCEPTION_THROWN(check_parameter(described(3), ParameterValue(2.0)), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(check_parameter(described(3.0), ParameterValue(2)), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(check_parameter(described(true), ParameterValue(std::string("true"))),
-                             InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, check_parameter(described(3), ParameterValue(2.0)));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, check_parameter(described(3.0), ParameterValue(2)));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             check_parameter(described(true), ParameterValue(std::string("true"))));
   }
 
   void domain_isClosed() {
     check_parameter(described(3), ParameterValue(0));
     check_parameter(described(3), ParameterValue(10));
-    QVERIFY_EXCEPTION_THROWN(check_parameter(described(3), ParameterValue(-1)), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, check_parameter(described(3), ParameterValue(-1)));
   }
 
   void nearestName_findsTypos_data() {

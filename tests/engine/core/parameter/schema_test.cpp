@@ -281,9 +281,9 @@ class SchemaTest : public QObject {
     QVERIFY(all[2].searched == (std::vector<ParameterValue>{false, true}));
     QVERIFY(all[3].searched == (std::vector<ParameterValue>{std::string("best")}));
     QVERIFY(all[4].searched.empty());
-    QVERIFY_EXCEPTION_THROWN(searched.search("scale", {7}), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(searched.search("scael", {1}), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(searched.search_choices("fusion", {"worst"}), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, searched.search("scale", {7}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, searched.search("scael", {1}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, searched.search_choices("fusion", {"worst"}));
   }
 };
 

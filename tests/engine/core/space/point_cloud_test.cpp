@@ -118,11 +118,11 @@ class PointCloudTest : public QObject {
   void wrongInput_isRefused() {
     Image<float> map(4, 4, 1, 0.0f);
 
-    QVERIFY_EXCEPTION_THROWN(make_point_cloud({map, {}}, {}, Image<std::uint8_t>(4, 5, 4, 0)),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(
-        make_point_cloud({map, {}}, {}, Image<std::uint8_t>(4, 4, 4, 0), {.step = 0}),
-        InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(
+        InvalidInput, (void)make_point_cloud({map, {}}, {}, Image<std::uint8_t>(4, 5, 4, 0)));
+    QVERIFY_THROWS_EXCEPTION(
+        InvalidInput,
+        (void)make_point_cloud({map, {}}, {}, Image<std::uint8_t>(4, 4, 4, 0), {.step = 0}));
   }
 };
 

@@ -93,7 +93,7 @@ class SurfaceTest : public QObject {
   }
 
   void jumpOfNothing_isRefused() {
-    QVERIFY_EXCEPTION_THROWN(surface_of(Image<float>(2, 2, 1, 0.5f), 0), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, surface_of(Image<float>(2, 2, 1, 0.5f), 0));
   }
 };
 

@@ -120,14 +120,14 @@ class CloudDistanceTest : public QObject {
     const Image<float> other(4, 5, 1, 0.1F);
     const Image<std::uint8_t> none(4, 4, 1, 0);
 
-    QVERIFY_EXCEPTION_THROWN((void)cloud_distance({map, {}}, {map, {}}, {}, Progress()),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN((void)cloud_distance({map, {}}, {other, {}}, camera(), Progress()),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN((void)cloud_distance({map, {}}, {map, none}, camera(), Progress()),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN((void)cloud_distance({map, none}, {map, {}}, camera(), Progress()),
-                             InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)cloud_distance({map, {}}, {map, {}}, {}, Progress()));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)cloud_distance({map, {}}, {other, {}}, camera(), Progress()));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)cloud_distance({map, {}}, {map, none}, camera(), Progress()));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)cloud_distance({map, none}, {map, {}}, camera(), Progress()));
   }
 
   void stopRequest_isHeard() {
@@ -135,9 +135,8 @@ class CloudDistanceTest : public QObject {
     std::stop_source stop;
     stop.request_stop();
 
-    QVERIFY_EXCEPTION_THROWN(
-        (void)cloud_distance({map, {}}, {map, {}}, camera(), Progress(stop.get_token(), {})),
-        Cancelled);
+    QVERIFY_THROWS_EXCEPTION(Cancelled, (void)cloud_distance({map, {}}, {map, {}}, camera(),
+                                                             Progress(stop.get_token(), {})));
   }
 };
 

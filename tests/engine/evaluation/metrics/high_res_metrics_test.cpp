@@ -29,7 +29,7 @@ class HighResMetricsTest : public QObject {
     QCOMPARE(widths.back(), 6);
     QVERIFY(std::all_of(widths.begin() + 1, widths.end() - 1,
                         [](int width) { return width == 10 || width == 11; }));
-    QVERIFY_EXCEPTION_THROWN(ResolvedErrors(whole(ramp), truth.view(), 9, {}), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, ResolvedErrors(whole(ramp), truth.view(), 9, {}));
   }
 
   void stratifiedScene_isScoredInHighResolution_data() {
@@ -205,8 +205,8 @@ class HighResMetricsTest : public QObject {
     stop.request_stop();
     options.progress = Progress(stop.get_token(), {});
 
-    QVERIFY_EXCEPTION_THROWN((void)evaluate(whole(constant(0)), whole(constant(0)), {}, options),
-                             Cancelled);
+    QVERIFY_THROWS_EXCEPTION(Cancelled,
+                             (void)evaluate(whole(constant(0)), whole(constant(0)), {}, options));
   }
 };
 

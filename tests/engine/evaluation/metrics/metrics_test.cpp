@@ -19,7 +19,7 @@ class MetricsTest : public QObject {
     for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
       QCOMPARE(parse_protocol(protocol_name(protocol)), protocol);
     }
-    QVERIFY_EXCEPTION_THROWN((void)parse_protocol("2016"), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)parse_protocol("2016"));
   }
 
   void truthItself_hasNoError() {
@@ -281,7 +281,7 @@ class MetricsTest : public QObject {
     estimate.layers = {};
     QVERIFY(!find_metric(layered_metrics(evaluate_layers(estimate, truth, {0, 0}, {})),
                          "layers_right"));
-    QVERIFY_EXCEPTION_THROWN((void)evaluate_layers({}, truth, {0, 0}, {}), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)evaluate_layers({}, truth, {0, 0}, {}));
   }
 
   void pixelsThatAreNotShown_areNotJudged_data() {
@@ -316,8 +316,8 @@ class MetricsTest : public QObject {
     }
     shown = Image<std::uint8_t>(kSize, kSize);
     options.shown = shown.view();
-    QVERIFY_EXCEPTION_THROWN((void)evaluate(whole(estimate), whole(truth), {}, options),
-                             InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)evaluate(whole(estimate), whole(truth), {}, options));
   }
 
   void layers_useRegionsInTheCentreViewAlone() {
@@ -346,14 +346,14 @@ class MetricsTest : public QObject {
 
   void wrongInput_isRefused() {
     const auto small = map_of([](int, int) { return 0; }, 20, 20);
-    QVERIFY_EXCEPTION_THROWN((void)judge(small, constant(0), Protocol::Vmv2013), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN((void)judge(small, small, Protocol::Benchmark2016), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN((void)judge(constant(0), constant(kNan), Protocol::Vmv2013),
-                             InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)judge(small, constant(0), Protocol::Vmv2013));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)judge(small, small, Protocol::Benchmark2016));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)judge(constant(0), constant(kNan), Protocol::Vmv2013));
     std::map<std::string, Image<std::uint8_t>> regions;
     regions["fine"] = Image<std::uint8_t>(5, 5);
-    QVERIFY_EXCEPTION_THROWN(
-        (void)judge(constant(0), constant(0), Protocol::Benchmark2016, {}, regions), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(
+        InvalidInput, (void)judge(constant(0), constant(0), Protocol::Benchmark2016, {}, regions));
   }
 
   void runtimeClass_changesAt5And60Seconds() {

@@ -122,7 +122,7 @@ class ArchiveLabelsTest : public QObject, private ArchiveFolder {
       std::filesystem::create_directories(path("labels.h5"));
     });
 
-    QVERIFY_EXCEPTION_THROWN(io::write_archive(path("lf.h5"), plane_scene(), progress), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, io::write_archive(path("lf.h5"), plane_scene(), progress));
 
     const std::size_t files =
         static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path("")), {}));

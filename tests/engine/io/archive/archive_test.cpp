@@ -250,10 +250,9 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QVERIFY(std::equal(again.data(), again.data() + again.size(), weights.data()));
     QCOMPARE(io::Hdf5Input(path("written.h5")).dataset("EDGE_WEIGHTS").shape,
              (io::Hdf5Shape{5, 5, 64, 80}));
-    QVERIFY_EXCEPTION_THROWN(
-        io::write_edge_probabilities(path("few.h5"), ViewStack<float>({1, 1}, 64, 80), read,
-                                     Progress(1)),
-        IoError);
+    QVERIFY_THROWS_EXCEPTION(
+        IoError, io::write_edge_probabilities(path("few.h5"), ViewStack<float>({1, 1}, 64, 80),
+                                              read, Progress(1)));
     QCOMPARE(all.label_count(), 3);
     QVERIFY(all.contains({0, 0}));
     QCOMPARE(all.view({0, 4}).at(1, 2, 1), 5.0F * 5 * 64 * 80 + 80 + 2);
@@ -294,8 +293,8 @@ class ArchiveTest : public QObject, private ArchiveFolder {
       stop.request_stop();
     };
 
-    QVERIFY_EXCEPTION_THROWN(
-        (void)io::open_scene(path("lf.h5"), options, Progress(stop.get_token(), {}, 1)), Cancelled);
+    QVERIFY_THROWS_EXCEPTION(
+        Cancelled, (void)io::open_scene(path("lf.h5"), options, Progress(stop.get_token(), {}, 1)));
   }
 
   void writing_stopsOnRequestAndLeavesNothing() {
@@ -307,7 +306,7 @@ class ArchiveTest : public QObject, private ArchiveFolder {
         },
         1);
 
-    QVERIFY_EXCEPTION_THROWN(io::write_archive(path("lf.h5"), plane_scene(), progress), Cancelled);
+    QVERIFY_THROWS_EXCEPTION(Cancelled, io::write_archive(path("lf.h5"), plane_scene(), progress));
     QVERIFY(std::filesystem::is_empty(path()));
   }
 
@@ -319,7 +318,7 @@ class ArchiveTest : public QObject, private ArchiveFolder {
       if (state.fraction > 0.61) stop.request_stop();
     });
 
-    QVERIFY_EXCEPTION_THROWN(io::write_archive(path("lf.h5"), plane_scene(), progress), Cancelled);
+    QVERIFY_THROWS_EXCEPTION(Cancelled, io::write_archive(path("lf.h5"), plane_scene(), progress));
     QCOMPARE(later, 0);
     QVERIFY(std::filesystem::is_empty(path("")));
   }

@@ -105,7 +105,7 @@ class GroupedArchiveTest : public QObject, private ArchiveFolder {
       add(file, "other/LF", bytes_of(scene_));
     });
 
-    QVERIFY_EXCEPTION_THROWN((void)open(path("scene.h5")), Error);
+    QVERIFY_THROWS_EXCEPTION(Error, (void)open(path("scene.h5")));
   }
 };
 

@@ -190,20 +190,20 @@ class NpyFileTest : public QObject {
       std::filesystem::copy_file(path("whole.npy"), path("cut.npy"),
                                  std::filesystem::copy_options::overwrite_existing);
       std::filesystem::resize_file(path("cut.npy"), bytes);
-      QVERIFY_EXCEPTION_THROWN((void)io::read_npy_map(path("cut.npy")), IoError);
+      QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_npy_map(path("cut.npy")));
     }
   }
 
   void fractions_areNoLabels() {
     const auto file = write("half.npy", dictionary("<f4", "(1, 1)"), bytes<float>({0.5F}));
 
-    QVERIFY_EXCEPTION_THROWN((void)io::read_npy_labels(file), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_npy_labels(file));
   }
 
   void anotherShape_isNotWritten() {
     const std::vector<float> samples(5);
 
-    QVERIFY_EXCEPTION_THROWN(io::write_npy<float>(path("no.npy"), {2, 2}, samples), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, io::write_npy<float>(path("no.npy"), {2, 2}, samples));
     QVERIFY(!std::filesystem::exists(path("no.npy")));
   }
 };

@@ -122,7 +122,7 @@ class AppendLogTest : public QObject {
       const AppendLog log = open();
 
       QVERIFY(io::is_held(path()));
-      QVERIFY_EXCEPTION_THROWN(open(), IoError);
+      QVERIFY_THROWS_EXCEPTION(IoError, open());
     }
     QVERIFY(!io::is_held(path()));
   }
@@ -132,8 +132,8 @@ class AppendLogTest : public QObject {
     QFETCH(LogFraming, framing);
     QFETCH(LogFlush, flush);
     for (const char* name : {"/proc/log", "/missing/log"}) {
-      QVERIFY_EXCEPTION_THROWN(AppendLog(name, framing, flush), IoError);
-      QVERIFY_EXCEPTION_THROWN(AppendLog(name, framing, flush, records_of({"one"})), IoError);
+      QVERIFY_THROWS_EXCEPTION(IoError, AppendLog(name, framing, flush));
+      QVERIFY_THROWS_EXCEPTION(IoError, AppendLog(name, framing, flush, records_of({"one"})));
     }
   }
 
@@ -148,7 +148,7 @@ class AppendLogTest : public QObject {
       std::signal(SIGXFSZ, SIG_IGN);
       setrlimit(RLIMIT_FSIZE, &tight);
 
-      QVERIFY_EXCEPTION_THROWN(log.append("two"), IoError);
+      QVERIFY_THROWS_EXCEPTION(IoError, log.append("two"));
 
       setrlimit(RLIMIT_FSIZE, &old);
       log.append("three");
@@ -193,8 +193,8 @@ class AppendLogTest : public QObject {
   void anotherFile_isNoCheckedLog() {
     write("years of work\n");
 
-    QVERIFY_EXCEPTION_THROWN(AppendLog(path(), LogFraming::Checked, LogFlush::AtOnce), IoError);
-    QVERIFY_EXCEPTION_THROWN((void)io::read_log(path(), LogFraming::Checked), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, AppendLog(path(), LogFraming::Checked, LogFlush::AtOnce));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_log(path(), LogFraming::Checked));
     QCOMPARE(read(), QByteArray("years of work\n"));
   }
 

@@ -127,7 +127,7 @@ class FramesTest : public QObject {
     write_pages(path("stack.tif"), some_views());
 
     QCOMPARE(open(path("stack.tif"), {.grid = "2x10"}).light_field->grid(), (GridShape{2, 10}));
-    QVERIFY_EXCEPTION_THROWN((void)open(path("stack.tif"), {.grid = "3x7"}), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)open(path("stack.tif"), {.grid = "3x7"}));
   }
 
   void damagedFiles_areRefused() {
@@ -139,7 +139,7 @@ class FramesTest : public QObject {
     fs::resize_file(path("stack.tif"), fs::file_size(path("stack.tif")) / 2);
 
     for (const char* name : {"views.mp4", "text.avi", "list.mkv", "stack.tif"}) {
-      QVERIFY_EXCEPTION_THROWN((void)open(path(name)), IoError);
+      QVERIFY_THROWS_EXCEPTION(IoError, (void)open(path(name)));
     }
   }
 
@@ -149,7 +149,7 @@ class FramesTest : public QObject {
     std::ofstream(path("loop.tif"), std::ios::binary) << loop;
 
     QCOMPARE(io::count_tiff_pages(path("loop.tif"), 50), 51);
-    QVERIFY_EXCEPTION_THROWN((void)open(path("loop.tif")), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)open(path("loop.tif")));
   }
 };
 

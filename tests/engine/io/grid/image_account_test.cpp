@@ -191,9 +191,9 @@ void ImageAccountTest::listOfAnotherCount_isRefused() {
   write_views({3, 4}, "img_{i}.png");
   io::OpenOptions options;
   options.grid = "3x3";
-  QVERIFY_EXCEPTION_THROWN((void)open(options), IoError);
+  QVERIFY_THROWS_EXCEPTION(IoError, (void)open(options));
   options.grid = "three";
-  QVERIFY_EXCEPTION_THROWN((void)open(options), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)open(options));
 }
 
 // Views that are all alike tell nothing, and a list of nine is no square by itself.

@@ -158,7 +158,7 @@ class ImageFolderTest : public QObject {
     QCOMPARE(read.convention.files.back().example, std::string("thumbnail.png"));
     QVERIFY(!read.convention.files.back().is_used);
     options.pattern = "view.png";
-    QVERIFY_EXCEPTION_THROWN((void)open(options), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)open(options));
   }
 
   void snakeOrder_turnsEverySecondRow() {
@@ -317,8 +317,8 @@ class ImageFolderTest : public QObject {
   void folderWithOtherFiles_isNotWrittenInto() {
     std::ofstream(path("note.txt")) << "mine";
 
-    QVERIFY_EXCEPTION_THROWN(
-        io::write_benchmark_folder(path(), plane_scene(grid(3, 3)), Progress(1)), IoError);
+    QVERIFY_THROWS_EXCEPTION(
+        IoError, io::write_benchmark_folder(path(), plane_scene(grid(3, 3)), Progress(1)));
     QCOMPARE(std::distance(std::filesystem::directory_iterator(path()),
                            std::filesystem::directory_iterator()),
              1);

@@ -59,7 +59,7 @@ class InnerGridTest : public QObject {
     folder.write_views(LayeredFolder::named("right/{}_{}.png"));
 
     QVERIFY(io::only_grid_inside(folder.path()).empty());
-    QVERIFY_EXCEPTION_THROWN((void)folder.open(), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)folder.open());
   }
 
   void photographsWithoutAGrid_areNoLightField() {
@@ -69,7 +69,7 @@ class InnerGridTest : public QObject {
     });
 
     QVERIFY(io::only_grid_inside(folder.path()).empty());
-    QVERIFY_EXCEPTION_THROWN((void)folder.open(), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)folder.open());
   }
 
   void numbersAroundZero_areAGridInTheirOrder_data() {
@@ -100,7 +100,7 @@ class InnerGridTest : public QObject {
     });
     fs::remove(folder.path("v_-2_1.png"));
 
-    QVERIFY_EXCEPTION_THROWN((void)folder.open(), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)folder.open());
   }
 };
 

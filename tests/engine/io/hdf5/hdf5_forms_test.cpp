@@ -202,7 +202,7 @@ class Hdf5FormsTest : public QObject {
       H5Fclose(file);
     }
 
-    QVERIFY_EXCEPTION_THROWN((void)io::open_scene(path(), {}, Progress(1)), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::open_scene(path(), {}, Progress(1)));
   }
 
   void alphaChannel_isLeftOut() {

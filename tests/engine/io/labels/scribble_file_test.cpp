@@ -271,14 +271,14 @@ class ScribbleFileTest : public QObject {
     const Scene other = plane_scene(options);
     io::write_scribbles(path("mine.h5"), some_scribbles(), scene, Progress(1));
 
-    QVERIFY_EXCEPTION_THROWN(io::write_scribbles(path("out.h5"), outside, scene, Progress(1)),
-                             IoError);
-    QVERIFY_EXCEPTION_THROWN(
-        io::write_scribbles(path("out.h5"), some_scribbles(), other, Progress(1)), IoError);
-    QVERIFY_EXCEPTION_THROWN((void)io::read_scribbles(path("mine.h5"), other, Progress(1)),
-                             IoError);
-    QVERIFY_EXCEPTION_THROWN((void)io::read_true_labels(path("mine.h5"), scene, Progress(1)),
-                             IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError,
+                             io::write_scribbles(path("out.h5"), outside, scene, Progress(1)));
+    QVERIFY_THROWS_EXCEPTION(
+        IoError, io::write_scribbles(path("out.h5"), some_scribbles(), other, Progress(1)));
+    QVERIFY_THROWS_EXCEPTION(IoError,
+                             (void)io::read_scribbles(path("mine.h5"), other, Progress(1)));
+    QVERIFY_THROWS_EXCEPTION(IoError,
+                             (void)io::read_true_labels(path("mine.h5"), scene, Progress(1)));
     QVERIFY(!std::filesystem::exists(path("out.h5")));
   }
 
@@ -329,11 +329,11 @@ class ScribbleFileTest : public QObject {
     Scribbles read = io::read_scribble_pictures(folder, {5, 5}, kHeight, kWidth);
     read.labels = scribbles.labels;  // pictures hold no names
     compare(read, scribbles);
-    QVERIFY_EXCEPTION_THROWN((void)io::read_scribble_pictures(folder, {2, 5}, kHeight, kWidth),
-                             IoError);
-    QVERIFY_EXCEPTION_THROWN((void)io::read_scribble_pictures(folder, {5, 5}, kHeight, 3), IoError);
-    QVERIFY_EXCEPTION_THROWN(
-        (void)io::read_scribble_pictures(folder / "none", {5, 5}, kHeight, kWidth), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError,
+                             (void)io::read_scribble_pictures(folder, {2, 5}, kHeight, kWidth));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_scribble_pictures(folder, {5, 5}, kHeight, 3));
+    QVERIFY_THROWS_EXCEPTION(
+        IoError, (void)io::read_scribble_pictures(folder / "none", {5, 5}, kHeight, kWidth));
   }
 
   void onePicture_isOfTheCentreViewUnlessItsNameSaysAnother() {

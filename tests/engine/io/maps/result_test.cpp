@@ -204,7 +204,7 @@ class ResultTest : public QObject {
     write_floats("other.h5", {{"d", {9, 9, 6, 7}}}, 0.75F);
 
     QCOMPARE(io::read_result(path("all.h5"), kGrid).field.disparity.grid(), kGrid);
-    QVERIFY_EXCEPTION_THROWN((void)io::read_result(path("other.h5"), kGrid), IoError);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_result(path("other.h5"), kGrid));
   }
 
   void badResults_areRefused_data() {
@@ -266,7 +266,7 @@ class ResultTest : public QObject {
         },
         1);
 
-    QVERIFY_EXCEPTION_THROWN(io::write_result(path("r.h5"), estimate, progress), Cancelled);
+    QVERIFY_THROWS_EXCEPTION(Cancelled, io::write_result(path("r.h5"), estimate, progress));
     QCOMPARE(text_of(path("r.h5")), std::string("old"));
     QCOMPARE(std::distance(std::filesystem::directory_iterator(path("")),
                            std::filesystem::directory_iterator()),
@@ -314,7 +314,7 @@ class ResultTest : public QObject {
   }
 
   void ply_withoutPointsIsRefused() {
-    QVERIFY_EXCEPTION_THROWN(io::write_ply(path("c.ply"), PointCloud{}), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, io::write_ply(path("c.ply"), PointCloud{}));
     QVERIFY(!std::filesystem::exists(path("c.ply")));
   }
 };

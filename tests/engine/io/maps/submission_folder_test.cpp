@@ -53,10 +53,10 @@ class SubmissionFolderTest : public QObject {
   void whatCannotBeSubmitted_isRefused() {
     const Image<float> bare(4, 4, 1, kNone), whole(4, 4, 1, 0);
 
-    QVERIFY_EXCEPTION_THROWN((void)io::write_submitted_scene(path(), "a", {bare.view(), {}}, 1),
-                             InvalidInput);
-    QVERIFY_EXCEPTION_THROWN((void)io::write_submitted_scene(path(), "a", {whole.view(), {}}, 0),
-                             InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)io::write_submitted_scene(path(), "a", {bare.view(), {}}, 1));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)io::write_submitted_scene(path(), "a", {whole.view(), {}}, 0));
     QVERIFY(fs::is_empty(path()));
   }
 

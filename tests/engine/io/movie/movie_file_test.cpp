@@ -138,13 +138,13 @@ class MovieFileTest : public QObject {
   void wrongMovies_areRefused() {
     const Folder folder;
     const MovieShape shape{kHeight, kWidth, 8};
-    QVERIFY_EXCEPTION_THROWN(MovieFile(folder / "a.mkv", shape), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(MovieFile(folder / "a.mp4", MovieShape{0, 5, 8}), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(MovieFile(folder / "a.mp4", MovieShape{5, 5, 0}), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(MovieFile("/nowhere/a.mp4", shape), IoError);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, MovieFile(folder / "a.mkv", shape));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, MovieFile(folder / "a.mp4", MovieShape{0, 5, 8}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, MovieFile(folder / "a.mp4", MovieShape{5, 5, 0}));
+    QVERIFY_THROWS_EXCEPTION(IoError, MovieFile("/nowhere/a.mp4", shape));
     MovieFile file(folder / "a.gif", shape);
-    QVERIFY_EXCEPTION_THROWN(file.add(Image<std::uint8_t>(4, 4, 4).view()), InvalidInput);
-    QVERIFY_EXCEPTION_THROWN(file.commit(), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, file.add(Image<std::uint8_t>(4, 4, 4).view()));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, file.commit());
   }
 
   void pathThatLooksLikeAnAddress_isAFile() {

@@ -62,7 +62,7 @@ class RoundTripTest : public QObject {
       const io::Writer& writer = io::writers()[form];
       const Scene scene = round_trip_scenes()[index].make();
       if (!can_write(writer, scene)) {
-        QVERIFY_EXCEPTION_THROWN((void)through(writer, scene, "a"), IoError);
+        QVERIFY_THROWS_EXCEPTION(IoError, (void)through(writer, scene, "a"));
         return;
       }
 

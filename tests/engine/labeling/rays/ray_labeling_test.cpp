@@ -279,7 +279,7 @@ void RayLabelingTest::label_stopsOnRequest() {
       stop.request_stop();
     });
 
-    QVERIFY_EXCEPTION_THROWN((void)label_rays(noisy.input(), regularizer, {}, progress), Cancelled);
+    QVERIFY_THROWS_EXCEPTION(Cancelled, (void)label_rays(noisy.input(), regularizer, {}, progress));
 
     QVERIFY(cpu_time_ms() - asked < cpu_limit_of_a_stop_ms());
   }
@@ -302,8 +302,8 @@ void RayLabelingTest::label_refusesBadInput() {
   const LabelProbabilities nothing;
   const auto refused = [](const RayLabelingInput& input, Regularizer regularizer,
                           RayLabelingParameters parameters = {}) {
-    QVERIFY_EXCEPTION_THROWN((void)label_rays(input, regularizer, parameters, Progress()),
-                             InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)label_rays(input, regularizer, parameters, Progress()));
   };
   RayLabelingInput input = noisy.input();
   RayLabelingParameters parameters;
@@ -327,8 +327,8 @@ void RayLabelingTest::label_refusesBadInput() {
   input = noisy.input();
   input.light_field = larger.scene.light_field.get();
   refused(input, Regularizer::Rayspace);
-  QVERIFY_EXCEPTION_THROWN(
-      (void)label_view(noisy.input(), {9, 9}, Regularizer::View, {}, Progress()), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(
+      InvalidInput, (void)label_view(noisy.input(), {9, 9}, Regularizer::View, {}, Progress()));
 }
 
 }  // namespace episcope::in_ray_labeling_test

@@ -296,8 +296,8 @@ void LiftedLabelingTest::solve_stopsOnRequest() {
     stop.request_stop();
   });
 
-  QVERIFY_EXCEPTION_THROWN(
-      (void)solve_lifted_labeling(labeling.problem(), {100000, 0, 1}, progress), Cancelled);
+  QVERIFY_THROWS_EXCEPTION(
+      Cancelled, (void)solve_lifted_labeling(labeling.problem(), {100000, 0, 1}, progress));
 
   QVERIFY(stop.stop_requested());
   QVERIFY(cpu_time_ms() - asked < cpu_limit_of_a_stop_ms());
@@ -310,14 +310,14 @@ void LiftedLabelingTest::solve_refusesBadInput() {
   const Image<int> few(3, 3);
   LiftedProblem problem = labeling.problem();
 
-  QVERIFY_EXCEPTION_THROWN(solve({}, 10), InvalidInput);
-  QVERIFY_EXCEPTION_THROWN(solve(many.problem(), 10), InvalidInput);
-  QVERIFY_EXCEPTION_THROWN((void)labeling_energy(problem, few), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solve({}, 10));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solve(many.problem(), 10));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)labeling_energy(problem, few));
   problem.smoothness = -1;
-  QVERIFY_EXCEPTION_THROWN(solve(problem, 10), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solve(problem, 10));
   problem = labeling.problem();
   problem.g = wrong;
-  QVERIFY_EXCEPTION_THROWN(solve(problem, 10), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solve(problem, 10));
 }
 
 void LiftedLabelingTest::energy_countsBoundaryByItsLength() {

@@ -363,8 +363,8 @@ void LinkedLabelingTest::solve_stopsOnRequest() {
   });
   Labels labels = problem.labels();
 
-  QVERIFY_EXCEPTION_THROWN(
-      solve_linked_labeling(*problem, {100000, 0, 1}, progress, views_of(labels)), Cancelled);
+  QVERIFY_THROWS_EXCEPTION(
+      Cancelled, solve_linked_labeling(*problem, {100000, 0, 1}, progress, views_of(labels)));
 
   QVERIFY(stop.stop_requested());
   QVERIFY(cpu_time_ms() - asked < cpu_limit_of_a_stop_ms());
@@ -375,13 +375,13 @@ void LinkedLabelingTest::solve_refusesBadInput() {
   const auto refused = [](const auto& change) {
     Problem problem({1, 3, 4, 3, 5}, 0.3, 0.3);
     change(*problem);
-    QVERIFY_EXCEPTION_THROWN(solve(problem), InvalidInput);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, solve(problem));
   };
   const std::vector<std::int32_t> twice(20, 7), outside(20, 20);
   Problem problem({1, 3, 4, 3, 5}, 0.3, 0.3);
 
-  QVERIFY_EXCEPTION_THROWN(solve_linked_labeling(*problem, {}, Progress(1), views_of(few)),
-                           InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                           solve_linked_labeling(*problem, {}, Progress(1), views_of(few)));
   refused([](LinkedProblem& p) { p.smoothness = -1; });
   refused([](LinkedProblem& p) { p.coherence = -1; });
   refused([](LinkedProblem& p) { p.images[1].codes.width = 4; });

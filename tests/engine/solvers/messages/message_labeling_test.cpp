@@ -143,10 +143,10 @@ void MessageLabelingTest::wrongProblems_areRefused() {
   const Image<float> other(4, 4);
 
   problem.across = other;
-  QVERIFY_THROWS_EXCEPTION(InvalidInput, solve_by_messages(problem, 1, Progress()));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)solve_by_messages(problem, 1, Progress()));
   problem = stated(costs.problem());
   problem.slope = 0;
-  QVERIFY_THROWS_EXCEPTION(InvalidInput, solve_by_messages(problem, 1, Progress()));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)solve_by_messages(problem, 1, Progress()));
 }
 
 }  // namespace episcope::in_message_labeling_test

@@ -272,9 +272,9 @@ void SimplexLabelingTest::solve_goesOnFromWhatHasMoved() {
   QVERIFY(std::fabs(moved.energy - anew.energy) <= 2e-4 * std::fabs(anew.energy));
   QVERIFY(moved.iterations < anew.iterations);
   places.at(0, 0) = 64 * 64;
-  QVERIFY_EXCEPTION_THROWN(solver.solve({after.view(), {}, smoothness}, {300, 1e-4, 5, places},
-                                        Progress(1), labels.view()),
-                           InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                           solver.solve({after.view(), {}, smoothness}, {300, 1e-4, 5, places},
+                                        Progress(1), labels.view()));
 }
 
 void SimplexLabelingTest::solve_keepsTheBestWhenAskedToFinish() {
@@ -304,8 +304,8 @@ void SimplexLabelingTest::solve_stopsOnRequest() {
   SimplexSolver solver(256, 13, 256);
   Image<int> labels(256, 256);
 
-  QVERIFY_EXCEPTION_THROWN(
-      solver.solve(potts.problem(), {100000, 0, 1, {}}, progress, labels.view()), Cancelled);
+  QVERIFY_THROWS_EXCEPTION(
+      Cancelled, solver.solve(potts.problem(), {100000, 0, 1, {}}, progress, labels.view()));
 
   QVERIFY(stop.stop_requested());
   QVERIFY(cpu_time_ms() - asked < cpu_limit_of_a_stop_ms());
@@ -318,15 +318,15 @@ void SimplexLabelingTest::solve_refusesBadInput() {
   SimplexSolver solver(6, 4, 7);
   SimplexProblem problem = potts.problem();
 
-  QVERIFY_EXCEPTION_THROWN(SimplexSolver(0, 4, 7), InvalidInput);
-  QVERIFY_EXCEPTION_THROWN(SimplexSolver(6, kMaxSimplexLayers + 1, 7), InvalidInput);
-  QVERIFY_EXCEPTION_THROWN(solver.solve({}, {}, Progress(1), labels.view()), InvalidInput);
-  QVERIFY_EXCEPTION_THROWN(solver.solve(problem, {}, Progress(1), few.view()), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, SimplexSolver(0, 4, 7));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, SimplexSolver(6, kMaxSimplexLayers + 1, 7));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solver.solve({}, {}, Progress(1), labels.view()));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solver.solve(problem, {}, Progress(1), few.view()));
   problem.smoothness = -1;
-  QVERIFY_EXCEPTION_THROWN(solver.solve(problem, {}, Progress(1), labels.view()), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solver.solve(problem, {}, Progress(1), labels.view()));
   problem = potts.problem();
   problem.g = wrong;
-  QVERIFY_EXCEPTION_THROWN(solver.solve(problem, {}, Progress(1), labels.view()), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solver.solve(problem, {}, Progress(1), labels.view()));
 }
 
 void SimplexLabelingTest::energy_countsBoundariesOnce() {

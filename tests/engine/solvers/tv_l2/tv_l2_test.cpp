@@ -313,9 +313,8 @@ void TvL2Test::solve_stopsOnRequest() {
     stop.request_stop();
   });
 
-  QVERIFY_EXCEPTION_THROWN(
-      solver.solve(images.problem(), {1000000, 0, 20}, Progress(stop.get_token(), {}, 1), u.view()),
-      Cancelled);
+  QVERIFY_THROWS_EXCEPTION(Cancelled, solver.solve(images.problem(), {1000000, 0, 20},
+                                                   Progress(stop.get_token(), {}, 1), u.view()));
 
   asker.join();
   QVERIFY(cpu_time_ms() - asked < cpu_limit_of_a_stop_ms());
@@ -327,13 +326,13 @@ void TvL2Test::solve_refusesBadInput() {
   TvL2Solver solver(8, 9);
   TvL2Problem problem = images.problem();
 
-  QVERIFY_EXCEPTION_THROWN(TvL2Solver(0, 9), InvalidInput);
-  QVERIFY_EXCEPTION_THROWN(solver.solve(problem, {}, Progress(1), wrong.view()), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, TvL2Solver(0, 9));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solver.solve(problem, {}, Progress(1), wrong.view()));
   problem.lambda = 0;
-  QVERIFY_EXCEPTION_THROWN(solver.solve(problem, {}, Progress(1), u.view()), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solver.solve(problem, {}, Progress(1), u.view()));
   problem = images.problem();
   problem.w = wrong.view();
-  QVERIFY_EXCEPTION_THROWN(solver.solve(problem, {}, Progress(1), u.view()), InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, solver.solve(problem, {}, Progress(1), u.view()));
 }
 
 }  // namespace episcope::in_tv_l2_test
