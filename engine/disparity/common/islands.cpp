@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -12,59 +12,66 @@ namespace {
 
 constexpr const char* kIslandsKey = "islands";
 constexpr float kAgreement_px = 0.5F;
-constexpr int kLeastAround = 3;  ///< Pixels that a median is taken of.
+constexpr std::size_t kLeastAround = 3;  ///< Pixels that a median is taken of.
 
 struct Offset {
   int y = 0, x = 0;
 };
-/// Each pair of neighbours once.
-constexpr Offset kPairs[] = {{0, 1}, {1, -1}, {1, 0}, {1, 1}};
 
 bool agree(float a, float b) {
   return std::abs(a - b) <= kAgreement_px;
 }
 
-/// How many of its neighbours agree with each pixel.
-Image<std::uint8_t> count_agreeing(ImageView<const float> map) {
-  Image<std::uint8_t> counts(map.height, map.width);
-  for (int y = 0; y < map.height; ++y) {
-    for (const Offset& pair : kPairs) {
-      if (y + pair.y >= map.height) continue;
-      const float* const here = map.row(y);
-      const float* const there = map.row(y + pair.y) + pair.x;
-      std::uint8_t* const of_here = counts.row(y);
-      std::uint8_t* const of_there = counts.row(y + pair.y) + pair.x;
-      const int begin = std::max(0, -pair.x), end = map.width - std::max(0, pair.x);
-      for (int x = begin; x < end; ++x) {
-        const auto one = static_cast<std::uint8_t>(agree(here[x], there[x]) ? 1 : 0);
-        of_here[x] = static_cast<std::uint8_t>(of_here[x] + one);
-        of_there[x] = static_cast<std::uint8_t>(of_there[x] + one);
+/// A map with a margin that agrees with nothing, so that every pixel has all its neighbours.
+class Surroundings {
+ public:
+  static constexpr int kMargin = 2;
+
+  explicit Surroundings(ImageView<const float> map)
+      : padded_(map.height + 2 * kMargin, map.width + 2 * kMargin, 1, kNothing) {
+    for (int y = 0; y < map.height; ++y) std::copy_n(map.row(y), map.width, row(y));
+  }
+  /// Readable for the margin on either side, and above and below.
+  [[nodiscard]] float* row(int y) { return padded_.row(y + kMargin) + kMargin; }
+  [[nodiscard]] const float* row(int y) const { return padded_.row(y + kMargin) + kMargin; }
+  void forget(Offset at) { row(at.y)[at.x] = kNothing; }
+
+  /// Calls `visit(y, x, value)` for the pixels within `radius` of a pixel, itself left out.
+  template <class Visit>
+  void for_around(Offset at, int radius, Visit&& visit) const {
+    for (int y = at.y - radius; y <= at.y + radius; ++y) {
+      for (int x = at.x - radius; x <= at.x + radius; ++x) {
+        if (y != at.y || x != at.x) visit(y, x, row(y)[x]);
       }
     }
   }
-  return counts;
-}
 
-/// Calls `visit(y, x)` for the pixels within `radius` of a pixel, itself left out.
-template <class Visit>
-void for_around(ImageView<const float> map, Offset at, int radius, Visit&& visit) {
-  const int bottom = std::min(at.y + radius, map.height - 1);
-  const int right = std::min(at.x + radius, map.width - 1);
-  for (int y = std::max(at.y - radius, 0); y <= bottom; ++y) {
-    for (int x = std::max(at.x - radius, 0); x <= right; ++x) {
-      if (y != at.y || x != at.x) visit(y, x);
-    }
+ private:
+  static constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+  Image<float> padded_;
+};
+
+/// How many of its neighbours agree with each pixel of a row.
+void count_agreeing(const Surroundings& map, int y, int width, int* counts) {
+  const float* const above = map.row(y - 1);
+  const float* const here = map.row(y);
+  const float* const below = map.row(y + 1);
+  for (int x = 0; x < width; ++x) {
+    const float own = here[x];
+    counts[x] = int{agree(above[x - 1], own)} + int{agree(above[x], own)} +
+                int{agree(above[x + 1], own)} + int{agree(here[x - 1], own)} +
+                int{agree(here[x + 1], own)} + int{agree(below[x - 1], own)} +
+                int{agree(below[x], own)} + int{agree(below[x + 1], own)};
   }
 }
 
-bool is_island(ImageView<const float> map, const Image<std::uint8_t>& counts, Offset at) {
-  const int count = counts.at(at.y, at.x);
-  if (count > 1 || !std::isfinite(map.at(at.y, at.x))) return false;
-  const float own = map.at(at.y, at.x);
+/// Of a pixel with which one neighbour agrees, or none.
+bool is_island(const Surroundings& map, const Image<int>& counts, Offset at) {
+  const float own = map.row(at.y)[at.x];
+  if (!std::isfinite(own)) return false;
   bool is_alone = true;
   int nearer = 0, farther = 0;
-  for_around(map, at, 1, [&](int y, int x) {
-    const float other = map.at(y, x);
+  map.for_around(at, 1, [&](int y, int x, float other) {
     if (agree(other, own)) {
       is_alone = is_alone && counts.at(y, x) == 1;
     } else {
@@ -75,27 +82,29 @@ bool is_island(ImageView<const float> map, const Image<std::uint8_t>& counts, Of
   return is_alone && (nearer == 0 || farther == 0);
 }
 
-std::vector<Offset> find_islands(ImageView<const float> map) {
-  const Image<std::uint8_t> counts = count_agreeing(map);
+std::vector<Offset> find_islands(const Surroundings& map, int height, int width) {
+  Image<int> counts(height, width);
+  for (int y = 0; y < height; ++y) count_agreeing(map, y, width, counts.row(y));
   std::vector<Offset> islands;
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      if (is_island(map, counts, {y, x})) islands.push_back({y, x});
+  for (int y = 0; y < height; ++y) {
+    const int* const count = counts.row(y);
+    for (int x = 0; x < width; ++x) {
+      if (count[x] <= 1 && is_island(map, counts, {y, x})) islands.push_back({y, x});
     }
   }
   return islands;
 }
 
-/// The median of what is known around a pixel; its own value where that is too little.
-float median_around(const Image<float>& known, ImageView<const float> map, Offset at) {
+/// The median of what is known around a pixel; `own` where that is too little.
+float median_around(const Surroundings& known, Offset at, float own) {
   std::vector<float> values;
-  for (int radius = 1; radius <= 2 && values.size() < kLeastAround; ++radius) {
+  for (int radius = 1; radius <= Surroundings::kMargin && values.size() < kLeastAround; ++radius) {
     values.clear();
-    for_around(map, at, radius, [&](int y, int x) {
-      if (std::isfinite(known.at(y, x))) values.push_back(known.at(y, x));
+    known.for_around(at, radius, [&](int, int, float value) {
+      if (std::isfinite(value)) values.push_back(value);
     });
   }
-  if (values.size() < kLeastAround) return map.at(at.y, at.x);
+  if (values.size() < kLeastAround) return own;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -116,17 +125,12 @@ ParameterSet plain_islands() {
 }
 
 void fill_islands(ImageView<float> disparity) {
-  const std::vector<Offset> islands = find_islands(disparity);
-  if (islands.empty()) return;
-  Image<float> known(disparity.height, disparity.width);
-  for (int y = 0; y < disparity.height; ++y) {
-    std::copy_n(disparity.row(y), disparity.width, known.row(y));
-  }
+  Surroundings map(disparity);
+  const std::vector<Offset> islands = find_islands(map, disparity.height, disparity.width);
+  for (const Offset& island : islands) map.forget(island);
   for (const Offset& island : islands) {
-    known.at(island.y, island.x) = std::numeric_limits<float>::quiet_NaN();
-  }
-  for (const Offset& island : islands) {
-    disparity.at(island.y, island.x) = median_around(known, disparity, island);
+    float& value = disparity.at(island.y, island.x);
+    value = median_around(map, island, value);
   }
 }
 
