@@ -26,16 +26,14 @@ namespace fs = std::filesystem;
 /// Files of one kind, each read or left out.
 class Files {
  public:
-  /// False, and the error kept, where `read` throws IoError.
-  bool read(const fs::path& file, const std::function<void()>& read) {
+  /// Keeps the error where `act` throws IoError.
+  void read(const fs::path& file, const std::function<void()>& act) {
     try {
-      read();
+      act();
       outcome_.read.push_back(file);
-      return true;
     } catch (const IoError& error) {
       outcome_.failed.push_back(file);
       if (outcome_.first_error.empty()) outcome_.first_error = error.what();
-      return false;
     }
   }
   [[nodiscard]] bool has_read_any() const { return !outcome_.read.empty(); }
