@@ -88,6 +88,7 @@ MainWindow::MainWindow(QWidget* parent)
   bench.frame.setStage(&bench.stage);
   show_jobs(bench.jobs, bench.frame, bench.messages);
   connect(&bench.document, &DocumentController::problem, &bench.messages, &Messages::warn);
+  connect(&bench.opener, &SceneOpener::failureIsOver, &bench.messages, &Messages::retract);
   bench.cancels.add(CancelRank::Job, [&jobs = bench.jobs] { return jobs.cancelNewest(); });
   bench.cancels.add(CancelRank::Message, [&messages = bench.messages] {
     messages.dismiss();

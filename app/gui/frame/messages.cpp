@@ -38,6 +38,10 @@ void Messages::dismiss() {
   bar_->dismiss();
 }
 
+void Messages::retract(const QString& sentence) {
+  if (bar_->text() == sentence) bar_->dismiss();
+}
+
 }  // namespace episcope
 
 #include "moc_messages.cpp"

@@ -125,6 +125,7 @@ void SceneOpener::open(const QString& input_as_given, std::function<void()> then
     return;
   }
   if (const std::uint64_t open = session_.scene_of(input.toStdString())) {
+    forgetFailure();
     scenes_.show(open, std::move(then));
     return;
   }
@@ -269,7 +270,15 @@ void SceneOpener::showLoading(quint64 job, double fraction) {
   stage_.canvas()->showLoading(loading_name_, fraction);
 }
 
+void SceneOpener::forgetFailure() {
+  if (told_failure_.isEmpty()) return;
+  failed_input_.clear();
+  emit failureIsOver(std::exchange(told_failure_, QString()));
+  emit changed();
+}
+
 void SceneOpener::finish(const Load& load, const ScenePtr& scene) {
+  forgetFailure();
   if (load.is_added) {
     session_.add(scene, load.input.toStdString());
   } else {
@@ -282,6 +291,7 @@ void SceneOpener::end(quint64 number, const QString& input) {
   if (number != number_) return;
   loading_job_ = 0;
   failed_input_ = last_failure_.isEmpty() ? QString() : input;
+  if (!last_failure_.isEmpty()) told_failure_ = last_failure_;
   stage_.endPreview();
   emit changed();
   if (session_.scene()) return;

@@ -64,6 +64,8 @@ class SceneOpener : public QObject {
   void isCollection(const QString& folder);
   /// `open` was asked for a project file.
   void isProject(const QString& path);
+  /// Something else is open by now than what this sentence says could not be.
+  void failureIsOver(const QString& sentence);
 
  private:
   struct Load {
@@ -84,6 +86,7 @@ class SceneOpener : public QObject {
   void end(quint64 number, const QString& input);
   void ask(const Load& load, const io::Undecided& question);
   void keepBuiltin(const QString& input);
+  void forgetFailure();
 
   Session& session_;
   Jobs& jobs_;
@@ -95,6 +98,7 @@ class SceneOpener : public QObject {
   quint64 loading_job_ = 0;
   QString loading_name_;
   QString last_failure_;
+  QString told_failure_;  // of the last load that failed, until another succeeds
   QString failed_input_;  // asked for last, and not to be read
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/files/recent_inputs.h"
+#include "app/gui/frame/messages.h"
 #include "app/session/scene/builtin_inputs.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
@@ -36,6 +37,7 @@ class OpeningTest : public QObject {
   void builtinScenes_areChosenFromAList();
   void randomScene_hasTheSeedAndKindThatWereTyped();
   void brokenFile_isToldAndKeepsTheScene();
+  void brokenFile_isForgottenOnceAnotherIsOpen();
   void brokenFile_withoutScene_isDrawnAsError();
   void brokenFile_ofTheDialog_isTold();
   void firstDialog_beginsAtHome();
@@ -152,6 +154,29 @@ void OpeningTest::brokenFile_isToldAndKeepsTheScene() {
   QVERIFY(messages->isVisible());
   QCOMPARE(f.window.bench().session.scene(), scene);
   QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture);
+}
+
+void OpeningTest::brokenFile_isForgottenOnceAnotherIsOpen() {
+  WindowFixture f;
+  const Workbench& bench = f.window.bench();
+  const QString scene = f.writeScene("edge", WindowFixture::smallOptions());
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
+  bench.opener.open("/no/such/place");
+  QTRY_VERIFY_WITH_TIMEOUT(messages->isVisible() && messages->text().contains("/no/such/place"),
+                           kPatience);
+
+  bench.opener.open(scene);
+
+  QTRY_VERIFY_WITH_TIMEOUT(bench.session.scene(), kScenePatience);
+  QTRY_VERIFY(!messages->isVisible());
+
+  bench.opener.open("/no/such/place");
+  QTRY_VERIFY_WITH_TIMEOUT(messages->isVisible(), kPatience);
+  bench.messages.warn("Something else");
+  bench.opener.open(scene);
+
+  QTRY_VERIFY(!bench.opener.hasFailed());
+  QVERIFY(messages->isVisible());
 }
 
 void OpeningTest::brokenFile_withoutScene_isDrawnAsError() {
