@@ -156,7 +156,8 @@ void add_place(LayerWriter& layers, const cv::Mat& disparity, ViewIndex step) {
 
 void add_disparity(LayerWriter& layers, const cv::Mat& disparity) {
   const cv::Mat smooth = smoothed(disparity, kDisparityScale);
-  const DisparitySlopes slopes = disparity_slopes({smooth.ptr<float>(), smooth.rows, smooth.cols});
+  const DisparitySlopes slopes = disparity_slopes(
+      {smooth.ptr<float>(), smooth.rows, smooth.cols, 1, static_cast<long>(smooth.step1())});
   layers.add(smoothed(wrapped(slopes.x), kFineScale));
   layers.add(smoothed(wrapped(slopes.y), kFineScale));
 }

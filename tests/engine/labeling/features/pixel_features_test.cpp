@@ -43,6 +43,7 @@ class PixelFeaturesTest : public QObject {
   void constantImage_hasNoGradients();
   void place_isCarriedAlongTheRay();
   void constantDisparity_hasNoSlope();
+  void inclinedDisparity_hasItsSlopeInEveryRow();
   void disparityAsFeature_mustBeThere();
   void holesInDisparity_takeTheirNeighbours();
 };
@@ -111,6 +112,24 @@ void PixelFeaturesTest::constantDisparity_hasNoSlope() {
   const int slope = layer_of(set, "disparity, slope along x");
   QVERIFY(std::abs(features.view().at(4, slope, 6)) < 1e-4F);
   QVERIFY(std::abs(features.view().at(4, slope + 1, 6)) < 1e-4F);
+}
+
+void PixelFeaturesTest::inclinedDisparity_hasItsSlopeInEveryRow() {
+  Image<float> map = constant_map(0);
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      map.at(y, x) = 0.01F * static_cast<float>(x * y) + 0.02F * static_cast<float>(y);
+    }
+  }
+  const PixelFeatureSet set{true};
+
+  const PixelFeatures features =
+      compute_pixel_features(light_field(3, 9), {1, 1}, {map.view(), {}}, set, Progress());
+
+  const int slope = layer_of(set, "disparity, slope along x");
+  const int y = map.height() / 2, x = map.width() / 2;
+  QVERIFY(std::abs(features.view().at(y, slope, x) - 0.01F * static_cast<float>(y)) < 0.01F);
+  QVERIFY(features.view().at(y, slope + 1, x) > 0.03F);
 }
 
 void PixelFeaturesTest::disparityAsFeature_mustBeThere() {
