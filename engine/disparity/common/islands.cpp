@@ -134,4 +134,8 @@ void fill_islands(ImageView<float> disparity) {
   }
 }
 
+void fill_islands(const IslandParameters& parameters, ImageView<float> disparity) {
+  if (parameters.islands) fill_islands(disparity);
+}
+
 }  // namespace episcope

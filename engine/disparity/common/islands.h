@@ -23,5 +23,7 @@ struct IslandParameters {
 /// and matches anywhere by chance; edges on all its sides keep smoothing from joining it to its
 /// neighbours (tests/accuracy/tuning.md).
 void fill_islands(ImageView<float> disparity);
+/// The same, if the parameters ask for it.
+void fill_islands(const IslandParameters& parameters, ImageView<float> disparity);
 
 }  // namespace episcope

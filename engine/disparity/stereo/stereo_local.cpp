@@ -108,11 +108,6 @@ double band_bytes(const LightField& lf, const StereoCosts& costs, int rows, int 
          looked_at_bytes(lf, costs, rows);
 }
 
-// The only view.
-void fill_islands(const StereoSmoothParameters& parameters, ViewStack<float>& maps) {
-  if (parameters.islands.islands) episcope::fill_islands(maps.view(maps.first()));
-}
-
 }  // namespace
 
 Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
@@ -205,7 +200,8 @@ Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
       estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85), device);
   denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
           static_cast<float>(parameters.map_noise), device);
-  fill_islands(parameters, estimate.field.disparity);
+  ViewStack<float>& maps = estimate.field.disparity;
+  fill_islands(parameters.islands, maps.view(maps.first()));
   return estimate;
 }
 
@@ -228,7 +224,8 @@ BlockwiseRun stereo_smooth_in_blocks(const LightField& lf, MatchedViews views,
     made.finding = denoise(lf, parameters.denoising,
                            {DataWeight{}.minimum, static_cast<float>(parameters.map_noise)},
                            made.maps.field.disparity, made.maps.confidence, part);
-    fill_islands(parameters, made.maps.field.disparity);
+    ViewStack<float>& maps = made.maps.field.disparity;
+    fill_islands(parameters.islands, maps.view(maps.first()));
     return made;
   };
   run.passes.push_back(std::move(pass));
