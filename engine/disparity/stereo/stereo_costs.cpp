@@ -25,9 +25,9 @@ constexpr int kProbedLabels = 64;
 // ε in residuals, and the least in three channels: below it the steps of 8-bit samples are cut off.
 constexpr double kCapInResiduals = 2;
 constexpr double kMinCap = 0.015;
-// The residual that noise of σ = 1 leaves in three channels (1.6·√(1 + Σw²) = 2.1), and a third
+// The residual that noise of σ = 1 leaves in three channels (1.6·√(1 + Σw²) = 2.1), and a tenth
 // more for what is not noise in it. One channel leaves half of that.
-constexpr double kResidualOfNoise = 2.8;
+constexpr double kResidualOfNoise = 2.3;
 // Regularization of the guided filter, variance of samples in [0, 1] in three channels, and of
 // their noise variance: whatever contrast is not noise is an edge.
 constexpr double kLeastGuideVariance = 3e-5;
@@ -40,9 +40,9 @@ constexpr int kSurroundings = 100;
 // In place of the residual of a pixel that is not valid.
 constexpr float kNothingSeen = -1;
 
-// The residuals of prepare_stereo: over all pixels, and of the quarter that matches best.
+// The residuals of prepare_stereo: over all pixels, and of the tenth that matches best.
 struct Residuals {
-  double median = 0, lower_quartile = 0;
+  double median = 0, lowest_tenth = 0;
 };
 
 // The least cost of every pixel of some rows, `[row][x]`.
@@ -87,7 +87,7 @@ Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const P
   Residuals residuals;
   if (least.empty()) return residuals;
   residuals.median = quantile(least, 0.5);
-  residuals.lower_quartile = quantile(least, 0.25);
+  residuals.lowest_tenth = quantile(least, 0.1);
   return residuals;
 }
 
@@ -232,7 +232,7 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
     Residuals residuals = find_residuals(compared, costs, progress.part(0.5, 0.7));
     if (is_irregular) choose_places(compared, stated, costs, residuals, progress.part(0.7, 0.8));
     if (parameters.compensate_noise) {
-      compensate_noise(compared, residuals.lower_quartile, costs, progress.part(0.8, 0.9));
+      compensate_noise(compared, residuals.lowest_tenth, costs, progress.part(0.8, 0.9));
     }
     if (parameters.epsilon == 0) {
       const double least = kMinCap / std::sqrt(channel_weight(compared.channels()));

@@ -128,6 +128,7 @@ class ViewsCast {
     job.candidates = buffers.candidates.data();
     job.candidate_count = static_cast<int>(buffers.candidates.size());
     job.y = y;
+    job.fill = model_.sensor.fill;
     job.width = static_cast<int>(buffers.primitive.size());
     trace_row_(job, buffers.result());
     write_samples(index, y, buffers);
@@ -171,7 +172,20 @@ class ViewsCast {
     return static_cast<float>(parallax / depth - parallax / stage_.zero_depth);  // eq. 1
   }
 
+  // Rays that leave out parts of a pixel miss edges in it.
+  void add_edges_between_pixels() {
+    for (int y = 0; y < stage_.height; ++y) {
+      for (int x = 0; x < stage_.width; ++x) {
+        const int surface = surfaces_.at(y, x);
+        const int right = surfaces_.at(y, std::min(x + 1, stage_.width - 1));
+        const int below = surfaces_.at(std::min(y + 1, stage_.height - 1), x);
+        if (surface != right || surface != below) edges_.at(y, x) = 1;
+      }
+    }
+  }
+
   void add_regions() {
+    if (model_.sensor.fill < 1) add_edges_between_pixels();
     constexpr int reach = 2;  // px around an edge that an estimator's window mixes.
     Image<std::uint8_t> discontinuities(stage_.height, stage_.width);
     Image<std::uint8_t> planes(stage_.height, stage_.width);

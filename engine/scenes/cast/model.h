@@ -120,6 +120,7 @@ struct RowJob {
   int candidate_count = 0;  ///< Up to kMaxCandidates.
   int y = 0;
   int width = 0;  ///< Rounded up to a multiple of 16.
+  float fill = 1;  ///< Of a pixel, along each axis: the part that samples cover.
 };
 
 }  // namespace episcope::scenes

@@ -126,7 +126,7 @@ Rays<float> Row::sample_rays(int x) const {
     rays.dx[i] = static_cast<float>(i % 4) * 0.25F - 0.375F;
     rays.dy[i] = static_cast<float>(i / 4) * 0.25F - 0.375F;
   }
-  const auto pixel = static_cast<float>(1 / job.camera.focal_px);
+  const auto pixel = static_cast<float>(job.fill / job.camera.focal_px);
   rays.dx = rays.dx * pixel + center_slope(x, 0);
   rays.dy = rays.dy * pixel + center_slope(job.y, 1);
   return rays;

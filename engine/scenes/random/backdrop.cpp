@@ -78,10 +78,10 @@ int Backdrop::build(Model& model, const Plan& plan, Draw draw) const {
   const double far_pixel = pixel_units(stage_, wall_.center);
   Texture texture =
       plan.is_defocused
-          ? draw_defocused_texture(draw.part(0), far_pixel, plan.contrast)
+          ? draw_defocused_texture(draw.part(0), far_pixel, plan.detail)
           : draw_texture(draw.part(0),
                          plan.is_furnished ? Finish::Periodic : draw_finish(plan, draw), far_pixel,
-                         plan.contrast);
+                         plan.detail);
   texture.is_solid = false;
   wall.texture = model.add(texture);
   model.primitives.push_back(wall);
@@ -90,8 +90,8 @@ int Backdrop::build(Model& model, const Plan& plan, Draw draw) const {
   const double middle = on(*ground_, stage_.width / 2.0, (horizon_ + stage_.height) / 2);
   const double near_pixel = pixel_units(stage_, middle);
   texture = plan.is_furnished
-                ? draw_chequered_texture(draw.part(1), near_pixel, plan.contrast)
-                : draw_texture(draw.part(1), draw_finish(plan, draw), near_pixel, plan.contrast);
+                ? draw_chequered_texture(draw.part(1), near_pixel, plan.detail)
+                : draw_texture(draw.part(1), draw_finish(plan, draw), near_pixel, plan.detail);
   texture.is_solid = false;
   // It is seen at a slant.
   const double slant = std::max(1.0, std::abs(ground.axes[2][1] / ground.axes[2][2]));

@@ -9,7 +9,7 @@ namespace episcope::scenes {
 
 /// What random scenes are made of, so that a weakness can be looked at by itself.
 enum class RandomKind {
-  Any,        ///< A mixture of all below.
+  Any,        ///< A mixture of those below, but for the last three.
   Occlusion,  ///< Bars before textured layers, steps up to 1.5 px, noise growing downwards.
   Dark,       ///< Little light, disparities of ±3.1 px.
   Thin,       ///< Bars, lattices and leaves.
@@ -19,7 +19,9 @@ enum class RandomKind {
   Uneven,     ///< Views of different gain, vignetting, a defocused background.
   Noisy,      ///< Noise of 5 to 10/255.
   Room,       ///< Furniture, a lattice of thin bars, a patterned wall, a chequered floor.
-  Smooth      ///< Large folded, curved and slanted surfaces of weak texture, noise of 0 to 2/255.
+  Smooth,     ///< Large folded, curved and slanted surfaces of weak texture, noise of 0 to 2/255.
+  /// Detail finer than pixels, which see only a part of their square or a single point of it.
+  Aliased
 };
 
 /// All kinds as they are written, in the order of the enumeration.

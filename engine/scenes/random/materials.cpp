@@ -33,73 +33,74 @@ Vector3 draw_direction(Draw& draw) {
   return normalized(direction);
 }
 
-void add_random_pattern(Texture& texture, Draw& draw, double pixel_units, double contrast) {
+void add_random_pattern(Texture& texture, Draw& draw, double pixel_units, const Detail& detail) {
   constexpr Pattern patterns[] = {Pattern::Stripes, Pattern::Checker, Pattern::Rings};
   const Pattern pattern = patterns[draw.weighted(std::array<double, 3>{0.5, 0.35, 0.15})];
   const double period_px = 6.5 + 26 * draw.small();
   const Vector3 along = draw_direction(draw);
   const Vector3 across = normalized(cross(along, {0.31, 0.17, 0.93}));
-  set_pattern(texture, pattern, pixel_units, period_px * pixel_units, {along, across});
+  set_pattern(texture, pattern, detail.size * pixel_units, period_px * pixel_units,
+              {along, across});
   if (draw.chance(0.3)) texture.pattern_warp = static_cast<float>(draw.between(0.05, 0.4));
-  set_second_color(texture, draw, contrast);
+  set_second_color(texture, draw, detail.contrast);
 }
 
-Texture draw_noise(Draw& draw, double pixel_units, double contrast) {
+Texture draw_noise(Draw& draw, double pixel_units, double contrast, double size) {
   // Fine grain on half of the surfaces, coarser on the others.
   const double coarseness = draw.chance(0.6) ? 1 : draw.between(1, 2.5);
   const unsigned seed = draw.bits();
   const std::array<float, 3> color = draw_color(draw);
   Texture texture =
-      noise_texture(coarseness * pixel_units, seed, color, static_cast<float>(contrast));
+      noise_texture(coarseness * size * pixel_units, seed, color, static_cast<float>(contrast));
   if (draw.chance(0.25)) texture.stretch[draw.integer(0, 2)] = draw.between(1.5, 4);
-  texture.fades = true;
+  texture.fades = size >= 1;
   texture.is_solid = true;
   return texture;
 }
 
 }  // namespace
 
-Texture draw_texture(Draw draw, Finish finish, double pixel_units, double contrast) {
+Texture draw_texture(Draw draw, Finish finish, double pixel_units, const Detail& detail) {
   switch (finish) {
     case Finish::Textured: {
-      const double own = std::min(contrast * draw.between(0.35, 0.8), 0.9);
-      Texture texture = draw_noise(draw, pixel_units, own);
-      if (draw.chance(0.3)) add_random_pattern(texture, draw, pixel_units, contrast);
+      const double own = std::min(detail.contrast * draw.between(0.35, 0.8), 0.9);
+      Texture texture = draw_noise(draw, pixel_units, own, detail.size);
+      if (draw.chance(0.3)) add_random_pattern(texture, draw, pixel_units, detail);
       return texture;
     }
     case Finish::Plain: {
-      const double own = contrast * draw.between(0.03, 0.12);
-      return draw_noise(draw, pixel_units, own);
+      const double own = detail.contrast * draw.between(0.03, 0.12);
+      return draw_noise(draw, pixel_units, own, detail.size);
     }
     case Finish::Periodic: {
-      const double own = contrast * draw.between(0, 0.12);
-      Texture texture = draw_noise(draw, pixel_units, own);
-      add_random_pattern(texture, draw, pixel_units, contrast);
+      const double own = detail.contrast * draw.between(0, 0.12);
+      Texture texture = draw_noise(draw, pixel_units, own, detail.size);
+      add_random_pattern(texture, draw, pixel_units, detail);
       return texture;
     }
     case Finish::Shiny:
       break;
   }
-  const double own = contrast * draw.between(0.1, 0.45);
-  Texture texture = draw_noise(draw, pixel_units, own);
+  const double own = detail.contrast * draw.between(0.1, 0.45);
+  Texture texture = draw_noise(draw, pixel_units, own, detail.size);
   texture.gloss = static_cast<float>(draw.between(0.25, 0.7));
   return texture;
 }
 
-Texture draw_defocused_texture(Draw draw, double pixel_units, double contrast) {
+Texture draw_defocused_texture(Draw draw, double pixel_units, const Detail& detail) {
   const double blur = draw.between(3, 8);
   const unsigned seed = draw.bits();
   const std::array<float, 3> color = draw_color(draw);
-  return noise_texture(blur * pixel_units, seed, color, static_cast<float>(0.6 * contrast));
+  return noise_texture(blur * pixel_units, seed, color, static_cast<float>(0.6 * detail.contrast));
 }
 
-Texture draw_chequered_texture(Draw draw, double pixel_units, double contrast) {
-  const double own = contrast * draw.between(0.1, 0.3);
-  Texture texture = draw_noise(draw, pixel_units, own);
+Texture draw_chequered_texture(Draw draw, double pixel_units, const Detail& detail) {
+  const double own = detail.contrast * draw.between(0.1, 0.3);
+  Texture texture = draw_noise(draw, pixel_units, own, detail.size);
   const double period_px = draw.between(45, 75);
-  set_pattern(texture, Pattern::Checker, pixel_units, period_px * pixel_units,
+  set_pattern(texture, Pattern::Checker, detail.size * pixel_units, period_px * pixel_units,
               {Vector3{1, 0, 0}, Vector3{0, 1, 0}});
-  set_second_color(texture, draw, contrast);
+  set_second_color(texture, draw, detail.contrast);
   return texture;
 }
 

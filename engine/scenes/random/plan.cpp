@@ -43,7 +43,7 @@ Plan draw_any(Draw& draw) {
   plan.forms = {1, 1, 1, 0.6, 0.8, 0.7, 1, 0.9, 0.5, 0.6, 0.5};
   plan.has_ground = draw.chance(0.65);
   plan.is_defocused = draw.chance(0.2);
-  plan.contrast = draw.between(0.6, 1.2);
+  plan.detail.contrast = draw.between(0.6, 1.2);
   plan.is_lit = draw.chance(0.85);
   plan.has_moving_highlights = draw.chance(0.3);
   plan.sensor = draw_sensor(draw);
@@ -116,6 +116,17 @@ void make_smooth(Plan& plan, Draw& draw) {
   plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(0, 2));
 }
 
+void make_aliased(Plan& plan, Draw& draw) {
+  plan.finishes = {0.75, 0.1, 0.1, 0.05};
+  plan.is_defocused = false;
+  plan.detail.size = draw.between(0.12, 0.5);
+  const bool is_sampled = draw.chance(0.5);
+  const double fill = draw.between(0.2, 1);
+  plan.sensor = {};
+  plan.sensor.fill = is_sampled ? 0 : static_cast<float>(fill);
+  plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(0, 2));
+}
+
 }  // namespace
 
 Plan draw_plan(Draw draw, RandomKind kind) {
@@ -155,6 +166,9 @@ Plan draw_plan(Draw draw, RandomKind kind) {
       break;
     case RandomKind::Smooth:
       make_smooth(plan, draw);
+      break;
+    case RandomKind::Aliased:
+      make_aliased(plan, draw);
       break;
   }
   return plan;

@@ -19,6 +19,14 @@ inline constexpr std::size_t kFinishes = 4;
 enum class Form { Ball, Box, Cylinder, Cone, Vase, Disc, Panel, Bar, Lattice, Leaf, Plant, Drape };
 inline constexpr std::size_t kForms = 12;
 
+/// What all textures of a scene have in common.
+struct Detail {
+  double contrast = 1;  ///< Factor.
+  /// Factor of the size of grain and of the width of the edges of patterns; below 1 they are finer
+  /// than pixels show, and do not fade.
+  double size = 1;
+};
+
 /// What a random scene is to be like, before anything is placed.
 struct Plan {
   Interval range;  ///< All disparities lie in it, within the views of a 9×9 grid.
@@ -29,7 +37,7 @@ struct Plan {
   bool has_layers = false;    ///< Bars before flat layers instead of objects in a room.
   bool is_furnished = false;  ///< The things of furniture.h instead of drawn ones.
   bool is_defocused = false;  ///< The background.
-  double contrast = 1;        ///< Factor of the contrast of all textures.
+  Detail detail;
   bool is_lit = true;
   bool has_moving_highlights = false;
   Sensor sensor;

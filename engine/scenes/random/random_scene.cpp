@@ -84,7 +84,7 @@ class Composer {
   void dress(const std::vector<Primitive>& parts, Finish finish, const Draw& draw) {
     for (Primitive part : parts) {
       const double pixel = stage_.pixel(part.center[2]);
-      Texture texture = draw_texture(draw, finish, pixel, plan_.contrast);
+      Texture texture = draw_texture(draw, finish, pixel, plan_.detail);
       texture.seed += static_cast<unsigned>(model_.primitives.size());  // No two leaves are alike.
       part.texture = model_.add(texture);
       part.label = next_label_;

@@ -15,6 +15,9 @@ struct Sensor {
   /// Standard deviation of the noise in units of 1/255, at the top of a view and at its bottom.
   float noise_top = 0;
   float noise_bottom = 0;
+  /// Side of the part of a pixel that light falls on, px; below 1, detail finer than a pixel is
+  /// aliased: it changes from view to view. 0 = a single ray.
+  float fill = 1;
 };
 
 /// Exposes the rows of all views of one scene.

@@ -20,6 +20,7 @@ void add_random_scenes() {
   add("random?seed=8&kind=noisy", 0x45cf11075b55b3d1ULL);
   add("random?seed=9&kind=room", 0xdbc2c158b877918bULL);
   add("random?seed=10&kind=smooth", 0x4742745831b9bb96ULL);
+  add("random?seed=11&kind=aliased", 0x01ba2dd4f00942e5ULL);
 }
 
 }  // namespace

@@ -74,6 +74,12 @@ double median_step(const Scene& scene) {
   return static_cast<double>(*middle);
 }
 
+double roughness(RandomKind kind) {
+  double sum = 0;
+  for (unsigned seed = 0; seed < 8; ++seed) sum += median_step(render(seed, kind, {1, 1}, 128));
+  return sum / 8;
+}
+
 }  // namespace
 
 class RandomSceneTest : public QObject {
@@ -205,14 +211,31 @@ class RandomSceneTest : public QObject {
   }
 
   void smooth_hasLessTextureThanOthers() {
-    const auto roughness = [](RandomKind kind) {
-      double sum = 0;
-      for (unsigned seed = 0; seed < 8; ++seed) sum += median_step(render(seed, kind, {1, 1}, 128));
-      return sum / 8;
-    };
     const double smooth = roughness(RandomKind::Smooth);
     QVERIFY2(smooth < 2.5, qPrintable(QString::number(smooth)));
     QVERIFY(smooth < 0.6 * roughness(RandomKind::Any));
+  }
+
+  // Half of the sensors see single points; the others a part of each pixel.
+  void aliased_isSampledSparsely() {
+    int points = 0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      const float fill = scenes::random_scene(64, 64, seed, RandomKind::Aliased).model.sensor.fill;
+      QVERIFY(fill >= 0 && fill < 1);
+      points += fill == 0 ? 1 : 0;
+    }
+    QVERIFY2(points >= 5 && points <= 15, qPrintable(QString::number(points)));
+  }
+
+  void aliased_hasFinerDetailThanOthers() {
+    const double aliased = roughness(RandomKind::Aliased);
+    QVERIFY2(aliased > 1.4 * roughness(RandomKind::Any), qPrintable(QString::number(aliased)));
+  }
+
+  // Rays that leave out parts of pixels miss the edges in these.
+  void aliased_hasDiscontinuitiesAllTheSame() {
+    const Scene scene = render(1, RandomKind::Aliased, {1, 1}, 96);
+    QVERIFY(scene.truth->regions.contains("discontinuities"));
   }
 
   void shiny_hasHighlightsThatMove() {
