@@ -103,6 +103,8 @@ DisparityField framed(const DisparityField& field, int border) {
   const int height = maps.height() + 2 * border, width = maps.width() + 2 * border;
   DisparityField result{ViewStack<float>(maps.grid(), height, width, 1, maps.first()),
                         ViewStack<std::uint8_t>(maps.grid(), height, width, 1, maps.first())};
+  std::fill_n(result.disparity.data(), result.disparity.size(), 0.0F);
+  std::fill_n(result.valid.data(), result.valid.size(), std::uint8_t{0});
   for (int i = 0; i < maps.grid().count(); ++i) {
     const ViewIndex view = maps.view_at(i);
     const DisparityView in = field.view(view);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -164,9 +165,11 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
   Checked checked = check_by_truth(samples, truth, expected.flip);
   OrderFinding finding;
   if (!checked.warning.empty()) finding.warnings.push_back(checked.warning);
-  if (!checked.is_decided) {
-    checked = check_by_slopes(samples, expected.flip, progress);
-    add_occlusion(samples, checked, progress);
+  if (!checked.is_decided || !checked.warning.empty()) {
+    Checked by_views = check_by_slopes(samples, expected.flip, progress);
+    add_occlusion(samples, by_views, progress);
+    // Truth that hardly explains the views says nothing of their order.
+    if (!checked.is_decided || by_views.is_decided) checked = std::move(by_views);
   }
 
   finding.flip = checked.flip;

@@ -62,6 +62,35 @@ class TurnedTruthTest : public QObject {
     QCOMPARE(largest_difference(right, field), 0.0);
   }
 
+  void mirroredTruthOfAllViews_isPutUpright() {
+    const Scene scene = square_plane();
+    const ViewStack<float>& right = scene.truth->field.disparity;
+    DisparityField field{right.clone(), {}};
+    for (int i = 0; i < right.grid().count(); ++i) {
+      const auto view = field.disparity.view(right.view_at(i));
+      for (int y = 0; y < view.height; ++y) std::reverse(view.row(y), view.row(y) + view.width);
+    }
+
+    const std::string undone = io::put_truth_upright(scene.light_field->samples(), field);
+
+    QVERIFY2(undone.find("right to left") != std::string::npos, undone.c_str());
+    QCOMPARE(largest_difference(scene.truth->field, field), 0.0);
+  }
+
+  /// Much of the motion is explained upside down, too.
+  void turnedTruthOfLittleDepth_isPutUpright() {
+    PlaneOptions options;
+    options.d0 = 2;
+    options.slope_x = 0;
+    options.slope_y = 0.02;
+    const Scene scene = plane_scene(options);
+    const DisparityField right = truth_of(scene);
+    DisparityField field = turned(right, false);
+
+    QVERIFY(!io::put_truth_upright(scene.light_field->samples(), field).empty());
+    QCOMPARE(largest_difference(right, field), 0.0);
+  }
+
   void rightTruth_isLeft() {
     const Scene scene = square_plane();
     DisparityField field = truth_of(scene);
