@@ -14,11 +14,13 @@
 #include "engine/io/open/grid_option.h"
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
+#include "engine/io/order/list_layout.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -32,6 +34,29 @@ std::optional<Interval> promised_range(const ConfigFile& config) {
   const auto max = config.number("disp_max");
   if (!min || !max || !(*min < *max)) return std::nullopt;
   return Interval{*min, *max};
+}
+
+/// A range that holds the truth only with the other sign is that of disparities of the other sign.
+void correct_promise(const DisparityField& truth, std::optional<Interval>& promised,
+                     ConventionReport& report) {
+  if (truth.empty() || !promised) return;
+  Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (std::size_t i = 0; i < truth.disparity.size(); ++i) {
+    if (!truth.valid.empty() && truth.valid.data()[i] == 0) continue;
+    const double value = truth.disparity.data()[i];
+    range = {std::min(range.min, value), std::max(range.max, value)};
+  }
+  const double margin = 0.1 * promised->length();
+  const auto holds = [&](const Interval& one) {
+    return one.min - margin <= range.min && range.max <= one.max + margin;
+  };
+  const Interval reversed{-promised->max, -promised->min};
+  if (range.min > range.max || holds(*promised) || !holds(reversed)) return;
+  promised = reversed;
+  report.warnings.push_back(
+      fmt::format("disp_min and disp_max of {} have the other sign than the truth, in which larger "
+                  "values are nearer; they were negated.",
+                  kBenchmarkConfig));
 }
 
 void tell_values_without_number(const ConfigFile& config, ConventionReport& report) {
@@ -106,6 +131,29 @@ CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, Size si
   }
 }
 
+/// Puts the files of a grid that is not square into the rows and columns that the views show, if
+/// these are exchanged, or counted otherwise than row by row; whether it did.
+bool arrange_as_seen(const LightField::Samples& samples, ViewFiles& views, ConventionReport& report,
+                     const Progress& progress) {
+  const GridShape promised = views.grid;
+  if (promised.v == promised.u || promised.v == 1 || promised.u == 1) return false;
+  const ListLayout seen = find_list_layout(samples, progress);
+  const bool is_as_promised = seen.grid == promised && seen.order == ListOrder::Rows;
+  const bool is_of_these_sides =
+      seen.grid == promised || seen.grid == GridShape{promised.u, promised.v};
+  if (!seen.is_decided || is_as_promised || !is_of_these_sides) return false;
+  ViewFiles arranged{seen.grid, std::vector<std::filesystem::path>(views.files.size())};
+  for (int i = 0; i < seen.grid.count(); ++i) {
+    const ViewIndex place = seen.place(i);
+    const int number = place.v * seen.grid.u + place.u;
+    arranged.files[static_cast<std::size_t>(number)] = views.files[static_cast<std::size_t>(i)];
+  }
+  views = std::move(arranged);
+  report.warnings.push_back(fmt::format("The views are not {}×{}, row by row, but {}: {}.",
+                                        promised.v, promised.u, layout_text(seen), seen.evidence));
+  return true;
+}
+
 Size size_of(const LightField::Samples& samples) {
   return std::visit([](const auto& stack) { return Size{stack.height(), stack.width()}; }, samples);
 }
@@ -126,7 +174,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   std::optional<ConfigFile> config;
   if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
   const std::optional<GridShape> given = given_grid(options);
-  const ViewFiles views = benchmark_views(folder, config, given);
+  ViewFiles views = benchmark_views(folder, config, given);
   account.add_folder(views.files.front().parent_path());
   account.use(views.files, "views");
   if (config) account.use(folder / kBenchmarkConfig, "parameter files");
@@ -149,12 +197,13 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
     info.disparity_range = promised_range(*config);
   }
   progress.step("reading views");
-  LightField::Samples samples = load_views(
-      views,
-      [&](const Image<std::uint8_t>& center) {
-        if (options.on_center_view) options.on_center_view(center, info, views.grid);
-      },
-      progress.part(0, 0.85));
+  const auto show_center = [&](const Image<std::uint8_t>& center) {
+    if (options.on_center_view) options.on_center_view(center, info, views.grid);
+  };
+  LightField::Samples samples = load_views(views, show_center, progress.part(0, 0.85));
+  if (!given && arrange_as_seen(samples, views, report, progress)) {
+    samples = load_views(views, show_center, progress.part(0, 0.85));
+  }
   settle_range(samples, options.levels, report);
   progress.step("reading truth");
   const Size size = size_of(samples);
@@ -179,6 +228,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
     info.camera = beside.camera;
     scene.scribbles.labels = std::move(beside.label_infos);
   }
+  correct_promise(truth.field, info.disparity_range, report);
   if (options.needs_truth) {
     read_benchmark_masks(folder, beside_views, notes, truth);
     const auto stated = config ? config->text("scene") : std::nullopt;

@@ -4,6 +4,7 @@
 #include "engine/io/maps/pfm.h"
 #include "engine/io/open/open.h"
 #include "tests/engine/io/beside/layered_folder.h"
+#include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
 #include <fmt/format.h>
@@ -81,6 +82,43 @@ class BenchmarkFolderTest : public QObject {
     QCOMPARE(error(scene), 0.0);
     QVERIFY2(scene.convention.units.find("negative = nearer") != std::string::npos,
              scene.convention.units.c_str());
+  }
+
+  void rangeOfTheOtherSign_isNegatedWithTheTruth() {
+    write_views("");
+    write_truth("gt_disp_lowres.pfm", -1);
+    std::ofstream(folder_->path("parameters.cfg"))
+        << "num_cams_x = 3\nnum_cams_y = 3\ndisp_min = -1.6\ndisp_max = 0.6\n";
+
+    const Scene scene = folder_->open();
+
+    QCOMPARE(scene.light_field->info().disparity_range->min, -0.6);
+    QCOMPARE(scene.light_field->info().disparity_range->max, 1.6);
+    QVERIFY2(warns_of(scene, "the other sign"), warnings_of(scene).c_str());
+  }
+
+  void rowsAndColumnsOfViews_areThoseThatTheViewsShow_data() {
+    QTest::addColumn<bool>("is_by_columns");
+    QTest::newRow("numbers of cameras exchanged") << false;
+    QTest::newRow("column by column") << true;
+  }
+  void rowsAndColumnsOfViews_areThoseThatTheViewsShow() {
+    QFETCH(bool, is_by_columns);
+    folder_ = std::make_unique<LayeredFolder>(GridShape{3, 5});
+    std::ofstream(folder_->path("parameters.cfg"))
+        << (is_by_columns ? "num_cams_x = 5\nnum_cams_y = 3\n"
+                          : "num_cams_x = 3\nnum_cams_y = 5\n");
+    folder_->for_views(LayeredFolder::named("v{}_{}"), [&](const fs::path& path, ViewIndex view) {
+      const int number = is_by_columns ? 3 * view.u + view.v : 5 * view.v + view.u;
+      io::write_png(path.parent_path() / fmt::format("input_Cam{:03}.png", number),
+                    folder_->scene.views.view(view));
+    });
+
+    const Scene scene = folder_->open();
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{3, 5}));
+    QVERIFY2(has_views_in_order(scene), describe(scene.convention).c_str());
+    QVERIFY2(warns_of(scene, "The views are not"), warnings_of(scene).c_str());
   }
 
   void truthOfThreeEqualChannels_isRead() {
