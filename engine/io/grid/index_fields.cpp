@@ -299,6 +299,11 @@ class Finder {
   const NameGroup* group_ = nullptr;
 };
 
+std::string sign_of(const NameNumber& number) {
+  if (number.has_minus) return "-";
+  return number.has_plus ? "+" : "";
+}
+
 /// What stands for a number in the pattern of its group.
 std::string number_text(const NameGroup& group, const IndexFields& fields, std::size_t number) {
   if (number == fields.row) return "{row}";
@@ -309,10 +314,9 @@ std::string number_text(const NameGroup& group, const IndexFields& fields, std::
   const NameNumber& first = group.images.front().numbers[number];
   const bool is_constant = std::ranges::all_of(group.images, [&](const NumberedImage& image) {
     const NameNumber& each = image.numbers[number];
-    return each.text == first.text && each.has_minus == first.has_minus;
+    return each.text == first.text && sign_of(each) == sign_of(first);
   });
-  if (!is_constant) return "*";
-  return first.has_minus ? '-' + first.text : first.text;
+  return is_constant ? sign_of(first) + first.text : "*";
 }
 
 }  // namespace
@@ -331,8 +335,7 @@ std::string pattern_text(const NameGroup& group, const IndexFields& fields) {
       continue;
     }
     const bool is_index = number == fields.row || number == fields.column || number == fields.index;
-    if (is_index && !fields.are_signed && group.images.front().numbers[number].has_minus)
-      pattern += '-';
+    if (is_index && !fields.are_signed) pattern += sign_of(group.images.front().numbers[number]);
     pattern += number_text(group, fields, number++);
   }
   return pattern;

@@ -58,10 +58,11 @@ NameParts split_name(const std::filesystem::path& path) {
     }
     const std::size_t end = end_of_number(stem, at);
     NameNumber number = number_of(std::string_view(stem).substr(at, end - at));
-    const bool has_dash = at > 0 && stem[at - 1] == '-';
-    if (has_dash && (at < 2 || !is_digit(stem[at - 2]))) {
-      number.has_minus = true;
-      number.may_be_dash = at >= 2 && is_letter(stem[at - 2]);
+    const bool has_sign = at > 0 && (stem[at - 1] == '-' || stem[at - 1] == '+');
+    if (has_sign && (at < 2 || !is_digit(stem[at - 2]))) {
+      number.has_plus = stem[at - 1] == '+';
+      number.has_minus = !number.has_plus;
+      number.may_be_dash = number.has_minus && at >= 2 && is_letter(stem[at - 2]);
       parts.skeleton.pop_back();
     }
     parts.skeleton += kNumberMark;

@@ -15,6 +15,7 @@ struct NameNumber {
   bool is_whole = true;      ///< Has neither a point nor an exponent.
   bool has_minus = false;    ///< A "-" stands before it, and no digit before that,
   bool may_be_dash = false;  ///< but a letter does: "view-3".
+  bool has_plus = false;     ///< A "+" stands there.
 
   /// What it would be as an index: whole, of at most 18 digits.
   [[nodiscard]] std::optional<long long> count() const;

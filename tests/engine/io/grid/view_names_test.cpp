@@ -108,6 +108,11 @@ std::vector<Form> grid_forms() {
       {"cam_x{x}_y{y}.png",
        {3, 5},
        [](int r, int c) { return print("cam_x%g_y%g.png", -5 + 2.5 * c, 0.25 * r); }},
+      {"cam_x{x}mm_y{y}mm.png",
+       {3, 5},
+       [](int r, int c) {
+         return print("cam_x%+.1fmm_y%+.1fmm.png", -5 + 2.5 * c, 2.5 * r - 2.5);
+       }},
       {"f_{row}_{col}.png", {1, 7}, [](int, int c) { return print("f_00_%02d.png", c); }},
       {"f_{row}_{col}.png", {7, 1}, [](int r, int) { return print("f_%d_1.png", r + 1); }},
   };
