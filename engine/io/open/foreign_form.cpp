@@ -22,6 +22,10 @@ constexpr const char* kDecode =
 constexpr const char* kSave =
     "this is an object that a program has saved for itself; save the array as .npy, .npz or .h5";
 
+constexpr const char* kConvert =
+    "views are not read from GIF pictures, which hold 256 colours; use the originals, or convert "
+    "them to PNG";
+
 constexpr Form kForms[] = {
     {".zip", kUnpack}, {".tar", kUnpack}, {".gz", kUnpack},  {".tgz", kUnpack},
     {".xz", kUnpack},  {".bz2", kUnpack}, {".zst", kUnpack}, {".7z", kUnpack},
@@ -36,6 +40,19 @@ std::string advice_on(const std::filesystem::path& path) {
     if (suffix == form.suffix) return form.advice;
   }
   return {};
+}
+
+std::string advice_on_folder(const std::filesystem::path& folder) {
+  constexpr std::string_view kPicture = ".gif";
+  std::string first;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string advice =
+        suffix_of(entry.path()) == kPicture ? std::string(kConvert) : advice_on(entry.path());
+    const std::string name = entry.path().filename().string();
+    if (advice.empty() || (!first.empty() && first <= name + ": " + advice)) continue;
+    first = name + ": " + advice;
+  }
+  return first;
 }
 
 }  // namespace episcope::io

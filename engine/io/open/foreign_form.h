@@ -11,4 +11,8 @@ namespace episcope::io {
 /// of a sentence; empty for other files.
 [[nodiscard]] std::string advice_on(const std::filesystem::path& path);
 
+/// The same for a folder without a light field: of the first of such files in it, with its name,
+/// and of GIF pictures. Throws std::filesystem::filesystem_error.
+[[nodiscard]] std::string advice_on_folder(const std::filesystem::path& folder);
+
 }  // namespace episcope::io

@@ -22,6 +22,10 @@ Scene read_scene(const fs::path& path, const OpenOptions& options, const Progres
                                          "folder of images is expected; choose another file"
                                        : advice);
   }
+  const std::string advice = advice_on_folder(path);
+  if (!advice.empty()) {
+    throw IoError(path, "there is no light field in this folder, but " + advice);
+  }
   throw IoError(
       path,
       std::string(fs::is_empty(path) ? "the folder is empty"

@@ -16,6 +16,17 @@ namespace fs = std::filesystem;
 class ForeignFormTest : public QObject {
   Q_OBJECT
 
+ private:
+  /// Why it is not opened; empty if it is.
+  static QString refusal(const fs::path& path) {
+    try {
+      (void)io::open_scene(path, {}, Progress(1));
+    } catch (const IoError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
  private slots:
   void refusal_saysWhatToDo_data() {
     QTest::addColumn<QString>("name");
@@ -38,12 +49,27 @@ class ForeignFormTest : public QObject {
     const fs::path file = fs::path(folder.path().toStdString()) / name.toStdString();
     std::ofstream(file) << "something";
 
-    try {
-      (void)io::open_scene(file, {}, Progress(1));
-      QFAIL("it was read");
-    } catch (const IoError& error) {
-      QVERIFY2(QString(error.what()).contains(advice), error.what());
-    }
+    QVERIFY2(refusal(file).contains(advice), qPrintable(refusal(file)));
+  }
+
+  void refusalOfAFolder_namesSuchFiles_data() {
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<QString>("advice");
+    QTest::newRow("ZIP") << "rectified.zip"
+                         << "rectified.zip: this is an archive of files; unpack it";
+    QTest::newRow("GIF") << "1_1.gif"
+                         << "convert them to PNG";
+    QTest::newRow("other") << "lf.doc"
+                           << "expected an lf.h5";
+  }
+  void refusalOfAFolder_namesSuchFiles() {
+    QFETCH(QString, name);
+    QFETCH(QString, advice);
+    const QTemporaryDir folder;
+    const fs::path place = folder.path().toStdString();
+    std::ofstream(place / name.toStdString()) << "something";
+
+    QVERIFY2(refusal(place).contains(advice), qPrintable(refusal(place)));
   }
 };
 
