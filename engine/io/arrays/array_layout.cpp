@@ -62,6 +62,7 @@ void add_lists(const ArrayShape& lengths, std::vector<std::string>& out) {
   }
   if (can_be_channels(l[3]) && is_list(l[0], l[1], l[2])) out.emplace_back("nyxc");
   if (can_be_channels(l[1]) && l[1] > 1 && is_list(l[0], l[2], l[3])) out.emplace_back("ncyx");
+  if (can_be_channels(l[2]) && l[2] > 1 && is_list(l[3], l[0], l[1])) out.emplace_back("yxcn");
 }
 
 }  // namespace

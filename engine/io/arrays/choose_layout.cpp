@@ -125,6 +125,34 @@ std::optional<ArrayLayout> layout_with_motion(const ArrayFile& file, const Array
   return found;
 }
 
+double gone(const AxisEvidence& evidence) {
+  return std::max(evidence.gone_along_x(), evidence.gone_along_y());
+}
+
+/// Of a grid of grey views and a list of coloured ones, whose channels are the rows or columns of
+/// that grid: the grid if there is motion along both of its axes, the list if there is motion along
+/// the other one alone. Nothing if that does not tell.
+std::optional<ArrayLayout> grid_or_list(const ArrayFile& file, const ArrayEntry& entry,
+                                        const std::vector<ArrayLayout>& layouts) {
+  if (layouts.size() != 2) return std::nullopt;
+  const bool is_list_first = layouts[0].has('n');
+  const ArrayLayout& list = layouts[is_list_first ? 0 : 1];
+  const ArrayLayout& grid = layouts[is_list_first ? 1 : 0];
+  const std::size_t channels = list.axes.find('c');
+  if (!list.has('n') || grid.has('n') || grid.has('c') || channels == std::string::npos) {
+    return std::nullopt;
+  }
+  const char letter = grid.axes[channels];
+  if (letter != 'v' && letter != 'u') return std::nullopt;
+  const auto [along_u, along_v] = measure_parallax(*file.open(entry), grid);
+  const AxisEvidence& of_channels = letter == 'v' ? along_v : along_u;
+  const AxisEvidence& of_views = letter == 'v' ? along_u : along_v;
+  if (!of_views.is_decided()) return std::nullopt;
+  if (of_channels.is_decided()) return grid;
+  constexpr double kClearlyLess = 0.5;
+  return gone(of_channels) < kClearlyLess * gone(of_views) ? std::optional(list) : std::nullopt;
+}
+
 }  // namespace
 
 bool can_be_light_field(const ArrayEntry& entry) {
@@ -183,6 +211,9 @@ ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
   }
   if (auto layout = layout_with_motion(file, entry, layouts)) {
     return {std::move(*layout), "by shape and motion between views", {}};
+  }
+  if (auto layout = grid_or_list(file, entry, layouts)) {
+    return {std::move(*layout), "by shape and motion between views, not between channels", {}};
   }
   std::vector<ReadingChoice> choices;
   for (const ArrayLayout& layout : layouts) {

@@ -16,6 +16,22 @@ using namespace episcope::test;
 class AxesByMotionTest : public QObject {
   Q_OBJECT
 
+ private:
+  /// Colours of one texture: the waves of plane_scene lie elsewhere in each channel, as if moved.
+  static ViewStack<std::uint8_t> coloured_views(GridShape grid) {
+    const ViewStack<std::uint8_t> grey = layered_views({.grid = grid});
+    ViewStack<std::uint8_t> three(grey.grid(), grey.height(), grey.width(), 3);
+    for (std::size_t n = 0; n < three.size(); ++n) {
+      three.data()[n] = static_cast<std::uint8_t>(grey.data()[n / 3] * (2 + n % 3) / 4);
+    }
+    return three;
+  }
+  static bool has_samples(const Scene& scene, const ViewStack<std::uint8_t>& views) {
+    const auto& read = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
+    return std::equal(views.data(), views.data() + views.size(), read.data(),
+                      read.data() + read.size());
+  }
+
  private slots:
   void channelsBesideThreeRows_areToldByMotion_data() {
     QTest::addColumn<QString>("axes");
@@ -26,21 +42,42 @@ class AxesByMotionTest : public QObject {
     const QTemporaryDir folder;
     const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
     const std::string letters = axes.toStdString();
-    // Colours of one texture: the waves of plane_scene lie elsewhere in each channel, as if moved.
-    const ViewStack<std::uint8_t> grey = layered_views({.grid = {3, 3}});
-    ViewStack<std::uint8_t> three(grey.grid(), grey.height(), grey.width(), 3);
-    for (std::size_t n = 0; n < three.size(); ++n) {
-      three.data()[n] = static_cast<std::uint8_t>(grey.data()[n / 3] * (2 + n % 3) / 4);
-    }
+    const ViewStack<std::uint8_t> three = coloured_views({3, 3});
     io::write_npy<std::uint8_t>(file, lengths_of(three, letters), in_axes(three, letters));
 
     const Scene scene = io::open_scene(file, {}, Progress(1));
 
     QVERIFY2(scene.convention.format.find("(" + letters + ")") != std::string::npos,
              scene.convention.format.c_str());
-    const auto& read = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
-    QVERIFY(std::equal(three.data(), three.data() + three.size(), read.data(),
-                       read.data() + read.size()));
+    QVERIFY(has_samples(scene, three));
+  }
+
+  void channelsOfAList_areNoRowsOfViews_data() {
+    QTest::addColumn<QString>("axes");
+    QTest::addColumn<QString>("stated");
+    QTest::newRow("channels first") << "vucyx"
+                                    << "(ncyx)";
+    QTest::newRow("views last") << "yxcvu"
+                                << "(yxcn)";
+  }
+  void channelsOfAList_areNoRowsOfViews() {
+    QFETCH(QString, axes);
+    QFETCH(QString, stated);
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const std::string letters = axes.toStdString();
+    const ViewStack<std::uint8_t> views = coloured_views({5, 5});
+    io::ArrayShape lengths = lengths_of(views, letters);
+    const auto row = letters.find('v');
+    lengths[row] *= lengths[row + 1];
+    lengths.erase(lengths.begin() + static_cast<std::ptrdiff_t>(row) + 1);
+    io::write_npy<std::uint8_t>(file, lengths, in_axes(views, letters));
+
+    const Scene scene = io::open_scene(file, {}, Progress(1));
+
+    QVERIFY2(scene.convention.format.find(stated.toStdString()) != std::string::npos,
+             scene.convention.format.c_str());
+    QVERIFY(has_samples(scene, views));
   }
 };
 
