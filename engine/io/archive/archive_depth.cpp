@@ -6,6 +6,7 @@
 #include "engine/io/archive/depth_units.h"
 #include "engine/io/archive/other_maps.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace episcope::io {
@@ -97,6 +98,14 @@ void drop_single_layer(ArchiveTruth& truth, ConventionReport& report) {
   truth.background = {};
 }
 
+void note_unused(const Hdf5Input& file, const std::string& name, ArchiveTruth& truth) {
+  truth.unused_depth = name;
+  truth.camera_fault = camera_fault(file);
+  truth.has_attributes = std::ranges::any_of(kCameraNames, [&](const char* attribute) {
+    return file.has_attribute("/", attribute) || file.has_attribute("LF", attribute);
+  });
+}
+
 }  // namespace
 
 CameraGrid read_camera(const Hdf5Input& file) {
@@ -126,7 +135,7 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
   }
   if (!truth.camera.is_known()) {
     report.units = "depth ignored";
-    report.warnings.push_back(reference.name + " is ignored because " + camera_fault(file) + ".");
+    note_unused(file, reference.name, truth);
     return truth;
   }
   truth.camera = settle(file, reference, samples, truth.camera, options.units, report);

@@ -7,6 +7,8 @@
 #include "engine/io/archive/archive_maps.h"
 #include "engine/io/open/open_options.h"
 
+#include <string>
+
 namespace episcope::io {
 
 /// Disparity from the depth of an archive file, in the stored order of views.
@@ -15,6 +17,10 @@ struct ArchiveTruth {
   DisparityField foreground;
   DisparityField background;
   CameraGrid camera;  ///< With units settled; unknown if the file states so.
+  /// Depth that no camera of the file turns into disparity; else empty,
+  std::string unused_depth;
+  std::string camera_fault;     ///< and why not.
+  bool has_attributes = false;  ///< Of a camera, though they are of no use.
 };
 
 /// Reads GT_DEPTH and the datasets of transparent scenes with their masks, finds the units and

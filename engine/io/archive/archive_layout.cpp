@@ -103,8 +103,8 @@ ExpectedOrder expected_order(const Hdf5Input& file) {
     return {{}, "the file states its order in the attribute convention", true};
   }
   const bool is_raw = file.number("/", "dH") && file.number("/", "shift");
-  if (is_raw) return {{true, false}, "raw files of the archive store h reversed", true};
-  return {{}, "the file has no attributes of the archive", true};
+  if (is_raw) return {{true, false}, "raw files of the archive store h reversed"};
+  return {{}, "the file has no attributes of the archive"};
 }
 
 SceneProbe probe_archive(const fs::path& path, const OpenOptions&) {

@@ -78,6 +78,16 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
   return own;
 }
 
+void tell_unused_depth(const ArchiveTruth& depth, bool has_disparity, ConventionReport& report) {
+  if (depth.unused_depth.empty()) return;
+  if (!has_disparity) {
+    report.warnings.push_back(depth.unused_depth + " is ignored because " + depth.camera_fault +
+                              ".");
+  } else if (depth.has_attributes) {
+    report.warnings.push_back("The camera of the file is not used: " + depth.camera_fault + ".");
+  }
+}
+
 /// For the report.
 std::string group_text(const Hdf5Input& file) {
   return file.group().empty() ? std::string() : ", group " + file.group();
@@ -120,8 +130,9 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
                     std::move(depth.background), std::move(labels.labels), std::move(regions)};
   info.camera = depth.camera;
   const std::vector<FileUse> others =
-      read_other_maps(input, layout, options.needs_truth, {samples, truth, valid, report},
-                      progress.part(0.95, 0.97));
+      read_other_maps(input, layout, options.needs_truth,
+                      {samples, truth, valid, info.camera, report}, progress.part(0.95, 0.97));
+  tell_unused_depth(depth, !truth.field.empty(), report);
   assemble({.samples = std::move(samples),
             .truth = std::move(truth),
             .info = std::move(info),

@@ -13,6 +13,8 @@
 namespace episcope::io {
 namespace {
 
+constexpr const char* kTrueDepth = "GT_DEPTH";
+
 /// Whether the archive, or Episcope, gives a dataset of this name its meaning.
 bool is_of_archive(const std::string& name) {
   constexpr const char* kNames[] = {kTrueLabels, "SCRIBBLES", "LABELS", kValid};
@@ -28,16 +30,19 @@ std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& fil
   const Hdf5Arrays arrays(file);
   const auto views = std::ranges::find(arrays.entries(), kArchiveLightField, &ArrayEntry::name);
   if (views == arrays.entries().end()) return {};
-  const std::string depth = other_depth(*file, layout.shape);
+  const bool has_depth = !parts.truth.field.empty();
+  const std::string depth = has_depth ? other_depth(*file, layout.shape) : "";
   std::vector<const ArrayEntry*> others;
   for (const ArrayEntry& entry : arrays.entries()) {
-    const bool is_read = &entry == &*views || is_of_archive(entry.name) || entry.name == depth;
-    if (!is_read) others.push_back(&entry);
+    const bool is_read = entry.name == depth ||
+                         (is_of_archive(entry.name) && (has_depth || entry.name != kTrueDepth));
+    if (&entry == &*views || is_read) continue;
+    others.push_back(&entry);
   }
   const ArrayLayout axes{views->shape, layout.has_channel_axis ? "vuyxc" : "vuyx"};
   ArrayMaps maps = read_array_maps(arrays, others, {axes, views->order}, wants_labels, progress);
-  if (parts.truth.field.empty() && !maps.truth.field.empty()) {
-    settle_disparity(maps.disparity_text(), parts.samples, maps.truth.field, parts.report);
+  if (!has_depth && !maps.truth.field.empty()) {
+    settle_disparity(parts.samples, maps, maps.truth.field, parts.camera, parts.report);
     parts.truth.field = std::move(maps.truth.field);
   } else if (!maps.disparity_name.empty()) {
     const auto use = std::ranges::find(maps.uses, maps.disparity_name, &FileUse::example);

@@ -15,11 +15,13 @@ struct ArchiveParts {
   const LightField::Samples& samples;
   GroundTruth& truth;
   ViewStack<std::uint8_t>& valid;
+  CameraGrid& camera;
   ConventionReport& report;
 };
 
 /// Reads what lies beside LF under other names than the archive's: disparity, labels and masks as
-/// `read_array_maps` knows them; what `parts` has already stays. Returns what became of these
+/// `read_array_maps` knows them, and depth that no camera turns into disparity; what `parts` has
+/// already stays. Returns what became of these
 /// datasets. Throws IoError, Cancelled.
 [[nodiscard]] std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& file,
                                                    const ArchiveLayout& layout, bool wants_labels,

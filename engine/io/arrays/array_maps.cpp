@@ -5,6 +5,7 @@
 #include "engine/io/arrays/array_samples.h"
 #include "engine/io/beside/map_name.h"
 #include "engine/io/beside/near_side.h"
+#include "engine/io/beside/settle_values.h"
 #include "engine/io/maps/foreign_result.h"
 
 #include <fmt/format.h>
@@ -92,9 +93,68 @@ void take_disparity(const ArrayEntry& entry, ViewStack<float> values, ArrayMaps&
   maps.is_named_labels = kind_of(entry) == MapKind::Labels;
 }
 
+/// The first array of depth, in the place of disparity.
+void take_depth(const ArrayFile& file, const std::vector<const ArrayEntry*>& others,
+                const FieldAxes& light_field, ArrayMaps& maps, const Progress& progress) {
+  for (const ArrayEntry* entry : others) {
+    if (kind_of(*entry) != MapKind::Depth) continue;
+    const auto axes = map_layout(*entry, light_field.layout, light_field.order);
+    if (!axes) continue;
+    const GridShape grid = light_field.layout.grid();
+    take_disparity(*entry, read_maps<float>(*file.open(*entry), *axes, grid, progress), maps);
+    maps.is_depth = true;
+    return;
+  }
+}
+
+/// Pixels where a mask of the same single view is 0 hold no disparity.
+void mask_truth(ViewStack<std::uint8_t> mask, DisparityField& field) {
+  if (mask.empty() || field.empty() || field.disparity.grid().count() != 1) return;
+  if (field.valid.empty()) {
+    field.valid = std::move(mask);
+    return;
+  }
+  std::transform(mask.data(), mask.data() + mask.size(), field.valid.data(), field.valid.data(),
+                 [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+}
+
 FileUse not_used(const ArrayEntry& entry) {
   const std::string content = content_text(entry);
   return {entry.other_kind.empty() ? "array of " + content : content, 1, entry.name, false};
+}
+
+std::string side_text(const NearSide& side) {
+  return fmt::format(
+      "{} values hide others in other views (grey error {:.2f}, the hidden ones "
+      "{:.2f}, {} pairs)",
+      side.larger_is_nearer() ? "larger" : "smaller", std::min(side.larger, side.smaller),
+      std::max(side.larger, side.smaller), side.points);
+}
+
+void settle_stored(const LightField::Samples& samples, NamedValues values,
+                   ConventionReport& report) {
+  DisparityField& field = values.field;
+  const GridShape grid = grid_of(samples);
+  const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
+  const ViewIndex at = values.at(grid);
+  const SettledUnit settled = settle_values(samples, common_units(grid, width), values, report);
+  const double factor = settled.unit.factor;
+  NearSide side;
+  if (settled.explanation.is_good()) {
+    side = find_near_side(samples, at, field.view(at), factor, settled.explanation);
+  }
+  const bool is_reversed = side.is_decided() && !side.larger_is_nearer();
+  const double scale = is_reversed ? -factor : factor;
+  if (scale != 1) {
+    std::for_each(field.disparity.data(), field.disparity.data() + field.disparity.size(),
+                  [&](float& value) { value = static_cast<float>(scale * value); });
+  }
+  report.units = fmt::format("disparity of {}: {}{}", values.name, settled.unit.text,
+                             is_reversed ? ", negative = nearer" : "");
+  report.units_check =
+      fmt::format("mean grey error of neighbouring views after warping {:.2f}, unwarped {:.2f}",
+                  settled.explanation.error, settled.explanation.unwarped);
+  if (side.is_decided()) report.units_check += "; " + side_text(side);
 }
 
 }  // namespace
@@ -113,6 +173,7 @@ ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEn
                           const FieldAxes& light_field, bool wants_labels,
                           const Progress& progress) {
   ArrayMaps maps;
+  ViewStack<std::uint8_t> mask_of_one;
   const ArrayLayout& layout = light_field.layout;
   const GridShape grid = layout.grid();
   for (const ArrayEntry* other : labels_last(others)) {
@@ -121,6 +182,8 @@ ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEn
     auto kind = kind_of(entry);
     const auto axes = kind ? map_layout(entry, layout, light_field.order) : std::nullopt;
     const bool is_mask = kind == MapKind::Valid || kind == MapKind::Invalid;
+    const bool is_of_one = axes && axes->grid().count() < grid.count();
+    ViewStack<std::uint8_t>& mask = is_of_one ? mask_of_one : maps.valid;
     ViewStack<float> values;
     if (axes && may_be_disparity(entry, *kind)) {
       values = read_maps<float>(*file.open(entry), *axes, grid, progress);
@@ -133,47 +196,32 @@ ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEn
       if (wants_labels) {
         maps.truth.labels = read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress);
       }
-    } else if (axes && is_mask && axes->grid().count() == grid.count() && maps.valid.empty()) {
-      maps.valid =
-          mask_of(read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress), *kind);
+    } else if (axes && is_mask && mask.empty()) {
+      mask = mask_of(read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress), *kind);
     } else {
       maps.uses.push_back(not_used(entry));
       continue;
     }
     maps.uses.push_back({kind_text(*kind), 1, entry.name, true});
   }
+  if (maps.truth.field.empty()) take_depth(file, others, light_field, maps, progress);
+  mask_truth(std::move(mask_of_one), maps.truth.field);
   return maps;
 }
 
-void settle_disparity(const std::string& name, const LightField::Samples& samples,
-                      DisparityField& field, ConventionReport& report) {
+void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, DisparityField& field,
+                      CameraGrid& camera, ConventionReport& report) {
   if (field.empty()) return;
-  const GridShape grid = grid_of(samples);
-  const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
-  const ViewIndex at = field.contains(grid.center()) ? grid.center() : field.disparity.first();
-  const SettledUnit settled = settle_unit(samples, at, field.view(at), common_units(grid, width));
-  const double factor = settled.unit.factor;
-  NearSide side;
-  if (settled.explanation.is_good()) {
-    side = find_near_side(samples, at, field.view(at), factor, settled.explanation);
+  if (!maps.is_depth) return settle_stored(samples, {field, maps.disparity_text()}, report);
+  const auto meaning = settle_unknown_values(samples, {ValueForm::Inverse, ValueForm::Linear},
+                                             {field, maps.disparity_name}, report);
+  if (!meaning) {
+    field = {};
+    return;
   }
-  const bool is_reversed = side.is_decided() && !side.larger_is_nearer();
-  const double scale = is_reversed ? -factor : factor;
-  if (scale != 1) {
-    std::for_each(field.disparity.data(), field.disparity.data() + field.disparity.size(),
-                  [&](float& value) { value = static_cast<float>(scale * value); });
-  }
-  report.units = fmt::format("disparity of {}: {}{}", name, settled.unit.text,
-                             is_reversed ? ", negative = nearer" : "");
-  report.units_check =
-      fmt::format("mean grey error of neighbouring views after warping {:.2f}, unwarped {:.2f}",
-                  settled.explanation.error, settled.explanation.unwarped);
-  if (!side.is_decided()) return;
-  report.units_check += fmt::format(
-      "; {} values hide others in other views (grey error {:.2f}, the hidden ones "
-      "{:.2f}, {} pairs)",
-      is_reversed ? "smaller" : "larger", std::min(side.larger, side.smaller),
-      std::max(side.larger, side.smaller), side.points);
+  const auto use = std::ranges::find(maps.uses, maps.disparity_name, &FileUse::example);
+  if (use != maps.uses.end()) *use = {kind_text(MapKind::Depth), 1, maps.disparity_name, true};
+  if (!camera.is_known()) camera = meaning->camera();
 }
 
 }  // namespace episcope::io

@@ -17,6 +17,7 @@ struct ArrayMaps {
   ViewStack<std::uint8_t> valid;  ///< Likewise; empty = none.
   std::vector<FileUse> uses;      ///< Every array of the file but the light field: used as what.
   std::string disparity_name;     ///< Of the array that holds the disparity.
+  bool is_depth = false;          ///< Or, where there is none, depth of unknown unit.
   bool is_named_labels = false;   ///< That name is one of labels, but it holds fractions.
 
   /// For the report: the name, and why it is not taken for labels.
@@ -37,17 +38,19 @@ inline constexpr const char* kNamedLabels = "named like labels, but with fractio
 
 /// Reads disparity, labels and masks (by their names: `map_kind`, or "gt") of the centre view or of
 /// all views, whose axes are those of the light field without channels, among `others` of the file.
-/// What has another name or shape is noted as not used; so is depth, which needs a camera. Floats
-/// with fractions that are named like labels are disparity, as EPINET names it, where there is no
-/// other. Throws IoError, Cancelled.
+/// What has another name or shape is noted as not used. A mask of one view is that of the disparity
+/// of one view. Floats with fractions that are named like labels are disparity, as EPINET names it,
+/// where there is no other. Throws IoError, Cancelled.
 [[nodiscard]] ArrayMaps read_array_maps(const ArrayFile& file,
                                         const std::vector<const ArrayEntry*>& others,
                                         const FieldAxes& light_field, bool wants_labels,
                                         const Progress& progress);
 
 /// Brings disparity as stored into px per view step, positive = nearer, as the views speak for
-/// (`settle_unit`, `find_near_side`), and tells the report.
-void settle_disparity(const std::string& name, const LightField::Samples& samples,
-                      DisparityField& field, ConventionReport& report);
+/// (`settle_values`, `find_near_side`), and tells the report. Depth becomes disparity, and gives
+/// the camera if that is not known, where the views tell its unit (`settle_unknown_values`); else
+/// it is not used. `field` is that of the truth of `maps`, wherever it is by now.
+void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, DisparityField& field,
+                      CameraGrid& camera, ConventionReport& report);
 
 }  // namespace episcope::io

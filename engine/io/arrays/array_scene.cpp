@@ -117,7 +117,7 @@ Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOpti
   combine(parts.valid, std::move(maps.valid));
   parts.truth = std::move(maps.truth);
   if (chosen.layout.has('n')) arrange_list(file.path(), options, parts, chosen.reason, progress);
-  settle_disparity(maps.disparity_text(), parts.samples, parts.truth.field, scene.convention);
+  settle_disparity(parts.samples, maps, parts.truth.field, parts.info.camera, scene.convention);
   report_form(file, entry, chosen, scene.convention);
   parts.files = std::move(maps.uses);
   parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});

@@ -31,6 +31,7 @@ int BesideViews::width() const {
 
 void SetOutcome::tell(const std::string& kind, const BesideNotes& notes) const {
   notes.account.use(read, kind);
+  if (!note.empty() && !read.empty()) notes.report.warnings.push_back(note);
   if (failed.empty()) return;
   notes.account.leave_out(failed, kind + " that are damaged or do not fit");
   notes.report.warnings.push_back(fmt::format("{} of {} {} are left out. {}.", failed.size(),

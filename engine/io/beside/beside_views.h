@@ -42,8 +42,9 @@ struct SetOutcome {
   std::vector<std::filesystem::path> read;
   std::vector<std::filesystem::path> failed;
   std::string first_error;  ///< A sentence that names the file.
+  std::string note;         ///< A sentence on how maps of another size were fitted, or empty.
 
-  /// Adds to the account, and a warning if files failed.
+  /// Adds to the account, and a warning if files failed or were fitted.
   void tell(const std::string& kind, const BesideNotes& notes) const;
 };
 

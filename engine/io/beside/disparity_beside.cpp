@@ -10,11 +10,14 @@
 #include "engine/io/beside/map_scale.h"
 #include "engine/io/beside/near_side.h"
 #include "engine/io/beside/read_set.h"
+#include "engine/io/beside/settle_values.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -135,7 +138,8 @@ DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const 
   if (const auto stated = stated_unit(views.folder, notes.account)) {
     units.insert(units.begin(), *stated);
   }
-  const SettledUnit settled = settle_unit(views.samples, at, maps.field.view(at), units);
+  const SettledUnit settled =
+      settle_values(views.samples, units, {maps.field, name_of(*maps.set)}, notes.report);
   const double factor = settled.unit.factor;
   NearSide side;
   if (settled.explanation.is_good()) {
@@ -161,14 +165,40 @@ DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const 
   return found;
 }
 
+/// Maps of which no file says what their numbers mean.
+struct UnknownSets {
+  const std::vector<const MapSet*>& sets;
+  std::string name;
+  std::vector<ValueForm> forms;
+  std::string left_out;  ///< Why they are not used if the views do not tell either.
+};
+
+/// Takes the first set whose numbers the views explain, unless there is disparity already; the
+/// others are left out.
+void add_unknown(const UnknownSets& unknown, const BesideViews& views, const BesideNotes& notes,
+                 DisparityBeside& found) {
+  for (const MapSet* set : unknown.sets) {
+    if (set->entries.empty()) continue;
+    SetOutcome outcome;
+    DisparityField field;
+    if (found.field.empty()) field = read_value_set(*set, views, outcome, Progress(1));
+    std::optional<FittedMeaning> meaning;
+    if (!field.empty()) {
+      const NamedValues values{field, set->pattern};
+      meaning = settle_unknown_values(views.samples, unknown.forms, values, notes.report);
+    }
+    if (!meaning) {
+      notes.account.leave_out(set->files(), unknown.left_out);
+      continue;
+    }
+    outcome.tell(unknown.name, notes);
+    found.field = std::move(field);
+    if (!views.camera.is_known()) found.camera = meaning->camera();
+  }
+}
+
 DisparityBeside from_depth(const RankedSets& sets, const BesideViews& views,
                            const BesideNotes& notes, const Progress& progress) {
-  if (!views.camera.is_known()) {
-    for (const MapSet* set : sets.fit) {
-      notes.account.leave_out(set->files(), "depth maps, as no camera parameters are known");
-    }
-    return {{}, views.camera};
-  }
   StoredMaps maps = read_first(sets.fit, kind_text(MapKind::Depth), views, notes, progress);
   if (maps.field.empty()) return {{}, views.camera};
   ViewStack<float>& values = maps.field.disparity;
@@ -184,25 +214,37 @@ DisparityBeside from_depth(const RankedSets& sets, const BesideViews& views,
   return {std::move(maps.field), views.camera};
 }
 
-void leave_pictures(const RankedSets& sets, const char* what, const BesideNotes& notes) {
-  for (const MapSet* set : sets.unfit) {
-    if (set->entries.empty()) continue;
-    notes.account.leave_out(set->files(), fmt::format("pictures of {}, of unknown scale", what));
-  }
-}
-
 }  // namespace
 
 DisparityBeside read_disparity_beside(const std::vector<MapSet>& sets, const BesideViews& views,
                                       const BesideNotes& notes, const Progress& progress) {
   const RankedSets disparities = rank_sets(sets, MapKind::Disparity, can_hold_values);
   const RankedSets depths = rank_sets(sets, MapKind::Depth, can_hold_values);
-  leave_pictures(disparities, "disparity", notes);
-  leave_pictures(depths, "depth", notes);
+  const bool has_camera = views.camera.is_known();
+  DisparityBeside found{{}, views.camera};
   StoredMaps maps =
       read_first(disparities.fit, kind_text(MapKind::Disparity), views, notes, progress);
-  if (!maps.field.empty()) return from_disparity(std::move(maps), depths, views, notes);
-  return from_depth(depths, views, notes, progress);
+  const bool has_disparity = !maps.field.empty();
+  if (has_disparity) {
+    found = from_disparity(std::move(maps), depths, views, notes);
+  } else if (has_camera) {
+    found = from_depth(depths, views, notes, progress);
+  }
+  const std::vector<ValueForm> depth_forms{ValueForm::Inverse, ValueForm::Linear};
+  if (!has_disparity && !has_camera) {
+    add_unknown({depths.fit, kind_text(MapKind::Depth), depth_forms,
+                 "depth maps, as no camera parameters are known"},
+                views, notes, found);
+  }
+  add_unknown({disparities.unfit,
+               "pictures of disparity",
+               {ValueForm::Linear},
+               "pictures of disparity, of unknown scale"},
+              views, notes, found);
+  add_unknown(
+      {depths.unfit, "pictures of depth", depth_forms, "pictures of depth, of unknown scale"},
+      views, notes, found);
+  return found;
 }
 
 }  // namespace episcope::io

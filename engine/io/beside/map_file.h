@@ -16,8 +16,9 @@ namespace episcope::io {
 /// Whether they can hold labels: integers, or pictures of a colour for each label.
 [[nodiscard]] bool can_hold_labels(const std::filesystem::path& path);
 
-/// Disparity or depth as stored: of one view, at view (0, 0), or of all views of `grid`, `[v][u]`,
-/// where the file holds as many. Values that are not finite are invalid. Throws IoError.
+/// Disparity or depth as stored, or the levels of a grey picture: of one view, at view (0, 0), or
+/// of all views of `grid`, `[v][u]`, where the file holds as many. Values that are not finite are
+/// invalid. Throws IoError.
 [[nodiscard]] DisparityField read_values(const std::filesystem::path& path, GridShape grid);
 
 /// Labels as stored, of one view, at view (0, 0), or of all views.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/order/view_axes.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/archive_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -40,6 +41,40 @@ class ArchiveConventionTest : public QObject, private ArchiveFolder {
     QCOMPARE(read.convention.reversed_u, u);
     QCOMPARE(read.convention.reversed_v, v);
     QVERIFY(QString::fromStdString(read.convention.order_check).contains("truth"));
+  }
+
+  void columnsBeforeRowsOfViews_arePutRight() {
+    PlaneOptions options;
+    options.d0 = 1.3;
+    const Scene scene = plane_scene(options);
+    Scene stored = scene;
+    auto views = bytes_of(scene).clone();
+    GroundTruth truth;
+    truth.field.disparity = scene.truth->field.disparity.clone();
+    LightField::Samples samples = std::move(views);
+    io::swap_view_axes(samples);
+    io::swap_view_axes(truth);
+    stored.light_field =
+        std::make_shared<LightField>(std::move(samples), scene.light_field->info());
+    stored.truth = std::make_shared<GroundTruth>(std::move(truth));
+    write_raw_archive(path("lf.h5"), stored, {});
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY2(has_same_samples(scene, read), describe(read.convention).c_str());
+    QVERIFY(largest_difference(scene.truth->field, read.truth->field) < kDepthRounding);
+  }
+
+  void depthWithoutAttributes_isUnderstoodByTheViews() {
+    const Scene scene = plane_scene();
+    RawArchive form;
+    form.has_attributes = false;
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY2(has_same_samples(scene, read), describe(read.convention).c_str());
+    QVERIFY(largest_difference(scene.truth->field, read.truth->field) < 0.03);
   }
 
   void rawOrder_isFoundBySlopesWithoutTruth_data() {

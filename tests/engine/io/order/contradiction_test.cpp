@@ -4,6 +4,7 @@
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/io/open/open.h"
+#include "engine/io/order/order_check.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
@@ -94,8 +95,9 @@ class ContradictionTest : public QObject {
     const Scene read = open_with([&](io::Hdf5Output& file) { set_camera(file, baseline, shift); });
 
     QVERIFY2(warns(read, words.toUtf8()), describe(read.convention).c_str());
-    QVERIFY(!read.light_field->info().camera.is_known());
-    QVERIFY(!read.truth->has_disparity());
+    QVERIFY2(warns(read, "found by comparing them with the views"),
+             describe(read.convention).c_str());
+    QVERIFY(largest_difference(plane_scene().truth->field, read.truth->field) < 0.02);
   }
 
   void cameraAsWords_isTold() {
@@ -138,6 +140,29 @@ class ContradictionTest : public QObject {
 
     QVERIFY2(warns(read, "camDistance says 12"), describe(read.convention).c_str());
     QVERIFY(!read.light_field->info().camera.cam_distance);
+  }
+
+  void truthThatExplainsNothing_decidesNoOrder_data() {
+    QTest::addColumn<double>("factor");
+    for (const double factor : {37.0, 53.0, 71.0, 100.0}) {
+      QTest::addRow("%g times too large", factor) << factor;
+    }
+  }
+  void truthThatExplainsNothing_decidesNoOrder() {
+    QFETCH(double, factor);
+    const Scene scene = plane_scene();
+    ViewStack<float> map = scene.truth->field.disparity.clone();
+    std::for_each(map.data(), map.data() + map.size(),
+                  [&](float& d) { d = static_cast<float>(factor * d); });
+    const io::OrderEvidence truth{{2, 2}, {map.view({2, 2}), {}}};
+
+    const io::OrderFinding finding =
+        io::find_order(scene.light_field->samples(), {truth}, {{}, "the test says so"},
+                       io::Flip::Auto, Progress(1));
+
+    QCOMPARE(finding.order, std::string("as stored"));
+    QVERIFY2(finding.check.find("slopes") != std::string::npos, finding.check.c_str());
+    QCOMPARE(finding.warnings.size(), std::size_t{1});
   }
 
   void wrongShift_makesTheTruthPoor_data() {
