@@ -20,10 +20,11 @@ constexpr int kSearchReach = 16;             ///< and steps to either side.
 constexpr double kSidesPerReach = 12;        ///< The width, in units of the largest shift.
 constexpr double kLargestError = 40;         ///< Grey levels; what is hidden counts no more.
 constexpr std::size_t kParts = 8;
-constexpr double kKnown = 0.03;             ///< px: a part whose d is known so well is judged.
-constexpr double kLargestDeviation = 0.05;  ///< px,
-constexpr double kLargestShare = 0.01;      ///< and of the range of d.
-constexpr double kBetterThanConstant = 0.85;
+constexpr double kKnown = 0.03;               ///< px: a part whose d is known so well is judged.
+constexpr double kLargestDeviation = 0.05;    ///< px,
+constexpr double kLargestShare = 0.01;        ///< and of the range of d.
+constexpr double kBetterThanConstant = 0.85;  ///< When refined,
+constexpr double kPromising = 0.97;           ///< and in the steps of the search.
 constexpr double kBetterThanUnwarped = 0.8;
 
 /// d = low + value · (high − low), of values from 0 to 1.
@@ -246,6 +247,17 @@ void refine(const Here& here, const std::vector<Neighbour>& others, Ramp& ramp) 
   }
 }
 
+/// Whether the ramp explains the points clearly better than any one disparity of its range.
+bool beats_constants(const Here& here, const std::vector<Neighbour>& others, const Ramp& ramp) {
+  constexpr int kTried = 16;
+  const double limit = mean_error(here, others, ramp) / kBetterThanConstant;
+  for (int i = 0; i <= kTried; ++i) {
+    const double constant = ramp.at(static_cast<double>(i) / kTried);
+    if (mean_error(here, others, {constant, constant}) <= limit) return false;
+  }
+  return true;
+}
+
 /// By how much parts of the values move otherwise than the ramp says, at most; infinite if less
 /// than three are known and differ.
 double largest_deviation(const Here& here, const std::vector<Neighbour>& others, const Ramp& ramp) {
@@ -312,7 +324,7 @@ void turn(std::vector<Neighbour>& others, const Found& found) {
 }
 
 /// In pictures as they are, and reduced so far that larger shifts are found, too; refined. Nothing
-/// if one disparity for all is about as good.
+/// if it is hardly better than one disparity for all.
 std::optional<Found> search_scales(const LightField::Samples& samples, ViewIndex at,
                                    const std::vector<ValuePoint>& points) {
   const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
@@ -329,7 +341,7 @@ std::optional<Found> search_scales(const LightField::Samples& samples, ViewIndex
       best = found;
     }
   }
-  if (!(best.share < kBetterThanConstant)) return std::nullopt;
+  if (!(best.share < kPromising)) return std::nullopt;
   const int reduction = best.looking.reduction;
   if (reduction > 1) {
     std::vector<Neighbour> others = neighbours(samples, at, best.looking);
@@ -365,6 +377,8 @@ std::optional<ShiftFit> fit_shift(const LightField::Samples& samples, ViewIndex 
     refine(here, farther, ramp);
   }
   const double deviation = largest_deviation(here, next, ramp);
+  const Here some = here_of(samples, at, some_of(here.points), 1);
+  if (!beats_constants(some, next, ramp)) return std::nullopt;
   const double tolerance = kLargestDeviation + kLargestShare * (ramp.high - ramp.low);
   const bool is_good = error < kBetterThanUnwarped * unwarped && deviation < tolerance;
   if (!is_good || !(ramp.high > ramp.low)) return std::nullopt;
