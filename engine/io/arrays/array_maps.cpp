@@ -143,7 +143,7 @@ void settle_stored(const LightField::Samples& samples, NamedValues values,
   if (settled.explanation.is_good()) {
     side = find_near_side(samples, at, field.view(at), factor, settled.explanation);
   }
-  const bool is_reversed = side.is_decided() && !side.larger_is_nearer();
+  const bool is_reversed = has_other_sign(side, settled.explanation, grid);
   const double scale = is_reversed ? -factor : factor;
   if (scale != 1) {
     std::for_each(field.disparity.data(), field.disparity.data() + field.disparity.size(),
@@ -155,6 +155,7 @@ void settle_stored(const LightField::Samples& samples, NamedValues values,
       fmt::format("mean grey error of neighbouring views after warping {:.2f}, unwarped {:.2f}",
                   settled.explanation.error, settled.explanation.unwarped);
   if (side.is_decided()) report.units_check += "; " + side_text(side);
+  if (!side.is_decided() && is_reversed) report.units_check += std::string("; ") + kSignByOrder;
 }
 
 }  // namespace

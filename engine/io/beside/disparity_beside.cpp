@@ -87,9 +87,10 @@ std::string fit_text(const DepthFit& fit) {
 }
 
 /// Whether values are to be negated.
-bool is_reversed(const NearSide& side, const DepthFit& fit) {
-  if (side.is_decided()) return !side.larger_is_nearer();
-  return fit.is_exact() && fit.a < 0;
+bool is_reversed(const NearSide& side, const DepthFit& fit, const Explanation& explanation,
+                 GridShape grid) {
+  if (!side.is_decided() && fit.is_exact()) return fit.a < 0;
+  return has_other_sign(side, explanation, grid);
 }
 
 void append(std::string& text, const std::string& more) {
@@ -149,13 +150,14 @@ DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const 
   const DepthFit fit = fit_of(depth, maps, at, factor);
   tell_depth(depths, depth.set, fit, notes);
 
-  const double sign = is_reversed(side, fit) ? -1 : 1;
+  const double sign = is_reversed(side, fit, settled.explanation, views.grid()) ? -1 : 1;
   scale(maps.field, sign * factor);
   ConventionReport& report = notes.report;
   report.units = "disparity of " + name_of(*maps.set) + ": " + settled.unit.text +
                  (sign < 0 ? ", negative = nearer" : "");
   report.units_check = warp_text(settled);
   if (side.is_decided()) append(report.units_check, side_text(side));
+  if (!side.is_decided() && !fit.is_exact() && sign < 0) append(report.units_check, kSignByOrder);
   if (fit.is_exact()) append(report.units_check, fit_text(fit));
   DisparityBeside found{std::move(maps.field), views.camera};
   if (fit.is_exact() && sign * fit.a > 0 && !views.camera.is_known()) {

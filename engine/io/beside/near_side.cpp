@@ -128,4 +128,10 @@ NearSide find_near_side(const LightField::Samples& samples, ViewIndex at, const 
   return {sums.larger / sums.points, sums.smaller / sums.points, sums.points};
 }
 
+bool has_other_sign(const NearSide& side, const Explanation& explanation, GridShape grid) {
+  if (side.is_decided()) return !side.larger_is_nearer();
+  if (!explanation.is_good() || explanation.is_transposed || grid.count() == 1) return false;
+  return (grid.u == 1 || explanation.reversed_u) && (grid.v == 1 || explanation.reversed_v);
+}
+
 }  // namespace episcope::io

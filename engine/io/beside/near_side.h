@@ -24,4 +24,15 @@ struct NearSide {
                                       const DisparityView& map, double factor,
                                       const Explanation& explanation);
 
+/// What reports say of values that were negated though nothing hides anything.
+inline constexpr const char* kSignByOrder =
+    "no depth edges tell near from far: the sign is the one that leaves the views in the order in "
+    "which they are stored";
+
+/// Whether larger values of a disparity map are farther, by what hides what. Where that is not
+/// decided: whether only that puts the views into the order in which they are stored, since maps of
+/// the other sign are more common than views that run backwards along every axis.
+[[nodiscard]] bool has_other_sign(const NearSide& side, const Explanation& explanation,
+                                  GridShape grid);
+
 }  // namespace episcope::io

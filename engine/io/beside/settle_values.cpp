@@ -21,11 +21,11 @@ void drop_zeros(const LightField::Samples& samples, ViewIndex at, float zero, Na
   if (!text.empty()) report.warnings.push_back(values.name + text);
 }
 
-/// Negates disparity whose smaller values hide the others, and says whether it did.
-bool reverse_if_farther(const LightField::Samples& samples, ViewIndex at, DisparityField& field) {
+/// Negates disparity of the other sign, and says whether it did.
+bool correct_sign(const LightField::Samples& samples, ViewIndex at, DisparityField& field) {
   const Explanation explanation = explain_views(samples, at, field.view(at), 1);
   const NearSide side = find_near_side(samples, at, field.view(at), 1, explanation);
-  if (!side.is_decided() || side.larger_is_nearer()) return false;
+  if (!has_other_sign(side, explanation, grid_of(samples))) return false;
   std::transform(field.disparity.data(), field.disparity.data() + field.disparity.size(),
                  field.disparity.data(), std::negate<>());
   return true;
@@ -71,7 +71,8 @@ std::optional<FittedMeaning> settle_unknown_values(const LightField::Samples& sa
   if (meaning->form == ValueForm::Linear) {
     drop_zeros(samples, at, meaning->disparity(0), values, report);
   }
-  const bool is_reversed = reverse_if_farther(samples, at, values.field);
+  const bool is_reversed =
+      meaning->form == ValueForm::Linear && correct_sign(samples, at, values.field);
   report.units = "disparity from " + values.name + ": " + meaning->text +
                  (is_reversed ? ", negative = nearer" : "");
   report.units_check = meaning->check;

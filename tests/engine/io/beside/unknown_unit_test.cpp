@@ -237,6 +237,22 @@ class UnknownUnitTest : public QObject {
     QCOMPARE(count_unused(scene, "pictures of disparity, of unknown scale"), 1);
   }
 
+  /// A plane hides nothing.
+  void signThatNothingTells_leavesTheViewsInOrder() {
+    use_positive_disparities();
+    Image<float> map(disparity().height, disparity().width);
+    std::transform(disparity().data, disparity().data + disparity().size(), map.data(),
+                   std::negate<>());
+    write_array("disparity.npy", map.view());
+
+    const Scene scene = open();
+
+    QCOMPARE(error(scene), 0.0);
+    QVERIFY2(has_same_samples(scene, scene_), scene.convention.order.c_str());
+    QVERIFY2(scene.convention.units_check.find("no depth edges") != std::string::npos,
+             scene.convention.units_check.c_str());
+  }
+
   void zerosThatTheViewsContradict_areNotKnown() {
     use_positive_disparities();
     Image<float> map(disparity().height, disparity().width);
