@@ -140,6 +140,28 @@ DisparityField read_of_center(const fs::path& file, const std::string& kind,
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 
+/// Of the map in high resolution the value in the middle of each pixel of the centre view.
+DisparityField read_reduced(const HighResFiles& high_res, const BesideViews& views,
+                            const BesideNotes& notes) {
+  const ViewIndex center = views.grid().center();
+  DisparityField field = invalid_field(views, {1, 1}, center);
+  Files files;
+  files.read(high_res.disparity, [&] {
+    const Image<float> map =
+        high_res_truth(high_res, views.height(), views.width())->read_disparity();
+    Image<float> reduced(views.height(), views.width());
+    for (int y = 0; y < reduced.height(); ++y) {
+      for (int x = 0; x < reduced.width(); ++x) {
+        reduced.at(y, x) =
+            map.at(kHighResScale * y + kHighResScale / 2, kHighResScale * x + kHighResScale / 2);
+      }
+    }
+    store(reduced, center, field);
+  });
+  files.tell("disparity maps in high resolution", notes);
+  return files.has_read_any() ? std::move(field) : DisparityField();
+}
+
 DisparityField read_stored(const fs::path& folder, const BesideViews& views,
                            const BesideNotes& notes, const Progress& progress) {
   bool has_all = true;
@@ -165,6 +187,12 @@ DisparityField read_stored(const fs::path& folder, const BesideViews& views,
     DisparityField field =
         read_of_center(depth, "depth maps of the centre view", views, notes,
                        [&](Image<float>& map) { depth_to_disparity(views.camera, map); });
+    if (!field.empty()) return field;
+  }
+  const HighResFiles high_res = find_high_res_files(folder);
+  if (!high_res.disparity.empty()) {
+    units = "disparity as stored in gt_disp_highres.pfm, in the middle of each pixel";
+    DisparityField field = read_reduced(high_res, views, notes);
     if (!field.empty()) return field;
   }
   units = "no truth in this folder";

@@ -121,6 +121,21 @@ class BenchmarkFolderTest : public QObject {
     QVERIFY2(warns_of(scene, "The views are not"), warnings_of(scene).c_str());
   }
 
+  void truthInHighResolutionAlone_isRead() {
+    write_views("");
+    const auto center = folder_->scene.disparity.view({1, 1});
+    Image<float> map(10 * center.height, 10 * center.width);
+    for (int y = 0; y < map.height(); ++y) {
+      for (int x = 0; x < map.width(); ++x) map.at(y, x) = center.at(y / 10, x / 10);
+    }
+    io::write_pfm(folder_->path("gt_disp_highres.pfm"), map.view());
+
+    const Scene scene = folder_->open();
+
+    QCOMPARE(error(scene), 0.0);
+    QVERIFY2(!warns_of(scene, "left out"), warnings_of(scene).c_str());
+  }
+
   void truthOfThreeEqualChannels_isRead() {
     write_views("");
     const auto center = folder_->scene.disparity.view({1, 1});
