@@ -51,7 +51,8 @@ class Session {
   /// Lets go of the memory of a scene that is set aside. Precondition: files keep its estimates.
   void unload(std::uint64_t id);
   /// What `unload` let go of, or what `add_aside` came without: the scene, and estimates by id.
-  /// Entries whose estimate is not among them are dropped. Ignored for an unknown scene.
+  /// Entries whose estimate is not among them are dropped, and a place that the scene does not have
+  /// moves into it. Ignored for an unknown scene.
   void load(std::uint64_t id, std::shared_ptr<const Scene> scene,
             const std::map<int, EstimatePtr>& estimates);
   /// Closes a scene that is set aside.

@@ -15,6 +15,20 @@ Parts everything() {
          Part::LabelLook | Part::Measured | Part::Capture | Part::Live | Part::Judged;
 }
 
+// The light field may have become another since the place was looked at.
+ScenePlace within(const LightField& light_field, ScenePlace place) {
+  const int height = light_field.height(), width = light_field.width();
+  if (!light_field.grid().contains(place.view)) place.view = light_field.center();
+  place.cross_hair = {std::clamp(place.cross_hair.y, 0, height - 1),
+                      std::clamp(place.cross_hair.x, 0, width - 1)};
+  JudgedPart& judged = place.judged;
+  judged.rectangle = clipped(judged.rectangle, height, width);
+  if (judged.rectangle.empty() && judged.pixels == JudgedPixels::Rectangle) {
+    judged.pixels = JudgedPixels::Whole;
+  }
+  return place;
+}
+
 }  // namespace
 
 void Session::open(std::shared_ptr<const Scene> scene, std::string input) {
@@ -119,6 +133,7 @@ void Session::load(std::uint64_t id, std::shared_ptr<const Scene> scene,
   if (!loaded || !scene) return;
   loaded->known_range = known_disparity_range(*scene);
   loaded->true_labels = true_labels_of(scene->truth);
+  loaded->place = within(*scene->light_field, loaded->place);
   loaded->scene = std::move(scene);
   for (EstimateEntry& entry : loaded->estimates) {
     const auto found = estimates.find(entry.id);

@@ -4788,6 +4788,10 @@ s</translation>
         <source>Opening %1</source>
         <translation>%1 wird geöffnet</translation>
     </message>
+    <message>
+        <source>%1 is not “%2”: it has other samples. Nothing was changed.</source>
+        <translation>%1 ist nicht „%2“: Die Datei hat andere Samples. Nichts wurde geändert.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::Schema</name>

@@ -26,6 +26,10 @@
 namespace episcope {
 namespace {
 
+QString rectangle_hint() {
+  return RegionController::tr("Drag a rectangle on the view. Esc leaves it.");
+}
+
 PixelEdges edges_of(const PixelRect& rectangle) {
   const QPoint a(rectangle.x0, rectangle.y0), b(rectangle.x1, rectangle.y0),
       c(rectangle.x1, rectangle.y1), d(rectangle.x0, rectangle.y1);
@@ -122,9 +126,7 @@ void RegionController::set(const JudgedPart& part) {
 PixelRect RegionController::clipped(PixelRect rectangle) const {
   const LightFieldPtr light_field = bench_.session.light_field();
   if (!light_field) return {};
-  return {std::max(rectangle.y0, 0), std::max(rectangle.x0, 0),
-          std::min(rectangle.y1, light_field->height()),
-          std::min(rectangle.x1, light_field->width())};
+  return episcope::clipped(rectangle, light_field->height(), light_field->width());
 }
 
 void RegionController::beginRectangle() {
@@ -132,7 +134,7 @@ void RegionController::beginRectangle() {
   ViewCanvas* canvas = bench_.stage.canvas();
   if (canvas->tool() != tool_) former_tool_ = canvas->tool();
   canvas->setTool(tool_);
-  bench_.messages.hint(tr("Drag a rectangle on the view. Esc leaves it."));
+  bench_.messages.hint(rectangle_hint());
 }
 
 void RegionController::endRectangle() {
@@ -140,6 +142,7 @@ void RegionController::endRectangle() {
   ViewCanvas* canvas = bench_.stage.canvas();
   if (canvas->tool() == tool_) canvas->setTool(former_tool_);
   former_tool_ = nullptr;
+  bench_.messages.retract(rectangle_hint());
 }
 
 void RegionController::choose(JudgedPixels pixels) {

@@ -62,8 +62,27 @@ void SceneSwitcher::show(std::uint64_t id, std::function<void()> then) {
   } else if (!is_there(scene->input)) {
     emit notFound(id);
   } else {
-    read(*scene, std::move(then));
+    read(
+        *scene, [](const Read&) { return true; }, std::move(then));
   }
+}
+
+void SceneSwitcher::showMoved(std::uint64_t id, const std::string& input,
+                              std::function<void()> found) {
+  const OpenScene* scene = session_.find_scene(id);
+  if (!scene || scene->scene) return;
+  OpenScene moved = *scene;
+  moved.input = input;
+  const auto takes = [this, input, name = scene->name, found = std::move(found)](const Read& read) {
+    if (read.has_other_samples) {
+      messages_.fail(tr("%1 is not “%2”: it has other samples. Nothing was changed.")
+                         .arg(QString::fromStdString(input), QString::fromStdString(name)));
+    } else {
+      found();
+    }
+    return !read.has_other_samples;
+  };
+  read(std::move(moved), takes, nullptr);
 }
 
 void SceneSwitcher::step(int step) {
@@ -90,7 +109,9 @@ SceneSwitcher::Read SceneSwitcher::read_all(const OpenScene& scene,
   Read read;
   read.scene =
       std::make_shared<const Scene>(load_scene(scene.input, options, progress.part(0, 0.7)));
-  if (scene.sample_hash != 0 && scene.sample_hash != read.scene->light_field->sample_hash()) {
+  read.has_other_samples =
+      scene.sample_hash != 0 && scene.sample_hash != read.scene->light_field->sample_hash();
+  if (read.has_other_samples) {
     read.failures << tr("“%1” has other samples than before: results and scribbles may not fit.")
                          .arg(QString::fromStdString(scene.name));
   }
@@ -109,16 +130,18 @@ SceneSwitcher::Read SceneSwitcher::read_all(const OpenScene& scene,
   return read;
 }
 
-void SceneSwitcher::read(const OpenScene& scene, std::function<void()> then) {
+void SceneSwitcher::read(OpenScene scene, std::function<bool(const Read&)> takes,
+                         std::function<void()> then) {
   const std::uint64_t id = scene.id;
   wanted_ = id;
-  auto copy = std::make_shared<OpenScene>(scene);
+  auto copy = std::make_shared<OpenScene>(std::move(scene));
   jobs_.start<Read>(
-      Lane::Load, tr("Opening %1").arg(QString::fromStdString(scene.name)),
+      Lane::Load, tr("Opening %1").arg(QString::fromStdString(copy->name)),
       [copy, cache = cache_folder_](const Progress& progress) {
         return read_all(*copy, cache, progress);
       },
-      [this, id, then = std::move(then)](const Read& found) {
+      [this, id, takes = std::move(takes), then = std::move(then)](const Read& found) {
+        if (!takes(found)) return;
         finish(id, found);
         if (wanted_ != id) return;
         wanted_ = 0;

@@ -29,6 +29,9 @@ class SceneSwitcher : public QObject {
 
   /// `then` is called once it is shown. Ignored for a scene that is not open.
   void show(std::uint64_t scene, std::function<void()> then = nullptr);
+  /// One that is at another place now; `found` is called if its samples are there, before it is
+  /// shown. If there are others, that is told, and the scene stays as it was.
+  void showMoved(std::uint64_t scene, const std::string& input, std::function<void()> found);
   /// The next of the list, or the one before.
   void step(int step);
   /// The one that was shown last, if nothing is shown.
@@ -51,9 +54,10 @@ class SceneSwitcher : public QObject {
     std::shared_ptr<const Scene> scene;
     std::map<int, EstimatePtr> estimates;
     QStringList failures;
+    bool has_other_samples = false;
   };
 
-  void read(const OpenScene& scene, std::function<void()> then);
+  void read(OpenScene scene, std::function<bool(const Read&)> takes, std::function<void()> then);
   void finish(std::uint64_t id, const Read& read);
   [[nodiscard]] static Read read_all(const OpenScene& scene, const std::filesystem::path& cache,
                                      const Progress& progress);

@@ -225,12 +225,13 @@ void ProjectController::move(quint64 scene, const QString& input) {
   const OpenScene* moved = bench_.session.find_scene(scene);
   if (!moved) return;
   const MovedFolder folder = moved_folder(moved->input, input.toStdString());
-  bench_.session.set_input(scene, input.toStdString());
-  for (const OpenScene* each : bench_.session.scenes()) {
-    const std::string found = moved_input(each->input, folder);
-    if (!found.empty()) bench_.session.set_input(each->id, found);
-  }
-  bench_.scenes.show(scene);
+  bench_.scenes.showMoved(scene, input.toStdString(), [this, scene, input, folder] {
+    bench_.session.set_input(scene, input.toStdString());
+    for (const OpenScene* each : bench_.session.scenes()) {
+      const std::string found = moved_input(each->input, folder);
+      if (!found.empty()) bench_.session.set_input(each->id, found);
+    }
+  });
 }
 
 }  // namespace episcope

@@ -3,6 +3,7 @@
 
 #include "engine/core/array/pixel_rect.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -24,5 +25,11 @@ struct JudgedPart {
   std::string mask{};     ///< Path of an image; stays as well; empty = none was chosen.
   friend bool operator==(const JudgedPart&, const JudgedPart&) = default;
 };
+
+/// What of a rectangle lies in an image of this size; may be empty.
+[[nodiscard]] inline PixelRect clipped(const PixelRect& rectangle, int height, int width) {
+  return {std::max(rectangle.y0, 0), std::max(rectangle.x0, 0), std::min(rectangle.y1, height),
+          std::min(rectangle.x1, width)};
+}
 
 }  // namespace episcope

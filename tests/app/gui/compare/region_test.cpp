@@ -8,6 +8,7 @@
 #include "tests/app/gui/compare/compared.h"
 #include "widgets/compare/metric_table.h"
 #include "widgets/compare/region_bar.h"
+#include "widgets/controls/message_bar.h"
 #include "widgets/plot/line_plot.h"
 
 #include <QComboBox>
@@ -88,7 +89,8 @@ void RegionTest::rectangle_isDrawnAndJudged() {
 
   f.drawRectangle({2, 3}, {17, 22});
 
-  QVERIFY(f.summary().startsWith("320"));  // 16 × 20
+  QVERIFY(f.summary().startsWith("320"));                                // 16 × 20
+  QVERIFY(!f.window.findChild<MessageBar*>("messageBar")->isVisible());  // what to do is done
   QTRY_COMPARE_WITH_TIMEOUT(f.cell(1, "vmv2013.mse_100").toDouble(), 100.0, kPatience);
   QCOMPARE(f.cell(1, "vmv2013.pixels"), QString("320"));
   QCOMPARE(f.cell(1, "benchmark2016.pixels"), QString("24"));  // rows 15 … 17 and columns 15 … 22

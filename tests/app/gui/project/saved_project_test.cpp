@@ -20,6 +20,42 @@ namespace episcope::in_saved_project_test {
 
 namespace {
 
+// 3×3 views of 48×48 pixels.
+scenes::RenderOptions smaller_options() {
+  scenes::RenderOptions options;
+  options.grid = {3, 3};
+  options.height = options.width = 48;
+  return options;
+}
+
+// A project whose light fields are no longer where they were.
+class Moving : public Working {
+ public:
+  void begin(const QString& project) {
+    window.bench().opener.open(project);
+    if (auto* unsaved = window.findChild<QMessageBox*>("unsaved_results")) {
+      unsaved->button(QMessageBox::Discard)->click();
+    }
+  }
+  /// Null if nothing is asked.
+  QMessageBox* question() {
+    QMessageBox* box = nullptr;
+    const auto is_asked = [&] {
+      box = window.findChild<QMessageBox*>("moved_light_field");
+      return box != nullptr;
+    };
+    return QTest::qWaitFor(is_asked, kPatience) ? box : nullptr;
+  }
+  void answer(const QString& file) {
+    question()->findChild<QPushButton*>("moved_light_field.file")->click();
+    auto* dialog = window.findChild<QFileDialog*>("locate_light_field");
+    QVERIFY(dialog);
+    dialog->close();
+    emit dialog->fileSelected(file);
+    QTRY_VERIFY(!window.findChild<QMessageBox*>("moved_light_field"));
+  }
+};
+
 std::string text_of(const QString& path) {
   std::ifstream file(path.toStdString());
   return {std::istreambuf_iterator<char>(file), {}};
@@ -69,7 +105,9 @@ class SavedProjectTest : public QObject {
   void savedProject_comesBackWhole();
   void savedProject_canBeMoved();
   void movedLightFields_areAskedForOnce();
+  void anotherLightField_isRefused_whereAMovedOneIsAskedFor();
   void otherSamples_areTold();
+  void otherSize_movesThePlaceInside();
   void saveKey_savesTheProjectOnceThereIsOne();
   void changedProjectFile_isNotOverwrittenSilently();
   void damagedProject_isToldAndKeepsWhatIsOpen();
@@ -113,7 +151,7 @@ void SavedProjectTest::savedProject_canBeMoved() {
 }
 
 void SavedProjectTest::movedLightFields_areAskedForOnce() {
-  Working f;
+  Moving f;
   f.openSmall("edge");
   f.estimate();
   f.openSmall("slant");
@@ -125,22 +163,39 @@ void SavedProjectTest::movedLightFields_areAskedForOnce() {
   QVERIFY(QDir().rename(f.path("edge"), f.path("elsewhere/edge")));
   QVERIFY(QDir().rename(f.path("slant"), f.path("elsewhere/slant")));
 
-  f.window.bench().opener.open(f.path("work.episcope"));
-  if (auto* unsaved = f.window.findChild<QMessageBox*>("unsaved_results")) {
-    unsaved->button(QMessageBox::Discard)->click();
-  }
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<QMessageBox*>("moved_light_field"), kPatience);
-  auto* box = f.window.findChild<QMessageBox*>("moved_light_field");
-  QVERIFY2(box->text().contains("slant"), qPrintable(box->text()));
-  box->findChild<QPushButton*>("moved_light_field.file")->click();
-  auto* dialog = f.window.findChild<QFileDialog*>("locate_light_field");
-  QVERIFY(dialog);
-  emit dialog->fileSelected(f.path("elsewhere/slant/lf.h5"));
+  f.begin(f.path("work.episcope"));
+  QVERIFY(f.question());
+  QVERIFY2(f.question()->text().contains("slant"), qPrintable(f.question()->text()));
+  f.answer(f.path("elsewhere/slant/lf.h5"));
 
   QTRY_VERIFY_WITH_TIMEOUT(f.session().scene(), kScenePatience);
   QCOMPARE(f.session().input(), f.path("elsewhere/slant/lf.h5").toStdString());
   f.show(f.session().scenes()[0]->id);
   QCOMPARE(f.session().input(), f.path("elsewhere/edge/lf.h5").toStdString());
+  QCOMPARE(f.session().estimates().size(), 1U);
+}
+
+void SavedProjectTest::anotherLightField_isRefused_whereAMovedOneIsAskedFor() {
+  Moving f;
+  f.openSmall("edge");
+  f.estimate();
+  QTRY_VERIFY(f.session().scenes()[0]->sample_hash != 0);
+  f.saveAs(f.path("work.episcope"));
+  QVERIFY(QDir().rename(f.path("edge"), f.path("elsewhere")));
+  f.begin(f.path("work.episcope"));
+  QVERIFY(f.question());
+
+  f.answer(f.writeScene("slant", smaller_options()));
+
+  const auto* bar = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY2_WITH_TIMEOUT(bar->text().contains("other samples"), qPrintable(bar->text()),
+                            kPatience);
+  QVERIFY(!f.session().scene());
+  QCOMPARE(f.resultCount(), 1U);  // nothing is lost
+  f.window.bench().scenes.show(f.session().scenes()[0]->id);
+  QVERIFY(f.question());
+  f.answer(f.path("elsewhere/lf.h5"));
+  QTRY_VERIFY_WITH_TIMEOUT(f.session().scene(), kScenePatience);
   QCOMPARE(f.session().estimates().size(), 1U);
 }
 
@@ -158,6 +213,29 @@ void SavedProjectTest::otherSamples_areTold() {
   const auto* bar = f.window.findChild<MessageBar*>("messageBar");
   QTRY_VERIFY2(bar->text().contains("other samples"), qPrintable(bar->text()));
   QCOMPARE(f.session().estimates().size(), 1U);
+}
+
+// Rendered anew, smaller and with fewer views.
+void SavedProjectTest::otherSize_movesThePlaceInside() {
+  Working f;
+  f.openSmall("edge");
+  QTRY_VERIFY(f.session().scenes()[0]->sample_hash != 0);
+  f.session().set_view({8, 7});
+  f.session().set_cross_hair({90, 90});
+  f.session().set_judged(f.session().generation(),
+                         {.pixels = JudgedPixels::Rectangle, .rectangle = {60, 60, 90, 90}});
+  f.saveAs(f.path("work.episcope"));
+  QVERIFY(QDir(f.path("edge")).removeRecursively());
+  f.writeScene("edge", smaller_options());
+
+  f.open(f.path("work.episcope"), 1);
+
+  QTRY_VERIFY_WITH_TIMEOUT(
+      f.session().scene() && f.session().light_field()->grid() == (GridShape{3, 3}),
+      kScenePatience);
+  QCOMPARE(f.session().view(), (ViewIndex{1, 1}));
+  QCOMPARE(f.session().cross_hair(), (PixelIndex{47, 47}));
+  QCOMPARE(f.session().place().judged.pixels, JudgedPixels::Whole);
 }
 
 void SavedProjectTest::saveKey_savesTheProjectOnceThereIsOne() {
