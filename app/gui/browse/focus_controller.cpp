@@ -6,6 +6,7 @@
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/overlay.h"
 #include "app/gui/stage/stage.h"
 #include "app/session/run/run_estimator.h"
 #include "app/session/scene/scene_range.h"
@@ -74,39 +75,46 @@ void FocusController::bake(double focus_px) {
 }
 
 FocusController::Kept FocusController::kept() const {
-  Kept kept{session_.view(),
-            session_.cross_hair(),
-            {},
-            {},
-            session_.estimates().size(),
-            session_.estimates().size()};
+  const std::size_t count = session_.estimates().size();
+  Kept kept{session_.place(), {}, count, count};
   for (const EstimateEntry& entry : session_.estimates()) {
-    if (session_.shown() == &entry) kept.shown = kept.estimates.size();
-    if (session_.compared() == &entry) kept.compared = kept.estimates.size();
-    kept.estimates.push_back(entry.estimate);
-    kept.names.push_back(entry.name);
+    if (session_.shown() == &entry) kept.shown = kept.results.size();
+    if (session_.compared() == &entry) kept.compared = kept.results.size();
+    kept.results.push_back(entry);
   }
   return kept;
 }
 
 void FocusController::bringBack(const Kept& kept, double moved_px) {
-  session_.set_view(kept.view);
-  session_.set_cross_hair(kept.cross_hair);
-  if (!kept.estimates.empty()) moveResults(kept, moved_px);
+  const ScenePlace& place = kept.place;
+  session_.set_view(place.view);
+  session_.set_cross_hair(place.cross_hair);
+  session_.set_tone(place.tone);
+  session_.set_label_marks(place.label_marks);
+  session_.set_judged(session_.generation(), place.judged);
+  Measurements measured = place.measured;
+  for (EpiMeasurement& each : measured.list) each.disparity_px -= moved_px;
+  session_.set_measurements(measured);
+  showQuantity(kept);
+  if (!kept.results.empty()) moveResults(kept, moved_px);
+}
+
+void FocusController::showQuantity(const Kept& kept) {
+  if (kept.place.quantity) bench_.overlay.setQuantity(*kept.place.quantity);
 }
 
 void FocusController::moveResults(const Kept& kept, double moved_px) {
   using Moved = std::vector<FinishedEstimate>;
   bench_.jobs.start<Moved>(
       Lane::Load, tr("Moving results to the focus plane"),
-      [light_field = session_.light_field(), estimates = kept.estimates,
+      [light_field = session_.light_field(), results = kept.results,
        moved_px](const Progress& progress) {
         const ShearedInto into{light_field->center(), light_field->sample_hash()};
         Moved moved;
-        for (const EstimatePtr& each : estimates) {
+        for (const EstimateEntry& each : results) {
           progress.check();
           auto estimate =
-              std::make_shared<const Estimate>(sheared(*each, into, moved_px, progress));
+              std::make_shared<const Estimate>(sheared(*each.estimate, into, moved_px, progress));
           const Interval range = display_range(*estimate);
           moved.push_back({std::move(estimate), range});
         }
@@ -116,10 +124,13 @@ void FocusController::moveResults(const Kept& kept, double moved_px) {
         std::vector<int> ids;
         for (const FinishedEstimate& each : moved) {
           ids.push_back(session_.add_estimate(each.estimate, each.display_range, generation));
-          session_.rename_estimate(ids.back(), kept.names[ids.size() - 1]);
+          const EstimateEntry& former = kept.results[ids.size() - 1];
+          session_.rename_estimate(ids.back(), former.name);
+          session_.set_note(ids.back(), former.note);
         }
         if (kept.shown < ids.size()) session_.show_estimate(ids[kept.shown]);
         if (kept.compared < ids.size()) session_.compare_with(ids[kept.compared]);
+        showQuantity(kept);
       });
 }
 

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
-#include "engine/core/light_field/estimate.h"
+#include "app/session/open_scene.h"
 
 #include <QObject>
 
-#include <string>
 #include <vector>
 
 namespace episcope {
@@ -27,13 +26,11 @@ class FocusController : public QObject {
   [[nodiscard]] bool canUndo() const;
 
  private:
-  /// What is looked at, and the results.
+  /// What is looked at and was done there, and the results.
   struct Kept {
-    ViewIndex view;
-    PixelIndex cross_hair;
-    std::vector<EstimatePtr> estimates;
-    std::vector<std::string> names;
-    std::size_t shown = 0;     ///< Place in `estimates`,
+    ScenePlace place;
+    std::vector<EstimateEntry> results;
+    std::size_t shown = 0;     ///< Place in `results`,
     std::size_t compared = 0;  ///< or their number if there is none.
   };
 
@@ -42,6 +39,7 @@ class FocusController : public QObject {
   [[nodiscard]] Kept kept() const;
   void bringBack(const Kept& kept, double moved_px);
   void moveResults(const Kept& kept, double moved_px);
+  void showQuantity(const Kept& kept);
 
   Workbench bench_;
   Session& session_;

@@ -63,6 +63,7 @@ class FocusTest : public QObject {
   void appliedFocus_movesTruthAndResults();
   void appliedFocus_keepsThePlace();
   void appliedFocus_keepsNames();
+  void appliedFocus_keepsWhatWasDoneOnTheScene();
   void undo_bringsTheFileBack();
   void whileAMethodRuns_itIsRefused();
   void whatIsPainted_isNotLost();
@@ -118,6 +119,26 @@ void FocusTest::appliedFocus_keepsNames() {
   f.waitFor(kFocus);
 
   QCOMPARE(f.session().estimates().front().name, std::string("the first"));
+}
+
+void FocusTest::appliedFocus_keepsWhatWasDoneOnTheScene() {
+  Focused f;
+  f.session().set_note(f.session().estimates().front().id, "remember this");
+  f.session().set_tone({.exposure = 1.5});
+  f.session().set_measurements({{{.name = "edge", .disparity_px = 0.8}}, 0});
+  f.session().set_judged(f.session().generation(),
+                         {.pixels = JudgedPixels::Rectangle, .rectangle = {10, 10, 40, 40}});
+  f.trigger("overlay.truth");
+
+  f.clickApply();
+  f.waitFor(kFocus);
+
+  QCOMPARE(f.session().estimates().front().note, std::string("remember this"));
+  QCOMPARE(f.session().place().tone, (render::Tone{.exposure = 1.5}));
+  QCOMPARE(f.session().place().measured.list.size(), 1U);
+  QVERIFY(std::abs(f.session().place().measured.list[0].disparity_px - (0.8 - kFocus)) < 1e-9);
+  QCOMPARE(f.session().place().judged.pixels, JudgedPixels::Rectangle);
+  QTRY_COMPARE(f.window.bench().overlay.quantity(), render::Quantity::Truth);
 }
 
 void FocusTest::undo_bringsTheFileBack() {
