@@ -9,6 +9,7 @@
 #include "app/gui/frame/messages.h"
 #include "app/gui/frame/text_file.h"
 #include "app/gui/opening/scene_switcher.h"
+#include "app/gui/stage/overlay.h"
 #include "app/session/run/command_line.h"
 #include "app/session/session.h"
 #include "app/session/sweep/sweep_values.h"
@@ -270,6 +271,7 @@ void SweepController::showMap(SweepPlace place, const EstimatePtr& map) {
   const int id = session.add_estimate(map, point.display_range, session.generation());
   session.rename_estimate(id, name_of(*current(), point));
   shown_[session.generation()] = {id, session.find_estimate(id)->name};
+  bench_.overlay.showResults();
 }
 
 void SweepController::runAgain(SweepPlace place) {

@@ -144,6 +144,10 @@ void Overlay::setQuantity(Quantity quantity) {
   emit choiceChanged();
 }
 
+void Overlay::showResults() {
+  if (!is_of_results(quantity_)) setQuantity(Quantity::Disparity);
+}
+
 void Overlay::selectNextQuantity() {
   stage_.overlayBar()->selectNextQuantity();
 }

@@ -29,6 +29,8 @@ class Overlay : public QObject {
 
   /// Ignored if it is not available.
   void setQuantity(render::Quantity quantity);
+  /// Disparity, unless what is shown is of results already.
+  void showResults();
   void selectNextQuantity();
   [[nodiscard]] render::Quantity quantity() const { return quantity_; }
   /// Whether a quantity can be shown now.

@@ -78,6 +78,7 @@ class SweepWindowTest : public QObject {
   void run_plotsEveryValue();
   void twoParameters_giveALineForEachValueOfTheSecond();
   void point_showsItsMap_andTheNextTakesItsPlace();
+  void point_showsItsMap_inThePlaceOfWhatIsOfNoResult();
   void keptPoint_stays();
   void keys_chooseAPoint();
   void values_goBackToTheForm();
@@ -144,6 +145,20 @@ void SweepWindowTest::point_showsItsMap_andTheNextTakesItsPlace() {
   QTRY_VERIFY_WITH_TIMEOUT((evaluation = f.session().evaluation(key)), kPatience);
   QCOMPARE(find_metric(evaluation->metrics, "mse_100").value(),
            f.upper().plot().series[0].points[0].y());
+}
+
+void SweepWindowTest::point_showsItsMap_inThePlaceOfWhatIsOfNoResult() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.run();
+  f.trigger("overlay.truth");
+
+  f.clickPoint(f.upper(), {0, 0});
+  QCOMPARE(f.window.bench().overlay.quantity(), render::Quantity::Disparity);
+
+  f.trigger("overlay.error");
+  f.clickPoint(f.upper(), {0, 1});
+  QCOMPARE(f.window.bench().overlay.quantity(), render::Quantity::SignedError);
 }
 
 void SweepWindowTest::keptPoint_stays() {
