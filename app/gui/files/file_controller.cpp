@@ -29,18 +29,10 @@ FileController::FileController(const Workbench& bench)
   fillRecentMenu();
   bench.window.setAcceptDrops(true);
   bench.window.installEventFilter(this);
-  connect(&bench.opener, &SceneOpener::opened, this, [this](const QString& input) {
-    if (!is_builtin(input)) remember_recent(input);
-    fillRecentMenu();
-  });
-  connect(&bench.opener, &SceneOpener::isCollection, this, [this](const QString& folder) {
-    remember_recent(folder);
-    fillRecentMenu();
-  });
-  connect(&bench.opener, &SceneOpener::isProject, this, [this](const QString& path) {
-    remember_recent(path);
-    fillRecentMenu();
-  });
+  for (const auto what :
+       {&SceneOpener::opened, &SceneOpener::isCollection, &SceneOpener::isProject}) {
+    connect(&bench.opener, what, this, &FileController::remember);
+  }
   connect(&bench.commands, &Commands::keysChanged, this, &FileController::showInvitation);
   connect(&bench.document, &DocumentController::unsavedChanged, this, [this](bool is_unsaved) {
     showTitle();
@@ -51,6 +43,13 @@ FileController::FileController(const Workbench& bench)
   });
   showTitle();
   showInvitation();
+}
+
+void FileController::remember(const QString& input) {
+  if (is_builtin(input)) return;
+  remember_recent(input);
+  begin_dialogs_beside(input);
+  fillRecentMenu();
 }
 
 void FileController::addOpenCommands() {

@@ -31,6 +31,7 @@ class FileController : public QObject {
   void askForBuiltin();
   /// A result is added to the open light field; anything else is opened.
   void openAny(const QString& path);
+  void remember(const QString& input);
   void fillRecentMenu();
   void showTitle();
   void showInvitation();

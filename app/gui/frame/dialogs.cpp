@@ -26,9 +26,7 @@ QFileDialog* make_dialog(QWidget* window, const FileQuestion& question) {
   dialog->setObjectName(question.name);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setDirectory(QSettings().value(kLastFolder, QDir::homePath()).toString());
-  QObject::connect(dialog, &QFileDialog::fileSelected, dialog, [](const QString& path) {
-    QSettings().setValue(kLastFolder, QFileInfo(path).absolutePath());
-  });
+  QObject::connect(dialog, &QFileDialog::fileSelected, dialog, &begin_dialogs_beside);
   return dialog;
 }
 
@@ -47,6 +45,10 @@ void follow_filter(QFileDialog* dialog, const QString& chosen) {
 }
 
 }  // namespace
+
+void begin_dialogs_beside(const QString& path) {
+  QSettings().setValue(kLastFolder, QFileInfo(path).absolutePath());
+}
 
 void ask_for_file(QWidget* window, const FileQuestion& question, Answer answer) {
   QFileDialog* dialog = make_dialog(window, question, std::move(answer));

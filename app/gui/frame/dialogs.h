@@ -14,8 +14,8 @@ class Jobs;
 class Messages;
 class Progress;
 
-/// What a file dialog asks. It begins in the folder chosen last. Dialogs block nothing: `answer` is
-/// called with the path that was chosen, or never.
+/// What a file dialog asks. It begins in the folder of what was chosen or opened last. Dialogs
+/// block nothing: `answer` is called with the path that was chosen, or never.
 struct FileQuestion {
   QString name;  ///< Of the dialog, as an object.
   QString title;
@@ -25,6 +25,9 @@ struct FileQuestion {
   bool confirms_overwrite = true;
 };
 using Answer = std::function<void(const QString& path)>;
+
+/// The next dialogs begin beside a file or folder.
+void begin_dialogs_beside(const QString& path);
 
 void ask_for_file(QWidget* window, const FileQuestion& question, Answer answer);
 /// One file or several.

@@ -41,6 +41,7 @@ class OpeningTest : public QObject {
   void brokenFile_withoutScene_isDrawnAsError();
   void brokenFile_ofTheDialog_isTold();
   void firstDialog_beginsAtHome();
+  void dialog_beginsBesideWhatWasOpened();
   void dialog_remembersItsFolder();
   void droppedFile_isOpened();
   void anotherScene_hasItsOwnResults();
@@ -197,6 +198,17 @@ void OpeningTest::firstDialog_beginsAtHome() {
   QVERIFY(dialog);
   QCOMPARE(dialog->directory(), QDir::home());
   dialog->reject();
+}
+
+void OpeningTest::dialog_beginsBesideWhatWasOpened() {
+  WindowFixture f;
+  f.openSmall();  // by no dialog
+
+  f.trigger("file.open");
+
+  const auto* dialog = f.window.findChild<QFileDialog*>("open_file");
+  QCOMPARE(dialog->directory().path(),
+           QFileInfo(QString::fromStdString(f.window.bench().session.input())).path());
 }
 
 void OpeningTest::dialog_remembersItsFolder() {
