@@ -133,7 +133,9 @@ void CloudWindowTest::otherArrangement_dismissesTheLargeView() {
 
 void CloudWindowTest::ownWindow_holdsTheViewWithItsControls() {
   CloudFixture f;
+  f.trigger("tab.compare");
   f.trigger("cloud.window");
+  QCOMPARE(f.window.bench().frame.shownTab(), QString("compare"));  // which was in front
   QVERIFY(f.view().window() != &f.window);
   QCOMPARE(f.panel().window(), f.view().window());
   QTRY_VERIFY(f.view().isVisible());

@@ -43,6 +43,7 @@ class PanesTest : public QObject {
   void view_andItsEpiStayAligned();
   void epis_canBeTornOff_andComeBack();
   void tabs_canBeTornOff_andComeBackAtTheirPlace();
+  void tornOffTab_makesWayForTheOneBefore();
   void tornOffPane_hearsTheKeysOfTheViewer();
   void layout_isRememberedAndReset();
   void panes_areStackedBelowTheTabs_andComeBack();
@@ -137,6 +138,18 @@ void PanesTest::tabs_canBeTornOff_andComeBackAtTheirPlace() {
   QCOMPARE(frame.shownTab(), QString("compare"));
   f.trigger("panes.tab");
   QVERIFY(frame.panes().isTorn("tab.compare"));
+}
+
+// Not for its neighbour: with the Annotate tab in front, the mouse would paint.
+void PanesTest::tornOffTab_makesWayForTheOneBefore() {
+  WindowFixture f;
+  f.openSmall();
+  f.trigger("tab.compare");
+
+  f.trigger("panes.tab");
+
+  QCOMPARE(f.window.bench().frame.shownTab(), QString("estimate"));
+  QVERIFY(!f.window.bench().commands.find("annotate.mode")->isChecked());
 }
 
 void PanesTest::tornOffPane_hearsTheKeysOfTheViewer() {
