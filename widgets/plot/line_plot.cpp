@@ -103,7 +103,7 @@ QSize LinePlot::sizeHint() const {
   return {320, 190};
 }
 QSize LinePlot::minimumSizeHint() const {
-  return {200, 120};
+  return {200, 80};
 }
 
 void LinePlot::paintMark(QPainter& painter, PlotPlace place, double radius) const {

@@ -124,6 +124,7 @@ void PlotChart::set(const Plot& plot, const QPalette& palette) {
   const bool is_log_y = plot.y.is_logarithmic && y.min > 0;
   setAxis(vtkAxis::BOTTOM, plot.x, is_log_x, palette);
   setAxis(vtkAxis::LEFT, plot.y, is_log_y, palette);
+  left_title_ = plot.y.title;
   const Span wide_x = widened(x, is_log_x), wide_y = widened(y, is_log_y);
   axis(vtkAxis::BOTTOM)->SetUnscaledRange(wide_x.min, wide_x.max);
   axis(vtkAxis::LEFT)->SetUnscaledRange(wide_y.min, wide_y.max);
@@ -173,9 +174,18 @@ void PlotChart::fitLegend(const QFontMetrics& metrics, int width) {
   }
 }
 
+// It stands at the middle of its axis, which numbers and title of the other one push upwards. The
+// unit, at its end, is kept.
+void PlotChart::fitTitle(const QFontMetrics& metrics, int height) {
+  const int room = height - 2 * metrics.height() - kBorder;
+  const QString title = metrics.elidedText(left_title_, Qt::ElideMiddle, room);
+  axis(vtkAxis::LEFT)->SetTitle(title.toStdString());
+}
+
 void PlotChart::paint(QPainter& painter, QSize size) {
   height_ = size.height();
   fitLegend(painter.fontMetrics(), size.width());
+  fitTitle(painter.fontMetrics(), size.height());
   device_->setPainter(&painter, size.height());
   scene_->SetGeometry(size.width(), size.height());
   chart_->SetSize(

@@ -43,6 +43,8 @@ class PlotChart {
   void addLine(const PlotSeries& series, std::size_t place, const QPalette& palette);
   /// Shortens the names in the legend, which would take the room of the lines.
   void fitLegend(const QFontMetrics& metrics, int width);
+  /// Shortens the title of the upright axis to its length.
+  void fitTitle(const QFontMetrics& metrics, int height);
   void setAxis(int which, const PlotAxis& axis, bool is_logarithmic, const QPalette& palette);
   [[nodiscard]] vtkAxis* axis(int which) const;
 
@@ -52,6 +54,7 @@ class PlotChart {
   vtkSmartPointer<vtkChartXY> chart_;
   std::vector<vtkPlot*> lines_;      // of the chart
   std::vector<QString> line_names_;  // in full
+  QString left_title_;               // in full
   int height_ = 0;
 };
 

@@ -40,6 +40,7 @@ class LinePlotTest : public QObject {
   void logarithm_needsPositiveValues();
   void longNames_leaveTheLinesTheirRoom();
   void lastNumber_isNotCut();
+  void longTitle_isNotCut();
   void onePoint_isDrawn();
 
  private:
@@ -151,6 +152,18 @@ void LinePlotTest::lastNumber_isNotCut() {
 
   for (int y = 1; y < picture.height() - 1; ++y) {
     QCOMPARE(picture.pixelColor(picture.width() - 2, y), plot_->palette().color(QPalette::Base));
+  }
+}
+
+void LinePlotTest::longTitle_isNotCut() {
+  plot_->setPlot({{"x"}, {QString("MSE").repeated(20) + " [px²]"}, {{"", {{0, 1}, {1, 2}}}}});
+  plot_->resize(360, 120);
+
+  const QImage picture = plot_->grab().toImage();
+
+  for (int x = 1; x < 40; ++x) {
+    QCOMPARE(picture.pixelColor(x, 2), plot_->palette().color(QPalette::Base));
+    QCOMPARE(picture.pixelColor(x, picture.height() - 3), plot_->palette().color(QPalette::Base));
   }
 }
 

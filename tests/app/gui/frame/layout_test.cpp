@@ -47,6 +47,7 @@ class LayoutTest : public QObject {
   void panels_canBeHidden_andTheViewGetsTheirRoom();
   void fullScreen_isEnteredAndLeft();
   void everyTab_fitsTheSideOfASmallScreen();
+  void tabsAndThoseBelowThem_fitASmallScreen();
   void tabThatComesLate_isSeenAmongTheOthers();
 };
 
@@ -101,6 +102,23 @@ void LayoutTest::everyTab_fitsTheSideOfASmallScreen() {
     const int least = tabs->widget(i)->minimumSizeHint().width();
     QVERIFY2(least <= 380, qPrintable(QString("%1: %2").arg(tabs->tabText(i)).arg(least)));
   }
+}
+
+void LayoutTest::tabsAndThoseBelowThem_fitASmallScreen() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const QSize small(1276, 740);
+  f.window.resize(small);
+
+  f.trigger("panes.stack.epi.horizontal");
+  f.trigger("tab.sweep");
+  f.click("sweep.run");  // the list of sweeps takes room, too
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kScenePatience);
+  for (const char* tab : {"tab.capture", "tab.errors", "tab.measure", "tab.cloud"}) f.trigger(tab);
+  QCoreApplication::processEvents();
+
+  QCOMPARE(f.window.size(), small);
 }
 
 // With an invisible tab behind it, Qt would move the others out of sight.
