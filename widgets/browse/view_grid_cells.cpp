@@ -16,6 +16,8 @@ namespace {
 
 /// Cells of a single row are at least as high, and of a single column as wide, to be aimed at.
 constexpr double kLeastAcross = 28;
+/// Of a cell; of views that are flatter or narrower, it shows the middle.
+constexpr double kMostAspect = 3;
 
 // The middle of a thumbnail, in the proportions of its cell.
 QRectF middle_of(const QImage& thumbnail, const QSizeF& cell) {
@@ -66,7 +68,8 @@ void ViewGridCells::setPainted(const std::vector<ViewIndex>& views) {
 
 double ViewGridCells::aspect() const {
   for (const auto& thumbnail : thumbnails_) {
-    if (!thumbnail.isNull()) return 1.0 * thumbnail.height() / thumbnail.width();
+    if (thumbnail.isNull()) continue;
+    return std::clamp(1.0 * thumbnail.height() / thumbnail.width(), 1 / kMostAspect, kMostAspect);
   }
   return 1;
 }

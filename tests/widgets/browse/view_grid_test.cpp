@@ -48,6 +48,16 @@ class ViewGridTest : public QObject {
     QVERIFY(cells.rect().contains(cells.cellRect({v - 1, u - 1}).toRect().adjusted(0, 0, -1, -1)));
   }
 
+  void cellsOfFlatViews_areHighEnoughToBeAimedAt() {
+    ViewGridCells cells;
+    cells.setGrid({5, 5});
+    cells.resize(190, 190);
+    cells.setThumbnail({0, 0}, QImage(40, 2, QImage::Format_RGB32));
+    QVERIFY(cells.cellRect({0, 0}).height() > 10);
+    cells.setThumbnail({0, 0}, QImage(2, 40, QImage::Format_RGB32));
+    QVERIFY(cells.cellRect({0, 0}).width() > 10);
+  }
+
   void cellsOfAScan_areHighEnoughToBeAimedAt() {
     ViewGridCells cells;
     cells.setGrid({1, 49});
