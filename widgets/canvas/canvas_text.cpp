@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/canvas/canvas_text.h"
 
+#include <QRegularExpression>
 #include <QStringList>
 
 #include <algorithm>
 
 namespace episcope {
 
+namespace {
+
+bool ends_in_a_number(const QString& part) {
+  static const QRegularExpression number("\\d\\.\\d+$");
+  return number.match(part).hasMatch();
+}
+
+}  // namespace
+
 QString fitted_caption(const QString& text, const QFontMetricsF& metrics, double room) {
-  constexpr int kLeastLetters = 6;  // of the part that is elided
+  constexpr int kLeastLetters = 3;  // of the part that is elided
   const QString separator = QStringLiteral(" · ");
   QStringList parts = text.split(separator);
-  const auto longest = std::ranges::max_element(parts, {}, &QString::size);
+  const bool has_words = !std::ranges::all_of(parts, ends_in_a_number);
+  const auto longest = std::ranges::max_element(parts, {}, [has_words](const QString& part) {
+    return has_words && ends_in_a_number(part) ? 0 : part.size();
+  });
   const double excess = metrics.horizontalAdvance(text) - room;
   const double left = metrics.horizontalAdvance(*longest) - excess;
   if (left < kLeastLetters * metrics.averageCharWidth()) {

@@ -11,7 +11,8 @@
 namespace episcope {
 
 /// A caption of parts, "name · number", in so many pixels: what is too long is elided in the middle
-/// of the longest part, so that the others can be read.
+/// of the longest part, so that the others can be read; one that ends in a decimal number only if
+/// all do.
 [[nodiscard]] QString fitted_caption(const QString& text, const QFontMetricsF& metrics,
                                      double room);
 

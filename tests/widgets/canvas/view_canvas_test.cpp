@@ -54,6 +54,15 @@ class ViewCanvasTest : public QObject {
     QCOMPARE(fitted_caption(text, metrics, 10'000), text);
   }
 
+  void shortName_isShortenedBeforeItsNumber() {
+    const QFontMetricsF metrics(canvas_->font());
+    const QString text = "PLANE_PM · MSE×100 1.40";
+
+    const QString fitted = fitted_caption(text, metrics, metrics.horizontalAdvance(text) - 20);
+
+    QVERIFY2(fitted.endsWith(" · MSE×100 1.40"), qPrintable(fitted));
+  }
+
   void wheel_keepsThePixelUnderTheCursor_data() {
     QTest::addColumn<QPointF>("at");
     QTest::addColumn<double>("notches");
