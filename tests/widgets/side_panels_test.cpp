@@ -11,6 +11,7 @@
 #include <QAction>
 #include <QClipboard>
 #include <QGuiApplication>
+#include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
 #include <QProgressBar>
@@ -224,6 +225,25 @@ class SidePanelsTest : public QObject {
     QVERIFY(!tree->topLevelItem(0)->icon(0).isNull());
     QVERIFY(tree->topLevelItem(1)->icon(0).isNull());
     QCOMPARE(selected.size(), 0);
+  }
+
+  void longNamesOfResults_leaveTheNumbersInSight() {
+    ResultList list;
+    list.resize(366, 120);  // the side of a window of 1280 pixels
+    std::vector<ResultRow> rows;
+    for (quint64 id = 1; id <= 12; ++id) {
+      rows.push_back({id, QString("result %1 ").arg(id).repeated(8), "defaults", 1234, 0.78, ""});
+    }
+    list.setResults(rows);
+    list.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&list));
+    const auto* tree = list.findChild<QTreeWidget*>("results.tree");
+
+    QVERIFY(tree->header()->length() <= tree->viewport()->width());
+    for (int column = 0; column < tree->columnCount(); ++column) {
+      QVERIFY2(tree->header()->sectionSize(column) >= tree->header()->sectionSizeHint(column),
+               qPrintable(tree->headerItem()->text(column)));
+    }
   }
 
   void shownResult_isScrolledTo() {

@@ -98,10 +98,14 @@ void ResultList::setUpTree() {
   tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->header()->setMinimumSectionSize(22);
-  tree_->header()->setStretchLastSection(true);
+  tree_->header()->setStretchLastSection(false);  // it keeps what it had when others grow
   for (const int column : {kMark, kMse, kSeconds}) {
     tree_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
   }
+  // Columns take the size of their contents a little later.
+  connect(tree_->header(), &QHeaderView::sectionResized, this, [this](int column) {
+    if (column == kMse || column == kSeconds) fitMethods();
+  });
   auto* remove = new QAction(tr("Remove"), tree_);
   remove->setObjectName("results.removeAction");
   remove->setShortcut(QKeySequence::Delete);
@@ -211,10 +215,13 @@ void ResultList::fitMethods() {
     width = std::max(width, QFontMetrics(bold).horizontalAdvance(name));
   }
   const QHeaderView& header = *tree_->header();
-  int others = header.sectionSizeHint(kParameters);
-  for (const int column : {kMark, kMse, kSeconds}) others += header.sectionSize(column);
-  const int room = std::max(tree_->viewport()->width() - others, kNarrowestMethod);
-  tree_->setColumnWidth(kMethod, std::min(std::min(width, kWidestMethod) + kMethodPadding, room));
+  const int parameters = header.sectionSizeHint(kParameters);
+  int room = tree_->viewport()->width();
+  for (const int column : {kMark, kMse, kSeconds}) room -= header.sectionSize(column);
+  const int method = std::min(std::min(width, kWidestMethod) + kMethodPadding,
+                              std::max(room - parameters, kNarrowestMethod));
+  tree_->setColumnWidth(kMethod, method);
+  tree_->setColumnWidth(kParameters, std::max(room - method, parameters));
 }
 
 // A click on the mark chooses B; the selection, which is what is shown, stays.
