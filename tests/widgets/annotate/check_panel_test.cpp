@@ -19,7 +19,23 @@ class CheckPanelTest : public QObject {
 
  private slots:
   void longNames_leaveRoomForEachOther();
+  void headersOfEmptyTables_areSeenWhole();
 };
+
+void CheckPanelTest::headersOfEmptyTables_areSeenWhole() {
+  CheckPanel panel;
+  panel.resize(366, 600);  // the side of a window of 1280 pixels
+  panel.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&panel));
+
+  for (const char* name : {"check.doubts", "check.labels", "check.pieces"}) {
+    const auto& header = *panel.findChild<QTreeWidget*>(name)->header();
+    QVERIFY2(header.length() <= header.width(), name);
+    for (int column = 0; column < header.count(); ++column) {
+      QVERIFY2(header.sectionSize(column) >= header.sectionSizeHint(column), name);
+    }
+  }
+}
 
 void CheckPanelTest::longNames_leaveRoomForEachOther() {
   CheckPanel panel;
