@@ -4683,6 +4683,10 @@ s</translation>
         <source>Ctrl+Alt+PgUp</source>
         <translation>Ctrl+Alt+PgUp</translation>
     </message>
+    <message>
+        <source>none of these is shown</source>
+        <translation>keines davon wird gezeigt</translation>
+    </message>
 </context>
 <context>
     <name>episcope::SceneOpener</name>

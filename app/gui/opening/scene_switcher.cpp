@@ -89,8 +89,11 @@ void SceneSwitcher::step(int step) {
   const auto scenes = session_.scenes();
   const auto count = static_cast<int>(scenes.size());
   const auto now = std::ranges::find(scenes, session_.generation(), &OpenScene::id);
-  if (count == 0 || now == scenes.end()) return;
-  const auto place = static_cast<int>(now - scenes.begin());
+  if (count == 0) return;
+  // From none of them, to the first or the last.
+  const auto place = now != scenes.end() ? static_cast<int>(now - scenes.begin())
+                     : step > 0          ? -1
+                                         : count;
   show(scenes[static_cast<std::size_t>((place + step + count) % count)]->id);
 }
 

@@ -28,7 +28,6 @@ SceneChooser::SceneChooser(const Workbench& bench)
   list_->setObjectName("scenes.open");
   list_->setAccessibleName(tr("Open light fields"));
   list_->setToolTip(tr("The light fields that are open: choose the one to show"));
-  list_->setPlaceholderText(tr("nothing is open"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   list_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   bench.frame.addToColumn(list_, false);
@@ -72,7 +71,9 @@ void SceneChooser::fill() {
   }
   list_->setCurrentIndex(
       list_->findData(QVariant::fromValue<qulonglong>(bench_.session.generation())));
-  list_->setEnabled(list_->count() > 0);
+  const bool is_empty = list_->count() == 0;
+  list_->setEnabled(!is_empty);
+  list_->setPlaceholderText(is_empty ? tr("nothing is open") : tr("none of these is shown"));
 }
 
 }  // namespace episcope

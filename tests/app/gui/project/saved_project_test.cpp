@@ -6,6 +6,7 @@
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
 
+#include <QComboBox>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -111,6 +112,7 @@ class SavedProjectTest : public QObject {
   void saveKey_savesTheProjectOnceThereIsOne();
   void changedProjectFile_isNotOverwrittenSilently();
   void damagedProject_isToldAndKeepsWhatIsOpen();
+  void damagedLightField_leavesTheOthersToChoose();
   void secondSave_keepsOnlyWhatIsNamed();
 };
 
@@ -284,6 +286,26 @@ void SavedProjectTest::damagedProject_isToldAndKeepsWhatIsOpen() {
            qPrintable(failures[0][0].toString()));
   QCOMPARE(f.session().scenes().size(), 1U);
   QVERIFY(f.session().scene());
+}
+
+void SavedProjectTest::damagedLightField_leavesTheOthersToChoose() {
+  Working f;
+  f.openSmall("edge");
+  f.openSmall("slant");
+  QTRY_VERIFY(f.session().scenes()[1]->sample_hash != 0);
+  f.saveAs(f.path("work.episcope"));
+  std::ofstream(f.path("slant/lf.h5").toStdString()) << "nothing of the kind";
+  QSignalSpy failures(&f.window.bench().jobs, &Jobs::failed);
+
+  f.window.bench().opener.open(f.path("work.episcope"));
+
+  QTRY_COMPARE_WITH_TIMEOUT(failures.size(), 1, kScenePatience);
+  const auto* list = f.window.findChild<QComboBox*>("scenes.open");
+  QVERIFY(list->isEnabled());
+  QCOMPARE(list->count(), 2);
+  QVERIFY2(list->placeholderText().contains("none of these"), qPrintable(list->placeholderText()));
+  f.trigger("scenes.next");
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().generation(), f.session().scenes()[0]->id, kScenePatience);
 }
 
 void SavedProjectTest::secondSave_keepsOnlyWhatIsNamed() {
