@@ -80,10 +80,7 @@ ResultList::ResultList(QWidget* parent)
   setResults({});
 }
 
-void ResultList::setUpTree() {
-  tree_->setObjectName("results.tree");
-  tree_->setAccessibleName(tr("Results"));
-  tree_->viewport()->installEventFilter(this);
+void ResultList::setUpColumns() {
   tree_->setColumnCount(kColumnCount);
   tree_->setHeaderLabels({"", tr("Method"), tr("MSE×100"), tr("Time"), tr("Parameters")});
   tree_->headerItem()->setToolTip(kMse,
@@ -91,12 +88,6 @@ void ResultList::setUpTree() {
   for (const int column : {kMse, kSeconds}) {
     tree_->headerItem()->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
   }
-  tree_->setRootIsDecorated(false);
-  tree_->setAlternatingRowColors(true);
-  tree_->setUniformRowHeights(true);
-  tree_->setTextElideMode(Qt::ElideRight);
-  tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->header()->setMinimumSectionSize(22);
   tree_->header()->setStretchLastSection(false);  // it keeps what it had when others grow
   for (const int column : {kMark, kMse, kSeconds}) {
@@ -106,6 +97,19 @@ void ResultList::setUpTree() {
   connect(tree_->header(), &QHeaderView::sectionResized, this, [this](int column) {
     if (column == kMse || column == kSeconds) fitMethods();
   });
+}
+
+void ResultList::setUpTree() {
+  tree_->setObjectName("results.tree");
+  tree_->setAccessibleName(tr("Results"));
+  tree_->viewport()->installEventFilter(this);
+  setUpColumns();
+  tree_->setRootIsDecorated(false);
+  tree_->setAlternatingRowColors(true);
+  tree_->setUniformRowHeights(true);
+  tree_->setTextElideMode(Qt::ElideRight);
+  tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   auto* remove = new QAction(tr("Remove"), tree_);
   remove->setObjectName("results.removeAction");
   remove->setShortcut(QKeySequence::Delete);

@@ -57,6 +57,7 @@ class ResultList : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void setUpColumns();
   void setUpTree();
   void fitMethods();
   void showMenu(const QPoint& position);
