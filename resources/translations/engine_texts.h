@@ -217,6 +217,7 @@ QT_TRANSLATE_NOOP("episcope::Schema", "a sphere and a box on the ground, with la
 QT_TRANSLATE_NOOP("episcope::Schema", "a still life: vase with flowers, balls, box, cone and can on a table")
 QT_TRANSLATE_NOOP("episcope::Schema", "absolute")
 QT_TRANSLATE_NOOP("episcope::Schema", "absolute: samples are compared as they are; relative: relative to the mean around them, for views of different brightness")
+QT_TRANSLATE_NOOP("episcope::Schema", "aliased")
 QT_TRANSLATE_NOOP("episcope::Schema", "any")
 QT_TRANSLATE_NOOP("episcope::Schema", "arranging the views of the list")
 QT_TRANSLATE_NOOP("episcope::Schema", "as stored")

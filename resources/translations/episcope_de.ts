@@ -6155,6 +6155,10 @@ s</translation>
         <source>One or two pixels nearer than all their neighbours, or farther, take the median of these; off, as in the paper</source>
         <translation>Ein oder zwei Pixel, die näher oder ferner sind als alle Nachbarn, nehmen deren Median an; aus: wie im Artikel</translation>
     </message>
+    <message>
+        <source>aliased</source>
+        <translation>unterabgetastet</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>

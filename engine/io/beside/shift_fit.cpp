@@ -273,7 +273,6 @@ double largest_deviation(const Here& here, const std::vector<Neighbour>& others,
   struct Sums {
     double square = 0;
     double product = 0;
-    double error = 0;
   };
   std::vector<Sums> parts(bounds.size() + 1);
   const double scale = scale_of(here, others, ramp);

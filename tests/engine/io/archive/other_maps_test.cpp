@@ -73,6 +73,31 @@ class OtherMapsTest : public QObject {
     QVERIFY(std::equal(labels.data(), labels.data() + labels.size(), read.truth->labels.data()));
   }
 
+  // The views are valid all the same: it tells nothing of the other views.
+  void maskOfOneView_isThatOfItsDisparity() {
+    const ViewIndex center = scene_.light_field->grid().center();
+    const ImageView<const float> disparity = scene_.truth->field.disparity.view(center);
+    ViewStack<float> map({1, 1}, disparity.height, disparity.width);
+    std::copy_n(disparity.data, disparity.size(), map.data());
+    ViewStack<std::uint8_t> mask({1, 1}, disparity.height, disparity.width);
+    std::fill_n(mask.data(), mask.size(), std::uint8_t{1});
+    std::fill_n(mask.data(), disparity.width, std::uint8_t{0});
+
+    const Scene read = opened_with(path(), scene_, [&](io::Hdf5Output& file) {
+      const io::Hdf5Shape shape{static_cast<std::size_t>(map.height()),
+                                static_cast<std::size_t>(map.width())};
+      file.add_dataset<float>("disparity", shape, "", "");
+      file.write("disparity", {{0, 0}, shape}, map.data());
+      file.add_dataset<std::uint8_t>("valid_mask", shape, "", "");
+      file.write("valid_mask", {{0, 0}, shape}, mask.data());
+    });
+
+    const DisparityView found = read.truth->field.view(center);
+    QVERIFY(!found.is_valid(0, 3));
+    QVERIFY(found.is_valid(1, 3));
+    QVERIFY(read.light_field->is_valid(center, 0, 3));
+  }
+
   void depthOfAnotherName_isDepth() {
     const CameraGrid& camera = scene_.light_field->info().camera;
     ViewStack<float> depth = scene_.truth->field.disparity.clone();
