@@ -268,8 +268,7 @@ double largest_deviation(const Here& here, const std::vector<Neighbour>& others,
   for (std::size_t part = 1; part < kParts; ++part) {
     bounds.push_back(values[part * values.size() / kParts]);
   }
-  const auto last = std::ranges::unique(bounds);
-  bounds.erase(last.begin(), last.end());
+  bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
   struct Sums {
     double square = 0;
     double product = 0;
