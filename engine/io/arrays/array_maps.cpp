@@ -124,11 +124,8 @@ FileUse not_used(const ArrayEntry& entry) {
 }
 
 std::string side_text(const NearSide& side) {
-  return fmt::format(
-      "{} values hide others in other views (grey error {:.2f}, the hidden ones "
-      "{:.2f}, {} pairs)",
-      side.larger_is_nearer() ? "larger" : "smaller", std::min(side.larger, side.smaller),
-      std::max(side.larger, side.smaller), side.points);
+  return fmt::format("{} values {}", side.larger_is_nearer() ? "larger" : "smaller",
+                     hiding_text(side));
 }
 
 void settle_stored(const LightField::Samples& samples, NamedValues values,
@@ -144,11 +141,7 @@ void settle_stored(const LightField::Samples& samples, NamedValues values,
     side = find_near_side(samples, at, field.view(at), factor, settled.explanation);
   }
   const bool is_reversed = has_other_sign(side, settled.explanation, grid);
-  const double scale = is_reversed ? -factor : factor;
-  if (scale != 1) {
-    std::for_each(field.disparity.data(), field.disparity.data() + field.disparity.size(),
-                  [&](float& value) { value = static_cast<float>(scale * value); });
-  }
+  scale_values(field, is_reversed ? -factor : factor);
   report.units = fmt::format("disparity of {}: {}{}", values.name, settled.unit.text,
                              is_reversed ? ", negative = nearer" : "");
   report.units_check =

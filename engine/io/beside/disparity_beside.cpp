@@ -52,12 +52,6 @@ StoredMaps read_first(const std::vector<const MapSet*>& sets, const std::string&
   return found;
 }
 
-void scale(DisparityField& field, double factor) {
-  if (factor == 1) return;
-  std::for_each(field.disparity.data(), field.disparity.data() + field.disparity.size(),
-                [&](float& value) { value = static_cast<float>(factor * value); });
-}
-
 std::string grey(double error) {
   return fixed_text(error, 2);
 }
@@ -73,12 +67,8 @@ std::string warp_text(const SettledUnit& settled) {
 }
 
 std::string side_text(const NearSide& side) {
-  const bool larger = side.larger_is_nearer();
-  return fmt::format(
-      "{} values are nearer: they hide others in other views (grey error {}, the hidden ones {}, "
-      "{} pairs)",
-      larger ? "larger" : "smaller", grey(larger ? side.larger : side.smaller),
-      grey(larger ? side.smaller : side.larger), side.points);
+  return fmt::format("{} values are nearer: they {}",
+                     side.larger_is_nearer() ? "larger" : "smaller", hiding_text(side));
 }
 
 std::string fit_text(const DepthFit& fit) {
@@ -151,7 +141,7 @@ DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const 
   tell_depth(depths, depth.set, fit, notes);
 
   const double sign = is_reversed(side, fit, settled.explanation, views.grid()) ? -1 : 1;
-  scale(maps.field, sign * factor);
+  scale_values(maps.field, sign * factor);
   ConventionReport& report = notes.report;
   report.units = "disparity of " + name_of(*maps.set) + ": " + settled.unit.text +
                  (sign < 0 ? ", negative = nearer" : "");

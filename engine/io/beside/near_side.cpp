@@ -3,6 +3,8 @@
 
 #include "engine/io/order/warp_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -126,6 +128,12 @@ NearSide find_near_side(const LightField::Samples& samples, ViewIndex at, const 
   }
   if (sums.points == 0) return {};
   return {sums.larger / sums.points, sums.smaller / sums.points, sums.points};
+}
+
+std::string hiding_text(const NearSide& side) {
+  return fmt::format(
+      "hide others in other views (grey error {:.2f}, the hidden ones {:.2f}, {} pairs)",
+      std::min(side.larger, side.smaller), std::max(side.larger, side.smaller), side.points);
 }
 
 bool has_other_sign(const NearSide& side, const Explanation& explanation, GridShape grid) {

@@ -3,6 +3,8 @@
 
 #include "engine/io/beside/map_scale.h"
 
+#include <string>
+
 namespace episcope::io {
 
 /// Which values of a disparity map hide the others: where two pixels of a view fall on the same
@@ -23,6 +25,9 @@ struct NearSide {
 [[nodiscard]] NearSide find_near_side(const LightField::Samples& samples, ViewIndex at,
                                       const DisparityView& map, double factor,
                                       const Explanation& explanation);
+
+/// What the nearer values do, for reports: "hide others in other views (…)".
+[[nodiscard]] std::string hiding_text(const NearSide& side);
 
 /// What reports say of values that were negated though nothing hides anything.
 inline constexpr const char* kSignByOrder =

@@ -5,7 +5,6 @@
 #include "engine/io/beside/unknown_zeros.h"
 
 #include <algorithm>
-#include <functional>
 
 namespace episcope::io {
 namespace {
@@ -26,8 +25,7 @@ bool correct_sign(const LightField::Samples& samples, ViewIndex at, DisparityFie
   const Explanation explanation = explain_views(samples, at, field.view(at), 1);
   const NearSide side = find_near_side(samples, at, field.view(at), 1, explanation);
   if (!has_other_sign(side, explanation, grid_of(samples))) return false;
-  std::transform(field.disparity.data(), field.disparity.data() + field.disparity.size(),
-                 field.disparity.data(), std::negate<>());
+  scale_values(field, -1);
   return true;
 }
 
@@ -35,6 +33,12 @@ bool correct_sign(const LightField::Samples& samples, ViewIndex at, DisparityFie
 
 ViewIndex NamedValues::at(GridShape grid) const {
   return field.contains(grid.center()) ? grid.center() : field.disparity.first();
+}
+
+void scale_values(DisparityField& field, double factor) {
+  if (factor == 1) return;
+  std::for_each(field.disparity.data(), field.disparity.data() + field.disparity.size(),
+                [&](float& value) { value = static_cast<float>(factor * value); });
 }
 
 SettledUnit settle_values(const LightField::Samples& samples, const std::vector<MapUnit>& units,

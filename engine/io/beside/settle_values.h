@@ -20,6 +20,9 @@ struct NamedValues {
   [[nodiscard]] ViewIndex at(GridShape grid) const;
 };
 
+/// Multiplies the values of all views.
+void scale_values(DisparityField& field, double factor);
+
 /// The unit of a disparity that explains the views (`settle_unit`). Where none does well, and scale
 /// and offset found from the views do clearly better (`fit_meaning`), they are applied to the
 /// field, a warning says so, and the unit is px. Zeros that stand for unknown become invalid.
