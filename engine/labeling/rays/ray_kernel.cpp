@@ -19,9 +19,9 @@ inline void store_int(std::int32_t* to, IntVec value) {
   store(reinterpret_cast<float*>(to), reinterpret_cast<Vec>(value));
 }
 
-// At the end of a row that is no multiple of the lanes they overlap those before.
-inline int begin_of(int x, int count) {
-  return x + kLanes <= count ? x : count - kLanes;
+// At an end that is no multiple of the lanes away they overlap those before.
+inline int begin_of(int x, int end) {
+  return x + kLanes <= end ? x : end - kLanes;
 }
 
 inline IntVec are_valid(const std::uint8_t* valid, IntVec index) {
@@ -35,8 +35,8 @@ void find_targets(const RayRow& rays, std::int32_t* targets) {
   const Vec end_y = splat(static_cast<float>(rays.height));
   IntVec lanes;
   for (int i = 0; i < kLanes; ++i) lanes[i] = i;
-  for (int next = 0; next < rays.count; next += kLanes) {
-    const int x = begin_of(next, rays.count);
+  for (int next = rays.begin; next < rays.end; next += kLanes) {
+    const int x = begin_of(next, rays.end);
     const Vec d = load(rays.disparity + x);
     const Vec at_x = convert<float>(lanes + x) - d * rays.step_x + 0.5F;
     const Vec at_y = rays.row - d * rays.step_y + 0.5F;

@@ -7,9 +7,9 @@
 
 namespace episcope {
 
-/// A row of rays, and the view in which they arrive.
+/// Rays of a row, and the view in which they arrive.
 struct RayRow {
-  int count = 0;                        ///< Rays, a whole vector of 16 at least.
+  int begin = 0, end = 0;               ///< Columns of the rays, a whole vector of 16 at least.
   int height = 0, width = 0;            ///< Of the view.
   float row = 0;                        ///< y of the rays.
   float step_x = 0, step_y = 0;         ///< To the other view, px per px of disparity.
@@ -33,7 +33,7 @@ struct RayCosts {
 /// The kernel's entry points, one set for each instruction set, all with the same bits.
 struct RayKernel {
   /// What find_ray_targets says.
-  void (*find_targets)(const RayRow&, std::int32_t* targets);
+  void (*find_targets)(const RayRow&, std::int32_t* targets);  // of the row
   /// costs `[label][x]` += trust · cost where the ray arrives.
   void (*add_costs)(const RayCosts&, float* costs);
 };

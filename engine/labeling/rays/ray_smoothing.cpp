@@ -8,7 +8,7 @@
 namespace episcope {
 namespace {
 
-// The second makes labels agree that the first one has changed.
+// Rounds of votes. The second makes labels agree that the first one has changed.
 constexpr int kVotes = 2;
 
 RayColors colors_of(const RayLabelingInput& input, const Progress& progress) {
@@ -26,13 +26,11 @@ ViewProblems problems_of(const RayLabelingInput& input, const RayLabelingParamet
 
 void vote(const RayLabelingInput& input, const RayColors& colors, const Progress& progress,
           RayLabeling& result) {
-  const LabelProbabilities& p = *input.probabilities;
+  const RayVotes votes{static_cast<int>(input.probabilities->ids.size()), *input.disparity, colors};
   progress.step("rays");
-  for (int round = 0; round < kVotes; ++round) {
-    result.labels =
-        vote_along_rays(result.labels, static_cast<int>(p.ids.size()), *input.disparity, colors,
-                        progress.part(round / double{kVotes}, (round + 1.0) / kVotes));
-  }
+  const ViewStack<std::int32_t> first =
+      vote_along_rays(result.labels, votes, progress.part(0, 0.9));
+  result.labels = vote_again_along_rays(result.labels, first, votes, progress.part(0.9, 1));
 }
 
 }  // namespace

@@ -21,4 +21,14 @@ inline constexpr float kSamePointTolerance_px = 0.25F;
 void find_ray_targets(const DisparityView& from, const DisparityView& to, ViewIndex step, int y,
                       std::int32_t* targets);
 
+/// Columns of a row from `begin` to before `end`.
+struct ColumnRange {
+  int begin = 0, end = 0;
+};
+/// Columns of which find_ray_targets takes as many at once.
+inline constexpr int kRayColumns = 16;
+/// The same of kRayColumns columns or more; the others of `targets` stay as they are.
+void find_ray_targets(const DisparityView& from, const DisparityView& to, ViewIndex step, int y,
+                      ColumnRange columns, std::int32_t* targets);
+
 }  // namespace episcope

@@ -2,6 +2,7 @@
 #include "engine/labeling/rays/ray_vote.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/labeling/rays/changed_rays.h"
 #include "engine/labeling/rays/ray_targets.h"
 
 #include <algorithm>
@@ -10,80 +11,123 @@
 namespace episcope {
 namespace {
 
-class Vote {
- public:
-  Vote(const ViewStack<std::int32_t>& labels, int label_count, const DisparityField& disparity,
-       const RayColors& colors)
-      : labels_(labels), label_count_(label_count), disparity_(disparity), colors_(colors) {}
-
-  // Room for one row, of each thread.
-  struct Row {
-    Row(int width, int label_count)
-        : targets(width), votes(static_cast<std::size_t>(width) * label_count) {}
-    std::vector<std::int32_t> targets;
-    std::vector<float> votes;  // [x][label]
-  };
-  void decide_view(ViewIndex view, const Progress& progress, Row& row,
-                   ImageView<std::int32_t> out) const;
-
- private:
-  void add_votes(ViewIndex view, ViewIndex other, int y, Row& row) const;
-
-  const ViewStack<std::int32_t>& labels_;
-  int label_count_;
-  const DisparityField& disparity_;
-  const RayColors& colors_;
+// Room for one row, of each thread.
+struct Row {
+  Row(int width, int label_count)
+      : targets(static_cast<std::size_t>(width)),
+        votes(static_cast<std::size_t>(width) * label_count) {}
+  std::vector<std::int32_t> targets;
+  std::vector<float> votes;  // [x][label]
 };
 
-void Vote::add_votes(ViewIndex view, ViewIndex other, int y, Row& row) const {
-  find_ray_targets(disparity_.view(view), disparity_.view(other),
-                   {other.v - view.v, other.u - view.u}, y, row.targets.data());
+class Vote {
+ public:
+  Vote(const ViewStack<std::int32_t>& labels, const RayVotes& votes)
+      : labels_(labels), votes_(votes) {}
+
+  // Of columns of row y, the others of `out` stay as they are.
+  void decide(ViewIndex view, int y, ColumnRange columns, Row& row, std::int32_t* out) const;
+
+ private:
+  void add_votes(ViewIndex view, ViewIndex other, int y, ColumnRange columns, Row& row) const;
+  [[nodiscard]] float* votes_at(Row& row, int x) const {
+    return row.votes.data() + static_cast<std::ptrdiff_t>(x) * votes_.label_count;
+  }
+
+  const ViewStack<std::int32_t>& labels_;
+  const RayVotes& votes_;
+};
+
+void Vote::add_votes(ViewIndex view, ViewIndex other, int y, ColumnRange columns, Row& row) const {
+  find_ray_targets(votes_.disparity.view(view), votes_.disparity.view(other),
+                   {other.v - view.v, other.u - view.u}, y, columns, row.targets.data());
   const std::int32_t* const there = labels_.view(other).data;
-  const RayColors::Pair pair = colors_.pair(view, y, other);
-  for (int x = 0; x < labels_.width(); ++x) {
+  const RayColors::Pair pair = votes_.colors.pair(view, y, other);
+  for (int x = columns.begin; x < columns.end; ++x) {
     const std::int32_t target = row.targets[x];
     if (target < 0) continue;
-    row.votes[static_cast<std::size_t>(x) * label_count_ + there[target]] +=
-        colors_.trust(pair, x, target);
+    votes_at(row, x)[there[target]] += votes_.colors.trust(pair, x, target);
   }
 }
 
-void Vote::decide_view(ViewIndex view, const Progress& progress, Row& row,
-                       ImageView<std::int32_t> out) const {
-  const auto here = labels_.view(view);
+void Vote::decide(ViewIndex view, int y, ColumnRange columns, Row& row, std::int32_t* out) const {
   const ViewIndex first = labels_.first();
   const GridShape grid = labels_.grid();
-  for (int y = 0; y < here.height; ++y) {
-    progress.check();
-    std::fill(row.votes.begin(), row.votes.end(), 0.0F);
-    for (int u = first.u; u < first.u + grid.u; ++u) {
-      if (u != view.u) add_votes(view, {view.v, u}, y, row);
-    }
-    for (int v = first.v; v < first.v + grid.v; ++v) {
-      if (v != view.v) add_votes(view, {v, view.u}, y, row);
-    }
-    for (int x = 0; x < here.width; ++x) {
-      float* const votes = row.votes.data() + static_cast<std::ptrdiff_t>(x) * label_count_;
-      const std::int32_t own = here.at(y, x);
-      votes[own] += 1;
-      const float* const most = std::max_element(votes, votes + label_count_);
-      out.at(y, x) = *most > votes[own] ? static_cast<std::int32_t>(most - votes) : own;
+  std::fill(votes_at(row, columns.begin), votes_at(row, columns.end), 0.0F);
+  for (int u = first.u; u < first.u + grid.u; ++u) {
+    if (u != view.u) add_votes(view, {view.v, u}, y, columns, row);
+  }
+  for (int v = first.v; v < first.v + grid.v; ++v) {
+    if (v != view.v) add_votes(view, {v, view.u}, y, columns, row);
+  }
+  const std::int32_t* const here = labels_.view(view).row(y);
+  for (int x = columns.begin; x < columns.end; ++x) {
+    float* const votes = votes_at(row, x);
+    votes[here[x]] += 1;
+    const float* const most = std::max_element(votes, votes + votes_.label_count);
+    out[x] = *most > votes[here[x]] ? static_cast<std::int32_t>(most - votes) : here[x];
+  }
+}
+
+// The next columns with a mark from `begin` on, as many at least as rays are found for at once;
+// empty if there are none.
+ColumnRange next_marked(const std::uint8_t* marks, int begin, int width) {
+  const auto is_marked = [marks](int from, int to) {
+    return std::any_of(marks + from, marks + to, [](std::uint8_t mark) { return mark != 0; });
+  };
+  ColumnRange found{width, width};
+  for (int x = begin; x < width; x += kRayColumns) {
+    const int end = std::min(x + kRayColumns, width);
+    if (is_marked(x, end)) {
+      if (found.begin == width) found.begin = x;
+      found.end = end;
+    } else if (found.begin < width) {
+      break;
     }
   }
+  if (found.begin < width)
+    found.begin = std::max(std::min(found.begin, found.end - kRayColumns), 0);
+  return found;
 }
 
 }  // namespace
 
-ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels, int label_count,
-                                        const DisparityField& disparity, const RayColors& colors,
-                                        const Progress& progress) {
-  const Vote vote(labels, label_count, disparity, colors);
-  ViewStack<std::int32_t> decided(labels.grid(), labels.height(), labels.width(), 1,
-                                  labels.first());
+ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
+                                        const RayVotes& votes, const Progress& progress) {
+  const Vote vote(labels, votes);
+  const int width = labels.width();
+  ViewStack<std::int32_t> decided(labels.grid(), labels.height(), width, 1, labels.first());
   parallel_for_workers(labels.grid().count(), progress, [&] {
-    return [&, row = Vote::Row(labels.width(), label_count)](int i) mutable {
+    return [&, row = Row(width, votes.label_count)](int i) mutable {
       const ViewIndex view = labels.view_at(i);
-      vote.decide_view(view, progress, row, decided.view(view));
+      for (int y = 0; y < labels.height(); ++y) {
+        progress.check();
+        vote.decide(view, y, {0, width}, row, decided.view(view).row(y));
+      }
+    };
+  });
+  return decided;
+}
+
+ViewStack<std::int32_t> vote_again_along_rays(const ViewStack<std::int32_t>& before,
+                                              const ViewStack<std::int32_t>& labels,
+                                              const RayVotes& votes, const Progress& progress) {
+  const ViewStack<std::uint8_t> marks =
+      changed_rays(before, labels, votes.disparity, progress.part(0, 0));
+  const Vote vote(labels, votes);
+  const int width = labels.width();
+  ViewStack<std::int32_t> decided = labels.clone();
+  parallel_for_workers(labels.grid().count(), progress, [&] {
+    return [&, row = Row(width, votes.label_count)](int i) mutable {
+      const ViewIndex view = labels.view_at(i);
+      for (int y = 0; y < labels.height(); ++y) {
+        progress.check();
+        const std::uint8_t* const marked = marks.view(view).row(y);
+        for (ColumnRange columns = next_marked(marked, 0, width); columns.begin < width;
+             columns = next_marked(marked, columns.end, width)) {
+          vote.decide(view, y, columns, row, decided.view(view).row(y));
+        }
+      }
     };
   });
   return decided;

@@ -18,10 +18,19 @@ namespace episcope {
 ///
 /// The layers `labels` are 0 … `label_count` − 1. Takes (v + u − 1)·rays steps. Precondition:
 /// `disparity` and `colors` hold all views with labels. Throws Cancelled.
+struct RayVotes {
+  int label_count = 0;
+  const DisparityField& disparity;
+  const RayColors& colors;
+};
 [[nodiscard]] ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
-                                                      int label_count,
-                                                      const DisparityField& disparity,
-                                                      const RayColors& colors,
+                                                      const RayVotes& votes,
                                                       const Progress& progress);
+/// The same, sooner: only rays vote for which labels have changed since `before`, from which
+/// `labels` came by a vote.
+[[nodiscard]] ViewStack<std::int32_t> vote_again_along_rays(const ViewStack<std::int32_t>& before,
+                                                            const ViewStack<std::int32_t>& labels,
+                                                            const RayVotes& votes,
+                                                            const Progress& progress);
 
 }  // namespace episcope

@@ -52,6 +52,7 @@ SimplexResult ViewProblem::solve(const Task& task, const Progress& progress,
   options.gap = task.gap;
   options.max_iterations = parameters_.max_iterations;
   options.check_every = kGapCheckEvery;
+  options.racing_iterations = kRacingIterations;
   if (task.last) options.from_last = places_in(*task.last, task.view);
   return solver_.solve({costs_.view(), g, parameters_.smoothness}, options, progress, labels);
 }

@@ -13,6 +13,9 @@ namespace episcope {
 /// enough.
 inline constexpr int kGapCheckEvery = 5;
 
+/// At first far labels are left out of the race for so many.
+inline constexpr int kRacingIterations = 25;
+
 /// The labeling of one view as a problem of its own, and room to solve it for many views: costs of
 /// its labels, weights of its boundaries, the solver. One object per solving thread.
 class ViewProblem {

@@ -4,6 +4,7 @@
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace episcope {
@@ -62,8 +63,14 @@ void find_places(const LayeredSweep& from, ImageView<const std::int32_t> places,
   }
 }
 
-void gather(const float* from, const std::vector<long>& places, float* to) {
-  std::transform(places.begin(), places.end(), to, [from](long place) { return from[place]; });
+// The layers that are listed, in columns from `begin` on, of the layers of a row.
+void gather(const float* from, const std::vector<long>& places, const LayerList& listed, int begin,
+            long pitch, float* to) {
+  const int end = std::min(begin + kLayerColumns, static_cast<int>(places.size()));
+  for (int k = 0; k < listed.count; ++k) {
+    const long layer = listed.layers[k] * pitch;
+    for (int x = begin; x < end; ++x) to[layer + x] = from[layer + places[x]];
+  }
 }
 
 }  // namespace
@@ -97,21 +104,26 @@ void begin_from(LayeredSweep& coarse, const Progress& progress, LayeredSweep& fi
 }
 
 void begin_from_moved(LayeredSweep& from, ImageView<const std::int32_t> places,
-                      const Progress& progress, LayeredSweep& to) {
+                      const RacingLayers& racing, const Progress& progress, LayeredSweep& to) {
+  const LayeredShape& shape = to.shape();
+  std::vector<std::uint16_t> all(static_cast<std::size_t>(shape.steps));
+  std::iota(all.begin(), all.end(), std::uint16_t{0});
+  const LayerList everything{all.data(), shape.steps};
   parallel_for(to.bands(), progress, [&](int i) {
     const auto band = to.band(i);
-    const LayeredShape& shape = to.shape();
     to.clear(band);
     Places found(shape.width);
     const PairDuals first = from.duals(0);
     for (int y = band.begin; y < band.end; ++y) {
       find_places(from, places, y, found);
       const PairDuals duals = to.duals(y);
-      for (int layer = 0; layer < shape.steps; ++layer) {
-        const long row = layer * shape.pitch;
-        gather(from.phi(0) + row, found.phi, to.phi(y) + row);
+      const LayerBlock* const blocks = racing.row(y);
+      for (int begin = 0; begin < shape.width; begin += kLayerColumns) {
+        const LayerBlock block = blocks != nullptr ? blocks[begin / kLayerColumns]
+                                                   : LayerBlock{everything, everything, {}};
+        gather(from.phi(0), found.phi, block.moving, begin, shape.pitch, to.phi(y));
         for (int k = 0; k < kPairKinds; ++k) {
-          gather(first.pair[k] + row, found.duals, duals.pair[k] + row);
+          gather(first.pair[k], found.duals, block.paired, begin, shape.pitch, duals.pair[k]);
         }
       }
     }

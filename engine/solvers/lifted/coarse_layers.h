@@ -23,8 +23,8 @@ void begin_from(LayeredSweep& coarse, const Progress& progress, LayeredSweep& fi
 
 /// Initialises `to` with the result of `from`, of the same size, for an image whose pixels have
 /// moved: each pixel takes φ and the duals of the pixel y'·width + x' given in `places` `[y][x]`,
-/// or of the one at its own place where that is −1.
+/// or of the one at its own place where that is −1. On layers that do not take part both are 0.
 void begin_from_moved(LayeredSweep& from, ImageView<const std::int32_t> places,
-                      const Progress& progress, LayeredSweep& to);
+                      const RacingLayers& racing, const Progress& progress, LayeredSweep& to);
 
 }  // namespace episcope

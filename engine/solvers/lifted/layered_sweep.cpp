@@ -41,6 +41,27 @@ void LayeredSweep::clear(const Band& band) {
               kPairKinds * size + margin, 0.0F);
 }
 
+void LayeredSweep::clear_all_but(const RacingLayers& racing, const Band& band) {
+  const auto clear = [this](const LayerList& kept, int begin, float* row) {
+    const int count = std::min(kLayerColumns, shape_.width - begin);
+    int next = 0;
+    for (int l = 0; l < shape_.steps; ++l) {
+      const bool is_kept = next < kept.count && kept.layers[next] == l;
+      next += is_kept ? 1 : 0;
+      if (!is_kept) std::fill_n(row + l * shape_.pitch + begin, count, 0.0F);
+    }
+  };
+  for (int y = band.begin; y < band.end; ++y) {
+    const LayerBlock* block = racing.row(y);
+    if (block == nullptr) return;
+    const PairDuals pairs = duals(y);
+    for (int begin = 0; begin < shape_.width; begin += kLayerColumns, ++block) {
+      clear(block->moving, begin, phi(y));
+      for (float* const pair : pairs.pair) clear(block->paired, begin, pair);
+    }
+  }
+}
+
 PairDuals LayeredSweep::duals(int y) {
   PairDuals row;
   for (int k = 0; k < kPairKinds; ++k) {
@@ -120,21 +141,32 @@ void LayeredSweep::iterate(const Terms& terms, int count, const Progress& progre
   });
 }
 
+void LayeredSweep::move_primal(const Terms& terms, int y, float* ahead) {
+  PairDuals here = duals(y, terms.limits);
+  if (terms.racing != nullptr) here.blocks = terms.racing->row(y);
+  terms.moves.primal(shape_, terms.cost.row(y, 0), here, duals_above(y, terms.limits), phi(y),
+                     ahead);
+}
+
+void LayeredSweep::move_dual(const Terms& terms, int y, const float* ahead,
+                             const float* ahead_below) {
+  PairDuals here = duals(y, terms.limits);
+  if (terms.racing != nullptr) here.blocks = terms.racing->row(y);
+  terms.moves.dual(shape_, ahead, ahead_below, here);
+}
+
 // A row of φ needs the old duals of its own and of the row above, a row of duals the new φ of its
 // own and of the row below: in this order everything is updated in place, and memory is traversed
 // once.
 void LayeredSweep::iterate_bands(const Terms& terms, const Progress& progress) {
-  const auto& [cost, limits, moves] = terms;
   parallel_for_workers(bands(), progress, [&] {
     const std::size_t size = 2 * row_size() + 2 * kLayerRowUnit;
     return [&, scratch = std::vector<float>(size)](int i) mutable {
       const FlushDenormals flush;
       for (int y = band(i).begin; y < band(i).end; ++y) {
-        moves.primal(shape_, cost.row(y, 0), duals(y, limits), duals_above(y, limits), phi(y),
-                     ahead(y, scratch.data()));
+        move_primal(terms, y, ahead(y, scratch.data()));
         if (y == band(i).begin) continue;
-        moves.dual(shape_, ahead(y - 1, scratch.data()), ahead(y, scratch.data()),
-                   duals(y - 1, limits));
+        move_dual(terms, y - 1, ahead(y - 1, scratch.data()), ahead(y, scratch.data()));
       }
     };
   });
@@ -142,14 +174,12 @@ void LayeredSweep::iterate_bands(const Terms& terms, const Progress& progress) {
   parallel_for(bands(), progress, [&](int i) {
     const FlushDenormals flush;
     const int y = band(i).end - 1;
-    moves.dual(shape_, ahead(y, nullptr), ahead(std::min(y + 1, height_ - 1), nullptr),
-               duals(y, limits));
+    move_dual(terms, y, ahead(y, nullptr), ahead(std::min(y + 1, height_ - 1), nullptr));
   });
 }
 
 // When an iteration comes to a row, the one before has left it and its duals, and those above.
 void LayeredSweep::iterate_part(const Terms& terms, const Part& part, const Progress& progress) {
-  const auto& [cost, limits, moves] = terms;
   const FlushDenormals flush;
   for (int step = 0; step < height_ + 2 * (part.iterations - 1); ++step) {
     progress.check();
@@ -160,10 +190,9 @@ void LayeredSweep::iterate_part(const Terms& terms, const Part& part, const Prog
       const auto row = [&](int at) {
         return part.rows + kLayerRowUnit + (2 * i + (at & 1)) * row_size();
       };
-      moves.primal(shape_, cost.row(y, 0), duals(y, limits), duals_above(y, limits), phi(y),
-                   row(y));
-      if (y > 0) moves.dual(shape_, row(y - 1), row(y), duals(y - 1, limits));
-      if (y == height_ - 1) moves.dual(shape_, row(y), row(y), duals(y, limits));
+      move_primal(terms, y, row(y));
+      if (y > 0) move_dual(terms, y - 1, row(y - 1), row(y));
+      if (y == height_ - 1) move_dual(terms, y, row(y), row(y));
     }
     part.leave(step - 2 * (part.iterations - 1) + 1);
   }

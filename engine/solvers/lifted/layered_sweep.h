@@ -6,6 +6,7 @@
 #include "engine/core/parallel/progress.h"
 #include "engine/solvers/simplex/pair_duals.h"
 #include "engine/solvers/simplex/pair_limits.h"
+#include "engine/solvers/simplex/racing_layers.h"
 
 #include <functional>
 #include <vector>
@@ -42,11 +43,14 @@ class LayeredSweep {
 
   /// φ and duals of a band become 0.
   void clear(const Band& band);
+  /// φ becomes 0 on layers that do not move, and the duals on those that are not paired.
+  void clear_all_but(const RacingLayers& racing, const Band& band);
   /// What an iteration needs; borrowed. May change from one call to the next, as the steps may.
   struct Terms {
     VolumeView<const float> cost;
     const PairLimits& limits;
     const LayeredMoves& moves;
+    const RacingLayers* racing = nullptr;  // null = all layers take part
   };
   /// Several iterations. Throws Cancelled.
   void iterate(const Terms& terms, int count, const Progress& progress);
@@ -66,6 +70,9 @@ class LayeredSweep {
  private:
   void iterate_bands(const Terms& terms, const Progress& progress);
   struct Part;
+  // Moves row y of φ and the duals of the row above it.
+  void move_primal(const Terms& terms, int y, float* ahead);
+  void move_dual(const Terms& terms, int y, const float* ahead, const float* ahead_below);
   void iterate_part(const Terms& terms, const Part& part, const Progress& progress);
   // Row y of 2φ' − φ of a band: its first and last row are kept for the neighbouring bands.
   [[nodiscard]] float* ahead(int y, float* scratch);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+
 namespace episcope {
 
 /// Floats that a row is padded to, the widest vector.
@@ -20,10 +22,31 @@ struct LayeredShape {
   float relaxation = 1;
 };
 
+/// Columns walked through all layers before the next ones: what is kept of each fits the first
+/// cache, and a run within a layer is long enough for the prefetcher.
+inline constexpr int kLayerColumns = 128;
+
+/// Of a problem on layers without order.
+inline constexpr int kMaxSimplexLayers = 256;
+
+/// Numbers of layers, ascending.
+struct LayerList {
+  const std::uint16_t* layers = nullptr;
+  int count = 0;
+};
+
+/// The layers of `kLayerColumns` columns of a row that take part. On others φ stays 0.
+struct LayerBlock {
+  LayerList moving;  ///< φ moves on these;
+  LayerList paired;  ///< so do duals: pairs begin here that have one of `moving` at either end;
+  LayerList still;   ///< φ does not move here but next to the block.
+};
+
 /// Duals of the pairs of one row, and the largest size each may have (the same on every layer).
 struct PairDuals {
   float* pair[kPairKinds] = {};
   const float* limit[kPairKinds] = {};
+  const LayerBlock* blocks = nullptr;  ///< Of this row; null = all layers take part.
 };
 
 }  // namespace episcope

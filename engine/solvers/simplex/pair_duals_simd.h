@@ -10,9 +10,27 @@
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
-// Columns walked through all layers before the next ones: what is kept of each fits the first
-// cache, and a run within a layer is long enough for the prefetcher.
-constexpr int kColumns = 128;
+constexpr int kColumns = kLayerColumns;
+
+struct AllLayers {
+  static constexpr int kCount = 512;
+  std::uint16_t layers[kCount] = {};
+  constexpr AllLayers() {
+    for (int l = 0; l < kCount; ++l) layers[l] = static_cast<std::uint16_t>(l);
+  }
+};
+constexpr AllLayers kAllLayers;
+
+[[maybe_unused]] inline LayerList all_layers(const LayeredShape& shape) {
+  return {kAllLayers.layers, shape.steps};
+}
+
+// The layers of the block that begins at column `begin`.
+[[maybe_unused]] inline LayerBlock block_of(const LayeredShape& shape, const PairDuals& row,
+                                            int begin) {
+  if (row.blocks != nullptr) return row.blocks[begin / kColumns];
+  return {all_layers(shape), all_layers(shape), {}};
+}
 
 // The first `count` floats, then zeros.
 [[maybe_unused]] inline Vec load_first(const float* from, int count) {
@@ -60,16 +78,19 @@ constexpr int kColumns = 128;
     const Vec next = clamp(old + step * difference, load(here.limit[pair] + x));
     store(at, old + relaxation * (next - old));
   };
-  const int end = whole_registers(shape.width);
-  for (int l = 0; l < shape.steps; ++l) {
-    for (int x = 0; x < end; x += kLanes) {
-      const long i = l * shape.pitch + x;
-      const Vec at = load(ahead + i), right = load(ahead + i + 1);
-      const Vec down = load(ahead_below + i), across = load(ahead_below + i + 1);
-      move(0, i, x, right - at);
-      move(1, i, x, down - at);
-      move(2, i, x, across - at);
-      move(3, i, x, down - right);
+  for (int begin = 0; begin < shape.width; begin += kColumns) {
+    const int end = end_of(shape, begin);
+    const LayerList paired = block_of(shape, here, begin).paired;
+    for (int k = 0; k < paired.count; ++k) {
+      for (int x = begin; x < end; x += kLanes) {
+        const long i = paired.layers[k] * shape.pitch + x;
+        const Vec at = load(ahead + i), right = load(ahead + i + 1);
+        const Vec down = load(ahead_below + i), across = load(ahead_below + i + 1);
+        move(0, i, x, right - at);
+        move(1, i, x, down - at);
+        move(2, i, x, across - at);
+        move(3, i, x, down - right);
+      }
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "engine/solvers/lifted/coarse_layers.h"
 #include "engine/solvers/lifted/layered_sweep.h"
 #include "engine/solvers/simplex/pair_labels.h"
+#include "engine/solvers/simplex/racing_layers.h"
 #include "engine/solvers/simplex/simplex_labeling_kernel.h"
 
 #include <fmt/format.h>
@@ -62,6 +63,19 @@ double row_energy(const SimplexProblem& problem, const PairLimits& limits, Image
   return pair_row_energy(problem.cost, limits, u, y, potts_jump);
 }
 
+// Without boundaries.
+SimplexResult each_cheapest(const SimplexProblem& problem, ImageView<int> labels) {
+  SimplexResult result;
+  std::vector<float> least;
+  for (int y = 0; y < labels.height; ++y) {
+    take_cheapest(problem.cost, y, labels.row(y), least);
+    for (const float each : least) result.energy += static_cast<double>(each);
+  }
+  result.relaxed = result.bound = result.energy;
+  result.converged = true;
+  return result;
+}
+
 // Each pixel is in 8 pairs, so |K|² ≤ 16. u moves within [0, 1]; how far the duals move grows with
 // λ, but more slowly: where λ is large, the costs bound them.
 void set_steps(double smoothness, LayeredShape& shape) {
@@ -92,9 +106,14 @@ struct SimplexSolver::State {
 
   State(int height, int layers, int width, Isa isa);
 
+  void begin(const SimplexProblem& problem, const SimplexOptions& options,
+             const Progress& progress);
   void start(const SimplexProblem& problem, const Progress& progress);
   void climb(const SimplexProblem& problem, const Progress& progress);
-  void take_over(ImageView<const std::int32_t> from, const Progress& progress);
+  void choose_layers(const SimplexProblem& problem, const SimplexOptions& options,
+                     const Progress& progress);
+  void take_over(const SimplexProblem& problem, const SimplexOptions& options,
+                 const Progress& progress);
   void measure(const SimplexProblem& problem, const PairLimits& limits, SimplexResult& result,
                ImageView<int> labels, const Progress& progress);
   void measure_band(const SimplexProblem& problem, const PairLimits& limits, int band);
@@ -105,6 +124,7 @@ struct SimplexSolver::State {
   std::optional<LayeredSweep> last;  // where the call before ended, if ever taken over from
   std::vector<Level> coarse;
   bool has_run = false;
+  RacingLayers racing;
   Image<int> rounded;
   std::vector<double> bounds, relaxed, energies;  // of each band
 };
@@ -113,6 +133,7 @@ SimplexSolver::State::State(int height, int layers, int width, Isa isa)
     : kernel(EPISCOPE_CHOOSE_KERNEL(isa, kSimplexKernel)),
       moves{kernel.move_primal, kernel.move_dual},
       sweep(height, layers, width),
+      racing(height, layers, width),
       rounded(height, width) {
   while (std::min(height, width) >= 2 * kMinSide) {
     height = (height + 1) / 2;
@@ -162,10 +183,47 @@ void SimplexSolver::State::climb(const SimplexProblem& problem, const Progress& 
   }
 }
 
-void SimplexSolver::State::take_over(ImageView<const std::int32_t> from, const Progress& progress) {
+// Those of the labels reached so far take part in any case.
+void SimplexSolver::State::choose_layers(const SimplexProblem& problem,
+                                         const SimplexOptions& options, const Progress& progress) {
+  racing.take_all();
+  if (options.racing_iterations == 0) return;
+  parallel_for(sweep.bands(), progress, [&](int i) {
+    for (int y = sweep.band(i).begin; y < sweep.band(i).end; ++y) {
+      kernel.cut(sweep.shape(), sweep.phi(y), rounded.row(y));
+    }
+  });
+  racing.choose(problem.cost, options.behind, rounded, progress);
+  parallel_for(sweep.bands(), progress, [&](int i) { sweep.clear_all_but(racing, sweep.band(i)); });
+}
+
+void SimplexSolver::State::take_over(const SimplexProblem& problem, const SimplexOptions& options,
+                                     const Progress& progress) {
+  const ImageView<const std::int32_t> from = options.from_last;
   if (!last) last.emplace(sweep.height(), sweep.shape().steps, sweep.shape().width);
   std::swap(sweep, *last);
-  begin_from_moved(*last, from, progress, sweep);
+  racing.take_all();
+  if (options.racing_iterations > 0) {
+    Image<int> moved(rounded.height(), rounded.width());
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      moved.data()[i] = rounded.data()[from.data[i] < 0 ? i : from.data[i]];
+    }
+    racing.choose(problem.cost, options.behind, moved, progress);
+  }
+  begin_from_moved(*last, from, racing, progress, sweep);
+}
+
+void SimplexSolver::State::begin(const SimplexProblem& problem, const SimplexOptions& options,
+                                 const Progress& progress) {
+  if (options.from_last.empty() || !has_run) {
+    start(problem, progress);
+    climb(problem, progress);
+    choose_layers(problem, options, progress);
+  } else {
+    take_over(problem, options, progress);
+  }
+  has_run = true;
+  set_steps(problem.smoothness, sweep.shape());
 }
 
 void SimplexSolver::State::measure_band(const SimplexProblem& problem, const PairLimits& limits,
@@ -240,26 +298,10 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
     throw InvalidInput("the label image of a labeling must have the size of the costs");
   }
   check_moves(options.from_last, shape, state.sweep.height());
+  if (problem.smoothness == 0 || shape.steps == 1) return each_cheapest(problem, labels);
   SimplexResult result;
-  if (problem.smoothness == 0 || shape.steps == 1) {
-    std::vector<float> least;
-    for (int y = 0; y < labels.height; ++y) {
-      take_cheapest(problem.cost, y, labels.row(y), least);
-      for (const float each : least) result.energy += each;
-    }
-    result.relaxed = result.bound = result.energy;
-    result.converged = true;
-    return result;
-  }
   const PairLimits limits = limits_of(problem);
-  if (options.from_last.empty() || !state.has_run) {
-    state.start(problem, progress.part(0, 0));
-    state.climb(problem, progress.part(0, 0));
-  } else {
-    state.take_over(options.from_last, progress.part(0, 0));
-  }
-  state.has_run = true;
-  set_steps(problem.smoothness, state.sweep.shape());
+  state.begin(problem, options, progress.part(0, 0));
   result.energy = result.relaxed = std::numeric_limits<double>::infinity();
   result.bound = -result.energy;
   const int check_every = std::max(1, options.check_every);
@@ -269,12 +311,15 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
     const int count = std::min({progress.finish_requested() ? 1 : kTogether,
                                 check_every - result.iterations % check_every,
                                 options.max_iterations - result.iterations});
-    state.sweep.iterate({problem.cost, limits, state.moves}, count, quiet);
+    if (result.iterations >= options.racing_iterations) state.racing.take_all();
+    state.sweep.iterate({problem.cost, limits, state.moves, &state.racing}, count, quiet);
     result.iterations += count;
     done = std::max(done, 1 - std::exp2(-result.iterations / 20.0));
     progress.report(done);
     last = result.iterations >= options.max_iterations || progress.finish_requested();
-    if (!last && result.iterations % check_every != 0) continue;
+    const bool is_due =
+        result.iterations > options.racing_iterations && result.iterations % check_every == 0;
+    if (!last && !is_due) continue;
     state.measure(problem, limits, result, labels, quiet);
     result.converged = result.relative_gap() <= options.gap;
     last = last || result.converged;

@@ -33,6 +33,11 @@ struct SimplexOptions {
   /// the pixel y'·width + x' of the last image given here, where −1 from the one at its own place.
   /// Empty = start afresh. Ignored in the first call.
   ImageView<const std::int32_t> from_last;
+  /// So many iterations at first leave a label out where it costs at least `behind` more than the
+  /// cheapest one at every pixel around (engine/solvers/simplex/racing_layers.h): for many labels
+  /// they take a fraction of the time. The gap is not looked at before their end.
+  int racing_iterations = 0;
+  float behind = 1;
 };
 
 struct SimplexResult {

@@ -11,15 +11,14 @@ namespace {
 // falls and is convex in θ, so every step stays below the solution and the last is exact (the steps
 // of Michelot 1986). max v − 1 ≤ θ is the solution already where one label has it all. Layers that
 // are not above θ in any column never will be: from the second pass on they are out of the race.
-inline Vec threshold(const LayeredShape& shape, const float* v, Vec top) {
+inline Vec threshold(const LayeredShape& shape, const LayerList& moving, const float* v, Vec top) {
   const float* racing[kMaxSimplexLayers];
-  int count = 0;
-  for (int l = 0; l < shape.steps; ++l) racing[l] = v + l * shape.pitch;
+  for (int k = 0; k < moving.count; ++k) racing[k] = v + moving.layers[k] * shape.pitch;
   Vec theta = top - 1.0F;
-  int left = shape.steps;
-  for (int pass = 0; pass < shape.steps; ++pass) {
+  int left = moving.count;
+  for (int pass = 0; pass < moving.count; ++pass) {
     Vec sum = splat(-1), above = splat(0);
-    count = 0;
+    int count = 0;
     for (int i = 0; i < left; ++i) {
       const Vec over = load(racing[i]) - theta;
       const IntVec is_above = over > 0.0F;
@@ -43,8 +42,11 @@ void move_primal(const LayeredShape& shape, const float* cost, const PairDuals& 
   const Vec step = splat(shape.primal_step), relaxation = splat(shape.relaxation);
   for (int begin = 0; begin < shape.width; begin += kColumns) {
     const int end = end_of(shape, begin);
+    const LayerBlock block = block_of(shape, here, begin);
+    const LayerList& moving = block.moving;
     for (int x = begin; x < end; x += kLanes) store(largest + x - begin, splat(-1e30F));
-    for (int l = 0; l < shape.steps; ++l) {
+    for (int k = 0; k < moving.count; ++k) {
+      const int l = moving.layers[k];
       const float* const costs = cost + static_cast<long>(l) * shape.width;
       for (int x = begin; x < end; x += kLanes) {
         const long i = l * shape.pitch + x;
@@ -55,24 +57,29 @@ void move_primal(const LayeredShape& shape, const float* cost, const PairDuals& 
       }
     }
     for (int x = begin; x < end; x += kLanes) {
-      const Vec theta = threshold(shape, ahead + x, load(largest + x - begin));
-      for (int l = 0; l < shape.steps; ++l) {
-        const long i = l * shape.pitch + x;
+      const Vec theta = threshold(shape, moving, ahead + x, load(largest + x - begin));
+      for (int k = 0; k < moving.count; ++k) {
+        const long i = moving.layers[k] * shape.pitch + x;
         const Vec projected = greatest(load(ahead + i) - theta, splat(0));
         const Vec old = load(u + i);
         store(ahead + i, 2.0F * projected - old);
         store(u + i, old + relaxation * (projected - old));
       }
     }
+    for (int k = 0; k < block.still.count; ++k) {
+      float* const row = ahead + block.still.layers[k] * shape.pitch;
+      for (int x = begin; x < end; x += kLanes) store(row + x, splat(0));
+    }
   }
 }
 
 void project(const LayeredShape& shape, const float* from, float* to) {
   const int end = whole_registers(shape.width);
+  const LayerList all = all_layers(shape);
   for (int x = 0; x < end; x += kLanes) {
     Vec top = load(from + x);
     for (int l = 1; l < shape.steps; ++l) top = greatest(top, load(from + l * shape.pitch + x));
-    const Vec theta = threshold(shape, from + x, top);
+    const Vec theta = threshold(shape, all, from + x, top);
     for (int l = 0; l < shape.steps; ++l) {
       const long i = l * shape.pitch + x;
       store(to + i, greatest(load(from + i) - theta, splat(0)));

@@ -6,16 +6,15 @@
 
 namespace episcope {
 
-inline constexpr int kMaxSimplexLayers = 256;
-
 /// The kernel's entry points, one set for each instruction set. Rows of u are `[layer][x]`, `pitch`
 /// apart; of the costs `width` apart.
 struct SimplexKernel {
   /// One row of u: a step along the divergence and down the costs, projected to u ≥ 0, Σ u = 1;
-  /// `ahead` = 2·projected − old.
+  /// `ahead` = 2·projected − old. Only on layers that the blocks of `here` name.
   void (*move_primal)(const LayeredShape&, const float* cost, const PairDuals& here,
                       const PairDuals& above, float* u, float* ahead);
-  /// One row of the duals: a step along the gradient of `ahead`, projected to the limits.
+  /// One row of the duals: a step along the gradient of `ahead`, projected to the limits;
+  /// likewise.
   void (*move_dual)(const LayeredShape&, const float* ahead, const float* ahead_below,
                     const PairDuals& here);
   /// Projects the columns of a row to u ≥ 0, Σ u = 1.
