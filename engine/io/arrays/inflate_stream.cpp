@@ -14,9 +14,17 @@ constexpr int kRawDeflate = -MAX_WBITS;
 }  // namespace
 
 InflateStream::InflateStream(const std::filesystem::path& path, const ZipEntry& entry)
-    : in_(path, std::ios::binary), left_(entry.stored), piece_(kPiece) {
-  in_.seekg(static_cast<std::streamoff>(entry.begin));
-  if (inflateInit2(&state_, kRawDeflate) != Z_OK) throw std::bad_alloc();
+    : InflateStream(path, entry.begin, entry.stored, kRawDeflate) {}
+
+InflateStream::InflateStream(const std::filesystem::path& path, std::uint64_t begin,
+                             std::uint64_t bytes)
+    : InflateStream(path, begin, bytes, MAX_WBITS) {}
+
+InflateStream::InflateStream(const std::filesystem::path& path, std::uint64_t begin,
+                             std::uint64_t bytes, int window)
+    : in_(path, std::ios::binary), left_(bytes), piece_(kPiece) {
+  in_.seekg(static_cast<std::streamoff>(begin));
+  if (inflateInit2(&state_, window) != Z_OK) throw std::bad_alloc();
 }
 
 InflateStream::~InflateStream() {

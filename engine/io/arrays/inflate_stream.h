@@ -12,10 +12,13 @@
 
 namespace episcope::io {
 
-/// Inflates a deflated file inside of a zip archive from its front to its end.
+/// Inflates a deflated part of a file from its front to its end.
 class InflateStream {
  public:
+  /// A file inside of a zip archive.
   InflateStream(const std::filesystem::path& path, const ZipEntry& entry);
+  /// `bytes` bytes from `begin` on, in the form of zlib.
+  InflateStream(const std::filesystem::path& path, std::uint64_t begin, std::uint64_t bytes);
   ~InflateStream();
   InflateStream(const InflateStream&) = delete;
   InflateStream& operator=(const InflateStream&) = delete;
@@ -28,6 +31,8 @@ class InflateStream {
   [[nodiscard]] bool skip_to(std::uint64_t position);
 
  private:
+  InflateStream(const std::filesystem::path& path, std::uint64_t begin, std::uint64_t bytes,
+                int window);
   [[nodiscard]] bool refill();
 
   std::ifstream in_;

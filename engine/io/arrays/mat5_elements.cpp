@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/arrays/mat5_elements.h"
 
-#include <zlib.h>
+#include "engine/io/arrays/inflate_stream.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <functional>
@@ -18,9 +17,9 @@ constexpr std::uint64_t kHeader = 128;
 constexpr std::uint64_t kTag = 8;
 constexpr std::uint32_t kMatrix = 14;
 constexpr std::uint32_t kCompressed = 15;
-constexpr std::uint64_t kBeginning = 4096;  ///< Of a compressed variable: dimensions and name.
-constexpr int kHeadOfMatrix = 3;            ///< Elements: flags, dimensions, name.
-constexpr int kDeepest = 32;                ///< The library calls itself for each.
+constexpr int kHeadOfMatrix = 3;      ///< Elements: flags, dimensions, name.
+constexpr std::uint32_t kStruct = 3;  ///< Kinds of matrices up to this hold others.
+constexpr int kDeepest = 32;          ///< The library calls itself for each.
 
 std::uint32_t number_at(const std::string& bytes, std::size_t at, bool is_little) {
   std::uint32_t number = 0;
@@ -81,29 +80,41 @@ class Elements {
   Read read_;
 };
 
-std::string inflated(std::string packed) {
-  std::string out(kBeginning, '\0');
-  z_stream state{};
-  if (inflateInit(&state) != Z_OK) return {};
-  state.next_in = reinterpret_cast<Bytef*>(packed.data());
-  state.avail_in = static_cast<uInt>(packed.size());
-  state.next_out = reinterpret_cast<Bytef*>(out.data());
-  state.avail_out = static_cast<uInt>(out.size());
-  inflate(&state, Z_SYNC_FLUSH);
-  out.resize(out.size() - state.avail_out);
-  inflateEnd(&state);
-  return out;
-}
+/// A compressed variable, read from its front to its end.
+class Unpacked {
+ public:
+  Unpacked(const fs::path& path, const Element& packed)
+      : stream_(path, packed.begin, packed.end - packed.begin) {}
 
-/// The beginning of a compressed variable: its dimensions and its name must be there as a whole.
-void check_compressed(const fs::path& path, bool is_little, const std::string& packed) {
-  const std::string bytes = inflated(packed);
-  const Elements unpacked(path, is_little, [&](std::uint64_t at, std::uint64_t count) {
-    return at > bytes.size() ? std::string() : bytes.substr(at, count);
+  std::string read(std::uint64_t at, std::uint64_t count) {
+    std::string bytes(count, '\0');
+    if (!stream_.skip_to(at)) return {};
+    bytes.resize(stream_.read(count, reinterpret_cast<std::uint8_t*>(bytes.data())));
+    return bytes;
+  }
+
+ private:
+  InflateStream stream_;
+};
+
+/// The dimensions and the name of a compressed variable must be there as a whole; of one that holds
+/// others, all of them.
+void check_compressed(const fs::path& path, bool is_little, const Element& packed) {
+  Unpacked unpacked(path, packed);
+  const Elements elements(path, is_little, [&](std::uint64_t at, std::uint64_t count) {
+    return unpacked.read(at, count);
   });
-  if (bytes.size() < kTag || number_at(bytes, 0, is_little) != kMatrix) throw unpacked.damaged();
-  std::uint64_t place = kTag;
-  for (int i = 0; i < kHeadOfMatrix; ++i) place = unpacked.at(place, bytes.size()).next;
+  const std::string tag = unpacked.read(0, kTag);
+  if (tag.size() != kTag || number_at(tag, 0, is_little) != kMatrix) throw elements.damaged();
+  const std::uint64_t end = kTag + number_at(tag, 4, is_little);
+  const Element flags = elements.at(kTag, end);
+  const std::string kind = unpacked.read(flags.begin, 4);
+  if (kind.size() != 4) throw elements.damaged();
+  if ((number_at(kind, 0, is_little) & 0xFF) <= kStruct) {
+    return elements.check(flags.next, end, 1);
+  }
+  std::uint64_t place = flags.next;
+  for (int i = 1; i < kHeadOfMatrix; ++i) place = elements.at(place, end).next;
 }
 
 }  // namespace
@@ -127,11 +138,8 @@ void require_sound_elements(const fs::path& path) {
   const std::uint64_t size = fs::file_size(path);
   for (std::uint64_t place = kHeader; place < size;) {
     const Element element = elements.at(place, size);
-    const std::uint64_t bytes = element.end - element.begin;
     if (element.type == kMatrix) elements.check(element.begin, element.end, 0);
-    if (element.type == kCompressed) {
-      check_compressed(path, is_little, read(element.begin, std::min(bytes, kBeginning)));
-    }
+    if (element.type == kCompressed) check_compressed(path, is_little, element);
     place = element.end;  // not padded here
   }
 }

@@ -101,7 +101,7 @@ std::optional<std::uint64_t> claimed_pixels(const fs::path& path) {
     return jpeg_2000_pixels(begin);
   }
   if (begin.starts_with("\x76\x2f\x31\x01")) return exr_pixels(begin);
-  if (begin.starts_with("#?RA")) return radiance_pixels(begin);
+  if (begin.starts_with("#?RA") || begin.starts_with("#?RGBE")) return radiance_pixels(begin);
   const auto header = stated_image_header(path);
   if (!header) return std::nullopt;
   return static_cast<std::uint64_t>(header->height) * static_cast<std::uint64_t>(header->width);

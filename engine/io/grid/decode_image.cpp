@@ -6,6 +6,7 @@
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/claimed_pixels.h"
 #include "engine/io/grid/decode_png.h"
+#include "engine/io/grid/decode_radiance.h"
 
 #include <fmt/format.h>
 #include <opencv2/core/utils/logger.hpp>
@@ -73,6 +74,7 @@ AnyImage decode_image(const std::filesystem::path& path) {
   require_readable_file(path);
   if (has_png_signature(path)) return decode_png(path);
   require_plausible_picture(path);
+  if (has_radiance_signature(path)) return decode_radiance(path);
   return image_of(path, read_mat(path));
 }
 

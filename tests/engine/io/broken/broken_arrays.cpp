@@ -86,19 +86,32 @@ fs::path cut_mat5(const fs::path& folder, bool is_compressed, double share) {
   return path;
 }
 
+/// A MATLAB 5 file of one variable that is not compressed, with it compressed.
+std::string packed_mat5(const std::string& bytes) {
+  const std::string packed = zlib_packed(bytes.substr(128));
+  std::string tag("\x0f\0\0\0", 4);
+  for (std::size_t i = 0; i < 4; ++i) tag += static_cast<char>(packed.size() >> 8 * i);
+  return bytes.substr(0, 128) + tag + packed;
+}
+
 /// The lengths of its dimensions take 4 GB, says the file: what a fuzzer found.
 fs::path mat5_of_long_dimensions(const fs::path& folder, bool is_compressed) {
   const fs::path path = folder / "lf.mat";
   write_mat5(path, bytes_of(small_scene()), {});
   std::string bytes = bytes_of_file(path);
   bytes.replace(156, 4, "\x06\xff\xff\xfe");
-  if (is_compressed) {
-    const std::string packed = zlib_packed(bytes.substr(128));
-    std::string tag("\x0f\0\0\0", 4);
-    for (std::size_t i = 0; i < 4; ++i) tag += static_cast<char>(packed.size() >> 8 * i);
-    bytes = bytes.substr(0, 128) + tag + packed;
-  }
-  return write(path, bytes);
+  return write(path, is_compressed ? packed_mat5(bytes) : bytes);
+}
+
+/// Likewise those of its second cell.
+fs::path mat5_of_long_cell(const fs::path& folder) {
+  const fs::path path = folder / "lf.mat";
+  write_mat5_cells(path, bytes_of(small_scene()), false);
+  std::string bytes = bytes_of_file(path);
+  const std::string dimensions("\x05\0\0\0\x0c\0\0\0", 8);
+  const auto first = bytes.find(dimensions);
+  bytes.replace(bytes.find(dimensions, first + 1) + 4, 4, "\x06\xff\xff\x7e");
+  return write(path, packed_mat5(bytes));
 }
 
 std::vector<Broken> broken_npy() {
@@ -163,6 +176,7 @@ std::vector<Broken> broken_arrays() {
        [](const fs::path& f) { return mat5_of_long_dimensions(f, false); }, "damaged"},
       {".mat 5 whose dimensions are long, compressed",
        [](const fs::path& f) { return mat5_of_long_dimensions(f, true); }, "damaged"},
+      {".mat 5 whose second cell has long dimensions, compressed", mat5_of_long_cell, "damaged"},
       {".mat 5 that ends in its header", [](const fs::path& f) { return cut_mat5(f, false, 0.04); },
        ""},
   };

@@ -4,8 +4,10 @@
 #include "engine/io/grid/decode_image.h"
 #include "tests/test_main.h"
 
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <QDir>
 #include <QTemporaryDir>
 
 #include <fstream>
@@ -68,6 +70,7 @@ class HostilePicturesTest : public QObject {
                                 "1800") +
                                 QByteArray(40, 0);
     QTest::newRow("PNM") << QByteArray("P5 100000 100000 255 abc");
+    QTest::newRow("Radiance, other name") << QByteArray("#?RGBE\n\n-Y 100000 +X 100000\nabc");
     QTest::newRow("Radiance") << QByteArray("#?RADIANCE\n\n-Y 100000 +X 100000\nabc");
     QTest::newRow("OpenEXR") << QByteArray::fromHex("762f310102000000") +
                                     QByteArray("dataWindow\0box2i\0", 17) +
@@ -92,6 +95,60 @@ class HostilePicturesTest : public QObject {
     } catch (const IoError& error) {
       QVERIFY2(QString(error.what()).contains("million pixels"), error.what());
     }
+  }
+
+  // With pixels as they are (narrow), in runs, and in both.
+  void radiancePictures_areThoseOfOpenCv_data() {
+    QTest::addColumn<int>("width");
+    for (const int width : {3, 8, 70, 200}) QTest::addRow("%d", width) << width;
+  }
+  void radiancePictures_areThoseOfOpenCv() {
+    QFETCH(int, width);
+    const std::string path = folder_.filePath("b.hdr").toStdString();
+    cv::Mat picture(20, width, CV_32FC3);
+    cv::theRNG().state = 7;
+    cv::randu(picture, 0, 30);
+    picture.colRange(width / 2, width) = cv::Scalar(0.25, 0, 1e-3);
+    QVERIFY(cv::imwrite(path, picture));
+    const cv::Mat wanted = cv::imread(path, cv::IMREAD_UNCHANGED);
+
+    const auto decoded = std::get<Image<float>>(io::decode_image(path));
+
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const auto& bgr = wanted.at<cv::Vec3f>(y, x);
+        for (int c = 0; c < 3; ++c) QCOMPARE(decoded.at(y, x, c), bgr[2 - c]);
+      }
+    }
+  }
+
+  void damagedRadiancePictures_areRefused_data() {
+    QTest::addColumn<QByteArray>("bytes");
+    const QByteArray head("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 9\n");
+    const QByteArray mark = QByteArray::fromHex("02020009");
+    QTest::newRow("no pixels") << head;
+    QTest::newRow("another width") << head + QByteArray::fromHex("0202000a");
+    QTest::newRow("a run of none") << head + mark + QByteArray::fromHex("0000");
+    QTest::newRow("a long run") << head + mark + QByteArray::fromHex("8a01");
+    QTest::newRow("few literals") << head + mark + QByteArray::fromHex("090102");
+    QTest::newRow("no end of line") << QByteArray("#?RADIANCE\nFORMAT=32-bit_rle_rgbe");
+    QTest::newRow("other pixels") << QByteArray(
+        "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd");
+    QTest::newRow("other rows") << QByteArray("#?RADIANCE\n\n+Y 1 +X 1\nabcd");
+    QTest::newRow("no size") << QByteArray("#?RADIANCE\n\n-Y 0 +X 1\nabcd");
+  }
+  // They left their files open.
+  void damagedRadiancePictures_areRefused() {
+    QFETCH(QByteArray, bytes);
+    const auto path = file("damaged.hdr", bytes.toStdString());
+    const auto open_files = [] { return QDir("/proc/self/fd").count(); };
+    const auto before = open_files();
+
+    for (int i = 0; i < 5; ++i) {
+      QVERIFY_THROWS_EXCEPTION(IoError, static_cast<void>(io::decode_image(path)));
+    }
+
+    QCOMPARE(open_files(), before);
   }
 };
 
