@@ -43,8 +43,8 @@ ProbabilityMap predict_view(const PixelVotes& votes, const StrokeEvidence& evide
       const int end = std::min(votes.height(), (item + 1) * kRows);
       for (int y = item * kRows; y < end; ++y) {
         std::copy_n(votes.row(y), row.size(), row.data());
-        if (evidence.surfaces != nullptr) evidence.surfaces->weigh_row(y, pitch, row.data());
-        evidence.distances.weigh_row(y, evidence.nearness, pitch, row.data());
+        if (evidence.surfaces != nullptr) evidence.surfaces->weigh_row(y, row.data());
+        evidence.distances.weigh_row(y, evidence.nearness, row.data());
         if (!evidence.painted.empty()) {
           keep_strokes(evidence.painted.row(y), votes.width(), pitch, row.data());
         }

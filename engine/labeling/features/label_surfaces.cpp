@@ -3,11 +3,13 @@
 
 #include "engine/core/array/round_up.h"
 #include "engine/core/parallel/parallel.h"
+#include "engine/labeling/features/label_weights_kernel.h"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -18,12 +20,44 @@ constexpr int kRounds = 12;
 constexpr double kShortStroke = 1.0 / 80;  // Of the larger side: half of its slope is believed.
 constexpr double kOutlier = 3;             // Of the Cauchy weights, in robust standard deviations.
 constexpr double kLeastScale = 1e-3;       // So that exact planes have one.
-constexpr float kLeverage = 0.3F;          // What leverage adds to the variance.
+constexpr double kLeverage = 0.3;          // What leverage adds to the variance.
 constexpr float kWeight = 1.5F;
 constexpr int kJumpRadius_px = 2;
 constexpr float kNoJump_px = 0.1F;
 constexpr float kJumpDoubt = 0.3F;
 constexpr float kLeastProbability = 0.02F;
+
+// Far from everything: beyond the labels there is no surface.
+constexpr float kNowhere = 1e6F;
+
+enum Term { kIsKnown, kMiddle, kAt, kAcross, kVariance, kFlat, kSlope, kBend, kTerms };
+
+// What SurfaceRow points to.
+struct RowTerms {
+  explicit RowTerms(int labels) : pitch(labels), values(static_cast<std::size_t>(kTerms) * labels) {
+    for (const auto& [term, value] :
+         {std::pair{kIsKnown, 1.0F}, std::pair{kAt, kNowhere}, std::pair{kVariance, 1.0F}}) {
+      std::fill_n(values.begin() + term * pitch, pitch, value);
+    }
+  }
+  [[nodiscard]] SurfaceRow row() const {
+    const auto term = [this](Term of) { return values.data() + of * pitch; };
+    SurfaceRow row;
+    row.pitch = pitch;
+    row.is_known = term(kIsKnown);
+    row.middle = term(kMiddle);
+    row.at = term(kAt);
+    row.across = term(kAcross);
+    row.variance = term(kVariance);
+    row.flat = term(kFlat);
+    row.slope = term(kSlope);
+    row.bend = term(kBend);
+    return row;
+  }
+
+  int pitch;
+  std::vector<float> values;  // [term][label]
+};
 
 // Beside a jump an estimate may be anything between its ends: variance that grows with the spread
 // of disparities in the neighbourhood.
@@ -134,33 +168,32 @@ void LabelSurfaces::solve(const std::vector<Sample>& samples, const std::vector<
 }
 
 void LabelSurfaces::find_misfits(int y) {
-  constexpr float kBase = kNoise_px * kNoise_px;
-  const float* const disparity = disparity_.row(y);
-  const float* const doubt = doubt_.row(y);
-  float* first = misfits_.get() + y * row_size();
-  for (const Surface& surface : surfaces_) {
-    float* misfit = first++;
-    if (!surface.is_known) {
-      for (int x = 0; x < disparity_.width; ++x, misfit += pitch_) *misfit = kMostMisfit / 2;
-      continue;
-    }
+  static const LabelWeightsKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kLabelWeightsKernel);
+  RowTerms terms(pitch_);
+  float* const arrays = terms.values.data();
+  for (std::size_t l = 0; l < surfaces_.size(); ++l) {
+    const Surface& surface = surfaces_[l];
     const auto& m = surface.inverse;
     const double dy = y - surface.y;
-    // Of the row: d = at + across·dx, and h = flat + slope·dx + bend·dx².
-    const auto at = static_cast<float>(surface.plane[0] + surface.plane[2] * dy);
-    const auto across = static_cast<float>(surface.plane[1]);
-    const auto flat = static_cast<float>(m[0] + (2 * m[2] + m[5] * dy) * dy);
-    const auto slope = static_cast<float>(2 * (m[1] + m[4] * dy));
-    const auto bend = static_cast<float>(m[3]);
-    const float noise = kBase + static_cast<float>(surface.variance);
-    for (int x = 0; x < disparity_.width; ++x, misfit += pitch_) {
-      const float dx = static_cast<float>(x) - static_cast<float>(surface.x);
-      const float variance = noise * (1 + kLeverage * (flat + (slope + bend * dx) * dx)) + doubt[x];
-      const float miss = disparity[x] - at - across * dx;
-      const float spread = variance + miss * miss;
-      *misfit = std::min(0.5F * std::log(spread * spread / (variance * kBase)), kMostMisfit);
-    }
+    const auto set = [&](int term, double value) {
+      arrays[term * pitch_ + static_cast<std::ptrdiff_t>(l)] = static_cast<float>(value);
+    };
+    set(kIsKnown, surface.is_known ? 1 : 0);
+    set(kMiddle, surface.x);
+    set(kAt, surface.plane[0] + surface.plane[2] * dy);
+    set(kAcross, surface.plane[1]);
+    set(kVariance, kNoise_px * kNoise_px + surface.variance);
+    set(kFlat, kLeverage * (m[0] + (2 * m[2] + m[5] * dy) * dy));
+    set(kSlope, kLeverage * 2 * (m[1] + m[4] * dy));
+    set(kBend, kLeverage * m[3]);
   }
+  SurfaceRow row = terms.row();
+  row.width = disparity_.width;
+  row.disparity = disparity_.row(y);
+  row.doubt = doubt_.row(y);
+  row.noise = static_cast<float>(kNoise_px * kNoise_px);
+  row.most = kMostMisfit;
+  kernel.misfits(row, misfits_.get() + y * row_size());
 }
 
 bool LabelSurfaces::lies_behind(int label, int y, int x) const {
@@ -192,20 +225,19 @@ void LabelSurfaces::set_support(const std::vector<float>& support, const Progres
   });
 }
 
-void LabelSurfaces::weigh_row(int y, int pitch, float* probabilities) const {
-  const std::size_t count = surfaces_.size();
-  for (int x = 0; x < disparity_.width; ++x) {
-    const float* misfit = misfits(y) + static_cast<std::ptrdiff_t>(x) * pitch_;
-    float* p = probabilities + static_cast<std::ptrdiff_t>(x) * pitch;
-    const float least = *std::min_element(misfit, misfit + count);
-    const float weight = trust_.empty() ? kWeight : kWeight * trust_.at(y, x);
-    float sum = 0;
-    for (std::size_t l = 0; l < count; ++l) {
-      p[l] = (p[l] + kLeastProbability) * std::exp(-weight * (misfit[l] - least));
-      sum += p[l];
-    }
-    for (std::size_t l = 0; l < count; ++l) p[l] /= sum;
+void LabelSurfaces::weigh_row(int y, float* probabilities) const {
+  static const LabelWeightsKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kLabelWeightsKernel);
+  std::vector<float> strength(static_cast<std::size_t>(disparity_.width), kWeight);
+  if (!trust_.empty()) {
+    std::transform(trust_.row(y), trust_.row(y) + disparity_.width, strength.begin(),
+                   [](float trust) { return kWeight * trust; });
   }
+  std::vector<float> is_label(static_cast<std::size_t>(pitch_)), floor(is_label.size());
+  std::fill_n(is_label.begin(), surfaces_.size(), 1.0F);
+  std::fill_n(floor.begin(), surfaces_.size(), kLeastProbability);
+  kernel.weigh({disparity_.width, pitch_, misfits(y), strength.data(), is_label.data(),
+                floor.data(), kMostMisfit},
+               probabilities);
 }
 
 }  // namespace episcope

@@ -55,10 +55,10 @@ class LabelSurfaces {
   [[nodiscard]] const float* misfits(int y) const { return misfits_.get() + y * row_size(); }
   [[nodiscard]] int pitch() const { return pitch_; }
 
-  /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch` apart, by
-  /// exp(−1.5·trust·misfit), and makes them sum to 1 again. Before, 0.02 is added to each: a forest
-  /// is never that sure.
-  void weigh_row(int y, int pitch, float* probabilities) const;
+  /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch()` apart and 0 beyond the
+  /// labels, by exp(−1.5·trust·misfit), and makes them sum to 1 again. Before, 0.02 is added to
+  /// each: a forest is never that sure.
+  void weigh_row(int y, float* probabilities) const;
 
  private:
   struct Surface {

@@ -3,6 +3,7 @@
 
 #include "engine/core/array/round_up.h"
 #include "engine/core/parallel/parallel.h"
+#include "engine/labeling/features/label_weights_kernel.h"
 #include "engine/labeling/features/stroke_distance_kernel.h"
 #include "engine/labeling/rays/ray_targets.h"
 
@@ -164,19 +165,19 @@ float StrokeDistances::excess(int y, int x, int label) const {
   return std::min(all[label] - *std::min_element(all, all + label_count_), kMaxExcess);
 }
 
-void StrokeDistances::weigh_row(int y, double strength, int pitch, float* probabilities) const {
+void StrokeDistances::weigh_row(int y, double strength, float* probabilities) const {
   if (stroked_.size() < 2 || strength == 0) return;
-  const auto factor = static_cast<float>(-strength);
-  for (int x = 0; x < width_; ++x) {
-    const float* all = distances_.get() + (static_cast<std::size_t>(y) * width_ + x) * pitch_;
-    float* p = probabilities + static_cast<std::ptrdiff_t>(x) * pitch;
-    const float nearest = *std::min_element(all, all + label_count_);
-    for (const int l : stroked_) p[l] *= std::exp(factor * std::min(all[l] - nearest, kMaxExcess));
-    float sum = 0;
-    for (int l = 0; l < label_count_; ++l) sum += p[l];
-    if (sum <= 0) continue;
-    for (int l = 0; l < label_count_; ++l) p[l] /= sum;
-  }
+  static const LabelWeightsKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kLabelWeightsKernel);
+  const std::vector<float> strengths(static_cast<std::size_t>(width_),
+                                     static_cast<float>(strength));
+  std::vector<float> is_stroked(static_cast<std::size_t>(pitch_));
+  const std::vector<float> floor(is_stroked.size());
+  for (const int l : stroked_) is_stroked[static_cast<std::size_t>(l)] = 1;
+  const float* const distances =
+      distances_.get() + static_cast<std::ptrdiff_t>(y) * width_ * pitch_;
+  kernel.weigh(
+      {width_, pitch_, distances, strengths.data(), is_stroked.data(), floor.data(), kMaxExcess},
+      probabilities);
 }
 
 }  // namespace episcope

@@ -56,9 +56,11 @@ class StrokeDistances {
   [[nodiscard]] float excess(int y, int x, int label) const;
   static constexpr float kMaxExcess = 12;
 
-  /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch` apart, by
-  /// exp(−strength·excess), and makes them sum to 1 again.
-  void weigh_row(int y, double strength, int pitch, float* probabilities) const;
+  /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch()` apart and 0 beyond the
+  /// labels, by exp(−strength·excess), and makes them sum to 1 again.
+  void weigh_row(int y, double strength, float* probabilities) const;
+  /// Labels, rounded up to whole vectors of 16.
+  [[nodiscard]] int pitch() const { return pitch_; }
 
  private:
   void find_ways(const StrokeGuides& guides);

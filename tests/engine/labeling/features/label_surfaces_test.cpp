@@ -96,7 +96,7 @@ class LabelSurfacesTest : public QObject {
     std::vector<float> p(static_cast<std::size_t>(kWidth) * 16);
     for (int x = 0; x < kWidth; ++x) p[static_cast<std::size_t>(x) * 16] = 1;
 
-    surfaces.weigh_row(20, 16, p.data());
+    surfaces.weigh_row(20, p.data());
 
     for (int x = 0; x < kWidth; ++x) {
       const float* at = p.data() + static_cast<std::ptrdiff_t>(x) * 16;
@@ -115,7 +115,7 @@ class LabelSurfacesTest : public QObject {
     std::vector<float> p(static_cast<std::size_t>(kWidth) * 16);
     for (int x = 0; x < kWidth; ++x) p[static_cast<std::size_t>(x) * 16] = 1;
 
-    surfaces.weigh_row(20, 16, p.data());
+    surfaces.weigh_row(20, p.data());
 
     for (int x = 0; x < kWidth; ++x) QCOMPARE(p[static_cast<std::size_t>(x) * 16], p[0]);
     QVERIFY(p[0] > 0.97F);

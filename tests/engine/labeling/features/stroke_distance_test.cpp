@@ -185,7 +185,7 @@ void StrokeDistanceTest::weighing_keepsTheSum() {
   std::vector<float> row(static_cast<std::size_t>(kWidth) * 16);
   for (int x = 0; x < kWidth; ++x) row[x * 16] = row[x * 16 + 1] = 0.5F;
 
-  distances.weigh_row(4, 100, 16, row.data());
+  distances.weigh_row(4, 100, row.data());
 
   for (int x = 0; x < kWidth; ++x) QVERIFY(std::abs(row[x * 16] + row[x * 16 + 1] - 1) < 1e-5F);
   QVERIFY(row[1 * 16] > 0.6F);      // At the first dot,
