@@ -24,14 +24,14 @@ void find_rays(const TrackSources& sources, ViewIndex other, int y, Row& row) {
   const auto& [probabilities, disparity, view, others, colors] = sources;
   find_ray_targets(disparity.view(view), disparity.view(other),
                    {other.v - view.v, other.u - view.u}, y, row.targets.data());
-  const auto pair = colors != nullptr ? colors->pair(view, y, other) : RayColors::Pair{};
-  for (std::size_t x = 0; x < row.targets.size(); ++x) {
-    const std::int32_t target = row.targets[x];
-    row.trusts[x] = target < 0          ? 0
-                    : colors == nullptr ? 1
-                                        : colors->trust(pair, static_cast<int>(x), target);
-    row.weight[x] += row.trusts[x];
+  const int width = static_cast<int>(row.targets.size());
+  if (colors != nullptr) {
+    colors->trusts(colors->pair(view, y, other), {0, width}, row.targets.data(), row.trusts.data());
+  } else {
+    std::ranges::transform(row.targets, row.trusts.begin(),
+                           [](std::int32_t target) { return target < 0 ? 0.0F : 1.0F; });
   }
+  for (int x = 0; x < width; ++x) row.weight[x] += row.trusts[x];
 }
 
 void add_view(VolumeView<const std::uint8_t> p, const CostTable& table, const Row& row,

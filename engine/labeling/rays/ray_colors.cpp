@@ -2,7 +2,9 @@
 #include "engine/labeling/rays/ray_colors.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/labeling/rays/ray_kernel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -45,6 +47,39 @@ RayColors::RayColors(const LightField& light_field, GridShape grid, ViewIndex fi
   if (colors_ != nullptr) return;
   rounded_ = rounded_views(light_field, grid, first, progress);
   colors_ = rounded_.get();
+}
+
+void RayColors::trusts(const Pair& pair, ColumnRange columns, const std::int32_t* targets,
+                       float* trusts) const {
+  if (colors_ != nullptr && colors_->channels() == 3) {
+    static const RayKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kRayKernel);
+    RayTrusts rays;
+    rays.begin = columns.begin;
+    rays.end = columns.end;
+    rays.width = colors_->width();
+    rays.row = pair.row;
+    rays.other = pair.other;
+    rays.last = colors_->height() * colors_->width() - 1;
+    rays.targets = targets;
+    rays.table = table_.data();
+    rays.most = kNoTrust;
+    return kernel.find_trusts(rays, trusts);
+  }
+  for (int x = columns.begin; x < columns.end; ++x) {
+    trusts[x] = targets[x] < 0 ? 0.0F : trust(pair, x, targets[x]);
+  }
+}
+
+float RayColors::trust(const Pair& pair, int x, std::int32_t target) const {
+  if (pair.row == nullptr) return 1;
+  const std::ptrdiff_t channels = colors_->channels();
+  int sum = 0;
+  for (std::ptrdiff_t c = 0; c < channels; ++c) {
+    const int difference = pair.row[x * channels + c] - pair.other[target * channels + c];
+    sum += difference * difference;
+  }
+  if (channels == 1) sum *= 3;
+  return table_[std::min(sum, kNoTrust)];
 }
 
 }  // namespace episcope

@@ -3,8 +3,8 @@
 
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/labeling/rays/ray_targets.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -35,17 +35,11 @@ class RayColors {
 
   /// exp(−|ΔI|²/2σ²) of column x and of pixel `target` = y'·width + x' of the other view, |ΔI| the
   /// difference of their colours, σ = 10/255; 0 beyond 4σ. 1 where nothing is known.
-  [[nodiscard]] float trust(const Pair& pair, int x, std::int32_t target) const {
-    if (pair.row == nullptr) return 1;
-    const std::ptrdiff_t channels = colors_->channels();
-    int sum = 0;
-    for (std::ptrdiff_t c = 0; c < channels; ++c) {
-      const int difference = pair.row[x * channels + c] - pair.other[target * channels + c];
-      sum += difference * difference;
-    }
-    if (channels == 1) sum *= 3;
-    return table_[std::min(sum, kNoTrust)];
-  }
+  [[nodiscard]] float trust(const Pair& pair, int x, std::int32_t target) const;
+  /// The same of many columns and the pixel of each, 0 where that is −1; others of `trusts` stay as
+  /// they are.
+  void trusts(const Pair& pair, ColumnRange columns, const std::int32_t* targets,
+              float* trusts) const;
 
   /// What is compared, of 8 bits; null if nothing is known.
   [[nodiscard]] const ViewStack<std::uint8_t>* samples() const { return colors_; }

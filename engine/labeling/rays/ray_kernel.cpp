@@ -53,6 +53,63 @@ void find_targets(const RayRow& rays, std::int32_t* targets) {
   }
 }
 
+inline float trust_of(const RayTrusts& rays, int x) {
+  const std::int32_t target = rays.targets[x];
+  if (target < 0) return 0;
+  int sum = 0;
+  for (long c = 0; c < 3; ++c) {
+    const int difference = rays.row[3L * x + c] - rays.other[3L * target + c];
+    sum += difference * difference;
+  }
+  return rays.table[sum < rays.most ? sum : rays.most];
+}
+
+// Three channels of pixels, and the first of the next one, in the bytes of each lane.
+inline IntVec colors_at(const std::uint8_t* colors, IntVec pixels) {
+#if defined(__AVX2__) && EPISCOPE_VECTOR_BYTES == 32
+  return reinterpret_cast<IntVec>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(colors),
+                                                         reinterpret_cast<__m256i>(pixels * 3), 1));
+#elif defined(__AVX512F__) && EPISCOPE_VECTOR_BYTES == 64
+  return reinterpret_cast<IntVec>(_mm512_mask_i32gather_epi32(
+      _mm512_setzero_si512(), 0xFFFF, reinterpret_cast<__m512i>(pixels * 3), colors, 1));
+#else
+  IntVec found;
+  for (int i = 0; i < kLanes; ++i) {
+    int bytes;
+    __builtin_memcpy(&bytes, colors + 3L * pixels[i], sizeof bytes);
+    found[i] = bytes;
+  }
+  return found;
+#endif
+}
+
+inline IntVec squared_difference(IntVec a, IntVec b, int shift) {
+  const IntVec difference = (a >> shift & 255) - (b >> shift & 255);
+  return difference * difference;
+}
+
+void find_trusts(const RayTrusts& rays, float* trusts) {
+  IntVec lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = i;
+  int x = rays.begin;
+  // The byte behind the last pixel of all is not there.
+  for (; x + kLanes <= rays.end && x + kLanes < rays.width; x += kLanes) {
+    const IntVec target = load_int(rays.targets + x);
+    const IntVec arrives = target >= 0;
+    if (any(target == rays.last)) {
+      for (int i = 0; i < kLanes; ++i) trusts[x + i] = trust_of(rays, x + i);
+      continue;
+    }
+    const IntVec here = colors_at(rays.row, lanes + x);
+    const IntVec there = colors_at(rays.other, target & arrives);
+    const IntVec sum = squared_difference(here, there, 0) + squared_difference(here, there, 8) +
+                       squared_difference(here, there, 16);
+    const Vec trust = gathered(rays.table, sum < rays.most ? sum : splat_int(rays.most));
+    store(trusts + x, choose(arrives, trust, splat(0)));
+  }
+  for (; x < rays.end; ++x) trusts[x] = trust_of(rays, x);
+}
+
 inline long offset_of(const RayCosts& rays, std::int32_t target) {
   return static_cast<long>(target / rays.width) * rays.labels * rays.width + target % rays.width;
 }
@@ -121,6 +178,6 @@ void add_costs(const RayCosts& rays, float* costs) {
 
 }  // namespace
 
-const RayKernel kRayKernel = {find_targets, add_costs};
+const RayKernel kRayKernel = {find_targets, find_trusts, add_costs};
 
 }  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE

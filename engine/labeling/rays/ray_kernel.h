@@ -30,10 +30,24 @@ struct RayCosts {
   const float* trusts = nullptr;          ///< Of each ray, 0 = it does not count.
 };
 
+/// Rays of a row whose colours are compared with those of the pixels in which they arrive.
+struct RayTrusts {
+  int begin = 0, end = 0;                 ///< Columns of the rays,
+  int width = 0;                          ///< of so many of the row.
+  const std::uint8_t* row = nullptr;      ///< `[x][3]`
+  const std::uint8_t* other = nullptr;    ///< `[y][x][3]`, of the view in which they arrive,
+  std::int32_t last = 0;                  ///< and its last pixel.
+  const std::int32_t* targets = nullptr;  ///< −1 = the ray arrives nowhere.
+  const float* table = nullptr;           ///< Trust of each squared difference from 0 to `most`,
+  int most = 0;                           ///< of larger ones that of `most`.
+};
+
 /// The kernel's entry points, one set for each instruction set, all with the same bits.
 struct RayKernel {
   /// What find_ray_targets says.
   void (*find_targets)(const RayRow&, std::int32_t* targets);  // of the row
+  /// What RayColors::trusts says of three channels.
+  void (*find_trusts)(const RayTrusts&, float* trusts);
   /// costs `[label][x]` += trust · cost where the ray arrives.
   void (*add_costs)(const RayCosts&, float* costs);
 };

@@ -15,8 +15,10 @@ namespace {
 struct Row {
   Row(int width, int label_count)
       : targets(static_cast<std::size_t>(width)),
+        trusts(targets.size()),
         votes(static_cast<std::size_t>(width) * label_count) {}
   std::vector<std::int32_t> targets;
+  std::vector<float> trusts;
   std::vector<float> votes;  // [x][label]
 };
 
@@ -42,11 +44,11 @@ void Vote::add_votes(ViewIndex view, ViewIndex other, int y, ColumnRange columns
   find_ray_targets(votes_.disparity.view(view), votes_.disparity.view(other),
                    {other.v - view.v, other.u - view.u}, y, columns, row.targets.data());
   const std::int32_t* const there = labels_.view(other).data;
-  const RayColors::Pair pair = votes_.colors.pair(view, y, other);
+  votes_.colors.trusts(votes_.colors.pair(view, y, other), columns, row.targets.data(),
+                       row.trusts.data());
   for (int x = columns.begin; x < columns.end; ++x) {
     const std::int32_t target = row.targets[x];
-    if (target < 0) continue;
-    votes_at(row, x)[there[target]] += votes_.colors.trust(pair, x, target);
+    if (target >= 0) votes_at(row, x)[there[target]] += row.trusts[x];
   }
 }
 
