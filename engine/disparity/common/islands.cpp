@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/common/islands.h"
 
+#include "engine/core/parallel/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -27,9 +29,9 @@ class Surroundings {
  public:
   static constexpr int kMargin = 2;
 
-  explicit Surroundings(ImageView<const float> map)
+  Surroundings(ImageView<const float> map, const Progress& progress)
       : padded_(map.height + 2 * kMargin, map.width + 2 * kMargin, 1, kNothing) {
-    for (int y = 0; y < map.height; ++y) std::copy_n(map.row(y), map.width, row(y));
+    parallel_for(map.height, progress, [&](int y) { std::copy_n(map.row(y), map.width, row(y)); });
   }
   /// Readable for the margin on either side, and above and below.
   [[nodiscard]] float* row(int y) { return padded_.row(y + kMargin) + kMargin; }
@@ -51,29 +53,26 @@ class Surroundings {
   Image<float> padded_;
 };
 
-/// How many of its neighbours agree with each pixel of a row.
-void count_agreeing(const Surroundings& map, int y, int width, int* counts) {
-  const float* const above = map.row(y - 1);
-  const float* const here = map.row(y);
-  const float* const below = map.row(y + 1);
-  for (int x = 0; x < width; ++x) {
-    const float own = here[x];
-    counts[x] = int{agree(above[x - 1], own)} + int{agree(above[x], own)} +
-                int{agree(above[x + 1], own)} + int{agree(here[x - 1], own)} +
-                int{agree(here[x + 1], own)} + int{agree(below[x - 1], own)} +
-                int{agree(below[x], own)} + int{agree(below[x + 1], own)};
-  }
+/// How many of its neighbours agree with a pixel.
+int agreeing(const Surroundings& map, int y, int x) {
+  const float* const above = map.row(y - 1) + x;
+  const float* const here = map.row(y) + x;
+  const float* const below = map.row(y + 1) + x;
+  const float own = *here;
+  return int{agree(above[-1], own)} + int{agree(above[0], own)} + int{agree(above[1], own)} +
+         int{agree(here[-1], own)} + int{agree(here[1], own)} + int{agree(below[-1], own)} +
+         int{agree(below[0], own)} + int{agree(below[1], own)};
 }
 
 /// Of a pixel with which one neighbour agrees, or none.
-bool is_island(const Surroundings& map, const Image<int>& counts, Offset at) {
+bool is_island(const Surroundings& map, Offset at) {
   const float own = map.row(at.y)[at.x];
   if (!std::isfinite(own)) return false;
   bool is_alone = true;
   int nearer = 0, farther = 0;
   map.for_around(at, 1, [&](int y, int x, float other) {
     if (agree(other, own)) {
-      is_alone = is_alone && counts.at(y, x) == 1;
+      is_alone = is_alone && agreeing(map, y, x) == 1;
     } else {
       nearer += other > own ? 1 : 0;
       farther += other < own ? 1 : 0;
@@ -82,16 +81,18 @@ bool is_island(const Surroundings& map, const Image<int>& counts, Offset at) {
   return is_alone && (nearer == 0 || farther == 0);
 }
 
-std::vector<Offset> find_islands(const Surroundings& map, int height, int width) {
-  Image<int> counts(height, width);
-  for (int y = 0; y < height; ++y) count_agreeing(map, y, width, counts.row(y));
-  std::vector<Offset> islands;
-  for (int y = 0; y < height; ++y) {
-    const int* const count = counts.row(y);
-    for (int x = 0; x < width; ++x) {
-      if (count[x] <= 1 && is_island(map, counts, {y, x})) islands.push_back({y, x});
-    }
-  }
+/// Of each row.
+std::vector<std::vector<Offset>> find_islands(const Surroundings& map, int height, int width,
+                                              const Progress& progress) {
+  std::vector<std::vector<Offset>> islands(static_cast<std::size_t>(height));
+  parallel_for_workers(height, progress, [&] {
+    return [&, counts = std::vector<int>(static_cast<std::size_t>(width))](int y) mutable {
+      for (int x = 0; x < width; ++x) counts[x] = agreeing(map, y, x);
+      for (int x = 0; x < width; ++x) {
+        if (counts[x] <= 1 && is_island(map, {y, x})) islands[y].push_back({y, x});
+      }
+    };
+  });
   return islands;
 }
 
@@ -124,18 +125,23 @@ ParameterSet plain_islands() {
   return {{kIslandsKey, false}};
 }
 
-void fill_islands(ImageView<float> disparity) {
-  Surroundings map(disparity);
-  const std::vector<Offset> islands = find_islands(map, disparity.height, disparity.width);
-  for (const Offset& island : islands) map.forget(island);
-  for (const Offset& island : islands) {
-    float& value = disparity.at(island.y, island.x);
-    value = median_around(map, island, value);
+void fill_islands(const Progress& progress, ImageView<float> disparity) {
+  Surroundings map(disparity, progress);
+  const auto islands = find_islands(map, disparity.height, disparity.width, progress);
+  for (const std::vector<Offset>& row : islands) {
+    for (const Offset& island : row) map.forget(island);
+  }
+  for (const std::vector<Offset>& row : islands) {
+    for (const Offset& island : row) {
+      float& value = disparity.at(island.y, island.x);
+      value = median_around(map, island, value);
+    }
   }
 }
 
-void fill_islands(const IslandParameters& parameters, ImageView<float> disparity) {
-  if (parameters.islands) fill_islands(disparity);
+void fill_islands(const IslandParameters& parameters, const Progress& progress,
+                  ImageView<float> disparity) {
+  if (parameters.islands) fill_islands(progress, disparity);
 }
 
 }  // namespace episcope

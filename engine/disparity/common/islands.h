@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/array/image.h"
+#include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/schema.h"
 
 namespace episcope {
@@ -21,9 +22,10 @@ struct IslandParameters {
 ///
 /// Why: a dot or a crossing of joints that is smaller than a pixel has another colour in every view
 /// and matches anywhere by chance; edges on all its sides keep smoothing from joining it to its
-/// neighbours (tests/accuracy/tuning.md).
-void fill_islands(ImageView<float> disparity);
+/// neighbours (tests/accuracy/tuning.md). Throws Cancelled.
+void fill_islands(const Progress& progress, ImageView<float> disparity);
 /// The same, if the parameters ask for it.
-void fill_islands(const IslandParameters& parameters, ImageView<float> disparity);
+void fill_islands(const IslandParameters& parameters, const Progress& progress,
+                  ImageView<float> disparity);
 
 }  // namespace episcope

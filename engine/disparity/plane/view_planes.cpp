@@ -44,7 +44,7 @@ void run_round(const LightField& lf, const PlaneParameters& parameters, const St
   if (is_last && parameters.silhouettes) {
     place_silhouettes(lf, stereo.view, progress.part(0.98, 0.99), map);
   }
-  if (is_last) fill_islands(parameters.islands, map);
+  if (is_last) fill_islands(parameters.islands, progress.part(0.99, 0.99), map);
   estimate.confidence = costs.confidence(map, progress.part(0.99, 1));
 }
 

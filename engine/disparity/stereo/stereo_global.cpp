@@ -80,7 +80,7 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
   estimate.notes = cost_notes(stereo);
   const auto label = stereo.matcher ? label_on_device : label_costs;
   label(lf, stereo, parameters.labeling, estimate, progress.part(0.05, 1));
-  fill_islands(parameters.islands, estimate.field.disparity.view(stereo.view));
+  fill_islands(parameters.islands, progress.part(1, 1), estimate.field.disparity.view(stereo.view));
   return estimate;
 }
 

@@ -201,7 +201,7 @@ Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
   denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
           static_cast<float>(parameters.map_noise), device);
   ViewStack<float>& maps = estimate.field.disparity;
-  fill_islands(parameters.islands, maps.view(maps.first()));
+  fill_islands(parameters.islands, progress.part(1, 1), maps.view(maps.first()));
   return estimate;
 }
 
@@ -225,7 +225,7 @@ BlockwiseRun stereo_smooth_in_blocks(const LightField& lf, MatchedViews views,
                            {DataWeight{}.minimum, static_cast<float>(parameters.map_noise)},
                            made.maps.field.disparity, made.maps.confidence, part);
     ViewStack<float>& maps = made.maps.field.disparity;
-    fill_islands(parameters.islands, maps.view(maps.first()));
+    fill_islands(parameters.islands, part.part(1, 1), maps.view(maps.first()));
     return made;
   };
   run.passes.push_back(std::move(pass));

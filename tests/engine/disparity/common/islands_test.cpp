@@ -54,7 +54,7 @@ class IslandsTest : public QObject {
         {{3, 2}}, {{3, 2}, {3, 3}}, {{3, 2}, {4, 3}}, {{0, 0}}, {{3, 4}}};
     Image<float> map = with(places[kind], value);
 
-    fill_islands(map.view());
+    fill_islands(Progress(), map.view());
 
     QVERIFY(is_equal(map, step_map()));
   }
@@ -63,7 +63,7 @@ class IslandsTest : public QObject {
     const Image<float> before = with({{3, 2}, {3, 3}, {3, 4}}, 3);
     Image<float> map = before;
 
-    fill_islands(map.view());
+    fill_islands(Progress(), map.view());
 
     QVERIFY(is_equal(map, before));
   }
@@ -72,7 +72,7 @@ class IslandsTest : public QObject {
     const Image<float> before = with({{3, 5}}, 0.2F);
     Image<float> map = before;
 
-    fill_islands(map.view());
+    fill_islands(Progress(), map.view());
 
     QVERIFY(is_equal(map, before));
   }
@@ -81,7 +81,7 @@ class IslandsTest : public QObject {
     Image<float> map = with({{3, 2}}, 3);
     map.at(3, 3) = std::numeric_limits<float>::quiet_NaN();
 
-    fill_islands(map.view());
+    fill_islands(Progress(), map.view());
 
     QCOMPARE(map.at(3, 2), -1.0F);
     QVERIFY(std::isnan(map.at(3, 3)));
@@ -91,7 +91,7 @@ class IslandsTest : public QObject {
     Image<float> map(1, 2);
     map.at(0, 1) = 9;
 
-    fill_islands(map.view());
+    fill_islands(Progress(), map.view());
 
     QCOMPARE(map.at(0, 1), 9.0F);
     QCOMPARE(map.at(0, 0), 0.0F);
