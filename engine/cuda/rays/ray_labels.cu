@@ -65,7 +65,7 @@ void Labeling::solve_link(const ProblemViews& views, bool is_first, const Progre
     places = places_.data();
   }
   const SimplexSettings settings{task_.smoothness, task_.gap, task_.max_iterations,
-                                 task_.check_every};
+                                 task_.check_every, task_.racing_iterations};
   for (const SimplexAnswer& answer : batch_.solve(views.count, places, settings, progress)) {
     sum.energy += answer.energy;
     sum.bound += answer.bound;

@@ -40,6 +40,7 @@ struct RayLabelsTask {
   double gap = 1e-2;
   int max_iterations = 300;
   int check_every = 5;
+  int racing_iterations = 0;  ///< As in SimplexOptions.
 };
 
 /// Sums over the views, and the most iterations of any.

@@ -35,7 +35,7 @@ std::size_t SimplexBatch::bytes_of_problem(int height, int layers, int width) {
   const std::size_t pixels = static_cast<std::size_t>(height) * static_cast<std::size_t>(width);
   // Coarser levels add a third.
   const std::size_t unknowns = pixels * static_cast<std::size_t>(layers);
-  return sizeof(float) * (unknowns * (kFloats * 4 / 3 + 1 + kKeptFloats) + 4 * pixels);
+  return sizeof(float) * (unknowns * (kFloats * 4 / 3 + 1 + kKeptFloats) + 5 * pixels);
 }
 
 SimplexBatch::Level::Level(int problems, int height, int layers, int width,
@@ -67,8 +67,10 @@ SimplexBatch::SimplexBatch(int problems, int height, int layers, int width,
   const auto pixels = static_cast<std::size_t>(fields().pixels() * problems);
   labels_ = {pixels, stream};
   best_ = {pixels, stream};
+  moved_labels_ = {pixels, stream};
   partial_ = {partial_sums(fields()), stream};
   measures_ = {static_cast<std::size_t>(problems), stream};
+  race_ = {fields(), stream};
 }
 
 // Each pixel is in 8 pairs, so |K|² ≤ 16; as in simplex_labeling.cpp.
@@ -87,7 +89,7 @@ void SimplexBatch::start(double smoothness) {
   for (std::size_t k = levels_.size(); k-- > 1;) {
     SimplexFields& fields = levels_[k].fields;
     set_steps(std::ldexp(smoothness, -static_cast<int>(k)), fields);
-    for (int i = 0; i < kCoarseIterations; ++i) move_simplex(fields, 0, stream_);
+    for (int i = 0; i < kCoarseIterations; ++i) move_simplex(fields, 0, nullptr, stream_);
     begin_from_coarse(fields, levels_[k - 1].fields, stream_);
   }
 }
@@ -101,6 +103,17 @@ void SimplexBatch::take_over(const std::int32_t* places) {
   place_unknowns(is_in_last ? levels_.front().memory.data() : last_.data(), unknowns_, to);
   begin_from_moved(fields, places, to, stream_);
   fields = to;
+}
+
+// Those of the labels reached so far take part in any case: of the call before, or of the coarser
+// levels.
+void SimplexBatch::choose_layers(const std::int32_t* places, float behind) {
+  if (places != nullptr) {
+    move_labels(fields(), labels_.data(), places, moved_labels_.data(), stream_);
+  } else {
+    read_labels(fields(), 0, moved_labels_.data(), stream_);
+  }
+  race_.choose(fields(), moved_labels_.data(), behind, stream_);
 }
 
 void SimplexBatch::measure(int count, SolvedMask solved, std::vector<SimplexAnswer>& answers) {
@@ -135,6 +148,7 @@ std::vector<SimplexAnswer> SimplexBatch::solve(int count, const std::int32_t* pl
     start(settings.smoothness);
   }
   set_steps(settings.smoothness, levels_.front().fields);
+  if (settings.racing_iterations > 0) choose_layers(places, settings.behind);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<SimplexAnswer> answers(static_cast<std::size_t>(count),
                                      {0, kInfinity, kInfinity, -kInfinity});
@@ -142,9 +156,11 @@ std::vector<SimplexAnswer> SimplexBatch::solve(int count, const std::int32_t* pl
   SolvedMask solved = ~all;
   for (int iteration = 1; solved != ~SolvedMask{0}; ++iteration) {
     progress.check();
-    move_simplex(fields(), solved, stream_);
+    const bool races = iteration <= settings.racing_iterations;
+    move_simplex(fields(), solved, races ? &race_.race() : nullptr, stream_);
     const bool is_last = iteration >= settings.max_iterations || progress.finish_requested();
-    if (!is_last && iteration % std::max(1, settings.check_every) != 0) continue;
+    const bool is_due = !races && iteration % std::max(1, settings.check_every) == 0;
+    if (!is_last && !is_due) continue;
     measure(count, solved, answers);
     for (int problem = 0; problem < count; ++problem) {
       SimplexAnswer& answer = answers[static_cast<std::size_t>(problem)];

@@ -4,6 +4,7 @@
 #include "engine/core/parallel/progress.h"
 #include "engine/cuda/simplex/simplex_fields.cuh"
 #include "engine/cuda/simplex/simplex_measure.cuh"
+#include "engine/cuda/simplex/simplex_race.cuh"
 
 #include <cstdint>
 #include <vector>
@@ -16,6 +17,8 @@ struct SimplexSettings {
   double gap = 1e-3;
   int max_iterations = 300;
   int check_every = 10;
+  int racing_iterations = 0;
+  float behind = 1;
 };
 
 /// As SimplexResult.
@@ -53,13 +56,15 @@ class SimplexBatch {
   void set_steps(double smoothness, SimplexFields& fields) const;
   void start(double smoothness);
   void take_over(const std::int32_t* places);
+  void choose_layers(const std::int32_t* places, float behind);
   void measure(int count, SolvedMask solved, std::vector<SimplexAnswer>& answers);
 
   const DeviceStream& stream_;
   std::vector<Level> levels_;  // The finest first.
   std::size_t unknowns_;       // Of the finest, of as many problems as there is room for.
   DeviceArray<float> last_;    // u and duals of the call before, if ever taken over from.
-  DeviceArray<std::int32_t> labels_, best_;
+  DeviceArray<std::int32_t> labels_, best_, moved_labels_;
+  SimplexRaceMemory race_;
   DeviceArray<double> partial_;
   DeviceArray<SimplexMeasure> measures_;
 };

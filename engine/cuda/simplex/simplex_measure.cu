@@ -151,8 +151,8 @@ std::size_t partial_sums(const SimplexFields& fields) {
          static_cast<std::size_t>(fields.height) * static_cast<std::size_t>(fields.problems);
 }
 
-void measure_simplex(const SimplexFields& fields, SolvedMask solved, std::int32_t* labels,
-                     double* partial, SimplexMeasure* measures, const DeviceStream& stream) {
+void read_labels(const SimplexFields& fields, SolvedMask solved, std::int32_t* labels,
+                 const DeviceStream& stream) {
   const int threads = column_threads(fields.layers);
   const auto values = static_cast<double>(fields.size());
   launch(stream, {"labels: read off", 8 * values, 8 * values}, [&] {
@@ -160,6 +160,12 @@ void measure_simplex(const SimplexFields& fields, SolvedMask solved, std::int32_
           sizeof(float) * static_cast<std::size_t>(fields.layers * threads), stream.get()>>>(
         fields, solved, labels);
   });
+}
+
+void measure_simplex(const SimplexFields& fields, SolvedMask solved, std::int32_t* labels,
+                     double* partial, SimplexMeasure* measures, const DeviceStream& stream) {
+  read_labels(fields, solved, labels, stream);
+  const auto values = static_cast<double>(fields.size());
   launch(stream, {"labels: energy and bound", 24 * values, 40 * values}, [&] {
     sum_rows<<<blocks(fields, kThreads), kThreads, 0, stream.get()>>>(fields, solved, labels,
                                                                       partial);

@@ -15,8 +15,11 @@ struct SimplexMeasure {
 /// Doubles that `measure_simplex` needs for partial sums.
 [[nodiscard]] std::size_t partial_sums(const SimplexFields& fields);
 
-/// Writes the labels read off u, `[problem][y][x]`, and what they and the duals are worth,
-/// `[problem]`. What is `ahead` is lost. Each sum is taken in one order. Throws DeviceFailure.
+/// Writes the labels read off u, `[problem][y][x]`. What is `ahead` is lost. Throws DeviceFailure.
+void read_labels(const SimplexFields& fields, SolvedMask solved, std::int32_t* labels,
+                 const DeviceStream& stream);
+/// Writes these, and what they and the duals are worth, `[problem]`. What is `ahead` is lost. Each
+/// sum is taken in one order. Throws DeviceFailure.
 void measure_simplex(const SimplexFields& fields, SolvedMask solved, std::int32_t* labels,
                      double* partial, SimplexMeasure* measures, const DeviceStream& stream);
 

@@ -31,7 +31,18 @@ struct Around {
   }
 };
 
-__global__ void move_primal(SimplexFields fields, SolvedMask solved) {
+// All layers, or those of a list.
+struct Layers {
+  const std::uint16_t* list;
+  int count;
+
+  __device__ Layers(const SimplexFields& fields, const std::uint16_t* of_tile)
+      : list(of_tile), count(of_tile != nullptr ? of_tile[0] : fields.layers) {}
+  [[nodiscard]] __device__ long at(int k) const { return list != nullptr ? list[k + 1] : k; }
+};
+
+template <bool kRaces>
+__global__ void move_primal(SimplexFields fields, SolvedMask solved, SimplexRace race) {
   extern __shared__ float shared[];
   const int stride = static_cast<int>(blockDim.x), thread = static_cast<int>(threadIdx.x);
   const int x = static_cast<int>(blockIdx.x) * stride + thread, y = static_cast<int>(blockIdx.y);
@@ -43,19 +54,20 @@ __global__ void move_primal(SimplexFields fields, SolvedMask solved) {
   float* const u = fields.u + at;
   float* const ahead = fields.ahead + at;
   const Around duals(fields, at, y, x);
+  const Layers layers(fields, kRaces ? race.list(problem, y, x, SimplexRace::Moving) : nullptr);
   float top = -1e30F;
 #pragma unroll 4
-  for (int l = 0; l < fields.layers; ++l) {
-    const long i = static_cast<long>(l) * fields.width;
+  for (int k = 0; k < layers.count; ++k) {
+    const long i = layers.at(k) * fields.width;
     const float value = u[i] + fields.primal_step * (duals.divergence(i) - cost[i]);
-    values[l * stride] = value;
+    values[k * stride] = value;
     top = fmaxf(value, top);
   }
-  const float theta = simplex_threshold(values, stride, fields.layers, top);
+  const float theta = simplex_threshold(values, stride, layers.count, top);
 #pragma unroll 4
-  for (int l = 0; l < fields.layers; ++l) {
-    const long i = static_cast<long>(l) * fields.width;
-    const float projected = fmaxf(values[l * stride] - theta, 0.0F);
+  for (int k = 0; k < layers.count; ++k) {
+    const long i = layers.at(k) * fields.width;
+    const float projected = fmaxf(values[k * stride] - theta, 0.0F);
     const float old = u[i];
     ahead[i] = 2.0F * projected - old;
     u[i] = old + kRelaxation * (projected - old);
@@ -68,7 +80,8 @@ __device__ inline void move_dual(float* dual, float step, float limit) {
   *dual = old + kRelaxation * (next - old);
 }
 
-__global__ void move_duals(SimplexFields fields, SolvedMask solved) {
+template <bool kRaces>
+__global__ void move_duals(SimplexFields fields, SolvedMask solved, SimplexRace race) {
   const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   const auto y = static_cast<int>(blockIdx.y), problem = static_cast<int>(blockIdx.z);
   if (x >= fields.width || (solved >> problem & 1U) != 0) return;
@@ -78,9 +91,10 @@ __global__ void move_duals(SimplexFields fields, SolvedMask solved) {
   const long right = x + 1 < fields.width ? 1 : 0;
   const long down = y + 1 < fields.height ? fields.row() : 0;
   const float step = fields.dual_step;
+  const Layers layers(fields, kRaces ? race.list(problem, y, x, SimplexRace::Paired) : nullptr);
 #pragma unroll 4
-  for (int l = 0; l < fields.layers; ++l) {
-    const long i = first + static_cast<long>(l) * fields.width;
+  for (int k = 0; k < layers.count; ++k) {
+    const long i = first + layers.at(k) * fields.width;
     const float here = fields.ahead[i], beside = fields.ahead[i + right];
     const float below = fields.ahead[i + down], across = fields.ahead[i + right + down];
     move_dual(fields.duals[0] + i, step * (beside - here), limits.of[0]);
@@ -92,7 +106,8 @@ __global__ void move_duals(SimplexFields fields, SolvedMask solved) {
 
 }  // namespace
 
-void move_simplex(const SimplexFields& fields, SolvedMask solved, const DeviceStream& stream) {
+void move_simplex(const SimplexFields& fields, SolvedMask solved, const SimplexRace* race,
+                  const DeviceStream& stream) {
   const int threads = column_threads(fields.layers);
   int open = 0;
   for (int problem = 0; problem < fields.problems; ++problem) {
@@ -103,13 +118,24 @@ void move_simplex(const SimplexFields& fields, SolvedMask solved, const DeviceSt
     return dim3(blocks_for(fields.width, size), static_cast<unsigned>(fields.height),
                 static_cast<unsigned>(fields.problems));
   };
+  const auto room = sizeof(float) * static_cast<std::size_t>(fields.layers * threads);
+  const auto size = static_cast<unsigned>(threads);
+  if (race != nullptr) {
+    // How many layers race is known on the device alone.
+    launch(stream, {"labels: regions, near ones", 0, 0}, [&] {
+      move_primal<true><<<blocks(threads), size, room, stream.get()>>>(fields, solved, *race);
+    });
+    launch(stream, {"labels: boundaries, near ones", 0, 0}, [&] {
+      move_duals<true><<<blocks(kThreads), kThreads, 0, stream.get()>>>(fields, solved, *race);
+    });
+    return;
+  }
   launch(stream, {"labels: regions", 32 * values, 24 * values}, [&] {
-    move_primal<<<blocks(threads), static_cast<unsigned>(threads),
-                  sizeof(float) * static_cast<std::size_t>(fields.layers * threads),
-                  stream.get()>>>(fields, solved);
+    move_primal<false><<<blocks(threads), size, room, stream.get()>>>(fields, solved, {});
   });
-  launch(stream, {"labels: boundaries", 36 * values, 32 * values},
-         [&] { move_duals<<<blocks(kThreads), kThreads, 0, stream.get()>>>(fields, solved); });
+  launch(stream, {"labels: boundaries", 36 * values, 32 * values}, [&] {
+    move_duals<false><<<blocks(kThreads), kThreads, 0, stream.get()>>>(fields, solved, {});
+  });
 }
 
 }  // namespace episcope::cuda

@@ -99,6 +99,7 @@ RayLabeling label_on_device(const RayLabelingInput& input, const RayLabelingPara
   task.gap = parameters.gap_all_views;
   task.max_iterations = parameters.max_iterations;
   task.check_every = kGapCheckEvery;
+  task.racing_iterations = kRacingIterations;
   RayLabeling result = unlabeled(p);
   progress.step("views");
   const cuda::RayLabelsAnswer answer =
