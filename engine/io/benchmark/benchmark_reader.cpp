@@ -7,6 +7,7 @@
 #include "engine/io/benchmark/benchmark_views.h"
 #include "engine/io/benchmark/config_file.h"
 #include "engine/io/beside/beside.h"
+#include "engine/io/grid/grid_with_gaps.h"
 #include "engine/io/grid/load_views.h"
 #include "engine/io/maps/sample_range.h"
 #include "engine/io/open/assemble_scene.h"
@@ -174,13 +175,16 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   std::optional<ConfigFile> config;
   if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
   const std::optional<GridShape> given = given_grid(options);
-  ViewFiles views = benchmark_views(folder, config, given);
+  BenchmarkViews found = benchmark_views(folder, config, given);
+  ViewFiles& views = found.views;
   account.add_folder(views.files.front().parent_path());
   account.use(views.files, "views");
+  account.leave_out(views.left_out, kViewsLeftOut);
   if (config) account.use(folder / kBenchmarkConfig, "parameter files");
   Scene scene;
   ConventionReport& report = scene.convention;
   report.format = "2016 benchmark folder";
+  if (!found.gaps.empty()) report.warnings.push_back(found.gaps);
   if (!config && !given) {
     report.warnings.push_back(
         fmt::format("There is no parameters.cfg: the grid of {}×{} views was inferred from the "
@@ -201,7 +205,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
     if (options.on_center_view) options.on_center_view(center, info, views.grid);
   };
   LightField::Samples samples = load_views(views, show_center, progress.part(0, 0.85));
-  if (!given && arrange_as_seen(samples, views, report, progress)) {
+  if (!given && !views.part && arrange_as_seen(samples, views, report, progress)) {
     samples = load_views(views, show_center, progress.part(0, 0.85));
   }
   settle_range(samples, options.levels, report);
@@ -209,7 +213,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   const Size size = size_of(samples);
   if (config) {
     compare_size(*config, size, report);
-    compare_grid(*config, views.grid, report);
+    compare_grid(*config, views.whole_grid(), report);
     info.camera = read_camera(folder, *config, size, report);
   }
   GroundTruth truth;

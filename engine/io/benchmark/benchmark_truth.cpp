@@ -104,6 +104,12 @@ DisparityField invalid_field(const BesideViews& views, GridShape part, ViewIndex
   return field;
 }
 
+/// Files are numbered as in the whole grid.
+std::string disparity_file_of(ViewIndex view, const ViewFiles& views) {
+  const ViewIndex at = views.in_whole(view);
+  return disparity_file_name(at.v * views.whole_grid().u + at.u);
+}
+
 /// Of every view, or of the centre view alone where that is all that is asked for.
 DisparityField read_of_all_views(const fs::path& folder, const BesideViews& views,
                                  const BesideNotes& notes, const Progress& progress) {
@@ -116,7 +122,7 @@ DisparityField read_of_all_views(const fs::path& folder, const BesideViews& view
   for (int i = 0; i < part.count(); ++i) {
     progress.check();
     const ViewIndex view = part.view_at(i, first);
-    const fs::path file = folder / disparity_file_name(view.v * grid.u + view.u);
+    const fs::path file = folder / disparity_file_of(view, views.files);
     files.read(file, [&] { store(read_map(file, views), view, field); });
     progress.report((i + 1.0) / part.count());
   }
@@ -128,7 +134,7 @@ DisparityField read_of_all_views(const fs::path& folder, const BesideViews& view
 DisparityField read_of_center(const fs::path& file, const std::string& kind,
                               const BesideViews& views, const BesideNotes& notes,
                               const std::function<void(Image<float>&)>& convert) {
-  const ViewIndex center = views.grid().center();
+  const ViewIndex center = *views.files.whole_center();
   DisparityField field = invalid_field(views, {1, 1}, center);
   Files files;
   files.read(file, [&] {
@@ -143,7 +149,7 @@ DisparityField read_of_center(const fs::path& file, const std::string& kind,
 /// Of the map in high resolution the value in the middle of each pixel of the centre view.
 DisparityField read_reduced(const HighResFiles& high_res, const BesideViews& views,
                             const BesideNotes& notes) {
-  const ViewIndex center = views.grid().center();
+  const ViewIndex center = *views.files.whole_center();
   DisparityField field = invalid_field(views, {1, 1}, center);
   Files files;
   files.read(high_res.disparity, [&] {
@@ -162,18 +168,10 @@ DisparityField read_reduced(const HighResFiles& high_res, const BesideViews& vie
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 
-DisparityField read_stored(const fs::path& folder, const BesideViews& views,
-                           const BesideNotes& notes, const Progress& progress) {
-  bool has_all = true;
-  for (int i = 0; i < views.grid().count() && has_all; ++i) {
-    has_all = is_there(folder / disparity_file_name(i));
-  }
+/// Truth of the centre of the whole grid, which must be one of the views.
+DisparityField read_stored_center(const fs::path& folder, const BesideViews& views,
+                                  const BesideNotes& notes) {
   std::string& units = notes.report.units;
-  if (has_all) {
-    units = "disparity as stored in gt_disp_lowres_Cam*.pfm";
-    DisparityField field = read_of_all_views(folder, views, notes, progress);
-    if (!field.empty()) return field;
-  }
   const fs::path disparity = folder / kCenterDisparity;
   if (is_there(disparity)) {
     units = "disparity as stored in gt_disp_lowres.pfm";
@@ -193,6 +191,25 @@ DisparityField read_stored(const fs::path& folder, const BesideViews& views,
   if (!high_res.disparity.empty()) {
     units = "disparity as stored in gt_disp_highres.pfm, in the middle of each pixel";
     DisparityField field = read_reduced(high_res, views, notes);
+    if (!field.empty()) return field;
+  }
+  return {};
+}
+
+DisparityField read_stored(const fs::path& folder, const BesideViews& views,
+                           const BesideNotes& notes, const Progress& progress) {
+  bool has_all = true;
+  for (int i = 0; i < views.grid().count() && has_all; ++i) {
+    has_all = is_there(folder / disparity_file_of(views.grid().view_at(i), views.files));
+  }
+  std::string& units = notes.report.units;
+  if (has_all) {
+    units = "disparity as stored in gt_disp_lowres_Cam*.pfm";
+    DisparityField field = read_of_all_views(folder, views, notes, progress);
+    if (!field.empty()) return field;
+  }
+  if (views.files.whole_center()) {
+    DisparityField field = read_stored_center(folder, views, notes);
     if (!field.empty()) return field;
   }
   units = "no truth in this folder";
@@ -258,7 +275,7 @@ void read_object_ids(const fs::path& folder, const BesideViews& views, const Bes
     const Image<std::int32_t> ids = decode_numbers(path);
     require_view_size(path, ids.height(), ids.width(), views);
     truth.labels =
-        ViewStack<std::int32_t>({1, 1}, ids.height(), ids.width(), 1, views.grid().center());
+        ViewStack<std::int32_t>({1, 1}, ids.height(), ids.width(), 1, *views.files.whole_center());
     std::copy_n(ids.data(), ids.size(), truth.labels.data());
   });
   files.tell("label maps of the centre view", notes);
@@ -275,7 +292,8 @@ DisparityField read_benchmark_disparity(const fs::path& folder, const BesideView
 
 void read_benchmark_masks(const fs::path& folder, const BesideViews& views,
                           const BesideNotes& notes, GroundTruth& truth) {
-  read_object_ids(folder, views, notes, truth);
+  if (views.files.whole_center()) read_object_ids(folder, views, notes, truth);
+  if (views.files.whole_center() != views.grid().center()) return;  // they are of another view
   read_regions(folder, views, notes, truth);
   find_high_res(folder, views, notes, truth);
 }

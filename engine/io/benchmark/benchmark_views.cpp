@@ -7,6 +7,7 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/benchmark/benchmark_names.h"
 #include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/grid_with_gaps.h"
 #include "engine/io/grid/image_grid_probe.h"
 #include "engine/io/open/grid_option.h"
 #include "engine/io/open/scene_folder.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 
 namespace episcope::io {
@@ -94,14 +96,20 @@ std::string truth_of(const fs::path& folder, GridShape grid) {
   return is_there(folder / kCenterDepth) ? "depth of the centre view" : "";
 }
 
+std::vector<long long> counted(int length) {
+  std::vector<long long> numbers(static_cast<std::size_t>(length));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
 }  // namespace
 
 int count_benchmark_views(const fs::path& folder) {
   return static_cast<int>(numbered_views(folder).size());
 }
 
-ViewFiles benchmark_views(const fs::path& folder, const std::optional<ConfigFile>& config,
-                          const std::optional<GridShape>& given) {
+BenchmarkViews benchmark_views(const fs::path& folder, const std::optional<ConfigFile>& config,
+                               const std::optional<GridShape>& given) {
   const std::map<int, fs::path> found = numbered_views(folder);
   const auto count = static_cast<int>(found.size());
   GridShape grid;
@@ -125,25 +133,26 @@ ViewFiles benchmark_views(const fs::path& folder, const std::optional<ConfigFile
   } else {
     grid = square_grid(folder, count);
   }
-  ViewFiles views{grid, {}};
   const int first = !found.contains(0) && found.contains(grid.count()) ? 1 : 0;
+  GridWithGaps views{.rows = counted(grid.v), .columns = counted(grid.u), .numbering = "from 0"};
   for (int i = first; i < grid.count() + first; ++i) {
     const auto view = found.find(i);
-    if (view == found.end()) {
-      throw IoError(
-          folder / view_file_name(i),
-          fmt::format("this view is missing: {} of {} files input_Cam*.png were found; add it",
-                      count, grid.count()));
-    }
-    views.files.push_back(view->second);
+    views.files.push_back(view == found.end() ? fs::path() : view->second);
   }
-  return views;
+  if (views.missing() == 0) return {.views = {grid, views.files}, .gaps = {}};
+  const std::optional<PartOfGrid> part = part_to_open(views);
+  if (part) return {.views = files_of_part(views, *part), .gaps = part_text(views, *part)};
+  const auto missing = std::ranges::find_if(views.files, &fs::path::empty) - views.files.begin();
+  throw IoError(
+      folder / view_file_name(first + static_cast<int>(missing)),
+      fmt::format("this view is missing: {} of {} files input_Cam*.png were found; add it", count,
+                  grid.count()));
 }
 
 SceneProbe probe_benchmark(const fs::path& folder, const OpenOptions& options) {
   std::optional<ConfigFile> config;
   if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
-  SceneProbe probe = probe_views(benchmark_views(folder, config, given_grid(options)));
+  SceneProbe probe = probe_views(benchmark_views(folder, config, given_grid(options)).views);
   probe.truth = truth_of(folder, probe.grid);
   if (is_there(folder / kObjectIds)) probe.labels = "labels of the centre view";
   return probe;

@@ -17,6 +17,8 @@ namespace {
 void set_aside(std::vector<MapSet>& sets, const BesideNotes& notes) {
   for (MapSet& set : sets) {
     notes.account.leave_out(set.strays, std::string(kind_text(set.kind)) + " of no view");
+    notes.account.leave_out(set.of_left_out,
+                            std::string(kind_text(set.kind)) + " of views left out");
     set.strays.clear();
     std::erase_if(set.entries, [&](const MapSet::Entry& entry) {
       const OwnFile own = own_file(entry.file);

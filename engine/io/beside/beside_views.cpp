@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 /// Sets are not mixed with regard to suffixes: these are part of their pattern.
 fs::path first_file(const MapSet& set) {
-  return set.entries.empty() ? set.strays.front() : set.entries.front().file;
+  if (!set.entries.empty()) return set.entries.front().file;
+  return set.strays.empty() ? set.of_left_out.front() : set.strays.front();
 }
 
 }  // namespace

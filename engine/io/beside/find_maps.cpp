@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 200'000;
+constexpr int kLeftOut = -1;  ///< Instead of the number of a view that is not opened.
 
 /// One or two numbers that vary among names: a count, or a row and a column.
 using Key = std::vector<long>;
@@ -91,16 +92,28 @@ struct ViewKeys {
   std::map<std::string, int> view_by_stem;
   std::size_t length = 0;  ///< 1 or 2; 0 if names do not tell.
   GridShape grid;
+  std::optional<PartOfGrid> part;
+
+  /// The number of a view that is counted in the whole grid; `kLeftOut` for one left out.
+  [[nodiscard]] int number_of(ViewIndex view) const {
+    const auto at = part ? part->in_part(view) : std::optional(view);
+    return at ? at->v * grid.u + at->u : kLeftOut;
+  }
 };
 
 ViewKeys keys_of_views(const ViewFiles& views) {
   ViewKeys keys;
   keys.grid = views.grid;
+  keys.part = views.part;
   std::vector<NumberedName> names;
-  for (const fs::path& file : views.files) {
-    keys.view_by_stem[file.stem().string()] = static_cast<int>(names.size());
+  std::vector<int> numbers;
+  const auto add = [&](const fs::path& file, int number) {
+    keys.view_by_stem[file.stem().string()] = number;
     names.push_back(numbered_name(file.filename().string()));
-  }
+    numbers.push_back(number);
+  };
+  for (const fs::path& file : views.files) add(file, static_cast<int>(names.size()));
+  for (const fs::path& file : views.left_out) add(file, kLeftOut);
   if (names.empty()) return keys;
   const bool is_alike = std::ranges::all_of(names, [&](const NumberedName& name) {
     return name.numbers.size() == names.front().numbers.size();
@@ -108,7 +121,7 @@ ViewKeys keys_of_views(const ViewFiles& views) {
   if (!is_alike) return keys;
   const std::vector<std::size_t> places = varying_places(names);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    keys.view_of[key_of(names[i], places)] = static_cast<int>(i);
+    keys.view_of[key_of(names[i], places)] = numbers[i];
   }
   keys.length = keys.view_of.size() == names.size() ? places.size() : 0;
   return keys;
@@ -150,13 +163,14 @@ std::vector<MapSet::Entry> match_numbers(const std::vector<KeyedFile>& files,
   const Key least = smallest(files, [](const KeyedFile& one) -> const Key& { return one.key; });
   for (std::size_t i = 0; i < shift.size(); ++i) shift[i] -= least[i];
   std::vector<MapSet::Entry> shifted = match(shift);
-  return files.size() == views.view_of.size() && shifted.size() > entries.size() ? shifted
-                                                                                 : entries;
+  const bool are_all = files.size() == views.view_of.size() || views.part;
+  return are_all && shifted.size() > entries.size() ? shifted : entries;
 }
 
 /// Where views are counted and maps have rows and columns, or the other way round: all or none.
 std::vector<MapSet::Entry> match_order(std::vector<KeyedFile> files, const ViewKeys& views) {
-  if (static_cast<int>(files.size()) != views.grid.count()) return {};
+  const GridShape grid = views.part ? views.part->whole : views.grid;
+  if (static_cast<int>(files.size()) != grid.count()) return {};
   std::ranges::sort(files, {}, &KeyedFile::key);
   std::set<long> rows;
   std::set<long> columns;
@@ -164,12 +178,12 @@ std::vector<MapSet::Entry> match_order(std::vector<KeyedFile> files, const ViewK
     rows.insert(one.key.front());
     columns.insert(one.key.back());
   }
-  const bool is_grid = static_cast<int>(rows.size()) == views.grid.v &&
-                       static_cast<int>(columns.size()) == views.grid.u;
+  const bool is_grid =
+      static_cast<int>(rows.size()) == grid.v && static_cast<int>(columns.size()) == grid.u;
   if (files.front().key.size() == 2 && !is_grid) return {};
   std::vector<MapSet::Entry> entries;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    entries.push_back({static_cast<int>(i), files[i].file});
+    entries.push_back({views.number_of(grid.view_at(static_cast<int>(i))), files[i].file});
   }
   return entries;
 }
@@ -188,9 +202,9 @@ std::optional<int> view_in_name(const std::string& stem, const ViewKeys& views) 
   return found;
 }
 
-int center_of(GridShape grid) {
-  const ViewIndex center = grid.center();
-  return center.v * grid.u + center.u;
+/// Of the whole grid.
+int center_of(const ViewKeys& views) {
+  return views.number_of(views.part ? views.part->whole.center() : views.grid.center());
 }
 
 void match_single(const fs::path& file, const ViewKeys& views, MapSet& set) {
@@ -200,7 +214,14 @@ void match_single(const fs::path& file, const ViewKeys& views, MapSet& set) {
     const auto found = views.view_of.find(name.numbers);
     if (views.length == 2 && found != views.view_of.end()) view = found->second;
   }
-  set.entries.push_back({view.value_or(center_of(views.grid)), file});
+  set.entries.push_back({view.value_or(center_of(views)), file});
+}
+
+void drop_left_out(MapSet& set) {
+  for (MapSet::Entry& entry : set.entries) {
+    if (entry.view == kLeftOut) set.of_left_out.push_back(entry.file);
+  }
+  std::erase_if(set.entries, [](const MapSet::Entry& entry) { return entry.view == kLeftOut; });
 }
 
 /// Two files of one view leave open which of them counts.
@@ -221,7 +242,7 @@ void drop_doubles(MapSet& set) {
 void match(const std::vector<fs::path>& files, const ViewKeys& views, MapSet& set) {
   if (files.size() == 1) {
     match_single(files.front(), views, set);
-    return;
+    return drop_left_out(set);
   }
   std::vector<NumberedName> names;
   for (const fs::path& file : files) names.push_back(numbered_name(file.filename().string()));
@@ -237,6 +258,7 @@ void match(const std::vector<fs::path>& files, const ViewKeys& views, MapSet& se
   for (const fs::path& file : files) {
     if (!matched.contains(file)) set.strays.push_back(file);
   }
+  drop_left_out(set);
   drop_doubles(set);
 }
 
@@ -288,7 +310,8 @@ fs::path MapSet::file_of(int view) const {
 }
 
 MapsBeside find_maps(const ViewFiles& views, const fs::path& folder) {
-  const std::set<fs::path> taken(views.files.begin(), views.files.end());
+  std::set<fs::path> taken(views.files.begin(), views.files.end());
+  taken.insert(views.left_out.begin(), views.left_out.end());
   const ViewKeys keys = keys_of_views(views);
   MapsBeside found;
   for (const Place& place : places_of(folder)) {
@@ -303,7 +326,7 @@ MapsBeside find_maps(const ViewFiles& views, const fs::path& folder) {
       groups[{*kind, pattern}].push_back(file);
     }
     for (const auto& [key, files] : groups) {
-      MapSet set{key.first, key.second, {}, {}};
+      MapSet set{.kind = key.first, .pattern = key.second, .entries = {}, .strays = {}};
       match(files, keys, set);
       found.sets.push_back(std::move(set));
     }

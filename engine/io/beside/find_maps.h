@@ -22,6 +22,7 @@ struct MapSet {
   std::vector<Entry> entries;
   /// Files of such names that belong to no view.
   std::vector<std::filesystem::path> strays;
+  std::vector<std::filesystem::path> of_left_out{};  ///< Of views that are not in the part opened.
   bool is_named_labels = false;  ///< Disparity whose files are named like labels.
 
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
@@ -38,7 +39,8 @@ struct MapsBeside {
 /// Finds maps by their names (`map_kind`), without opening a file: in the folder of the views, in
 /// folders inside it (`is_map_folder`), and around it if it is called lf, views or the like or if
 /// it has a `kBaselineFile`. Numbers of names are those of the views, or count them row by row;
-/// they may begin at another number. A single map without such numbers belongs to the centre view.
+/// they may begin at another number. A single map without such numbers belongs to the centre view,
+/// of a part of a grid to that of the whole.
 /// Linear in the files.
 [[nodiscard]] MapsBeside find_maps(const ViewFiles& views, const std::filesystem::path& folder);
 

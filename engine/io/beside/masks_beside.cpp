@@ -86,7 +86,8 @@ void read_masks_beside(const std::vector<MapSet>& sets, const BesideViews& views
     if (set.entries.empty() || !can_hold_labels(set.entries.front().file)) continue;
     if (set.kind == MapKind::Valid || set.kind == MapKind::Invalid) {
       read_validity(set, views, notes, truth.field);
-    } else if (set.kind == MapKind::Region && set.entries.size() == 1) {
+    } else if (set.kind == MapKind::Region && set.entries.size() == 1 &&
+               set.entries.front().view == views.center()) {
       read_region(set, views, notes, truth);
     }
   }

@@ -73,12 +73,25 @@ std::string fit_into_views(DisparityField& maps, const BesideViews& views) {
 }
 
 bool holds_all_views(GridShape stored, const BesideViews& views) {
-  return stored == views.grid() && stored.count() > 1;
+  return stored == views.files.whole_grid() && stored.count() > 1;
 }
 
-/// The map of the centre view alone, where no others are wanted.
+/// The maps of the views that are opened, where others are missing.
 template <class T>
-ViewStack<T> wanted_part(ViewStack<T> all, const BesideViews& views) {
+ViewStack<T> opened_part(ViewStack<T> all, const BesideViews& views) {
+  if (!views.files.part) return all;
+  ViewStack<T> part(views.grid(), all.height(), all.width(), 1);
+  for (int i = 0; i < views.grid().count(); ++i) {
+    const ViewIndex view = views.grid().view_at(i);
+    std::copy_n(all.view(views.files.in_whole(view)).data, all.view_size(), part.view(view).data);
+  }
+  return part;
+}
+
+/// Of maps of the whole grid those wanted: that of the centre view alone, where no others are.
+template <class T>
+ViewStack<T> wanted_part(ViewStack<T> whole, const BesideViews& views) {
+  ViewStack<T> all = opened_part(std::move(whole), views);
   if (views.map_views == MapViews::All) return all;
   const ViewIndex center = views.grid().center();
   ViewStack<T> one({1, 1}, all.height(), all.width(), 1, center);
@@ -89,7 +102,7 @@ ViewStack<T> wanted_part(ViewStack<T> all, const BesideViews& views) {
 /// A file that holds maps of all views; empty if it holds another number.
 std::optional<DisparityField> read_whole(const MapSet& set, const BesideViews& views,
                                          std::string& note) {
-  DisparityField all = read_values(set.entries.front().file, views.grid());
+  DisparityField all = read_values(set.entries.front().file, views.files.whole_grid());
   note = fit_into_views(all, views);
   require_view_size(set.entries.front().file, all.disparity.height(), all.disparity.width(), views);
   if (!holds_all_views(all.disparity.grid(), views)) return std::nullopt;
@@ -156,7 +169,7 @@ LabelMaps read_label_set(const MapSet& set, const BesideViews& views, SetOutcome
   LabelMaps maps;
   if (set.entries.size() == 1) {
     outcome = try_all(entries, Progress(1), [&](const MapSet::Entry& entry) {
-      StoredLabels all = read_stored_labels(entry.file, views.grid());
+      StoredLabels all = read_stored_labels(entry.file, views.files.whole_grid());
       require_view_size(entry.file, all.numbers.height(), all.numbers.width(), views);
       if (!holds_all_views(all.numbers.grid(), views)) return;
       maps = {wanted_part(std::move(all.numbers), views), all.are_colors};

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/grid_with_gaps.h"
 #include "engine/io/grid/image_list.h"
 #include "engine/io/grid/row_folders.h"
 #include "engine/io/grid/view_group.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace episcope::io {
 namespace {
@@ -22,6 +24,7 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> left_out_of(const std::vector<fs::path>& images, const ViewFiles& views) {
   std::vector<fs::path> taken = views.files;
+  taken.insert(taken.end(), views.left_out.begin(), views.left_out.end());
   const auto by_text = [](const fs::path& path) { return std::string_view(path.native()); };
   std::ranges::sort(taken, {}, by_text);
   std::vector<fs::path> left_out;
@@ -113,6 +116,49 @@ ListLayout row_by_row(GridShape grid, const OpenOptions& options) {
   return layout;
 }
 
+[[noreturn]] void ask_for_grid(const fs::path& folder, const std::string& why, int count) {
+  throw Undecided(folder, why, "grid", possible_grids(count));
+}
+
+/// Puts the views of a list with gaps into the grid that was given, and takes the part of it that
+/// has none. Throws Undecided without such a grid: the images of such a list tell too little.
+void place_list_with_gaps(const fs::path& folder, PlacedViews& placed, const OpenOptions& options) {
+  const ListGaps& gaps = *placed.gaps;
+  const auto given = given_grid(options);
+  if (!given || given->count() != gaps.length) {
+    ask_for_grid(folder,
+                 fmt::format("{}, and how {} numbers lie in rows and columns is not certain",
+                             gaps.text, gaps.length),
+                 gaps.length);
+  }
+  GridWithGaps views{.rows = std::vector<long long>(static_cast<std::size_t>(given->v)),
+                     .columns = std::vector<long long>(static_cast<std::size_t>(given->u)),
+                     .files = std::vector<fs::path>(static_cast<std::size_t>(gaps.length)),
+                     .numbering = "from 0"};
+  std::iota(views.rows.begin(), views.rows.end(), 0);
+  std::iota(views.columns.begin(), views.columns.end(), 0);
+  std::vector<CameraPosition> positions(views.files.size());
+  const ListLayout layout = row_by_row(*given, options);
+  for (std::size_t i = 0; i < gaps.places.size(); ++i) {
+    const ViewIndex at = layout.place(gaps.places[i]);
+    const auto place = static_cast<std::size_t>(at.v * given->u + at.u);
+    views.files[place] = placed.views.files[i];
+    if (!placed.positions.empty()) positions[place] = placed.positions[i];
+  }
+  const auto part = part_to_open(views);
+  if (!part)
+    throw IoError(folder, gaps.text + "; no part of the grid is whole: add what is missing");
+  PlacedViews kept;
+  kept.views = files_of_part(views, *part);
+  kept.warnings = placed.warnings;
+  for (int i = 0; i < given->count() && !placed.positions.empty(); ++i) {
+    const bool is_kept = part->in_part(given->view_at(i)).has_value();
+    if (is_kept) kept.positions.push_back(positions[static_cast<std::size_t>(i)]);
+  }
+  kept.warnings.push_back(part_text(views, *part));
+  placed = std::move(kept);
+}
+
 ListLayout layout_of_list(const fs::path& folder, const ViewFiles& list, const OpenOptions& options,
                           const Progress& progress) {
   const int count = list.grid.count();
@@ -125,11 +171,11 @@ ListLayout layout_of_list(const fs::path& folder, const ViewFiles& list, const O
   progress.step("looking for rows and columns");
   ListLayout layout = look_for_layout(list, progress);
   if (!layout.is_decided) {
-    throw Undecided(folder,
-                    fmt::format("the names number {} views in one line, and how these lie in rows "
-                                "and columns is not certain: {}",
-                                count, layout.evidence),
-                    "grid", possible_grids(count));
+    ask_for_grid(folder,
+                 fmt::format("the names number {} views in one line, and how these lie in rows "
+                             "and columns is not certain: {}",
+                             count, layout.evidence),
+                 count);
   }
   return layout;
 }
@@ -162,14 +208,24 @@ std::string settle_grid(const fs::path& folder, PlacedViews& placed, const OpenO
                         const Progress& progress) {
   if (!placed.is_list) {
     const auto given = given_grid(options);
-    if (given && !(*given == placed.views.grid)) {
+    const auto& part = placed.views.part;
+    if (given && !(*given == placed.views.grid) && !(part && *given == part->whole)) {
       throw IoError(folder,
                     fmt::format("the names give a grid of {}, but --grid says {}; leave "
                                 "--grid out, or number the views by --pattern with {{index}}",
                                 grid_text(placed.views.grid), grid_text(*given)));
     }
+    if (options.snake && part) {
+      throw IoError(folder,
+                    "views are missing, and in snake order what is left is no grid; add "
+                    "them");
+    }
     if (options.snake) arrange(placed, row_by_row(placed.views.grid, options));
     return {};
+  }
+  if (placed.gaps) {
+    place_list_with_gaps(folder, placed, options);
+    return layout_text(row_by_row(placed.views.part->whole, options)) + ": as given";
   }
   ListLayout layout = layout_of_list(folder, placed.views, options, progress);
   if (options.snake) layout.order = ListOrder::SnakeRows;

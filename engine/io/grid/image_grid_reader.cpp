@@ -4,6 +4,7 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/beside/beside.h"
 #include "engine/io/grid/grid_names.h"
+#include "engine/io/grid/grid_with_gaps.h"
 #include "engine/io/grid/image_grid_probe.h"
 #include "engine/io/grid/image_list.h"
 #include "engine/io/grid/left_out.h"
@@ -35,11 +36,12 @@ Scene read_grid(const fs::path& folder, const OpenOptions& options, const Progre
   return read_image_grid(views_folder(folder), options, progress, extras);
 }
 
-FolderAccount account_of(const fs::path& source, const fs::path& folder,
-                         const std::vector<fs::path>& views, const ImageGridExtras& extras) {
+FolderAccount account_of(const fs::path& source, const fs::path& folder, const ViewFiles& views,
+                         const ImageGridExtras& extras) {
   FolderAccount account(source);
   account.add_folder(folder);
-  account.use(views, "views");
+  account.use(views.files, "views");
+  account.leave_out(views.left_out, kViewsLeftOut);
   for (const auto& [file, kind] : extras.files) account.use(file, kind);
   return account;
 }
@@ -100,7 +102,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
       },
       progress.part(0.15, 0.9));
   if (!is_linear || !options.levels.empty()) settle_range(samples, options.levels, report);
-  FolderAccount account = account_of(source, folder, views.files, extras);
+  FolderAccount account = account_of(source, folder, views, extras);
   SceneParts parts;
   if (extras.read_truth) {
     parts.truth.field = extras.read_truth(samples, info.camera, report);

@@ -3,9 +3,11 @@
 
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/io/grid/part_of_grid.h"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace episcope::io {
@@ -14,6 +16,19 @@ namespace episcope::io {
 struct ViewFiles {
   GridShape grid;
   std::vector<std::filesystem::path> files;
+  std::optional<PartOfGrid> part{};               ///< Of a grid with gaps that this is a part of,
+  std::vector<std::filesystem::path> left_out{};  ///< and its views that are not in this part.
+
+  /// With the views that are missing or left out.
+  [[nodiscard]] GridShape whole_grid() const { return part ? part->whole : grid; }
+  /// The place in the whole grid of a view, and where the centre of that grid is; nothing if it is
+  /// missing or left out.
+  [[nodiscard]] ViewIndex in_whole(ViewIndex view) const {
+    return part ? part->in_whole(view) : view;
+  }
+  [[nodiscard]] std::optional<ViewIndex> whole_center() const {
+    return part ? part->in_part(part->whole.center()) : std::optional(grid.center());
+  }
 };
 
 /// Called with an 8-bit RGB picture of the centre view before the others are read.

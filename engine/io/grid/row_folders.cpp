@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 namespace episcope::io {
@@ -25,6 +26,7 @@ constexpr std::size_t kFewestOfSquare = 9;
 /// `varying`-th.
 struct Numbered {
   std::vector<fs::path> paths;
+  std::vector<double> numbers;
   std::string skeleton;
   std::size_t varying = 0;
 };
@@ -48,8 +50,11 @@ std::optional<Numbered> by_number(const std::vector<fs::path>& paths) {
   std::ranges::sort(images, {}, number);
   const bool has_twins = std::ranges::adjacent_find(images, {}, number) != images.end();
   if (has_twins) return std::nullopt;
-  Numbered found{{}, groups.front().skeleton, varying.front()};
-  for (const NumberedImage& image : images) found.paths.push_back(image.path);
+  Numbered found{{}, {}, groups.front().skeleton, varying.front()};
+  for (const NumberedImage& image : images) {
+    found.paths.push_back(image.path);
+    found.numbers.push_back(number(image));
+  }
   return found;
 }
 
@@ -111,7 +116,8 @@ std::optional<RowFolders> find_row_folders(const fs::path& folder, const OpenOpt
   const auto folders = by_number(folders_in(folder));
   if (!folders) return std::nullopt;
   const std::string word = letters_of(folders->skeleton);
-  RowFolders found{.rows = {}, .are_columns = is_one_of(word, kColumns), .pattern = {}};
+  RowFolders found{
+      .rows = {}, .numbers = {}, .are_columns = is_one_of(word, kColumns), .pattern = {}};
   if (!word.empty() && !found.are_columns && !is_one_of(word, kRows)) return std::nullopt;
   for (const fs::path& row : folders->paths) {
     auto images = by_number(list_images(row));
@@ -121,23 +127,55 @@ std::optional<RowFolders> find_row_folders(const fs::path& folder, const OpenOpt
                       pattern_of(*images, found.are_columns ? "{row}" : "{col}");
     }
     found.rows.push_back(std::move(images->paths));
+    found.numbers.push_back(std::move(images->numbers));
   }
   const bool is_certain =
       !word.empty() || are_rather_rows(found.rows.size(), found.rows.front().size(), options);
   return is_certain ? std::optional(std::move(found)) : std::nullopt;
 }
 
-PlacedViews place_rows(const fs::path& folder, const RowFolders& found) {
-  const std::size_t rows = found.rows.size();
+namespace {
+
+std::size_t most_in_a_row(const RowFolders& found) {
   std::size_t most = 0;
   for (const auto& row : found.rows) most = std::max(most, row.size());
-  for (const auto& row : found.rows) {
-    if (row.size() == most) continue;
-    throw IoError(folder,
-                  fmt::format("{} holds {} images, but other folders of this light field "
-                              "hold {}; add what is missing",
-                              row.front().parent_path().filename().string(), row.size(), most));
+  return most;
+}
+
+/// Folders of which some hold less images than others: their numbers say which are missing.
+/// Throws IoError if images are numbered anew in no folder.
+PlacedViews place_with_gaps(const fs::path& folder, const RowFolders& found) {
+  const std::size_t most = most_in_a_row(found);
+  ViewNames names{.pattern = found.pattern};
+  std::set<long long> columns;
+  for (std::size_t row = 0; row < found.rows.size(); ++row) {
+    for (std::size_t i = 0; i < found.rows[row].size(); ++i) {
+      NamedView view{.path = found.rows[row][i],
+                     .row = static_cast<long long>(row),
+                     .column = std::llround(found.numbers[row][i])};
+      columns.insert(*view.column);
+      if (found.are_columns) std::swap(view.row, view.column);
+      names.views.push_back(std::move(view));
+    }
   }
+  names.images = static_cast<int>(names.views.size());
+  if (columns.size() == most) return place_views(folder, names);
+  const auto short_row = std::ranges::find_if(
+      found.rows, [&](const std::vector<fs::path>& row) { return row.size() < most; });
+  throw IoError(folder, fmt::format("{} holds {} images, but other folders of this light field "
+                                    "hold {}; add what is missing",
+                                    short_row->front().parent_path().filename().string(),
+                                    short_row->size(), most));
+}
+
+}  // namespace
+
+PlacedViews place_rows(const fs::path& folder, const RowFolders& found) {
+  const std::size_t rows = found.rows.size();
+  const std::size_t most = most_in_a_row(found);
+  const bool is_full = std::ranges::all_of(
+      found.rows, [&](const std::vector<fs::path>& row) { return row.size() == most; });
+  if (!is_full) return place_with_gaps(folder, found);
   PlacedViews placed;
   const auto length = [](std::size_t count) { return static_cast<int>(count); };
   placed.views.grid = found.are_columns ? GridShape{length(most), length(rows)}

@@ -12,6 +12,7 @@ namespace episcope::io {
 /// Folders that hold a row of views each.
 struct RowFolders {
   std::vector<std::vector<std::filesystem::path>> rows;  ///< Of images, by number.
+  std::vector<std::vector<double>> numbers;              ///< Of these images, in their names.
   bool are_columns = false;                              ///< By the names of the folders.
   std::string pattern;                                   ///< "row_{row}/view_{col}.png".
 };
@@ -25,8 +26,9 @@ struct RowFolders {
 [[nodiscard]] std::optional<RowFolders> find_row_folders(const std::filesystem::path& folder,
                                                          const OpenOptions& options);
 
-/// The views in the order of the folders and of the images in them. Throws IoError that names a
-/// folder with fewer images than the others.
+/// The views in the order of the folders and of the images in them. Where folders have fewer images
+/// than others, the numbers of these say which are missing, as in `place_views`. Throws IoError
+/// that names such a folder if they do not.
 [[nodiscard]] PlacedViews place_rows(const std::filesystem::path& folder, const RowFolders& found);
 
 }  // namespace episcope::io

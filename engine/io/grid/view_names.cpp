@@ -2,6 +2,7 @@
 #include "engine/io/grid/view_names.h"
 
 #include "engine/core/error.h"
+#include "engine/io/grid/grid_with_gaps.h"
 #include "engine/io/grid/number_run.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostNamed = 5;  ///< Missing views that a message names.
+constexpr std::size_t kMostPlaces = 250'000;  ///< Of a grid with gaps.
 
 std::string tried(const ViewNames& names) {
   return fmt::format("pattern {} matches {} of {} images", names.pattern, names.views.size(),
@@ -57,13 +58,17 @@ struct Axes {
   NumberRun columns;
 };
 
-void warn_of_numbers(const Axes& axes, std::vector<std::string>& warnings) {
+void warn_of_steps(const Axes& axes, std::vector<std::string>& warnings) {
   if (axes.rows.values == axes.columns.values) {
     warn_of_steps("rows and columns", axes.rows, warnings);
   } else {
     warn_of_steps("rows", axes.rows, warnings);
     warn_of_steps("columns", axes.columns, warnings);
   }
+}
+
+void warn_of_numbers(const Axes& axes, std::vector<std::string>& warnings) {
+  warn_of_steps(axes, warnings);
   const bool both_vary = axes.rows.values.size() > 1 && axes.columns.values.size() > 1;
   const long long row = axes.rows.values.front();
   const long long column = axes.columns.values.front();
@@ -74,98 +79,133 @@ void warn_of_numbers(const Axes& axes, std::vector<std::string>& warnings) {
   }
 }
 
-/// "view 3,7 is missing", "12 views are missing: 0,1 0,2 …".
-std::string missing_text(const std::vector<std::string>& first, std::size_t count) {
-  if (count == 1) return "view " + first.front() + " is missing";
-  std::string text = fmt::format("{} views are missing:", count);
-  for (const std::string& each : first) (text += ' ') += each;
-  return count > first.size() ? text + " …" : text;
-}
-
 [[noreturn]] void refuse_twin(const NamedView& view, const fs::path& other) {
   throw IoError(view.path, "this view has the same place as " + other.filename().string() +
                                " by its name; remove one of the two or " + kPatternAdvice);
 }
 
 [[noreturn]] void refuse_gaps(const fs::path& folder, const ViewNames& names,
-                              const std::vector<long long>& rows,
-                              const std::vector<long long>& columns,
-                              const std::vector<std::pair<long long, long long>>& there) {
-  std::vector<std::string> first;
-  for (const long long row : rows) {
-    for (const long long column : columns) {
-      if (first.size() == kMostNamed) break;
-      if (std::ranges::binary_search(there, std::pair(row, column))) continue;
-      first.push_back(fmt::format("{},{}", row, column));
-    }
-  }
+                              const GridWithGaps& views) {
   throw IoError(
       folder,
-      fmt::format("{} (row,column as in the names; {}, a grid of {}×{}); add {} "
-                  "or {}",
-                  missing_text(first, rows.size() * columns.size() - there.size()), tried(names),
-                  rows.size(), columns.size(), first.size() == 1 ? "it" : "them", kPatternAdvice));
+      fmt::format("{} (row,column as in the names; {}, a grid of {}×{}); add {} or {}",
+                  missing_text(views), tried(names), views.rows.size(), views.columns.size(),
+                  views.missing() == 1 ? "it" : "them", kPatternAdvice));
 }
 
-PlacedViews place_on_grid(const fs::path& folder, const ViewNames& names) {
-  const auto row_of = [](const NamedView& view) { return view.row.value_or(0); };
-  const auto column_of = [](const NamedView& view) { return view.column.value_or(0); };
-  const auto place_of = [&](const NamedView& view) {
-    return std::pair(row_of(view), column_of(view));
+long long row_of(const NamedView& view) {
+  return view.row.value_or(0);
+}
+long long column_of(const NamedView& view) {
+  return view.column.value_or(0);
+}
+
+/// By row and column; throws IoError for two views of one place.
+std::vector<const NamedView*> sorted_views(const ViewNames& names) {
+  const auto place_of = [](const NamedView* view) {
+    return std::pair(row_of(*view), column_of(*view));
   };
   std::vector<const NamedView*> sorted;
   for (const NamedView& view : names.views) sorted.push_back(&view);
-  std::ranges::stable_sort(sorted, {}, [&](const NamedView* view) { return place_of(*view); });
-  std::vector<std::pair<long long, long long>> there;
-  for (const NamedView* view : sorted) {
-    if (!there.empty() && there.back() == place_of(*view)) {
-      refuse_twin(*view, sorted[there.size() - 1]->path);
-    }
-    there.push_back(place_of(*view));
-  }
-  const Axes axes{run_of(names, row_of), run_of(names, column_of)};
-  const std::vector<long long> rows = expected_values(axes.rows, names.is_chosen);
-  const std::vector<long long> columns = expected_values(axes.columns, names.is_chosen);
-  if (rows.size() * columns.size() != there.size()) {
-    refuse_gaps(folder, names, rows, columns, there);
-  }
+  std::ranges::stable_sort(sorted, {}, place_of);
+  const auto twin = std::ranges::adjacent_find(sorted, {}, place_of);
+  if (twin != sorted.end()) refuse_twin(**std::next(twin), (*twin)->path);
+  return sorted;
+}
+
+PlacedViews placed_views(const std::vector<const NamedView*>& views, GridShape grid) {
   PlacedViews placed;
-  placed.views.grid = {static_cast<int>(rows.size()), static_cast<int>(columns.size())};
-  for (const NamedView* view : sorted) placed.views.files.push_back(view->path);
-  if (sorted.front()->x || sorted.front()->y) {
-    for (const NamedView* view : sorted) {
+  placed.views.grid = grid;
+  for (const NamedView* view : views) placed.views.files.push_back(view->path);
+  if (views.front()->x || views.front()->y) {
+    for (const NamedView* view : views) {
       placed.positions.push_back({view->x.value_or(0), view->y.value_or(0)});
     }
   }
+  return placed;
+}
+
+/// The part without a gap of views sorted by row and column.
+PlacedViews place_part(const fs::path& folder, const ViewNames& names,
+                       const std::vector<const NamedView*>& sorted, GridWithGaps views) {
+  const auto place_of = [](const std::vector<long long>& numbers, long long number) {
+    return static_cast<int>(std::ranges::lower_bound(numbers, number) - numbers.begin());
+  };
+  const auto view_of = [&](const NamedView* view) {
+    return ViewIndex{place_of(views.rows, row_of(*view)),
+                     place_of(views.columns, column_of(*view))};
+  };
+  views.files.resize(views.rows.size() * views.columns.size());
+  for (const NamedView* view : sorted) {
+    const ViewIndex at = view_of(view);
+    views.files[static_cast<std::size_t>(at.v * views.shape().u + at.u)] = view->path;
+  }
+  const std::optional<PartOfGrid> part = part_to_open(views);
+  if (!part) refuse_gaps(folder, names, views);
+  std::vector<const NamedView*> kept;
+  ViewNames kept_names{.pattern = {}};
+  for (const NamedView* view : sorted) {
+    if (!part->in_part(view_of(view))) continue;
+    kept.push_back(view);
+    kept_names.views.push_back(*view);
+  }
+  PlacedViews placed = placed_views(kept, part->grid);
+  placed.views = files_of_part(views, *part);
+  placed.warnings.push_back(part_text(views, *part));
+  warn_of_steps(Axes{run_of(kept_names, row_of), run_of(kept_names, column_of)}, placed.warnings);
+  return placed;
+}
+
+PlacedViews place_on_grid(const fs::path& folder, const ViewNames& names) {
+  const std::vector<const NamedView*> sorted = sorted_views(names);
+  const Axes axes{run_of(names, row_of), run_of(names, column_of)};
+  GridWithGaps views{expected_values(axes.rows, names.is_chosen),
+                     expected_values(axes.columns, names.is_chosen)};
+  const std::size_t places = views.rows.size() * views.columns.size();
+  if (places > std::max(kMostPlaces, sorted.size())) {
+    throw IoError(folder, fmt::format("{} of {} places of a grid of {}×{} have no view ({}); {}",
+                                      places - sorted.size(), places, views.rows.size(),
+                                      views.columns.size(), tried(names), kPatternAdvice));
+  }
+  if (places != sorted.size()) return place_part(folder, names, sorted, std::move(views));
+  PlacedViews placed = placed_views(sorted, views.shape());
   warn_of_numbers(axes, placed.warnings);
   return placed;
 }
 
-/// Throws IoError that names what is missing from a list.
-void require_no_gaps(const fs::path& folder, const ViewNames& names, const NumberRun& run) {
-  if (names.is_chosen || !run.has_gaps() || run.is_scattered()) return;
+/// Of a list with gaps.
+ListGaps gaps_of(const ViewNames& names, const NumberRun& run) {
+  ListGaps gaps{.length = static_cast<int>(run.length())};
   std::vector<std::string> first;
-  for (long long value = run.values.front();
-       value <= run.values.back() && first.size() < kMostNamed; value += run.step) {
-    if (!run.place_of(value)) first.push_back(std::to_string(value));
+  for (long long value = run.values.front(); value <= run.values.back(); value += run.step) {
+    const auto place = static_cast<int>((value - run.values.front()) / run.step);
+    if (run.place_of(value)) {
+      gaps.places.push_back(place);
+    } else if (first.size() < kMostNamedViews) {
+      first.push_back(std::to_string(value));
+    }
   }
-  const auto count = static_cast<std::size_t>(run.length()) - run.values.size();
-  throw IoError(folder,
-                fmt::format("{} ({}, numbers {}); add {} or {}", missing_text(first, count),
-                            tried(names), run.text(), count == 1 ? "it" : "them",
-                            "say by --pattern '" + names.pattern + "' that none is missing"));
+  gaps.text =
+      fmt::format("{} ({}, numbers {})",
+                  missing_text(first, static_cast<std::size_t>(run.length()) - run.values.size()),
+                  tried(names), run.text());
+  return gaps;
 }
 
 PlacedViews place_in_list(const fs::path& folder, const ViewNames& names) {
   ViewNames line = names;
   for (NamedView& view : line.views) view.column = view.index;
   const NumberRun run = run_of(names, [](const NamedView& view) { return *view.index; });
-  require_no_gaps(folder, names, run);
+  const bool has_gaps = !names.is_chosen && run.has_gaps() && !run.is_scattered();
   line.is_chosen = true;  // gaps that are left are meant
   PlacedViews placed = place_on_grid(folder, line);
   placed.is_list = true;
   placed.warnings.clear();
-  warn_of_steps("views", run, placed.warnings);
+  if (has_gaps) {
+    placed.gaps = gaps_of(names, run);
+  } else {
+    warn_of_steps("views", run, placed.warnings);
+  }
   return placed;
 }
 

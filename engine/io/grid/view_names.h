@@ -29,19 +29,28 @@ struct ViewNames {
   int images = 0;          ///< In the folder, for messages.
 };
 
+/// What is missing from a list of views.
+struct ListGaps {
+  std::vector<int> places{};  ///< Where in the whole list each view is, from 0.
+  int length = 0;             ///< Of the whole list.
+  std::string text{};         ///< "view 37 is missing (pattern … matches 80 of 80 images, …)".
+};
+
 /// Views in their places.
 struct PlacedViews {
   ViewFiles views;
   bool is_list = false;  ///< One index: the grid is 1×N, and rows and columns are yet unknown.
+  std::optional<ListGaps> gaps{};         ///< Of a list some of whose numbers are missing.
   std::vector<CameraPosition> positions;  ///< Row by row; empty = unknown.
   std::vector<std::string> warnings;      ///< A sentence each: numbers in steps of two, …
 };
 
 /// Puts views into the places that their names give: rows and columns in the order of their
 /// numbers, whatever these are, or of their positions where names have nothing else. Names with a
-/// row or a column only are a single column or row.
-/// Throws IoError that names views that are missing, or two views of one place; `folder` is for
-/// messages.
+/// row or a column only are a single column or row. Of a grid with gaps the largest part without is
+/// taken (`part_to_open`), with a warning.
+/// Throws IoError that names views that are missing if there is no such part, or two views of one
+/// place; `folder` is for messages.
 [[nodiscard]] PlacedViews place_views(const std::filesystem::path& folder, const ViewNames& names);
 
 /// How to say what the names of views mean, for the ends of messages.

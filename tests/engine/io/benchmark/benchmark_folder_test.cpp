@@ -84,6 +84,24 @@ class BenchmarkFolderTest : public QObject {
              scene.convention.units.c_str());
   }
 
+  void missingView_leavesAPartWithTheTruthInItsPlace() {
+    write_views("");
+    write_truth("gt_disp_lowres.pfm", 1);
+    fs::remove(folder_->path("input_Cam002.png"));
+
+    const Scene scene = folder_->open();
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{2, 3}));
+    QVERIFY2(warns_of(scene, "view 0,2 is missing"), warnings_of(scene).c_str());
+    // What was the centre view is one in the first row of the part.
+    const DisparityView truth = scene.truth->field.view({0, 1});
+    const auto wanted = folder_->scene.disparity.view({1, 1});
+    QVERIFY(std::equal(wanted.data, wanted.data + wanted.size(), truth.disparity.data));
+    const auto& views = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
+    const auto first = folder_->scene.views.view({1, 0});
+    QVERIFY(std::equal(views.data(), views.data() + views.size(), first.data));
+  }
+
   void rangeOfTheOtherSign_isNegatedWithTheTruth() {
     write_views("");
     write_truth("gt_disp_lowres.pfm", -1);

@@ -64,6 +64,7 @@ class NamePatternTest : public QObject {
   void preview_showsWhatMatches();
   void preview_saysWhyNot_data();
   void preview_saysWhyNot();
+  void preview_showsThePartWithoutGaps();
   void preview_turnsRowsOfASnake();
 };
 
@@ -185,8 +186,6 @@ void NamePatternTest::preview_saysWhyNot_data() {
                          << "unknown field";
   QTest::newRow("none") << "view_{row}_{col}.png"
                         << "0 of 5 images match";
-  QTest::newRow("gap") << "v{row}_{col}.png"
-                       << "view 1,2 is missing";
   QTest::newRow("regex") << "re:(?<row>."
                          << "lacks a )";
 }
@@ -201,6 +200,16 @@ void NamePatternTest::preview_saysWhyNot() {
 
   QVERIFY2(QString::fromStdString(preview.problem).contains(expected), preview.problem.c_str());
   QCOMPARE(preview.names.size(), std::size_t{5});
+}
+
+void NamePatternTest::preview_showsThePartWithoutGaps() {
+  const Files files({"v0_0.png", "v0_1.png", "v0_2.png", "v1_0.png", "v1_1.png"});
+
+  const io::PatternPreview preview = io::preview_pattern(files.path(), "", false);
+
+  QVERIFY2(preview.problem.empty(), preview.problem.c_str());
+  QCOMPARE(preview.grid, (GridShape{2, 2}));
+  QVERIFY(!preview.names[2].view && *preview.names[4].view == (ViewIndex{1, 1}));
 }
 
 void NamePatternTest::preview_turnsRowsOfASnake() {

@@ -70,9 +70,21 @@ class RowFoldersTest : public QObject {
     QCOMPARE(read.light_field->grid(), (GridShape{3, 3}));
   }
 
-  void missingView_namesItsFolder() {
-    write(plane_scene({.grid = {5, 7}}), "row_{0}/{1}.png");
+  void missingView_leavesTheRestOfTheGrid() {
+    const Scene scene = plane_scene({.grid = {5, 7}});
+    write(scene, "row_{0}/{1}.png");
     fs::remove(path() / "row_3" / "6.png");
+
+    const Scene read = io::open_scene(path(), {}, Progress(1));
+
+    QCOMPARE(read.light_field->grid(), (GridShape{5, 6}));
+    QVERIFY2(describe(read.convention).find("view 3,6 is missing") != std::string::npos,
+             describe(read.convention).c_str());
+  }
+
+  void missingView_namesItsFolderWhereImagesAreNumberedOn() {
+    write(plane_scene({.grid = {5, 7}}), "row_{0}/{2}.png");
+    fs::remove(path() / "row_3" / "27.png");
 
     try {
       (void)io::open_scene(path(), {}, Progress(1));

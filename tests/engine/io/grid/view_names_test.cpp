@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 using Name = std::function<std::string(int row, int column)>;
+using Filled = std::function<bool(int row, int column)>;
 
 template <class... Values>
 std::string print(const char* form, Values... values) {
@@ -143,8 +144,9 @@ class ViewNamesTest : public QObject {
   void positions_areKept();
   void singleIndex_isAList_data();
   void singleIndex_isAList();
-  void missingViews_areNamed_data();
-  void missingViews_areNamed();
+  void missingViews_leaveALargestPart_data();
+  void missingViews_leaveALargestPart();
+  void scatteredViews_areRefused();
   void everySecondView_isAGridAndSaid();
   void unclearNumbers_needAPattern_data();
   void unclearNumbers_needAPattern();
@@ -228,27 +230,64 @@ void ViewNamesTest::singleIndex_isAList() {
   QCOMPARE(placed.views.files.back().string(), print(qPrintable(form), first + 11));
 }
 
-void ViewNamesTest::missingViews_areNamed_data() {
-  QTest::addColumn<QStringList>("missing");
-  QTest::addColumn<QString>("expected");
-  QTest::newRow("one") << QStringList{"v_3_5.png"} << "view 3,5 is missing";
-  QTest::newRow("two") << QStringList{"v_0_1.png", "v_6_6.png"} << "2 views are missing: 0,1 6,6 (";
-  QStringList row;
-  for (int c = 0; c < 7; ++c) row << QString("v_2_%1.png").arg(c);
-  QTest::newRow("row") << row << "7 views are missing: 2,0 2,1 2,2 2,3 2,4 … (";
+void ViewNamesTest::missingViews_leaveALargestPart_data() {
+  QTest::addColumn<Filled>("is_there");
+  QTest::addColumn<QString>("first");
+  QTest::addColumn<QString>("last");
+  QTest::addColumn<int>("count");
+  QTest::addColumn<QString>("sentence");
+  const auto row = [](const char* name, Filled is_there, const char* first, const char* last,
+                      int count, const char* sentence) {
+    QTest::newRow(name) << is_there << first << last << count << sentence;
+  };
+  row(
+      "one", [](int r, int c) { return r != 3 || c != 5; }, "v_0_0.png", "v_6_4.png", 35,
+      "view 3,5 is missing");
+  row(
+      "two corners", [](int r, int c) { return (r != 0 || c != 1) && (r != 6 || c != 6); },
+      "v_1_0.png", "v_6_5.png", 36, "2 views are missing: 0,1 6,6 (");
+  row(
+      "a row", [](int r, int) { return r != 2; }, "v_3_0.png", "v_6_6.png", 28,
+      "7 views are missing: 2,0 2,1 2,2 2,3 2,4 … (");
+  row(
+      "every second", [](int r, int c) { return (r + c) % 2 == 0; }, "v_0_0.png", "v_6_6.png", 16,
+      "rows 0, 2 … 6 and columns 0, 2 … 6");
+  row(
+      "a cross", [](int r, int c) { return r == 3 || c == 3; }, "v_3_0.png", "v_3_6.png", 7,
+      "a cross of row 3 and column 3");
 }
 
-void ViewNamesTest::missingViews_areNamed() {
-  QFETCH(QStringList, missing);
-  QFETCH(QString, expected);
-  std::vector<fs::path> names =
-      names_of({7, 7}, [](int r, int c) { return print("v_%d_%d.png", r, c); });
-  std::erase_if(names,
-                [&](const fs::path& name) { return missing.contains(name.string().c_str()); });
+void ViewNamesTest::missingViews_leaveALargestPart() {
+  QFETCH(Filled, is_there);
+  QFETCH(QString, first);
+  QFETCH(QString, last);
+  QFETCH(int, count);
+  QFETCH(QString, sentence);
+  std::vector<fs::path> names = names_of({7, 7}, [&](int r, int c) {
+    return is_there(r, c) ? print("v_%d_%d.png", r, c) : std::string();
+  });
+  std::erase(names, fs::path());
+
+  const io::PlacedViews placed = place(names);
+
+  QCOMPARE(placed.views.grid.count(), count);
+  QCOMPARE(QString::fromStdString(placed.views.files.front().string()), first);
+  QCOMPARE(QString::fromStdString(placed.views.files.back().string()), last);
+  QCOMPARE(placed.views.left_out.size(), names.size() - placed.views.files.size());
+  QVERIFY2(placed.warnings.front().find(sentence.toStdString()) != std::string::npos,
+           placed.warnings.front().c_str());
+}
+
+void ViewNamesTest::scatteredViews_areRefused() {
+  std::vector<fs::path> names = names_of({9, 9}, [&](int r, int c) {
+    return (7 * r + 5 * c) % 11 < 3 ? print("v_%d_%d.png", r, c) : std::string();
+  });
+  std::erase(names, fs::path());
 
   const QString sentence = refusal_of([&] { (void)place(names); });
 
-  QVERIFY2(sentence.contains(expected) && sentence.contains("a grid of 7×7"), qPrintable(sentence));
+  QVERIFY2(sentence.contains("views are missing: 0,1 0,2 0,3") && sentence.contains("--pattern"),
+           qPrintable(sentence));
 }
 
 void ViewNamesTest::everySecondView_isAGridAndSaid() {
