@@ -23,7 +23,10 @@ fs::path label_place(const LightField& light_field) {
   if (!fs::is_regular_file(source, ignored)) return {};
   const bool is_archive = light_field.info().reading.reader == io::kArchiveReader;
   // Several light fields of other forms may share a folder.
-  const std::string name = is_archive ? "labels.h5" : source.stem().string() + "_labels.h5";
+  const int frame = io::open_schema().parse(light_field.info().reading.options).frame;
+  std::string stem = source.stem().string();
+  if (frame > 0) stem.append("_").append(std::to_string(frame));  // one of several in the file
+  const std::string name = is_archive ? "labels.h5" : stem + "_labels.h5";
   return source.parent_path() / name;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/io/arrays/array_samples.h"
 #include "engine/io/arrays/choose_layout.h"
 #include "engine/io/arrays/list_grid.h"
+#include "engine/io/arrays/several_fields.h"
 #include "engine/io/maps/sample_range.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/grid_option.h"
@@ -18,7 +19,7 @@
 namespace episcope::io {
 namespace {
 
-constexpr const char* kOptions[] = {"flip", "grid", "dataset", "axes", "levels"};
+constexpr const char* kOptions[] = {"flip", "grid", "dataset", "axes", "frame", "levels"};
 
 /// As the light field itself says which pixels hold something, or a mask beside it.
 void combine(ViewStack<std::uint8_t>& valid, ViewStack<std::uint8_t> mask) {
@@ -63,13 +64,7 @@ void report_form(const ArrayFile& file, const ArrayEntry& entry, const ChosenLay
   if (!chosen.warning.empty()) report.warnings.push_back(chosen.warning);
 }
 
-}  // namespace
-
-std::span<const char* const> array_options() {
-  return kOptions;
-}
-
-SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
+SceneProbe probe_single(const ArrayFile& file, const OpenOptions& options) {
   const ArrayEntry* entry = find_light_field(file, options.dataset, options.axes);
   if (!entry) throw NoLightField(file.path(), "no array of this file has the shape of one");
   const ArrayLayout layout = choose_layout(file, *entry, options.axes).layout;
@@ -86,8 +81,8 @@ SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
   return probe;
 }
 
-Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOptions& options,
-                       const Progress& progress, const OtherArrays& more) {
+Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& options,
+                  const Progress& progress, const OtherArrays& more) {
   const ArrayEntry& entry = light_field_of(file, options);
   ChosenLayout chosen = choose_layout(file, entry, options.axes);
   const std::unique_ptr<ArrayInput> array = file.open(entry);
@@ -124,6 +119,31 @@ Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOpti
   parts.expected.reason = "arrays do not say how their views are ordered";
   if (more.add) more.add(parts, scene.convention, progress);
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
+  return scene;
+}
+
+}  // namespace
+
+std::span<const char* const> array_options() {
+  return kOptions;
+}
+
+SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
+  const auto several = SeveralFields::find(file, options);
+  if (!several) return probe_single(file, options);
+  SceneProbe probe = probe_single(*several->one(file, several->index(file, options)), options);
+  if (!several->is_named(options)) probe.frames = several->count();
+  return probe;
+}
+
+Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOptions& options,
+                       const Progress& progress, const OtherArrays& more) {
+  const auto several = SeveralFields::find(file, options);
+  if (!several) return read_single(file, reader, options, progress, more);
+  const int index = several->index(file, options);
+  Scene scene = read_single(*several->one(file, index), reader, options, progress, {});
+  if (!several->is_named(options)) scene.sequence = {index, several->count()};
+  scene.convention.warnings.insert(scene.convention.warnings.begin(), several->text(index));
   return scene;
 }
 

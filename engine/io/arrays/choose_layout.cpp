@@ -27,14 +27,6 @@ bool is_light_field_name(const std::string& name) {
   return std::ranges::find(kNames, lower_case(last_name(name))) != std::end(kNames);
 }
 
-/// Words for maps and for what describes a camera.
-bool is_other_name(const ArrayEntry& entry) {
-  const std::string name = lower_case(telling_name(entry));
-  constexpr const char* kWords[] = {"disp", "depth", "label", "mask", "valid", "seg", "gt", "conf"};
-  return std::ranges::any_of(
-      kWords, [&](const char* word) { return name.find(word) != std::string::npos; });
-}
-
 std::size_t letter_count(const std::string& axes) {
   return static_cast<std::size_t>(std::ranges::count_if(
       axes, [](char letter) { return std::isalpha(static_cast<unsigned char>(letter)) != 0; }));
@@ -161,31 +153,44 @@ bool can_be_light_field(const ArrayEntry& entry) {
   return !layouts_of(entry).empty();
 }
 
-const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset,
-                                   const std::string& axes) {
-  if (!dataset.empty()) return &named_entry(file, dataset);
+bool has_other_name(const ArrayEntry& entry) {
+  const std::string name = lower_case(telling_name(entry));
+  constexpr const char* kWords[] = {"disp", "depth", "label", "mask", "valid", "seg", "gt", "conf"};
+  return std::ranges::any_of(
+      kWords, [&](const char* word) { return name.find(word) != std::string::npos; });
+}
+
+std::vector<const ArrayEntry*> light_fields_of(const ArrayFile& file, const std::string& axes) {
   std::vector<const ArrayEntry*> possible;
   for (const ArrayEntry& entry : file.entries()) {
     const bool has_axes = entry.other_kind.empty() && entry.shape.size() == letter_count(axes);
     if (axes.empty() ? can_be_light_field(entry) : has_axes) possible.push_back(&entry);
   }
-  if (possible.size() <= 1) return possible.empty() ? nullptr : possible.front();
-  const auto only = [&](const auto& is_meant) -> const ArrayEntry* {
-    const auto count = std::ranges::count_if(possible, is_meant);
-    return count == 1 ? *std::ranges::find_if(possible, is_meant) : nullptr;
+  if (possible.size() <= 1) return possible;
+  using Claim = bool (*)(const ArrayEntry*);
+  const Claim has_name = [](const ArrayEntry* entry) { return is_light_field_name(entry->name); };
+  const Claim has_five = [](const ArrayEntry* entry) { return entry->shape.size() >= 5; };
+  const Claim is_no_map = [](const ArrayEntry* entry) { return !has_other_name(*entry); };
+  const Claim is_likely = [](const ArrayEntry* entry) {
+    return entry->shape.size() >= 5 && !has_other_name(*entry);
   };
-  const auto has_name = [](const ArrayEntry* entry) { return is_light_field_name(entry->name); };
-  const auto has_five = [](const ArrayEntry* entry) { return entry->shape.size() >= 5; };
-  if (const ArrayEntry* entry = only(has_name)) return entry;
-  const auto is_no_map = [](const ArrayEntry* entry) { return !is_other_name(*entry); };
-  const auto is_likely = [&](const ArrayEntry* entry) {
-    return has_five(entry) && is_no_map(entry);
-  };
-  if (const ArrayEntry* entry = only(is_likely)) return entry;
-  if (const ArrayEntry* entry = only(has_five)) return entry;
-  if (const ArrayEntry* entry = only(is_no_map)) return entry;
+  std::vector<const ArrayEntry*> several;
+  for (const Claim is_meant : {has_name, is_likely, has_five, is_no_map}) {
+    std::vector<const ArrayEntry*> meant;
+    std::ranges::copy_if(possible, std::back_inserter(meant), is_meant);
+    if (meant.size() == 1) return meant;
+    if (several.empty()) several = std::move(meant);
+  }
+  return several.empty() ? possible : several;
+}
+
+const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset,
+                                   const std::string& axes) {
+  if (!dataset.empty()) return &named_entry(file, dataset);
+  const std::vector<const ArrayEntry*> fields = light_fields_of(file, axes);
+  if (fields.size() <= 1) return fields.empty() ? nullptr : fields.front();
   std::vector<ReadingChoice> choices;
-  for (const ArrayEntry* entry : possible) choices.push_back({entry->name, entry_text(*entry)});
+  for (const ArrayEntry* entry : fields) choices.push_back({entry->name, entry_text(*entry)});
   throw Undecided(file.path(), "several arrays of this file can be the light field", "dataset",
                   std::move(choices));
 }

@@ -7,6 +7,7 @@
 #include "engine/io/open/open_options.h"
 
 #include <string>
+#include <vector>
 
 namespace episcope::io {
 
@@ -19,6 +20,14 @@ struct ChosenLayout {
 
 /// Whether its shape, or what its file states, is that of a light field.
 [[nodiscard]] bool can_be_light_field(const ArrayEntry& entry);
+
+/// Whether words of its name are those of maps, or of what describes a camera.
+[[nodiscard]] bool has_other_name(const ArrayEntry& entry);
+
+/// The entries of equal right that can be the light field, among those that have the axes that
+/// `axes` states or, if it is empty, the shape of one: as `find_light_field`; empty if none can.
+[[nodiscard]] std::vector<const ArrayEntry*> light_fields_of(const ArrayFile& file,
+                                                             const std::string& axes);
 
 /// The entry that holds the light field: the one that `dataset` names; else, among those that have
 /// the axes that `axes` states or, if it is empty, the shape of one, the only one with five

@@ -9,6 +9,7 @@
 #include "engine/io/arrays/choose_layout.h"
 #include "engine/io/arrays/folder_file.h"
 #include "engine/io/arrays/hdf5_arrays.h"
+#include "engine/io/arrays/several_fields.h"
 #include "engine/io/beside/map_name.h"
 #include "engine/io/open/scene_folder.h"
 
@@ -23,6 +24,7 @@ constexpr const char* kHdf5Reader = "hdf5";
 
 /// `[v][h][y][x]` or `[v][h][y][x][c]`, whose reader also explains what is wrong with it.
 bool is_archive_form(const ArrayEntry& light_field) {
+  if (can_be_stack(light_field)) return false;
   if (light_field.shape.size() != 5 || !can_be_light_field(light_field)) return true;
   const std::size_t last = light_field.shape.back();
   const std::string& axes = light_field.stated_axes;
@@ -31,6 +33,7 @@ bool is_archive_form(const ArrayEntry& light_field) {
 
 /// Maps and results have fewer axes, too, but no colours, and names that tell what they are.
 bool is_like_views(const ArrayEntry& entry) {
+  if (can_be_stack(entry)) return !has_other_name(entry);
   if (entry.is_of_views()) return !map_kind(telling_name(entry));
   if (!can_be_light_field(entry)) return false;
   const bool is_list = entry.shape.size() == 4 && entry.shape.back() == 3;

@@ -135,7 +135,7 @@ std::vector<Broken> broken_npy() {
       {".npy of records", npy("[('a', '<f4')]", whole, 40000), ""},
       {".npy without samples", npy("|u1", "(0, 3, 8, 9, 3)", 0), ""},
       {".npy of one axis", npy("|u1", "(1944,)", 1944), ""},
-      {".npy of six axes", npy("|u1", "(2, 3, 3, 8, 9, 3)", 3888), ""},
+      {".npy of seven axes", npy("|u1", "(2, 2, 3, 3, 8, 9, 3)", 7776), ""},
       {".npy of seven channels", npy("|u1", "(3, 3, 8, 9, 7)", 4536), ""},
       {".npy that calls a function as its shape", npy("|u1", "__import__(os).abort()", 1944), ""},
   };

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/several_fields.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text/character.h"
+#include "engine/core/text/join.h"
+#include "engine/io/arrays/choose_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace episcope::io {
+namespace {
+
+constexpr std::size_t kFewestAxes = 6;  ///< Of a stack: with fewer, axes could mean anything.
+constexpr std::size_t kMostNamed = 8;   ///< Light fields that a sentence names.
+
+/// One of the arrays along the first axis of a stack.
+class SliceInput : public ArrayInput {
+ public:
+  SliceInput(std::unique_ptr<ArrayInput> stack, std::size_t index)
+      : ArrayInput(stack->path(), without_first(stack->shape()), stack->type()),
+        stack_(std::move(stack)),
+        index_(index) {}
+  [[nodiscard]] bool is_sequential() const override { return stack_->is_sequential(); }
+  [[nodiscard]] ArrayShape unit() const override { return without_first(stack_->unit()); }
+
+ private:
+  static ArrayShape without_first(ArrayShape shape) {
+    shape.erase(shape.begin());
+    return shape;
+  }
+  void read_block(const ArrayShape& start, const ArrayShape& count,
+                  std::uint8_t* out) const override {
+    const auto in_stack = [](std::size_t first, ArrayShape lengths) {
+      lengths.insert(lengths.begin(), first);
+      return lengths;
+    };
+    stack_->read_raw(in_stack(index_, start), in_stack(1, count), out);
+  }
+
+  std::unique_ptr<ArrayInput> stack_;
+  std::size_t index_;
+};
+
+/// Some of the arrays of a file, and of stacks a slice.
+class PartOfFile : public ArrayFile {
+ public:
+  PartOfFile(const ArrayFile& file, std::size_t slice)
+      : ArrayFile(file.path(), file.form()), file_(file), slice_(slice) {}
+
+  void add_whole(ArrayEntry entry) {
+    entry.parts.clear();  // the file itself puts them together
+    add(std::move(entry));
+  }
+  void add_slice(ArrayEntry entry);
+
+ private:
+  [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override {
+    const auto& all = file_.entries();
+    auto array = file_.open(*std::ranges::find(all, entry.name, &ArrayEntry::name));
+    if (array->shape().size() == entry.shape.size()) return array;
+    return std::make_unique<SliceInput>(std::move(array), slice_);
+  }
+
+  const ArrayFile& file_;
+  std::size_t slice_;
+};
+
+ArrayEntry slice_of(ArrayEntry stack) {
+  stack.shape.erase(stack.shape.begin());
+  std::erase_if(stack.stated_axes, [](char c) { return c == ',' || c == ' '; });
+  if (stack.stated_axes.size() > stack.shape.size()) {
+    const bool is_reversed = stack.order == IndexOrder::Fortran;
+    stack.stated_axes.erase(is_reversed ? stack.stated_axes.end() - 1 : stack.stated_axes.begin());
+  }
+  return stack;
+}
+
+void PartOfFile::add_slice(ArrayEntry entry) {
+  entry.parts.clear();
+  add(slice_of(std::move(entry)));
+}
+
+bool is_word_end(const std::string& text, std::size_t at) {
+  return at >= text.size() || !(is_letter(text[at]) || is_digit(text[at]));
+}
+
+/// Whether the name holds the word, with no letter nor digit next to it.
+bool holds_word(const std::string& name, const std::string& word) {
+  if (word.empty()) return false;
+  for (auto at = name.find(word); at != std::string::npos; at = name.find(word, at + 1)) {
+    if ((at == 0 || is_word_end(name, at - 1)) && is_word_end(name, at + word.size())) return true;
+  }
+  return false;
+}
+
+/// What each of the names has alone: "a" and "b" of "a/LF" and "b/LF", in whole words.
+std::vector<std::string> own_words(const std::vector<std::string>& names) {
+  const std::string& first = names.front();
+  std::size_t begin = first.size();
+  std::size_t end = first.size();
+  for (const std::string& name : names) {
+    begin = std::min<std::size_t>(begin, std::ranges::mismatch(first, name).in1 - first.begin());
+    const auto same = std::mismatch(first.rbegin(), first.rend(), name.rbegin(), name.rend());
+    end = std::min<std::size_t>(end, same.first - first.rbegin());
+  }
+  while (begin > 0 && !is_word_end(first, begin - 1)) --begin;
+  while (end > 0 && !is_word_end(first, first.size() - end)) --end;
+  std::vector<std::string> words;
+  for (const std::string& name : names) {
+    words.push_back(name.size() > begin + end ? name.substr(begin, name.size() - begin - end)
+                                              : std::string());
+  }
+  return words;
+}
+
+/// Whether the names call the same thing: in several groups, or numbered.
+bool are_alike(const std::vector<const ArrayEntry*>& entries) {
+  const auto form_of = [](const ArrayEntry* entry) {
+    std::string form = last_name(entry->name);
+    std::erase_if(form, is_digit);
+    return form;
+  };
+  return std::ranges::all_of(
+      entries, [&](const ArrayEntry* entry) { return form_of(entry) == form_of(entries.front()); });
+}
+
+bool have_one_shape(const std::vector<const ArrayEntry*>& entries) {
+  return std::ranges::all_of(entries, [&](const ArrayEntry* entry) {
+    return entry->shape == entries.front()->shape && entry->type == entries.front()->type &&
+           entry->order == entries.front()->order;
+  });
+}
+
+}  // namespace
+
+bool can_be_stack(const ArrayEntry& entry) {
+  if (!entry.other_kind.empty() || entry.is_of_views() || entry.shape.size() < kFewestAxes) {
+    return false;
+  }
+  if (entry.shape.front() < 2 || can_be_light_field(entry)) return false;
+  return can_be_light_field(slice_of(entry));
+}
+
+std::optional<SeveralFields> SeveralFields::find(const ArrayFile& file,
+                                                 const OpenOptions& options) {
+  std::vector<const ArrayEntry*> fields = light_fields_of(file, options.axes);
+  SeveralFields several;
+  const bool are_several = fields.size() > 1 && have_one_shape(fields) && are_alike(fields);
+  if (are_several) {
+    for (const ArrayEntry* entry : fields) several.names_.push_back(entry->name);
+    several.count_ = static_cast<int>(fields.size());
+    const bool is_meant =
+        options.dataset.empty() ||
+        std::ranges::find(several.names_, options.dataset) != several.names_.end();
+    return is_meant ? std::optional(several) : std::nullopt;
+  }
+  const auto is_stack = [&](const ArrayEntry& entry) {
+    const bool is_named =
+        options.dataset.empty() ? !has_other_name(entry) : entry.name == options.dataset;
+    return is_named && can_be_stack(entry);
+  };
+  const bool is_one =
+      std::ranges::any_of(fields, [](const ArrayEntry* entry) { return !has_other_name(*entry); });
+  const auto& all = file.entries();
+  if ((is_one && options.dataset.empty()) || std::ranges::count_if(all, is_stack) != 1) return {};
+  const ArrayEntry& stack = *std::ranges::find_if(all, is_stack);
+  several.names_ = {stack.name};
+  several.count_ = static_cast<int>(std::min<std::size_t>(stack.shape.front(), 1'000'000));
+  return several;
+}
+
+bool SeveralFields::is_named(const OpenOptions& options) const {
+  return names_.size() > 1 && !options.dataset.empty();
+}
+
+int SeveralFields::index(const ArrayFile& file, const OpenOptions& options) const {
+  if (is_named(options)) {
+    return static_cast<int>(std::ranges::find(names_, options.dataset) - names_.begin());
+  }
+  if (options.frame >= 0 && options.frame < count_) return options.frame;
+  throw InvalidInput(
+      fmt::format("{} holds {} light fields, but number {} was asked for; name one from 0 to {} "
+                  "with --frame",
+                  file.path().string(), count_, options.frame, count_ - 1));
+}
+
+std::unique_ptr<ArrayFile> SeveralFields::one(const ArrayFile& file, int index) const {
+  const auto number = static_cast<std::size_t>(index);
+  auto part = std::make_unique<PartOfFile>(file, number);
+  if (names_.size() == 1) {
+    for (const ArrayEntry& entry : file.entries()) {
+      const bool is_stack = entry.other_kind.empty() && !entry.is_of_views() &&
+                            entry.shape.size() > 1 &&
+                            entry.shape.front() == static_cast<std::size_t>(count_);
+      is_stack ? part->add_slice(entry) : part->add_whole(entry);
+    }
+    return part;
+  }
+  const std::vector<std::string> words = own_words(names_);
+  for (const ArrayEntry& entry : file.entries()) {
+    const auto is_of = [&](std::size_t i) {
+      return entry.name == names_[i] || holds_word(entry.name, words[i]);
+    };
+    bool is_of_another = false;
+    for (std::size_t i = 0; i < names_.size(); ++i) is_of_another |= i != number && is_of(i);
+    const bool is_own = entry.name == names_[number] || is_of(number) || !is_of_another;
+    if (is_own && (entry.name == names_[number] || !std::ranges::count(names_, entry.name))) {
+      part->add_whole(entry);
+    }
+  }
+  return part;
+}
+
+std::string SeveralFields::text(int index) const {
+  if (names_.size() == 1) {
+    return fmt::format(
+        "{} holds {} light fields: number {} is opened, --frame 0 to {} opens "
+        "another.",
+        names_.front().empty() ? "The array" : names_.front(), count_, index, count_ - 1);
+  }
+  std::vector<std::string> some = names_;
+  some.resize(std::min(some.size(), kMostNamed));
+  return fmt::format(
+      "The file holds {} light fields ({}{}): {} is opened, --frame 0 to {} or "
+      "--dataset opens another.",
+      count_, joined(some, ", "), some.size() < names_.size() ? ", …" : "",
+      names_[static_cast<std::size_t>(index)], count_ - 1);
+}
+
+}  // namespace episcope::io
