@@ -2,6 +2,7 @@
 #include "engine/io/beside/beside_views.h"
 
 #include "engine/core/error.h"
+#include "engine/io/beside/text_map.h"
 #include "engine/io/grid/decode_image.h"
 
 #include <fmt/format.h>
@@ -62,7 +63,9 @@ RankedSets rank_sets(const std::vector<MapSet>& sets, MapKind kind,
   }
   std::ranges::stable_sort(ranked.fit, [](const MapSet* a, const MapSet* b) {
     const auto rank = [](const MapSet* set) {
-      return std::tuple(-static_cast<int>(set->entries.size()), is_image_name(first_file(*set)));
+      const fs::path file = first_file(*set);
+      return std::tuple(-static_cast<int>(set->entries.size()), is_image_name(file),
+                        has_text_suffix(file));
     };
     return rank(a) < rank(b);
   });

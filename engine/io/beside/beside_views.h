@@ -4,6 +4,7 @@
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/io/beside/find_maps.h"
+#include "engine/io/beside/resampled_map.h"
 #include "engine/io/open/folder_account.h"
 #include "engine/io/open/open_options.h"
 
@@ -43,6 +44,12 @@ struct SetOutcome {
   std::vector<std::filesystem::path> failed;
   std::string first_error;  ///< A sentence that names the file.
   std::string note;         ///< A sentence on how maps of another size were fitted, or empty.
+  double map_scale = 1;     ///< Pixels of such a map in a pixel of the view.
+
+  void take(const ResampledMaps& fitted) {
+    note = fitted.note;
+    map_scale = fitted.scale;
+  }
 
   /// Adds to the account, and a warning if files failed or were fitted.
   void tell(const std::string& kind, const BesideNotes& notes) const;
@@ -57,7 +64,7 @@ void require_view_size(const std::filesystem::path& path, int height, int width,
                                                          const BesideViews& views);
 
 /// Sets of one kind that `can_hold` the wanted data, those of most views first, then arrays before
-/// images; the others go to `unfit`.
+/// images, and before text; the others go to `unfit`.
 struct RankedSets {
   std::vector<const MapSet*> fit;
   std::vector<const MapSet*> unfit;

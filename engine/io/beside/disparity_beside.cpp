@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 struct StoredMaps {
   DisparityField field;
   const MapSet* set = nullptr;
+  double scale = 1;  ///< Pixels of the map as stored in a pixel of the views.
 
   /// The map by which the others are judged.
   [[nodiscard]] ViewIndex at(GridShape grid) const {
@@ -47,6 +48,7 @@ StoredMaps read_first(const std::vector<const MapSet*>& sets, const std::string&
     SetOutcome outcome;
     found.field = read_value_set(*set, views, outcome, progress);
     if (!found.field.empty()) found.set = set;
+    found.scale = outcome.map_scale;
     outcome.tell(kind, notes);
   }
   return found;
@@ -105,7 +107,7 @@ StoredMaps read_one_depth(const RankedSets& sets, const BesideViews& views, View
     MapSet one{set->kind, set->pattern, {{view, set->file_of(view)}}, {}};
     if (one.entries.front().file.empty()) continue;
     SetOutcome outcome;
-    StoredMaps maps{read_value_set(one, views, outcome, Progress(1)), set};
+    StoredMaps maps{read_value_set(one, views, outcome, Progress(1)), set, 1};
     if (!maps.field.empty()) return maps;
   }
   return {};
@@ -122,6 +124,22 @@ void tell_depth(const RankedSets& sets, const MapSet* used, const DepthFit& fit,
   }
 }
 
+/// Values of maps of another size may count their own pixels, or those of the views: first that
+/// which explains the views better.
+void add_unit_of_size(const StoredMaps& maps, const BesideViews& views,
+                      std::vector<MapUnit>& units) {
+  if (maps.scale == 1) return;
+  const MapUnit own{1 / maps.scale, fmt::format("px of the map as stored, {:.4g} of which are one "
+                                                "of the views, per view step",
+                                                maps.scale)};
+  const ViewIndex at = maps.at(views.grid());
+  const auto error = [&](const MapUnit& unit) {
+    return explain_views(views.samples, at, maps.field.view(at), unit.factor).error;
+  };
+  const bool is_better = error(own) < error(units.front());
+  units.insert(is_better ? units.begin() : units.begin() + 1, own);
+}
+
 DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const BesideViews& views,
                                const BesideNotes& notes) {
   const ViewIndex at = maps.at(views.grid());
@@ -129,6 +147,7 @@ DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const 
   if (const auto stated = stated_unit(views.folder, notes.account)) {
     units.insert(units.begin(), *stated);
   }
+  add_unit_of_size(maps, views, units);
   const SettledUnit settled =
       settle_values(views.samples, units, {maps.field, name_of(*maps.set)}, notes.report);
   const double factor = settled.unit.factor;

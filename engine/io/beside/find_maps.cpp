@@ -3,6 +3,8 @@
 
 #include "engine/core/text/suffix.h"
 #include "engine/io/beside/baseline_file.h"
+#include "engine/io/beside/map_file.h"
+#include "engine/io/beside/text_map.h"
 #include "engine/io/grid/inner_grid.h"
 
 #include <algorithm>
@@ -37,7 +39,8 @@ std::vector<fs::path> list_files(const fs::path& folder) {
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     const bool is_hidden = it->path().filename().string().starts_with('.');
     std::error_code ignored;
-    if (is_hidden || !it->is_regular_file(ignored) || !has_map_suffix(it->path())) continue;
+    const bool may_be_map = has_map_suffix(it->path()) || has_text_suffix(it->path());
+    if (is_hidden || !it->is_regular_file(ignored) || !may_be_map) continue;
     files.push_back(it->path());
     if (files.size() == kMostFiles) break;
   }
@@ -296,6 +299,19 @@ std::vector<Place> places_of(const fs::path& folder) {
   return places;
 }
 
+/// By its own name, else by that of its folder.
+std::optional<MapKind> kind_of(const fs::path& file, std::optional<MapKind> of_folder) {
+  constexpr std::array<std::string_view, 3> kTruth{"gt", "ground_truth", "groundtruth"};
+  const std::string stem = file.stem().string();
+  std::optional<MapKind> kind = map_kind(stem);
+  if (!kind) kind = of_folder;
+  const bool is_truth = std::ranges::find(kTruth, lower_case(stem)) != kTruth.end();
+  if (!kind && is_truth && can_hold_values(file)) kind = MapKind::Disparity;
+  if (!kind || !has_text_suffix(file)) return kind;
+  const bool may_be_text = kind == MapKind::Disparity || kind == MapKind::Depth;
+  return may_be_text && is_text_map(file) ? kind : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<fs::path> MapSet::files() const {
@@ -318,8 +334,7 @@ MapsBeside find_maps(const ViewFiles& views, const fs::path& folder) {
     std::map<std::pair<MapKind, std::string>, std::vector<fs::path>> groups;
     for (const fs::path& file : list_files(place.folder)) {
       if (taken.contains(file)) continue;
-      const auto own = map_kind(file.stem().string());
-      const auto kind = own ? own : place.kind;
+      const auto kind = kind_of(file, place.kind);
       if (!kind) continue;
       const std::string pattern =
           place.prefix + numbered_name(file.stem().string()).text + suffix_of(file);

@@ -7,6 +7,7 @@
 #include "engine/io/arrays/npy_file.h"
 #include "engine/io/beside/archived_map.h"
 #include "engine/io/beside/map_name.h"
+#include "engine/io/beside/text_map.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_header.h"
 #include "engine/io/hdf5/hdf5_file.h"
@@ -200,6 +201,7 @@ bool is_hdf5(const fs::path& path) {
 }  // namespace
 
 bool can_hold_values(const fs::path& path) {
+  if (has_text_suffix(path)) return true;
   return has_suffix(path, std::array<std::string_view, 9>{".npy", ".npz", ".mat", ".pfm", ".tif",
                                                           ".tiff", ".exr", ".h5", ".hdf5"});
 }
@@ -214,6 +216,7 @@ DisparityField read_values(const fs::path& path, GridShape grid) {
   if (suffix_of(path) == ".npy") return read_npy_values(path, grid);
   if (is_archive_of_maps(path)) return marked(read_archived_values(path, grid));
   if (suffix_of(path) == ".exr") return read_exr_values(path);
+  if (has_text_suffix(path)) return marked(single(read_text_map(path)));
   if (holds_levels(path)) return read_picture_values(path);
   DisparityField field = read_disparity_map(path, grid);
   if (!(field.disparity.grid() == GridShape{1, 1}) || field.disparity.first() == ViewIndex{}) {

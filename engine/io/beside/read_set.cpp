@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/io/beside/map_file.h"
+#include "engine/io/beside/resampled_map.h"
 #include "engine/io/maps/foreign_result.h"
 #include "engine/io/maps/padding.h"
 
@@ -62,14 +63,16 @@ void require_one_map(const std::filesystem::path& file, const ViewStack<T>& stac
   throw IoError(file, "this file holds maps of several views, but its name is that of one view");
 }
 
-/// Cuts off a padding, and puts maps that lack a border into the middle, where that is evident;
-/// returns a sentence that says so.
-std::string fit_into_views(DisparityField& maps, const BesideViews& views) {
+/// Brings maps of several times, or a part of, the size of the views to that size; else cuts off a
+/// padding, and puts maps that lack a border into the middle, where that is evident.
+ResampledMaps fit_into_views(DisparityField& maps, const BesideViews& views) {
+  ResampledMaps resampled = resample_to(maps, views.height(), views.width());
+  if (resampled.scale != 1) return resampled;
   const ViewStack<float>& map = maps.disparity;
   if (map.height() < views.height() && map.width() < views.width()) {
-    return find_bare_border(maps, views.height(), views.width()).note;
+    return {1, find_bare_border(maps, views.height(), views.width()).note};
   }
-  return remove_padding(maps, views.height(), views.width());
+  return {1, remove_padding(maps, views.height(), views.width())};
 }
 
 bool holds_all_views(GridShape stored, const BesideViews& views) {
@@ -101,9 +104,9 @@ ViewStack<T> wanted_part(ViewStack<T> whole, const BesideViews& views) {
 
 /// A file that holds maps of all views; empty if it holds another number.
 std::optional<DisparityField> read_whole(const MapSet& set, const BesideViews& views,
-                                         std::string& note) {
+                                         ResampledMaps& fitted) {
   DisparityField all = read_values(set.entries.front().file, views.files.whole_grid());
-  note = fit_into_views(all, views);
+  fitted = fit_into_views(all, views);
   require_view_size(set.entries.front().file, all.disparity.height(), all.disparity.width(), views);
   if (!holds_all_views(all.disparity.grid(), views)) return std::nullopt;
   DisparityField field{wanted_part(std::move(all.disparity), views), {}};
@@ -127,11 +130,11 @@ DisparityField read_value_set(const MapSet& set, const BesideViews& views, SetOu
   const std::vector<MapSet::Entry> entries = entries_to_read(set, views);
   DisparityField field;
   if (set.entries.size() == 1) {
-    std::string note;
+    ResampledMaps fitted;
     outcome = try_all(entries, Progress(1), [&](const MapSet::Entry&) {
-      if (auto all = read_whole(set, views, note)) field = std::move(*all);
+      if (auto all = read_whole(set, views, fitted)) field = std::move(*all);
     });
-    outcome.note = std::move(note);
+    outcome.take(fitted);
     if (!field.empty() || outcome.read.empty()) {
       tidy_valid(field);
       return field;
@@ -142,10 +145,10 @@ DisparityField read_value_set(const MapSet& set, const BesideViews& views, SetOu
            ViewStack<std::uint8_t>(place.grid, views.height(), views.width(), 1, place.first)};
   std::fill_n(field.disparity.data(), field.disparity.size(), 0.0F);
   std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{0});
-  std::vector<std::string> notes(entries.size());
+  std::vector<ResampledMaps> fitted(entries.size());
   outcome = try_all(entries, progress, [&](const MapSet::Entry& entry) {
     DisparityField one = read_values(entry.file, views.grid());
-    notes[static_cast<std::size_t>(&entry - entries.data())] = fit_into_views(one, views);
+    fitted[static_cast<std::size_t>(&entry - entries.data())] = fit_into_views(one, views);
     require_one_map(entry.file, one.disparity, views);
     const ViewIndex view = views.grid().view_at(entry.view);
     std::copy_n(one.disparity.data(), one.disparity.size(), field.disparity.view(view).data);
@@ -156,7 +159,7 @@ DisparityField read_value_set(const MapSet& set, const BesideViews& views, SetOu
       std::copy_n(one.valid.data(), one.valid.size(), valid);
     }
   });
-  outcome.note = notes.front();
+  outcome.take(fitted.front());
   add_unread(set, entries.size(), outcome);
   if (outcome.read.empty()) return {};
   tidy_valid(field);

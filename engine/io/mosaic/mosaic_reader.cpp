@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/mosaic/mosaic_reader.h"
 
+#include "engine/io/beside/beside.h"
 #include "engine/io/grid/decode_png.h"
 #include "engine/io/grid/image_header.h"
 #include "engine/io/maps/sample_range.h"
@@ -48,6 +49,24 @@ std::vector<FileUse> account_of(const fs::path& path) {
   FolderAccount account(is_only_mosaic(path) ? scene_folder(path) : path);
   account.use(path, "mosaics");
   return account.uses();
+}
+
+/// Truth in the folder of a mosaic without others, and what becomes of all files there.
+void add_beside(const fs::path& path, const OpenOptions& options, SceneParts& parts, Scene& scene,
+                const Progress& progress) {
+  const bool is_itself_a_map = map_kind(path.stem().string()).has_value();
+  if (!is_only_mosaic(path) || is_itself_a_map) return;
+  const fs::path folder = scene_folder(path);
+  FolderAccount account(folder);
+  account.use(path, "mosaics");
+  const ViewFiles views{grid_of(parts.samples), {}};
+  FoundBeside beside = read_beside(
+      {views, folder, parts.samples, parts.info.camera, options.map_views(), options.needs_truth},
+      {account, scene.convention}, progress);
+  parts.truth = std::move(beside.truth);
+  parts.info.camera = beside.camera;
+  scene.scribbles.labels = std::move(beside.label_infos);
+  parts.files = account.uses();
 }
 
 /// A picture of all views, and where from.
@@ -112,6 +131,7 @@ Scene read_mosaic(const fs::path& path, const OpenOptions& options, const Progre
   parts.info = std::move(info);
   parts.expected.reason = "mosaics hold rows and columns of views in order";
   parts.files = std::move(read.files);
+  if (read.origin.empty()) add_beside(path, options, parts, scene, progress.part(0.8, 0.9));
   assemble(std::move(parts), options, scene, progress);
   return scene;
 }

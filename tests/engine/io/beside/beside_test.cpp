@@ -295,7 +295,7 @@ class BesideTest : public QObject {
   void mapsOfAnotherSize_areLeftOut() {
     const LayeredFolder folder;
     folder.write_views(named("{}_{}.png"));
-    const Image<float> small(30, 36, 1, 1.0F);
+    const Image<float> small(31, 36, 1, 1.0F);
     folder.for_views(named("{}_{}_disparity.pfm"),
                      [&](const fs::path& file, ViewIndex) { io::write_pfm(file, small.view()); });
     folder.write_npy(named("{}_{}_label.npy"), folder.scene.labels);
@@ -303,7 +303,7 @@ class BesideTest : public QObject {
     const Scene read = folder.open();
 
     QVERIFY(!read.truth->has_disparity());
-    QVERIFY(warns_of(read, "36×30 px, but the views have 72×60 px"));
+    QVERIFY(warns_of(read, "36×31 px, but the views have 72×60 px"));
     QVERIFY(has_labels(read, folder.scene));
   }
 
