@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/exif_orientation.h"
 #include "engine/io/grid/grid_with_gaps.h"
 #include "engine/io/grid/image_list.h"
 #include "engine/io/grid/row_folders.h"
@@ -33,7 +34,7 @@ std::vector<fs::path> left_out_of(const std::vector<fs::path>& images, const Vie
 }
 
 /// A view as grey values of any range, reduced to about 512 px.
-Image<float> grey_view(const fs::path& path) {
+Image<float> grey_view(const fs::path& path, int orientation) {
   constexpr int kSide = 512;
   return std::visit(
       [](const auto& image) {
@@ -50,7 +51,7 @@ Image<float> grey_view(const fs::path& path) {
         }
         return grey;
       },
-      decode_image(path));
+      upright(decode_image(path), orientation));
 }
 
 /// Several grids that a list of `count` views could be, the squarest first, and the two lines.
@@ -82,7 +83,8 @@ void arrange(PlacedViews& placed, const ListLayout& layout) {
     files[to] = std::move(placed.views.files[from]);
     if (!positions.empty()) positions[to] = placed.positions[from];
   }
-  placed.views = {layout.grid, std::move(files)};
+  placed.views.grid = layout.grid;
+  placed.views.files = std::move(files);
   placed.positions = std::move(positions);
 }
 
@@ -92,10 +94,10 @@ std::string size_text(const Image<float>& picture) {
 
 /// What the images of a list tell about their places.
 ListLayout look_for_layout(const ViewFiles& list, const Progress& progress) {
-  const Image<float> first = grey_view(list.files.front());
+  const Image<float> first = grey_view(list.files.front(), list.orientation);
   const auto view = [&](int index) {
     const fs::path& path = list.files[static_cast<std::size_t>(index)];
-    Image<float> grey = grey_view(path);
+    Image<float> grey = grey_view(path, list.orientation);
     if (grey.height() != first.height() || grey.width() != first.width()) {
       throw IoError(path, "this view, reduced to " + size_text(grey) + ", differs in size from " +
                               list.files.front().filename().string() + " with " + size_text(first) +
@@ -150,6 +152,7 @@ void place_list_with_gaps(const fs::path& folder, PlacedViews& placed, const Ope
     throw IoError(folder, gaps.text + "; no part of the grid is whole: add what is missing");
   PlacedViews kept;
   kept.views = files_of_part(views, *part);
+  kept.views.orientation = placed.views.orientation;
   kept.warnings = placed.warnings;
   for (int i = 0; i < given->count() && !placed.positions.empty(); ++i) {
     const bool is_kept = part->in_part(given->view_at(i)).has_value();
@@ -182,9 +185,22 @@ ListLayout layout_of_list(const fs::path& folder, const ViewFiles& list, const O
 
 }  // namespace
 
+namespace {
+
+/// Views of cameras that were turned are shown upright.
+void settle_orientation(PlacedViews& placed) {
+  CommonOrientation orientation = common_orientation(placed.views.files);
+  placed.views.orientation = orientation.value;
+  if (!orientation.note.empty()) placed.warnings.push_back(std::move(orientation.note));
+}
+
+}  // namespace
+
 NamedGrid name_grid(const fs::path& folder, const OpenOptions& options) {
   if (const auto rows = find_row_folders(folder, options)) {
-    return {place_rows(folder, *rows), rows->pattern, {}};
+    NamedGrid grid{place_rows(folder, *rows), rows->pattern, {}};
+    settle_orientation(grid.placed);
+    return grid;
   }
   const std::string& pattern = options.pattern;
   const std::vector<fs::path> images = list_images(folder);
@@ -201,6 +217,7 @@ NamedGrid name_grid(const fs::path& folder, const OpenOptions& options) {
   }
   NamedGrid grid{place_views(folder, names), names.pattern, {}};
   grid.left_out = left_out_of(images, grid.placed.views);
+  settle_orientation(grid.placed);
   return grid;
 }
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/beside/find_maps.h"
+#include "engine/io/grid/exif_orientation.h"
 #include "engine/io/grid/grid_names.h"
 #include "engine/io/grid/image_header.h"
 #include "engine/io/grid/image_list.h"
@@ -26,9 +27,10 @@ SceneProbe probe_views(const ViewFiles& views) {
                                       "all views must match",
                                       other.width, other.height, header.width, header.height));
   }
+  const bool is_turned = is_quarter_turn(views.orientation);
   return {.grid = views.grid,
-          .height = header.height,
-          .width = header.width,
+          .height = is_turned ? header.width : header.height,
+          .width = is_turned ? header.height : header.width,
           .channels = header.channels,
           .sample_type = header.sample_type};
 }

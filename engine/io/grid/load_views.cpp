@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/exif_orientation.h"
 #include "engine/io/open/center_preview.h"
 #include "engine/io/open/view_memory.h"
 
@@ -43,7 +44,10 @@ LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_ce
   progress.check();
   const ViewIndex center = views.grid.center();
   const int center_index = center.v * views.grid.u + center.u;
-  const AnyImage first = decode_image(views.files[static_cast<std::size_t>(center_index)]);
+  const auto decode = [&](const std::filesystem::path& path) {
+    return upright(decode_image(path), views.orientation);
+  };
+  const AnyImage first = decode(views.files[static_cast<std::size_t>(center_index)]);
   return std::visit(
       [&]<class T>(const Image<T>& image) -> LightField::Samples {
         require_view_memory(views.files.front().parent_path(),
@@ -54,7 +58,7 @@ LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_ce
         parallel_for(views.grid.count(), progress, [&](int i) {
           if (i == center_index) return;
           const std::filesystem::path& path = views.files[static_cast<std::size_t>(i)];
-          store(path, decode_image(path), first, stack.view(views.grid.view_at(i)));
+          store(path, decode(path), first, stack.view(views.grid.view_at(i)));
         });
         return stack;
       },

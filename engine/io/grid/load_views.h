@@ -19,6 +19,8 @@ struct ViewFiles {
   std::optional<PartOfGrid> part{};               ///< Of a grid with gaps that this is a part of,
   std::vector<std::filesystem::path> left_out{};  ///< and its views that are not in this part.
 
+  int orientation = 1;  ///< In which all of them are to be shown (`common_orientation`).
+
   /// With the views that are missing or left out.
   [[nodiscard]] GridShape whole_grid() const { return part ? part->whole : grid; }
   /// The place in the whole grid of a view, and where the centre of that grid is; nothing if it is
@@ -34,8 +36,8 @@ struct ViewFiles {
 /// Called with an 8-bit RGB picture of the centre view before the others are read.
 using OnCenterView = std::function<void(const Image<std::uint8_t>& center_rgb)>;
 
-/// Decodes the views in parallel, the centre first. Throws IoError that names the file if one
-/// cannot be decoded or differs in size, channels or depth from the centre view; Cancelled.
+/// Decodes the views in parallel, upright, the centre first. Throws IoError that names the file if
+/// one cannot be decoded or differs in size, channels or depth from the centre view; Cancelled.
 [[nodiscard]] LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_center,
                                              const Progress& progress);
 
