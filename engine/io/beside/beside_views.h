@@ -22,6 +22,7 @@ struct BesideViews {
   CameraGrid camera;  ///< As far as it is known.
   MapViews map_views = MapViews::All;
   bool needs_truth = true;
+  bool is_shift_unknown = false;  ///< Views may be shifted against what `camera` says.
 
   [[nodiscard]] GridShape grid() const { return files.grid; }
   [[nodiscard]] int height() const;

@@ -204,18 +204,33 @@ void add_unknown(const UnknownSets& unknown, const BesideViews& views, const Bes
     }
     outcome.tell(unknown.name, notes);
     found.field = std::move(field);
-    if (!views.camera.is_known()) found.camera = meaning->camera();
+    if (!views.camera.is_known() || views.is_shift_unknown) found.camera = meaning->camera();
   }
+}
+
+ViewStack<float> disparity_of(ViewStack<float> depth, const CameraGrid& camera) {
+  std::transform(depth.data(), depth.data() + depth.size(), depth.data(), [&](float value) {
+    return static_cast<float>(camera.disparity_from_depth(value));
+  });
+  return depth;
+}
+
+/// Whether depth of the centre view, by the camera as it is, explains the views; also where there
+/// is none.
+bool camera_explains(const RankedSets& depths, const BesideViews& views) {
+  const ViewIndex at = views.grid().center();
+  StoredMaps depth = read_one_depth(depths, views, at);
+  if (depth.field.empty()) return true;
+  depth.field.disparity = disparity_of(std::move(depth.field.disparity), views.camera);
+  tidy_valid(depth.field);
+  return explain_views(views.samples, at, depth.field.view(at), 1).is_good();
 }
 
 DisparityBeside from_depth(const RankedSets& sets, const BesideViews& views,
                            const BesideNotes& notes, const Progress& progress) {
   StoredMaps maps = read_first(sets.fit, kind_text(MapKind::Depth), views, notes, progress);
   if (maps.field.empty()) return {{}, views.camera};
-  ViewStack<float>& values = maps.field.disparity;
-  std::transform(values.data(), values.data() + values.size(), values.data(), [&](float depth) {
-    return static_cast<float>(views.camera.disparity_from_depth(depth));
-  });
+  maps.field.disparity = disparity_of(std::move(maps.field.disparity), views.camera);
   tidy_valid(maps.field);
   const ViewIndex at = maps.at(views.grid());
   const SettledUnit settled =
@@ -231,7 +246,8 @@ DisparityBeside read_disparity_beside(const std::vector<MapSet>& sets, const Bes
                                       const BesideNotes& notes, const Progress& progress) {
   const RankedSets disparities = rank_sets(sets, MapKind::Disparity, can_hold_values);
   const RankedSets depths = rank_sets(sets, MapKind::Depth, can_hold_values);
-  const bool has_camera = views.camera.is_known();
+  const bool has_camera =
+      views.camera.is_known() && (!views.is_shift_unknown || camera_explains(depths, views));
   DisparityBeside found{{}, views.camera};
   StoredMaps maps =
       read_first(disparities.fit, kind_text(MapKind::Disparity), views, notes, progress);

@@ -187,6 +187,18 @@ ListLayout layout_of_list(const fs::path& folder, const ViewFiles& list, const O
 
 namespace {
 
+/// Where the views leave it open, poses that are none of a light field decide that it is none.
+ListLayout layout_by_views(const fs::path& folder, const NamedGrid& named,
+                           const OpenOptions& options, const Progress& progress) {
+  try {
+    return layout_of_list(folder, named.placed.views, options, progress);
+  } catch (const Undecided&) {
+    if (named.poses.problem.empty()) throw;
+    throw IoError(folder, fmt::format("by {}, {}; {}", named.poses.file.filename().string(),
+                                      named.poses.problem, kPoseAdvice));
+  }
+}
+
 /// Views of cameras that were turned are shown upright.
 void settle_orientation(PlacedViews& placed) {
   CommonOrientation orientation = common_orientation(placed.views.files);
@@ -194,9 +206,16 @@ void settle_orientation(PlacedViews& placed) {
   if (!orientation.note.empty()) placed.warnings.push_back(std::move(orientation.note));
 }
 
-}  // namespace
+NamedGrid by_poses(const fs::path& folder, PosedViews poses) {
+  NamedGrid grid{std::move(poses.placed), "*, placed by " + poses.file.filename().string(), {}};
+  grid.left_out = left_out_of(list_images(folder), grid.placed.views);
+  grid.poses = std::move(poses);
+  settle_orientation(grid.placed);
+  return grid;
+}
 
-NamedGrid name_grid(const fs::path& folder, const OpenOptions& options) {
+/// Without poses.
+NamedGrid by_names(const fs::path& folder, const OpenOptions& options) {
   if (const auto rows = find_row_folders(folder, options)) {
     NamedGrid grid{place_rows(folder, *rows), rows->pattern, {}};
     settle_orientation(grid.placed);
@@ -221,8 +240,26 @@ NamedGrid name_grid(const fs::path& folder, const OpenOptions& options) {
   return grid;
 }
 
-std::string settle_grid(const fs::path& folder, PlacedViews& placed, const OpenOptions& options,
+}  // namespace
+
+NamedGrid name_grid(const fs::path& folder, const OpenOptions& options) {
+  PosedViews poses = place_by_poses(folder, options);
+  if (poses.are_used()) return by_poses(folder, std::move(poses));
+  NamedGrid grid = by_names(folder, options);
+  if (!poses.problem.empty()) {
+    grid.placed.warnings.push_back(
+        fmt::format("The poses of {} are not used, as {}; the names and the views themselves tell "
+                    "rows and columns.",
+                    poses.file.filename().string(), poses.problem));
+  }
+  grid.poses = std::move(poses);
+  return grid;
+}
+
+std::string settle_grid(const fs::path& folder, NamedGrid& named, const OpenOptions& options,
                         const Progress& progress) {
+  PlacedViews& placed = named.placed;
+  if (named.poses.are_used()) return named.poses.evidence;
   if (!placed.is_list) {
     const auto given = given_grid(options);
     const auto& part = placed.views.part;
@@ -244,7 +281,7 @@ std::string settle_grid(const fs::path& folder, PlacedViews& placed, const OpenO
     place_list_with_gaps(folder, placed, options);
     return layout_text(row_by_row(placed.views.part->whole, options)) + ": as given";
   }
-  ListLayout layout = layout_of_list(folder, placed.views, options, progress);
+  ListLayout layout = layout_by_views(folder, named, options, progress);
   if (options.snake) layout.order = ListOrder::SnakeRows;
   arrange(placed, layout);
   placed.is_list = false;

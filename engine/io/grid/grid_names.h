@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/parallel/progress.h"
+#include "engine/io/grid/posed_views.h"
 #include "engine/io/grid/view_names.h"
 #include "engine/io/open/open_options.h"
 
@@ -16,10 +17,12 @@ struct NamedGrid {
   PlacedViews placed;
   std::string pattern;                          ///< As in ViewNames.
   std::vector<std::filesystem::path> left_out;  ///< Images of the folder that are no views.
+  PosedViews poses{};                           ///< What poses say, without the views themselves.
 };
 
-/// Finds the place of every view from its name: by the option `pattern` if it is given, else by
-/// what the names have in common (view_group.h), or by the folders that they are in
+/// Finds the place of every view by the poses of their cameras, if a file states them and they are
+/// those of a light field (posed_views.h); else from its name: by the option `pattern` if it is
+/// given, else by what the names have in common (view_group.h), or by the folders that they are in
 /// (row_folders.h). A list of views is not yet a grid. Throws IoError that says which view is
 /// missing, which pattern was tried and how many files matched; InvalidInput for a wrong pattern.
 [[nodiscard]] NamedGrid name_grid(const std::filesystem::path& folder, const OpenOptions& options);
@@ -28,8 +31,9 @@ struct NamedGrid {
 /// list, or else those that the images themselves tell (list_layout.h); with the option `snake`
 /// every second row is turned round. Returns a sentence about what was found, empty if the names
 /// tell all. Throws Undecided if the images of a list tell nothing, IoError if there are not as
-/// many views as the option says, InvalidInput for a wrong option, Cancelled.
-std::string settle_grid(const std::filesystem::path& folder, PlacedViews& placed,
+/// many views as the option says, or if poses say that they are none, InvalidInput for a wrong
+/// option, Cancelled.
+std::string settle_grid(const std::filesystem::path& folder, NamedGrid& named,
                         const OpenOptions& options, const Progress& progress);
 
 }  // namespace episcope::io

@@ -46,6 +46,20 @@ FolderAccount account_of(const fs::path& source, const fs::path& folder, const V
   return account;
 }
 
+/// What poses tell of distances: that of cameras side by side, whose views are not shifted.
+void add_camera(const PosedViews& poses, const LightField::Samples& samples, CameraGrid& camera,
+                FolderAccount& account) {
+  account.add_folder(poses.file.parent_path());
+  account.use(poses.file, "pose files");
+  const fs::path cameras = poses.file.parent_path() / "cameras.txt";
+  if (poses.file.filename() == "images.txt" && is_there(cameras))
+    account.use(cameras, "pose files");
+  if (camera.is_known() || !(poses.focal_widths > 0)) return;
+  const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
+  camera.baseline = poses.step;
+  camera.focal_length = poses.focal_widths * width;
+}
+
 /// "image grid (out_{row}_{col}.png, snake order)", with the folder inside of what was opened.
 std::string format_of(const NamedGrid& grid, const fs::path& folder, const fs::path& source,
                       const OpenOptions& options) {
@@ -78,7 +92,7 @@ Reader image_grid_reader() {
 Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress,
                       const ImageGridExtras& extras) {
   NamedGrid grid = name_grid(folder, options);
-  const std::string evidence = settle_grid(folder, grid.placed, options, progress.part(0, 0.15));
+  const std::string evidence = settle_grid(folder, grid, options, progress.part(0, 0.15));
   const ViewFiles& views = grid.placed.views;
   const bool is_linear = is_linear_format(views.files.front());
   Scene scene;
@@ -103,13 +117,14 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
       progress.part(0.15, 0.9));
   if (!is_linear || !options.levels.empty()) settle_range(samples, options.levels, report);
   FolderAccount account = account_of(source, folder, views, extras);
+  if (grid.poses.are_used()) add_camera(grid.poses, samples, info.camera, account);
   SceneParts parts;
   if (extras.read_truth) {
     parts.truth.field = extras.read_truth(samples, info.camera, report);
   } else {
-    FoundBeside beside =
-        read_beside({views, folder, samples, info.camera, options.map_views(), options.needs_truth},
-                    {account, report}, progress.part(0.9, 1));
+    FoundBeside beside = read_beside({views, folder, samples, info.camera, options.map_views(),
+                                      options.needs_truth, grid.poses.are_used()},
+                                     {account, report}, progress.part(0.9, 1));
     parts.truth = std::move(beside.truth);
     info.camera = beside.camera;
     scene.scribbles.labels = std::move(beside.label_infos);
@@ -118,6 +133,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   parts.samples = std::move(samples);
   parts.info = std::move(info);
   parts.expected.reason = evidence.empty() ? "rows and columns follow from the names" : evidence;
+  if (grid.poses.are_used()) parts.expected.reason = "the poses of the cameras say so";
   parts.files = account.uses();
   assemble(std::move(parts), options, scene, progress);
   if (!evidence.empty() && !report.order_check.ends_with(evidence)) {

@@ -2,7 +2,7 @@
 #include "engine/io/arrays/several_fields.h"
 
 #include "engine/core/error.h"
-#include "engine/io/arrays/write_arrays.h"
+#include "engine/io/arrays/npy_file.h"
 #include "engine/io/open/open.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/arrays/array_files.h"

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
+#include "engine/io/arrays/npy_file.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/poses/colmap_poses.h"
+#include "engine/io/poses/pose_grid.h"
+#include "tests/engine/io/beside/layered_folder.h"
+#include "tests/engine/io/synthetic_scene.h"
+#include "tests/test_main.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+namespace episcope::in_posed_views_test {
+
+using namespace episcope::test;
+
+namespace fs = std::filesystem;
+
+/// Views whose names say nothing, with files of poses beside them: a square before a wall in 3×5
+/// views, numbered in an order that is none of a grid, of cameras that are turned in the scene.
+class PosedViewsTest : public QObject {
+  Q_OBJECT
+
+ private:
+  static constexpr GridShape kGrid{3, 5};
+  static constexpr double kStep = 0.25;
+  static constexpr double kFocal_widths = 1.25;
+  // What all cameras see as right, down and ahead, not along the axes of the scene.
+  static constexpr io::Direction kRight{0.36, 0.48, -0.8};
+  static constexpr io::Direction kDown{-0.8, 0.6, 0};
+  static constexpr io::Direction kAhead{0.48, 0.64, 0.6};
+
+  std::unique_ptr<LayeredFolder> folder_;
+
+  static ViewIndex view_of(int number) { return kGrid.view_at(7 * number % kGrid.count()); }
+  /// `off` along the line of sight, in the last view.
+  static io::Direction center_of(int number, double off = 0) {
+    const ViewIndex view = view_of(number);
+    io::Direction center{3, -2, 1};
+    for (std::size_t i = 0; i < 3; ++i) {
+      center[i] += kStep * (view.u * kRight[i] + view.v * kDown[i]);
+      if (number == kGrid.count() - 1) center[i] += off * kStep * kAhead[i];
+    }
+    return center;
+  }
+  void write_views(const std::string& inside) const {
+    fs::create_directories(folder_->path(inside));
+    for (int i = 0; i < kGrid.count(); ++i) {
+      io::write_png(folder_->path(inside + fmt::format("img{:02}.png", i)),
+                    folder_->scene.views.view(view_of(i)));
+    }
+  }
+  void write_nerf(double off = 0) const {
+    std::ofstream out(folder_->path("transforms.json"));
+    out << fmt::format("{{\"camera_angle_x\": {}, \"frames\": [",
+                       2 * std::atan(0.5 / kFocal_widths));
+    for (int i = 0; i < kGrid.count(); ++i) {
+      const io::Direction center = center_of(i, off);
+      out << (i > 0 ? "," : "")
+          << fmt::format("{{\"file_path\": \"./images/img{:02}\", \"transform_matrix\": [", i);
+      for (std::size_t row = 0; row < 3; ++row) {
+        out << fmt::format("[{}, {}, {}, {}],", kRight[row], -kDown[row], -kAhead[row],
+                           center[row]);
+      }
+      out << "[0, 0, 0, 1]]}";
+    }
+    out << "]}";
+  }
+  void write_llff() const {
+    std::vector<float> all;
+    for (int i = 0; i < kGrid.count(); ++i) {
+      const io::Direction center = center_of(i);
+      const double size[] = {60, 72, kFocal_widths * 72};
+      for (std::size_t row = 0; row < 3; ++row) {
+        for (const double value : {kDown[row], kRight[row], -kAhead[row], center[row], size[row]}) {
+          all.push_back(static_cast<float>(value));
+        }
+      }
+      all.insert(all.end(), {1.0F, 9.0F});
+    }
+    io::write_npy<float>(folder_->path("poses_bounds.npy"), {15, 17}, all);
+  }
+  void write_colmap() const {
+    fs::create_directories(folder_->path("sparse/0"));
+    std::ofstream(folder_->path("sparse/0/cameras.txt"))
+        << fmt::format("# cameras\n1 SIMPLE_PINHOLE 72 60 {} 36 30\n", kFocal_widths * 72);
+    // The quaternion of the matrix with the rows right, down and ahead.
+    const double w = 0.5 * std::sqrt(1 + kRight[0] + kDown[1] + kAhead[2]);
+    const double x = (kAhead[1] - kDown[2]) / (4 * w);
+    const double y = (kRight[2] - kAhead[0]) / (4 * w);
+    const double z = (kDown[0] - kRight[1]) / (4 * w);
+    std::ofstream out(folder_->path("sparse/0/images.txt"));
+    out << "# images\n";
+    for (int i = 0; i < kGrid.count(); ++i) {
+      const io::Direction center = center_of(i);
+      out << fmt::format("{} {} {} {} {} {} {} {} 1 img{:02}.png\n", i + 1, w, x, y, z,
+                         -io::dot(kRight, center), -io::dot(kDown, center),
+                         -io::dot(kAhead, center), i)
+          << (i % 2 == 0 ? "\n" : "10.5 20.5 -1\n");
+    }
+  }
+  bool has_views_in_order(const Scene& scene) const {
+    const auto& views = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
+    return views.size() == folder_->scene.views.size() &&
+           std::memcmp(views.data(), folder_->scene.views.data(), views.size()) == 0;
+  }
+
+ private slots:
+  void init() { folder_ = std::make_unique<LayeredFolder>(kGrid); }
+
+  void posesOfAGrid_placeTheViews_data() {
+    QTest::addColumn<QString>("form");
+    QTest::newRow("NeRF") << "transforms.json";
+    QTest::newRow("LLFF") << "poses_bounds.npy";
+    QTest::newRow("COLMAP") << "images.txt";
+  }
+  void posesOfAGrid_placeTheViews() {
+    QFETCH(QString, form);
+    write_views("images/");
+    if (form == "transforms.json") write_nerf();
+    if (form == "poses_bounds.npy") write_llff();
+    if (form == "images.txt") write_colmap();
+
+    const Scene scene = folder_->open();
+
+    QCOMPARE(scene.light_field->grid(), kGrid);
+    QVERIFY2(has_views_in_order(scene), describe(scene.convention).c_str());
+    const std::string check = scene.convention.order_check;
+    QVERIFY2(check.starts_with("3×5 by " + form.toStdString()), check.c_str());
+    const CameraGrid& camera = scene.light_field->info().camera;
+    QVERIFY(std::abs(camera.baseline - kStep) < 1e-5);
+    QVERIFY(std::abs(camera.focal_length - 72 * kFocal_widths) < 1e-3);
+    QCOMPARE(scene.light_field->info().positions.size(), std::size_t{15});
+    QVERIFY(std::abs(scene.light_field->info().positions.back().x - 4 * kStep) < 1e-5);
+  }
+
+  void posesOffThePlane_areNoLightField() {
+    write_views("images/");
+    write_nerf(0.5);
+
+    try {
+      (void)folder_->open();
+      QFAIL("it was read");
+    } catch (const IoError& error) {
+      const std::string text = error.what();
+      QVERIFY2(
+          text.find("differ by 0.5 of their step along the line of sight") != std::string::npos,
+          text.c_str());
+    }
+  }
+
+  void namesOfAGrid_openWithoutSuchPoses() {
+    folder_->write_views(LayeredFolder::named("img{}_{}.png"));
+    std::ofstream(folder_->path("transforms.json")) << "{\"frames\": [{}]}";
+
+    const Scene scene = folder_->open();
+
+    QVERIFY(has_views_in_order(scene));
+    QVERIFY(warns_of(scene, "The poses of transforms.json are not used"));
+  }
+
+  void camerasThatAreNoGrid_areToldWhy_data() {
+    QTest::addColumn<double>("turn_deg");
+    QTest::addColumn<double>("off");
+    QTest::addColumn<double>("stretch");
+    QTest::addColumn<QString>("problem");
+    QTest::newRow("grid") << 0.2 << 0.05 << 1.0 << "";
+    QTest::newRow("turned") << 2.0 << 0.0 << 1.0 << "turned against each other by up to 2°";
+    QTest::newRow("uneven") << 0.0 << 0.2 << 1.0 << "off a grid of equal steps by up to 0.2";
+    QTest::newRow("wide") << 0.0 << 0.0 << 1.3 << "columns are 1.3 times as far apart as rows";
+  }
+  void camerasThatAreNoGrid_areToldWhy() {
+    QFETCH(double, turn_deg);
+    QFETCH(double, off);
+    QFETCH(double, stretch);
+    QFETCH(QString, problem);
+    std::vector<io::CameraPose> poses;
+    for (int i = 0; i < 25; ++i) {
+      poses.push_back({.image = {},
+                       .center = {stretch * (i % 5), static_cast<double>(i / 5), 0},
+                       .right = {1, 0, 0},
+                       .down = {0, 1, 0},
+                       .ahead = {0, 0, 1}});
+    }
+    const double turn = turn_deg * std::acos(-1.0) / 180;
+    poses[12].right = {std::cos(turn), 0, -std::sin(turn)};
+    poses[12].ahead = {std::sin(turn), 0, std::cos(turn)};
+    poses[12].center[1] += off;
+
+    const std::string found = io::find_pose_grid(poses).problem;
+
+    QVERIFY2(problem.isEmpty() == found.empty() &&
+                 found.find(problem.toStdString()) != std::string::npos,
+             found.c_str());
+  }
+
+  void damagedColmap_namesItsLine() {
+    std::ofstream(folder_->path("images.txt")) << "# images\n1 1 0 0 0 0 0 zero 1 a.png\n\n";
+
+    try {
+      (void)io::read_colmap_poses(folder_->path("images.txt"));
+      QFAIL("it was read");
+    } catch (const IoError& error) {
+      QVERIFY2(std::string(error.what()).find("line 2") != std::string::npos, error.what());
+    }
+  }
+};
+
+}  // namespace episcope::in_posed_views_test
+
+EPISCOPE_TEST(posed_views_test, PosedViewsTest)
+#include "posed_views_test.moc"
