@@ -29,7 +29,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavfilter libavformat libavcodec libswscale libavutil)
 
 if(EPISCOPE_GUI)
-  find_package(Qt6 REQUIRED COMPONENTS Widgets OpenGLWidgets Svg)
+  find_package(Qt6 REQUIRED COMPONENTS Widgets OpenGL Svg)
   # Always with components: without them VTK wants Qt 5.
   find_package(VTK REQUIRED COMPONENTS ChartsCore CommonCore CommonDataModel CommonTransforms
                FiltersCore InteractionStyle InteractionWidgets RenderingAnnotation RenderingContext2D

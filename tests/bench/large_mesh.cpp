@@ -32,7 +32,7 @@ double seconds_since(Clock::time_point begin) {
 double frames_per_second(PointCloudView& view, double seconds) {
   bool is_shown = false;
   const auto connection =
-      QObject::connect(&view, &QOpenGLWidget::frameSwapped, [&] { is_shown = true; });
+      QObject::connect(&view, &OffscreenGl::frameDrawn, [&] { is_shown = true; });
   const QPoint middle = view.rect().center();
   QTest::mousePress(&view, Qt::LeftButton, {}, middle);
   QTest::mouseMove(&view, middle + QPoint(10, 0));

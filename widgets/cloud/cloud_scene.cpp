@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/cloud/cloud_scene.h"
 
+#include "widgets/cloud/offscreen_gl.h"
 #include "widgets/style/theme.h"
 
 #include <vtkCallbackCommand.h>
@@ -20,7 +21,6 @@
 
 #include <QMouseEvent>
 #include <QOpenGLContext>
-#include <QOpenGLWidget>
 #include <QWheelEvent>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ void CloudScene::observe(const Subject& subject, unsigned long event,
   subject->AddObserver(event, command);
 }
 
-CloudScene::CloudScene(QOpenGLWidget& view)
+CloudScene::CloudScene(OffscreenGl& view)
     : view_(view), parts_(std::make_shared<const CloudParts>()), marks_(*renderer_) {
   window_->SetMultiSamples(0);  // With a software renderer, this is most of the time of a frame.
   window_->SetOwnContext(0);

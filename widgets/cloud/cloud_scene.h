@@ -18,7 +18,6 @@
 #include <vector>
 
 class QMouseEvent;
-class QOpenGLWidget;
 class QWheelEvent;
 class vtkGenericOpenGLRenderWindow;
 class vtkGenericRenderWindowInteractor;
@@ -30,12 +29,14 @@ class vtkStaticPointLocator;
 
 namespace episcope {
 
+class OffscreenGl;
+
 /// Everything of VTK in a point cloud view: one render window, one renderer, an actor for each
 /// cloud, never shared. Drawing needs the OpenGL context of the view to be current.
 class CloudScene {
  public:
   /// `view` must outlive this.
-  explicit CloudScene(QOpenGLWidget& view);
+  explicit CloudScene(OffscreenGl& view);
   ~CloudScene();
   CloudScene(const CloudScene&) = delete;
   CloudScene& operator=(const CloudScene&) = delete;
@@ -93,7 +94,7 @@ class CloudScene {
   [[nodiscard]] std::optional<Place> seenAt(int x, int y);
   [[nodiscard]] vtkStaticPointLocator& locator(std::size_t part);
 
-  QOpenGLWidget& view_;
+  OffscreenGl& view_;
   CloudPartsPtr parts_;
   CloudLook look_;
   Box box_{};  // around the clouds, before the z-stretch

@@ -26,7 +26,7 @@ constexpr qint64 kFluent_ms = 30;  // a frame that takes longer is drawn with fe
 }  // namespace
 
 PointCloudView::PointCloudView(QWidget* parent)
-    : QOpenGLWidget(parent), scene_(std::make_unique<CloudScene>(*this)) {
+    : OffscreenGl(parent), scene_(std::make_unique<CloudScene>(*this)) {
   setObjectName("pointCloudView");
   setFocusPolicy(Qt::NoFocus);  // the keyboard stays with the light field
   setMouseTracking(true);
@@ -42,11 +42,6 @@ PointCloudView::PointCloudView(QWidget* parent)
 }
 
 PointCloudView::~PointCloudView() {
-  if (context()) disconnect(context(), nullptr, this, nullptr);
-  releaseContext();
-}
-
-void PointCloudView::releaseContext() {
   if (!context()) return;
   makeCurrent();
   scene_->finalize();
@@ -54,9 +49,6 @@ void PointCloudView::releaseContext() {
 }
 
 void PointCloudView::initializeGL() {
-  // Also called again, with another context, after the widget got another window.
-  connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &PointCloudView::releaseContext,
-          Qt::UniqueConnection);
   scene_->initialize();
 }
 
@@ -191,8 +183,6 @@ bool PointCloudView::handleMouse(const QMouseEvent& event) {
 }
 
 bool PointCloudView::event(QEvent* event) {
-  // QOpenGLWidget sends events from within its constructor, before there is a scene.
-  if (!scene_) return QOpenGLWidget::event(event);
   switch (event->type()) {
     case QEvent::MouseButtonPress:
     case QEvent::MouseButtonRelease:
@@ -214,13 +204,13 @@ bool PointCloudView::event(QEvent* event) {
       resetCamera();
       return true;
     case QEvent::Resize: {
-      const bool done = QOpenGLWidget::event(event);
+      const bool done = QWidget::event(event);
       scene_->resize();
       if (!is_turned_) showPreset(preset_);  // fills the new size
       return done;
     }
     default:
-      return QOpenGLWidget::event(event);
+      return QWidget::event(event);
   }
 }
 
@@ -229,10 +219,7 @@ QWidget* make_point_cloud_view(QWidget* parent) {
       QGuiApplication::platformName() != "minimal") {
     return new PointCloudView(parent);
   }
-  auto* label = new QLabel(
-      PointCloudView::tr("There is no 3D view: this session has no display with OpenGL. Export the "
-                         "result as PLY to see it elsewhere."),
-      parent);
+  auto* label = new QLabel(no_gl_text(), parent);
   label->setObjectName("pointCloudUnavailable");
   label->setAlignment(Qt::AlignCenter);
   label->setWordWrap(true);

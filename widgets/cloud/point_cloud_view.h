@@ -3,8 +3,8 @@
 
 #include "engine/render/shade.h"
 #include "widgets/cloud/cloud_look.h"
+#include "widgets/cloud/offscreen_gl.h"
 
-#include <QOpenGLWidget>
 #include <QPointF>
 #include <QString>
 #include <QTimer>
@@ -24,7 +24,7 @@ enum class CloudPreset { Front, Tilted, Side };
 /// Point clouds and surfaces drawn by VTK: left drag turns, middle drag pans, wheel zooms, a click
 /// picks a point. While the camera moves, few points are drawn if all take too long. Nothing is
 /// drawn while nothing changes. Cannot live on the offscreen platform: use `make_point_cloud_view`.
-class PointCloudView : public QOpenGLWidget {
+class PointCloudView : public OffscreenGl {
   Q_OBJECT
 
  public:
@@ -65,7 +65,6 @@ class PointCloudView : public QOpenGLWidget {
   void paintGL() override;
 
  private:
-  void releaseContext();
   void beginMoving();
   bool handleMouse(const QMouseEvent& event);
 

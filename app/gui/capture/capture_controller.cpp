@@ -94,8 +94,6 @@ void CaptureController::followGantry() {
 
 void CaptureController::makePanel() {
   if (panel_) return;
-  // As in the 3D tab: the first OpenGL widget has the native window recreated.
-  bench_.window.move(bench_.window.pos());
   panel_ = new CapturePanel(tab_);
   auto* layout = new QVBoxLayout(tab_);
   layout->setContentsMargins(0, 0, 0, 0);

@@ -58,9 +58,6 @@ bool CloudController::isOnScreen() const {
 
 void CloudController::makePanel() {
   if (panel_) return;
-  // The first OpenGL widget has the native window recreated; the desktop would place it anew unless
-  // the window fixes its position.
-  bench_.window.move(bench_.window.pos());
   panel_ = new PointCloudPanel(tab_);
   const CloudSettings settings = read_cloud_settings();
   panel_->controls().setChoice(settings.choice);

@@ -69,6 +69,7 @@ class CloudWindowTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void firstOpening_keepsTheNativeWindow();
   void click_movesTheCrossHair_andTheCrossHairIsMarked();
   void large_takesThePlaceOfTheView_andReturns();
   void otherArrangement_dismissesTheLargeView();
@@ -81,6 +82,21 @@ class CloudWindowTest : public QObject {
   void export_writesWhatIsSeen();
   void manyPoints_moveFluently();
 };
+
+// A window that Qt makes anew vanishes for a moment, and takes the second half of a double click on
+// the tab with it.
+void CloudWindowTest::firstOpening_keepsTheNativeWindow() {
+  WindowFixture f;
+  f.openSmall();
+  const WId native = f.window.winId();
+
+  f.trigger("tab.cloud");
+
+  const auto& view = *find<PointCloudPanel>(f.window).display().view();
+  QTRY_COMPARE_WITH_TIMEOUT(view.pointCount(), std::size_t(96 * 96), kPatience);
+  QTRY_VERIFY(view.isVisible());
+  QCOMPARE(f.window.winId(), native);
+}
 
 void CloudWindowTest::click_movesTheCrossHair_andTheCrossHairIsMarked() {
   CloudFixture f;
@@ -224,7 +240,7 @@ void CloudWindowTest::distance_isToldAsNumberAndColours() {
 void CloudWindowTest::whatIsNotSeen_isNotHeld() {
   CloudFixture f;
   f.trigger("tab.compare");
-  QSignalSpy frames(&f.view(), &QOpenGLWidget::aboutToCompose);
+  QSignalSpy frames(&f.view(), &OffscreenGl::frameDrawn);
 
   f.window.bench().session.set_view({4, 5});
   QTRY_COMPARE(f.view().pointCount(), std::size_t(0));
