@@ -23,8 +23,8 @@ namespace {
 constexpr int kActionColumns = 2;  // Their texts are long.
 constexpr int kWidestName = 140;
 
-// Columns of the list of labels that have a tool tip.
-enum { kMean = 3, kMin, kMax };
+// Columns of the list of labels that are more than a number.
+enum { kPixels = 1, kShare, kMean, kMin, kMax };
 
 QString name_of(const LabelInfo& label) {
   return QString::fromStdString(label.name);
@@ -149,6 +149,7 @@ void CheckPanel::setRows(const std::vector<Row>& rows, int current_label) {
                          1);
     item->setIcon(0, swatch(row.label.color, palette()));
     item->setData(0, Qt::UserRole, row.label.id);
+    item->setToolTip(kPixels, row.share);
     for (const int column : {kMean, kMin, kMax}) item->setToolTip(column, row.tip);
     if (row.label.id == current_label) labels_->setCurrentItem(item);
   }
@@ -160,19 +161,24 @@ bool CheckPanel::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
-// Names are read before numbers: where both do not fit, the list scrolls.
+// Names are read before numbers: where both do not fit, the share is left to the tool tip of the
+// pixels, and if that is not enough, the list scrolls.
 void CheckPanel::fitNames() {
   QHeaderView& header = *labels_->header();
   const QAbstractItemView& cells = *labels_;
   const auto width_of = [&](int column) {
     return std::max(header.sectionSizeHint(column), cells.sizeHintForColumn(column));
   };
-  const int wanted = std::min(width_of(0), kWidestName);
-  int numbers = 0;
-  for (int column = 1; column < header.count(); ++column) numbers += width_of(column);
-  const bool has_room = wanted + numbers <= labels_->viewport()->width();
+  header.setSectionHidden(kShare, false);  // What is hidden has no width.
+  const int share = width_of(kShare);
+  const int name = std::min(width_of(0), kWidestName);
+  int all = name;
+  for (int column = 1; column < header.count(); ++column) all += width_of(column);
+  const int room = labels_->viewport()->width();
+  header.setSectionHidden(kShare, all > room);
+  const bool has_room = (all > room ? all - share : all) <= room;
   header.setSectionResizeMode(0, has_room ? QHeaderView::Stretch : QHeaderView::Fixed);
-  if (!has_room) header.resizeSection(0, wanted);
+  if (!has_room) header.resizeSection(0, name);
 }
 
 void CheckPanel::setPieces(const QString& title, const std::vector<Piece>& pieces) {

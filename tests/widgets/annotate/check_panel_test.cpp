@@ -20,6 +20,7 @@ class CheckPanelTest : public QObject {
  private slots:
   void longNames_leaveRoomForEachOther();
   void headersOfEmptyTables_areSeenWhole();
+  void narrowTable_showsHolesRatherThanTheShare();
 };
 
 void CheckPanelTest::headersOfEmptyTables_areSeenWhole() {
@@ -35,6 +36,31 @@ void CheckPanelTest::headersOfEmptyTables_areSeenWhole() {
       QVERIFY2(header.sectionSize(column) >= header.sectionSizeHint(column), name);
     }
   }
+}
+
+void CheckPanelTest::narrowTable_showsHolesRatherThanTheShare() {
+  const CheckPanel::Row row{.label = {1, "label 1", {255, 0, 0}},
+                            .pixels = 45091,
+                            .share = "30.6 %",
+                            .mean = "−0.39",
+                            .min = "−1.23",
+                            .max = "−0.55",
+                            .islands = 12,
+                            .holes = 1};
+  CheckPanel panel;
+  panel.setRows(std::vector(20, row), 1);
+  panel.resize(366, 600);
+  panel.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&panel));
+  const auto& labels = *panel.findChild<QTreeWidget*>("check.labels");
+  const auto is_whole = [&] { return labels.header()->length() <= labels.viewport()->width(); };
+
+  QVERIFY(is_whole());
+  QVERIFY(labels.isColumnHidden(2));
+  QCOMPARE(labels.topLevelItem(0)->toolTip(1), QString("30.6 %"));
+  panel.resize(500, 600);
+  QTRY_VERIFY(!labels.isColumnHidden(2));
+  QVERIFY(is_whole());
 }
 
 void CheckPanelTest::longNames_leaveRoomForEachOther() {
