@@ -95,12 +95,18 @@ void FocusController::bringBack(const Kept& kept, double moved_px) {
   Measurements measured = place.measured;
   for (EpiMeasurement& each : measured.list) each.disparity_px -= moved_px;
   session_.set_measurements(measured);
-  showQuantity(kept);
-  if (!kept.results.empty()) moveResults(kept, moved_px);
+  if (!place.capture.empty()) session_.set_capture(place.capture);
+  if (kept.results.empty()) {
+    showAsBefore(kept);
+  } else {
+    moveResults(kept, moved_px);
+  }
 }
 
-void FocusController::showQuantity(const Kept& kept) {
+void FocusController::showAsBefore(const Kept& kept) {
   if (kept.place.quantity) bench_.overlay.setQuantity(*kept.place.quantity);
+  session_.set_comparison(kept.place.comparison);
+  bench_.overlay.setDifference(kept.place.comparison.shows_difference);
 }
 
 void FocusController::moveResults(const Kept& kept, double moved_px) {
@@ -130,7 +136,7 @@ void FocusController::moveResults(const Kept& kept, double moved_px) {
         }
         if (kept.shown < ids.size()) session_.show_estimate(ids[kept.shown]);
         if (kept.compared < ids.size()) session_.compare_with(ids[kept.compared]);
-        showQuantity(kept);
+        showAsBefore(kept);
       });
 }
 

@@ -39,7 +39,7 @@ class FocusController : public QObject {
   [[nodiscard]] Kept kept() const;
   void bringBack(const Kept& kept, double moved_px);
   void moveResults(const Kept& kept, double moved_px);
-  void showQuantity(const Kept& kept);
+  void showAsBefore(const Kept& kept);
 
   Workbench bench_;
   Session& session_;

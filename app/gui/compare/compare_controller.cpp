@@ -90,6 +90,9 @@ void CompareController::connectWall() {
 void CompareController::update(Parts parts) {
   if (parts.has(Part::Scene) && session_.scene()) {
     restore();
+  } else if (parts.has(Part::Display) && session_.place().comparison.mode != mode_ &&
+             !bench_.stage.isPreviewing()) {
+    restore();
   } else if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Live) &&
              !isAvailable(mode_)) {
     showComparison(CompareMode::Single);

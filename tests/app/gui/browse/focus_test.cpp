@@ -7,6 +7,7 @@
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
+#include "widgets/canvas/view_canvas.h"
 #include "widgets/compare/overlay_bar.h"
 #include "widgets/controls/message_bar.h"
 
@@ -64,6 +65,9 @@ class FocusTest : public QObject {
   void appliedFocus_keepsThePlace();
   void appliedFocus_keepsNames();
   void appliedFocus_keepsWhatWasDoneOnTheScene();
+  void appliedFocus_keepsPairs();
+  void appliedFocus_keepsTheComparison();
+  void appliedFocus_keepsTheDifference();
   void undo_bringsTheFileBack();
   void whileAMethodRuns_itIsRefused();
   void whatIsPainted_isNotLost();
@@ -139,6 +143,47 @@ void FocusTest::appliedFocus_keepsWhatWasDoneOnTheScene() {
   QVERIFY(std::abs(f.session().place().measured.list[0].disparity_px - (0.8 - kFocus)) < 1e-9);
   QCOMPARE(f.session().place().judged.pixels, JudgedPixels::Rectangle);
   QTRY_COMPARE(f.window.bench().overlay.quantity(), render::Quantity::Truth);
+}
+
+void FocusTest::appliedFocus_keepsPairs() {
+  Focused f;
+  CaptureWork work;
+  const capture::PointPair corner{.name = "corner", .x_px = 20, .y_px = 30, .point = {}};
+  work.objects.push_back({.name = "box", .pairs = {corner}});
+  f.session().set_capture(work);
+  f.trigger("tab.capture");
+
+  f.clickApply();
+  f.waitFor(kFocus);
+
+  QTRY_COMPARE(f.session().place().capture.objects.size(), 1U);
+  QCOMPARE(f.session().place().capture.objects[0].pairs.size(), 1U);
+}
+
+void FocusTest::appliedFocus_keepsTheComparison() {
+  Focused f;
+  f.trigger("compare.wipe");
+  emit f.canvas()->wipeMoved(0.25);
+
+  f.clickApply();
+  f.waitFor(kFocus);
+
+  QTRY_COMPARE(f.session().place().comparison.mode, CompareMode::Wipe);
+  QCOMPARE(f.session().place().comparison.wipe_position, 0.25);
+  QTRY_VERIFY(f.action("compare.wipe")->isChecked());
+}
+
+void FocusTest::appliedFocus_keepsTheDifference() {
+  Focused f;
+  f.runAndWait();
+  f.trigger("compare.difference");
+  QVERIFY(f.window.bench().overlay.showsDifference());
+
+  f.clickApply();
+  QTRY_COMPARE_WITH_TIMEOUT(f.baked(), kFocus, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().estimates().size(), 2U, kPatience);
+
+  QTRY_VERIFY(f.window.bench().overlay.showsDifference());
 }
 
 void FocusTest::undo_bringsTheFileBack() {
