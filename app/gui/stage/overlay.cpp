@@ -283,8 +283,9 @@ void Overlay::showCaption(const MapChoice& choice) const {
   if (choice.quantity != Quantity::View && picture_.isNull() && is_up_to_date_) {
     caption += tr(" · no such map for this view");
   }
-  const bool has_sides =
-      choice.quantity != Quantity::Difference && (is_flipped_ || session_.side_b());
+  // Truth and labels are of neither.
+  const bool has_sides = is_of_results(quantity_) && choice.quantity != Quantity::Difference &&
+                         (is_flipped_ || session_.side_b());
   stage_.canvas()->setCaption(caption, !has_sides ? Side::None : is_flipped_ ? Side::B : Side::A);
 }
 

@@ -13,6 +13,7 @@
 #include "widgets/compare/histogram_view.h"
 #include "widgets/compare/metric_table.h"
 #include "widgets/compare/statistics_panel.h"
+#include "widgets/style/side.h"
 
 #include <QClipboard>
 #include <QComboBox>
@@ -33,6 +34,13 @@ namespace {
 QPoint mark_of(const QTreeWidget& tree, int row) {
   const QRect item = tree.visualItemRect(tree.topLevelItem(row));
   return {tree.header()->sectionSize(0) / 2, item.center().y()};
+}
+
+bool has_color(const QImage& image, QColor color) {
+  for (int i = 0; i < image.width() * image.height(); ++i) {
+    if (image.pixelColor(i % image.width(), i / image.width()) == color) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -58,6 +66,7 @@ class CompareTest : public QObject {
   void withoutResults_nothingCanBeCompared();
   void closedScene_leavesEveryMode();
   void badPixels_followTheirThreshold();
+  void truth_isMarkedAsNeitherSide();
 };
 
 void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
@@ -114,6 +123,24 @@ void CompareTest::flip_marksWhichOneIsSeen() {
   QVERIFY(epi_of_a != epi_of_b);  // the line and its label are of B, too
   QCOMPARE(epi->grab().toImage(), epi_of_a);
   QCOMPARE(f.canvas()->grab().toImage(), of_a);
+}
+
+void CompareTest::truth_isMarkedAsNeitherSide() {
+  Compared f({0.0F, 0.5F});
+  const auto is_marked = [&] {
+    const QImage corner = f.canvas()->grab({0, 0, 26, 26}).toImage();
+    return has_color(corner, side_color(Side::A)) || has_color(corner, side_color(Side::B));
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(is_marked(), kPatience);
+
+  f.trigger("overlay.truth");
+  QTRY_VERIFY_WITH_TIMEOUT(!is_marked(), kPatience);
+  QTest::keyPress(f.canvas(), Qt::Key_Tab);
+  QVERIFY(!is_marked());
+  QTest::keyRelease(f.canvas(), Qt::Key_Tab);
+
+  f.trigger("overlay.disparity");
+  QTRY_VERIFY_WITH_TIMEOUT(is_marked(), kPatience);
 }
 
 void CompareTest::flip_isHeardInLists_data() {
