@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/files/file_controller.h"
 
-#include "app/gui/document/document_controller.h"
 #include "app/gui/files/builtin_dialog.h"
 #include "app/gui/files/recent_inputs.h"
 #include "app/gui/files/save_forms.h"
@@ -19,6 +18,8 @@
 #include <QMimeData>
 #include <QUrl>
 
+#include <algorithm>
+
 namespace episcope {
 
 FileController::FileController(const Workbench& bench)
@@ -34,14 +35,9 @@ FileController::FileController(const Workbench& bench)
     connect(&bench.opener, what, this, &FileController::remember);
   }
   connect(&bench.commands, &Commands::keysChanged, this, &FileController::showInvitation);
-  connect(&bench.document, &DocumentController::unsavedChanged, this, [this](bool is_unsaved) {
-    showTitle();
-    bench_.window.setWindowModified(is_unsaved);
-  });
   bench.session.on_changed([this](Parts parts) {
-    if (parts.has(Part::Scene)) showTitle();
+    if (parts.has(Part::Scenes)) showInvitation();
   });
-  showTitle();
   showInvitation();
 }
 
@@ -179,6 +175,21 @@ void FileController::openAny(const QString& path) {
   }
 }
 
+// One after the other, for each takes the place of what is still being opened; results last, as
+// they belong to a light field.
+void FileController::openAll(QStringList paths) {
+  std::stable_partition(paths.begin(), paths.end(),
+                        [](const QString& path) { return !is_result(path); });
+  if (paths.isEmpty()) return;
+  const QString path = paths.takeFirst();
+  if (bench_.session.scene() && is_result(path)) {
+    openAny(path);
+    openAll(paths);
+  } else {
+    bench_.opener.open(path, [this, paths] { openAll(paths); });
+  }
+}
+
 void FileController::fillRecentMenu() {
   recent_menu_->clear();
   for (const QString& input : recent_inputs()) {
@@ -194,18 +205,12 @@ void FileController::fillRecentMenu() {
   bench_.commands.refresh();
 }
 
-void FileController::showTitle() {
-  const LightFieldPtr light_field = bench_.session.light_field();
-  bench_.window.setWindowTitle(
-      light_field ? tr("%1[*] — Episcope").arg(QString::fromStdString(light_field->info().name))
-                  : QStringLiteral("Episcope"));
-}
-
 void FileController::showInvitation() {
   const QString key = bench_.commands.keyText("file.open");
   bench_.stage.canvas()->setEmptyHint(
-      key.isEmpty() ? tr("Open a light field, or drop a file or a folder here.")
-                    : tr("Open a light field with %1, or drop a file or a folder here.").arg(key));
+      !bench_.session.scenes().empty() ? tr("Choose one in the list at the upper left.")
+      : key.isEmpty() ? tr("Open a light field, or drop a file or a folder here.")
+                      : tr("Open a light field with %1, or drop a file or a folder here.").arg(key));
 }
 
 bool FileController::eventFilter(QObject* watched, QEvent* event) {
@@ -216,7 +221,12 @@ bool FileController::eventFilter(QObject* watched, QEvent* event) {
   const QList<QUrl> urls = drop->mimeData()->urls();
   if (urls.isEmpty() || !urls.front().isLocalFile()) return false;
   drop->acceptProposedAction();
-  if (event->type() == QEvent::Drop) openAny(urls.front().toLocalFile());
+  if (event->type() != QEvent::Drop) return true;
+  QStringList paths;
+  for (const QUrl& url : urls) {
+    if (url.isLocalFile()) paths << url.toLocalFile();
+  }
+  openAll(paths);
   return true;
 }
 

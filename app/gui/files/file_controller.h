@@ -4,13 +4,13 @@
 #include "app/gui/bench/workbench.h"
 
 #include <QObject>
+#include <QStringList>
 
 class QMenu;
 
 namespace episcope {
 
-/// Opens light fields and results that the user chooses or drops, lists the recent ones, and names
-/// the window after what is open.
+/// Opens light fields and results that the user chooses or drops, and lists the recent ones.
 class FileController : public QObject {
   Q_OBJECT
 
@@ -31,9 +31,9 @@ class FileController : public QObject {
   void askForBuiltin();
   /// A result is added to the open light field; anything else is opened.
   void openAny(const QString& path);
+  void openAll(QStringList paths);
   void remember(const QString& input);
   void fillRecentMenu();
-  void showTitle();
   void showInvitation();
 
   Workbench bench_;

@@ -44,6 +44,7 @@ class OpeningTest : public QObject {
   void dialog_beginsBesideWhatWasOpened();
   void dialog_remembersItsFolder();
   void droppedFile_isOpened();
+  void droppedFiles_areAllOpened();
   void anotherScene_hasItsOwnResults();
   void closedScene_leavesTheEmptyWindow();
   void recentFiles_areRemembered();
@@ -256,6 +257,23 @@ void OpeningTest::droppedFile_isOpened() {
   QCoreApplication::sendEvent(&f.window, &drop);
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene() != nullptr, kPatience);
+}
+
+void OpeningTest::droppedFiles_areAllOpened() {
+  WindowFixture f;
+  QMimeData data;
+  QList<QUrl> urls;
+  for (const char* id : {"slant", "edge", "fronto"}) {
+    urls << QUrl::fromLocalFile(f.writeScene(id, WindowFixture::smallOptions()));
+  }
+  data.setUrls(urls);
+  QDragEnterEvent enter({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+
+  QCoreApplication::sendEvent(&f.window, &enter);
+  QCoreApplication::sendEvent(&f.window, &drop);
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.scenes().size(), 3U, kScenePatience);
 }
 
 void OpeningTest::anotherScene_hasItsOwnResults() {
