@@ -24,6 +24,7 @@ void ViewCanvas::setPicture(const QImage& picture) {
   }
   const bool is_new_size = picture.size() != picture_.size();
   picture_ = picture;
+  if (state_ != State::Picture) setAccessibleDescription({});
   state_ = State::Picture;
   if (is_new_size) {
     zoomToFit();
@@ -120,6 +121,7 @@ void ViewCanvas::showError(const QString& sentence) {
 void ViewCanvas::showMessage(State state, const QString& text) {
   state_ = state;
   message_ = text;
+  setAccessibleDescription(text);
   picture_ = {};
   overlay_ = {};
   scribbles_ = {};

@@ -154,6 +154,7 @@ void Autosave::takeOver(const fs::path& folder) {
 
 void Autosave::setProjectFile(fs::path file) {
   project_file_ = std::move(file);
+  emit projectFileChanged();
   schedule();
 }
 

@@ -39,6 +39,9 @@ class Autosave : public QObject {
   /// Whether all that is open is kept.
   [[nodiscard]] bool isIdle() const { return !is_writing_ && !is_due_; }
 
+ signals:
+  void projectFileChanged();
+
  private:
   /// What was written.
   struct Kept {

@@ -6,6 +6,7 @@
 #include "app/gui/project/project_guard.h"
 #include "app/gui/project/scene_chooser.h"
 #include "app/gui/project/session_recovery.h"
+#include "app/gui/project/window_title.h"
 
 namespace episcope {
 
@@ -15,6 +16,7 @@ void add_project(const Workbench& bench) {
   new ProjectGuard(bench, *project);
   new SessionRecovery(bench, *autosave);
   new SceneChooser(bench);
+  new WindowTitle(bench, *autosave);
 }
 
 }  // namespace episcope

@@ -4,6 +4,7 @@
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/opening/scene_switcher.h"
+#include "app/gui/stage/stage.h"
 #include "app/session/session.h"
 
 #include <QComboBox>
@@ -36,6 +37,7 @@ SceneChooser::SceneChooser(const Workbench& bench)
     fill();  // until it is read, the one before is shown
   });
   addCommands();
+  connect(&bench.stage, &Stage::previewChanged, this, &SceneChooser::fill);
   bench.session.on_changed([this](Parts parts) {
     if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates)) fill();
   });
@@ -73,7 +75,9 @@ void SceneChooser::fill() {
       list_->findData(QVariant::fromValue<qulonglong>(bench_.session.generation())));
   const bool is_empty = list_->count() == 0;
   list_->setEnabled(!is_empty);
-  list_->setPlaceholderText(is_empty ? tr("nothing is open") : tr("none of these is shown"));
+  list_->setPlaceholderText(!is_empty                      ? tr("none of these is shown")
+                            : bench_.stage.isPreviewing() ? tr("opening …")
+                                                          : tr("nothing is open"));
 }
 
 }  // namespace episcope

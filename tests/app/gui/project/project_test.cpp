@@ -33,6 +33,7 @@ class ProjectTest : public QObject {
   void runningMethod_givesItsResultToItsOwnScene();
   void memoryBudget_keepsResultsOnDisk();
   void batch_runsMethodsOnAllScenes();
+  void list_saysWhatIsBeingOpened();
 };
 
 void ProjectTest::openedScene_joinsTheList() {
@@ -180,6 +181,18 @@ void ProjectTest::memoryBudget_keepsResultsOnDisk() {
   for (int y = 0; y < after.height; ++y) {
     QVERIFY(std::equal(after.row(y), after.row(y) + after.width, &before.at(y, 0)));
   }
+}
+
+void ProjectTest::list_saysWhatIsBeingOpened() {
+  Working f;
+  Stage& stage = f.window.bench().stage;
+  QCOMPARE(list_of(f)->placeholderText(), QString("nothing is open"));
+
+  stage.showPreview(QImage(20, 20, QImage::Format_RGB32), "edge");
+  QCOMPARE(list_of(f)->placeholderText(), QString("opening …"));
+
+  stage.endPreview();
+  QCOMPARE(list_of(f)->placeholderText(), QString("nothing is open"));
 }
 
 // One of them is on disk only.

@@ -4,6 +4,7 @@
 #include "app/session/project/stored_project.h"
 #include "tests/app/gui/project/working.h"
 #include "tests/window_test_main.h"
+#include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
 
 #include <QComboBox>
@@ -91,6 +92,7 @@ void save_work_of_three(const QTemporaryDir& folder) {
   f.session().set_view({1, 7});
   f.saveAs(folder.filePath("work.episcope"));
   QVERIFY(!f.window.isWindowModified());
+  QCOMPARE(f.window.windowTitle(), QString("slant[*] — work.episcope — Episcope"));
   QVERIFY(!f.project().hasChanged());
   keep_inputs(f, folder.filePath("work.episcope"));
   f.trigger("file.quit");
@@ -304,6 +306,8 @@ void SavedProjectTest::damagedLightField_leavesTheOthersToChoose() {
   QVERIFY(list->isEnabled());
   QCOMPARE(list->count(), 2);
   QVERIFY2(list->placeholderText().contains("none of these"), qPrintable(list->placeholderText()));
+  QVERIFY2(f.canvas()->accessibleDescription().startsWith("Choose one"),
+           qPrintable(f.canvas()->accessibleDescription()));
   f.trigger("scenes.next");
   QTRY_COMPARE_WITH_TIMEOUT(f.session().generation(), f.session().scenes()[0]->id, kScenePatience);
 }
