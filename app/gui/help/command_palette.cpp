@@ -62,24 +62,34 @@ void CommandPalette::popUp() {
   edit_->setFocus();
 }
 
+// What cannot be run now stands, if it is asked for, behind what can, in gray.
 void CommandPalette::filter(const QString& text) {
   list_->clear();
-  for (const Command& command : commands_.all()) {
-    const QAction* action = commands_.find(command.id);
-    const QString title = QStringLiteral("%1: %2").arg(menu_path(command.menu), action->text());
-    if (!action->isEnabled() || command.submenu || !matches(title, text)) continue;
-    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
-    auto* item = new QListWidgetItem(title, list_);
-    item->setData(kActionIdRole, command.id);
-    item->setData(AsideDelegate::kAsideRole, keys);
-    item->setToolTip(command.tip);
+  list(text, true);
+  if (!text.isEmpty()) list(text, false);
+  if (list_->count() == 0) {
+    (new QListWidgetItem(tr("No command has this name."), list_))->setFlags(Qt::NoItemFlags);
   }
   list_->setCurrentRow(0);
 }
 
+void CommandPalette::list(const QString& text, bool can_run) {
+  for (const Command& command : commands_.all()) {
+    const QAction* action = commands_.find(command.id);
+    const QString title = QStringLiteral("%1: %2").arg(menu_path(command.menu), action->text());
+    if (action->isEnabled() != can_run || command.submenu || !matches(title, text)) continue;
+    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+    auto* item = new QListWidgetItem(title, list_);
+    if (!can_run) item->setFlags(Qt::NoItemFlags);
+    item->setData(kActionIdRole, command.id);
+    item->setData(AsideDelegate::kAsideRole, keys);
+    item->setToolTip(command.tip);
+  }
+}
+
 void CommandPalette::runCurrent() {
   const QListWidgetItem* item = list_->currentItem();
-  if (!item) return;
+  if (!item || !item->flags().testFlag(Qt::ItemIsEnabled)) return;
   QAction* action = commands_.find(item->data(kActionIdRole).toString());
   close();
   // After the popup is gone, so that the command finds the window in front.

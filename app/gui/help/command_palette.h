@@ -25,6 +25,7 @@ class CommandPalette : public QDialog {
 
  private:
   void filter(const QString& text);
+  void list(const QString& text, bool can_run);
   void runCurrent();
 
   const Commands& commands_;

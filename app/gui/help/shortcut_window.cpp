@@ -143,7 +143,9 @@ void ShortcutWindow::fillGestures() {
 void ShortcutWindow::addGestures(const QString& title, const QList<QStringList>& gestures) {
   auto* group = add_group(tree_, title);
   for (const QStringList& gesture : gestures) {
-    (new QTreeWidgetItem(group, gesture))->setFlags(Qt::ItemIsEnabled);
+    auto* item = new QTreeWidgetItem(group, gesture);
+    item->setFlags(Qt::ItemIsEnabled);
+    item->setToolTip(1, gesture[1]);
   }
 }
 
