@@ -1380,6 +1380,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Commands</source>
         <translation>Befehle</translation>
     </message>
+    <message>
+        <source>No command has this name.</source>
+        <translation>Kein Befehl heißt so.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::CompareBar</name>
@@ -1993,16 +1997,16 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Liste leeren</translation>
     </message>
     <message>
-        <source>%1[*] — Episcope</source>
-        <translation>%1[*] — Episcope</translation>
-    </message>
-    <message>
         <source>Open a light field, or drop a file or a folder here.</source>
         <translation>Ein Lichtfeld öffnen oder eine Datei oder einen Ordner hier ablegen.</translation>
     </message>
     <message>
         <source>Open a light field with %1, or drop a file or a folder here.</source>
         <translation>Ein Lichtfeld mit %1 öffnen oder eine Datei oder einen Ordner hier ablegen.</translation>
+    </message>
+    <message>
+        <source>Choose one in the list at the upper left.</source>
+        <translation>Eines aus der Liste oben links wählen.</translation>
     </message>
 </context>
 <context>
@@ -3733,6 +3737,13 @@ s</translation>
     </message>
 </context>
 <context>
+    <name>episcope::OffscreenGl</name>
+    <message>
+        <source>There is no 3D view: this session has no display with OpenGL. Export the result as PLY to see it elsewhere.</source>
+        <translation>Es gibt keine 3D-Ansicht: diese Sitzung hat keinen Bildschirm mit OpenGL. Das Ergebnis als PLY exportieren, um es anderswo zu sehen.</translation>
+    </message>
+</context>
+<context>
     <name>episcope::Overlay</name>
     <message>
         <source>%1 − %2</source>
@@ -4103,10 +4114,6 @@ s</translation>
     <message>
         <source>3D view</source>
         <translation>3D-Ansicht</translation>
-    </message>
-    <message>
-        <source>There is no 3D view: this session has no display with OpenGL. Export the result as PLY to see it elsewhere.</source>
-        <translation>Es gibt keine 3D-Ansicht: diese Sitzung hat keinen Bildschirm mit OpenGL. Das Ergebnis als PLY exportieren, um es anderswo zu sehen.</translation>
     </message>
 </context>
 <context>
@@ -4686,6 +4693,10 @@ s</translation>
     <message>
         <source>none of these is shown</source>
         <translation>keines davon wird gezeigt</translation>
+    </message>
+    <message>
+        <source>opening …</source>
+        <translation>wird geöffnet …</translation>
     </message>
 </context>
 <context>

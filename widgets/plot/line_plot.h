@@ -52,6 +52,7 @@ class LinePlot : public QWidget {
   void setMark(std::optional<PlotPlace> place);
 
   [[nodiscard]] const Plot& plot() const { return plot_; }
+  [[nodiscard]] const QString& emptyText() const { return empty_text_; }
   [[nodiscard]] std::optional<PlotPlace> mark() const { return mark_; }
   /// Where a point was drawn last, in widget coordinates.
   [[nodiscard]] QPointF positionOf(PlotPlace place) const;
