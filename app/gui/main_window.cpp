@@ -121,13 +121,12 @@ void MainWindow::addTabCommands() {
   int number = 0;
   for (const Tab& tab : core_->frame->tabs()) {
     core_->commands.add({.id = "tab." + tab.id,
-                         .menu = Menu::View,
+                         .menu = Menu::Tabs,
                          .text = tab.command_text,
                          .tip = tab.command_tip,
                          .icon = tab.icon,
                          .keys = {tab.key.isEmpty() ? tr("Ctrl+%1").arg(++number) : tab.key},
-                         .run = [frame = core_->frame, id = tab.id] { frame->showTab(id); },
-                         .section = section::kTabs});
+                         .run = [frame = core_->frame, id = tab.id] { frame->showTab(id); }});
   }
 }
 

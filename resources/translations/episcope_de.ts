@@ -3110,6 +3110,18 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Help</source>
         <translation>Hilfe</translation>
     </message>
+    <message>
+        <source>Other views</source>
+        <translation>Andere Ansichten</translation>
+    </message>
+    <message>
+        <source>Measurements</source>
+        <translation>Messungen</translation>
+    </message>
+    <message>
+        <source>Tabs</source>
+        <translation>Reiter</translation>
+    </message>
 </context>
 <context>
     <name>episcope::MeshResults</name>

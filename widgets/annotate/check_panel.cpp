@@ -5,8 +5,8 @@
 #include "widgets/style/swatch.h"
 #include "widgets/style/theme.h"
 
-#include <QGridLayout>
 #include <QEvent>
+#include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLocale>

@@ -12,9 +12,9 @@ class QOpenGLFramebufferObject;
 
 namespace episcope {
 
-/// A widget whose picture OpenGL draws off screen, and that is painted like any other. QOpenGLWidget
-/// would have Qt make the native window anew when it is first shown: the window vanishes for a
-/// moment, and a double click loses its second half.
+/// A widget whose picture OpenGL draws off screen, and that is painted like any other.
+/// QOpenGLWidget would have Qt make the native window anew when it is first shown: the window
+/// vanishes for a moment, and a double click loses its second half.
 class OffscreenGl : public QWidget {
   Q_OBJECT
 

@@ -12,14 +12,14 @@ namespace episcope {
 void BrowseController::addStep(const QString& id, const QString& text, const QString& tip, int dv,
                                int du, Qt::Key key) {
   bench_.commands.add({.id = "view." + id,
-                       .menu = Menu::View,
+                       .menu = Menu::Views,
                        .text = text,
                        .tip = tip,
                        .keys = {QKeySequence(key)},
                        .run = [this, dv, du] { step(dv, du); },
                        .section = section::kWalk});
   bench_.commands.add({.id = "view." + id + "_most",
-                       .menu = Menu::View,
+                       .menu = Menu::Views,
                        .text = tr("%1, to the end").arg(text),
                        .tip = tr("%1, at the end of the grid").arg(tip),
                        .keys = {QKeySequence(Qt::ShiftModifier | key)},
@@ -33,14 +33,14 @@ void BrowseController::addWalkCommands() {
   addStep("up", tr("View above"), tr("Shows the view above"), -1, 0, Qt::Key_Up);
   addStep("down", tr("View below"), tr("Shows the view below"), 1, 0, Qt::Key_Down);
   bench_.commands.add({.id = "view.center",
-                       .menu = Menu::View,
+                       .menu = Menu::Views,
                        .text = tr("Centre view"),
                        .tip = tr("Shows the view in the middle of the grid"),
                        .keys = {Qt::Key_Home},
                        .run = [this] { goToCenter(); },
                        .section = section::kWalk});
   QAction* play = bench_.commands.add({.id = "view.play",
-                                       .menu = Menu::View,
+                                       .menu = Menu::Views,
                                        .text = tr("Play"),
                                        .tip = tr("Plays the views one after the other, or pauses"),
                                        .icon = "play",

@@ -49,12 +49,12 @@ void FrameController::addCommands() {
   const auto add = [this](const QString& id, const QString& text, const QString& tip,
                           const QKeySequence& key, std::function<void()> run) {
     return Command{.id = "sequence." + id,
-                   .menu = Menu::View,
+                   .menu = Menu::Views,
                    .text = text,
                    .tip = tip,
                    .keys = {key},
                    .run = std::move(run),
-                   .section = section::kWalk,
+                   .section = section::kFrames,
                    .enabled = [this] { return isSequence(); }};
   };
   bench_.commands.add(add("next", tr("Next frame"), tr("Opens the next frame of the sequence"),

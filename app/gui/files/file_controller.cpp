@@ -209,8 +209,9 @@ void FileController::showInvitation() {
   const QString key = bench_.commands.keyText("file.open");
   bench_.stage.canvas()->setEmptyHint(
       !bench_.session.scenes().empty() ? tr("Choose one in the list at the upper left.")
-      : key.isEmpty() ? tr("Open a light field, or drop a file or a folder here.")
-                      : tr("Open a light field with %1, or drop a file or a folder here.").arg(key));
+      : key.isEmpty()
+          ? tr("Open a light field, or drop a file or a folder here.")
+          : tr("Open a light field with %1, or drop a file or a folder here.").arg(key));
 }
 
 bool FileController::eventFilter(QObject* watched, QEvent* event) {

@@ -13,9 +13,12 @@ constexpr const char* kContext = "episcope::Menu";
 constexpr MenuInfo kMenus[] = {
     {Menu::File, QT_TRANSLATE_NOOP("episcope::Menu", "File")},
     {Menu::View, QT_TRANSLATE_NOOP("episcope::Menu", "View")},
+    {Menu::Views, QT_TRANSLATE_NOOP("episcope::Menu", "Other views"), true, Menu::View},
+    {Menu::Measurements, QT_TRANSLATE_NOOP("episcope::Menu", "Measurements"), true, Menu::View},
+    {Menu::Tabs, QT_TRANSLATE_NOOP("episcope::Menu", "Tabs"), true, Menu::View},
+    {Menu::Panes, QT_TRANSLATE_NOOP("episcope::Menu", "Panes"), true, Menu::View},
     {Menu::Colours, QT_TRANSLATE_NOOP("episcope::Menu", "Colours"), true, Menu::View},
     {Menu::Language, QT_TRANSLATE_NOOP("episcope::Menu", "Language"), true, Menu::View},
-    {Menu::Panes, QT_TRANSLATE_NOOP("episcope::Menu", "Panes"), true, Menu::View},
     {Menu::Estimate, QT_TRANSLATE_NOOP("episcope::Menu", "Estimate")},
     {Menu::Compare, QT_TRANSLATE_NOOP("episcope::Menu", "Compare")},
     {Menu::Annotate, QT_TRANSLATE_NOOP("episcope::Menu", "Annotate")},

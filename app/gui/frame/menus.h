@@ -11,9 +11,12 @@ namespace episcope {
 enum class Menu {
   File,
   View,
-  Colours,   ///< In View,
-  Language,  ///< as is this one,
-  Panes,     ///< and this one.
+  Views,  ///< In View, as all up to Language.
+  Measurements,
+  Tabs,
+  Panes,
+  Colours,
+  Language,
   Estimate,
   Compare,
   Annotate,
@@ -49,10 +52,11 @@ inline constexpr int kScribbles = 2;  ///< File
 inline constexpr int kExport = 3;     ///< File
 inline constexpr int kLeave = 4;      ///< File
 
-inline constexpr int kWalk = 0;   ///< View
-inline constexpr int kZoom = 1;   ///< View
-inline constexpr int kFocus = 2;  ///< View
-inline constexpr int kTabs = 3;   ///< View
+inline constexpr int kWalk = 0;    ///< Views
+inline constexpr int kFrames = 1;  ///< Views
+inline constexpr int kZoom = 0;    ///< View
+inline constexpr int kFocus = 1;   ///< View
+inline constexpr int kTabs = 2;    ///< View
 
 }  // namespace section
 

@@ -21,8 +21,6 @@
 namespace episcope {
 namespace {
 
-constexpr int kMeasureSection = 4;  // of the menu View, after the tabs
-
 QString place_of(const EpiMeasurement& each) {
   const bool is_row = each.direction == EpiDirection::Horizontal;
   return is_row ? MeasureController::tr("row %1").arg(each.pixel.y)
@@ -62,13 +60,12 @@ void MeasureController::addCommand(const Row& row) {
   const bool needs_current = row.run != &MeasureController::keep;
   bench_.commands.add(
       {.id = row.id,
-       .menu = Menu::View,
+       .menu = Menu::Measurements,
        .text = row.text,
        .tip = row.tip,
        .icon = row.icon,
        .keys = row.key.isEmpty() ? QList<QKeySequence>() : QList<QKeySequence>{row.key},
        .run = [this, run = row.run] { (this->*run)(); },
-       .section = kMeasureSection,
        .enabled =
            [this, needs_current] {
              return needs_current ? current_of(measured()) != nullptr

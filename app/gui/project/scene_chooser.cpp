@@ -75,7 +75,7 @@ void SceneChooser::fill() {
       list_->findData(QVariant::fromValue<qulonglong>(bench_.session.generation())));
   const bool is_empty = list_->count() == 0;
   list_->setEnabled(!is_empty);
-  list_->setPlaceholderText(!is_empty                      ? tr("none of these is shown")
+  list_->setPlaceholderText(!is_empty                     ? tr("none of these is shown")
                             : bench_.stage.isPreviewing() ? tr("opening …")
                                                           : tr("nothing is open"));
 }

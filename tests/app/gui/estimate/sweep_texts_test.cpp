@@ -26,9 +26,9 @@ void SweepTextsTest::emptyPlot_saysWhatIsToBeDone() {
 
   f.openSmall();
   QTRY_VERIFY2(plot->emptyText().startsWith("Press Run"), qPrintable(plot->emptyText()));
-  const QRect needed = QFontMetrics(plot->font())
-                           .boundingRect(plot->rect(), Qt::AlignCenter | Qt::TextWordWrap,
-                                         plot->emptyText());
+  const QRect needed =
+      QFontMetrics(plot->font())
+          .boundingRect(plot->rect(), Qt::AlignCenter | Qt::TextWordWrap, plot->emptyText());
   QVERIFY(plot->rect().contains(needed));
 
   auto* parameter = f.window.findChild<QComboBox*>("sweep.first");

@@ -36,6 +36,7 @@ class CommandsTest : public QObject {
   void keys_areUnique();
   void everyCommand_hasTextAndTip();
   void everyCommand_isInAMenu();
+  void menus_fitASmallScreen();
   void everyCommandWithKeys_isInTheShortcutWindow();
   void shortenedTexts_areWholeInTheirTips();
   void listOfKeys_isSearched_data();
@@ -97,6 +98,22 @@ void CommandsTest::everyCommand_isInAMenu() {
   QCOMPARE(letters.size(), f.window.menuBar()->actions().size());
   for (const Command& command : f.window.bench().commands.all()) {
     QVERIFY2(in_menus.contains(f.window.bench().commands.find(command.id)), qPrintable(command.id));
+  }
+}
+
+// Those that do not are broken into columns, which cover the window.
+void CommandsTest::menus_fitASmallScreen() {
+  WindowFixture f;
+  for (const QAction* entry : f.window.menuBar()->actions()) {
+    QMenu* menu = entry->menu();
+    menu->popup({0, 0});
+    const QList<QAction*> actions = menu->actions();
+    const QRect first = menu->actionGeometry(actions.front());
+    const QRect last = menu->actionGeometry(actions.back());
+    menu->close();
+
+    QCOMPARE(first.left(), last.left());
+    QVERIFY2(last.bottom() < 760, qPrintable(menu->title()));
   }
 }
 
