@@ -29,7 +29,7 @@ options="-len_control=0 -rss_limit_mb=2560 -malloc_limit_mb=1024 -timeout=30 -de
 # length_of NAME: texts are short, and arrays of a few views take little more than their headers.
 length_of() {
   case "$1" in
-    capture | collection | config | excerpt | manifest | names | project) echo 4096 ;;
+    capture | collection | config | excerpt | manifest | names | poses | project) echo 4096 ;;
     archive | labels | map | matlab | numpy | result | strokes) echo 16384 ;;
     *) echo 65536 ;;
   esac
