@@ -20,6 +20,7 @@ bool is_picture(const MapSet& set) {
 
 /// As in UrbanLF: 5_5.png, and 5_5_label.npy or label.npy.
 bool has_urban_name(const MapSet& set, const BesideViews& views) {
+  if (views.files.files.empty()) return false;  // all in one picture
   const std::string view = numbered_name(views.files.files.front().stem().string()).text;
   const std::string labels = fs::path(set.pattern).stem().string();
   return view == "#_#" && (labels == "#_#_label" || labels == "label");

@@ -165,11 +165,17 @@ class MapSizeTest : public QObject {
     const Image<std::uint8_t> picture = io::join_lenslets(folder_->scene.views, Progress(1));
     io::write_png(folder_->path("scene_macpi.png"), picture.view());
     folder_->write_npy("disparity.npy", center());
+    folder_->write_npy("labels.npy", folder_->scene.labels.view({1, 1}));
 
     const Scene scene = folder_->open({}, {.grid = "3x3"});
 
     QCOMPARE(scene.light_field->info().reading.reader, std::string("mosaic"));
     QCOMPARE(right(scene), 1.0);
+    const ImageView<const std::int32_t> labels = scene.truth->labels.view({1, 1});
+    const ImageView<const std::int32_t> wanted = folder_->scene.labels.view({1, 1});
+    for (int y = 0; y < wanted.height; ++y) {
+      QVERIFY(std::equal(labels.row(y), labels.row(y) + labels.width, wanted.row(y)));
+    }
   }
 };
 
