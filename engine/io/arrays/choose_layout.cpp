@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -167,15 +168,15 @@ std::vector<const ArrayEntry*> light_fields_of(const ArrayFile& file, const std:
     if (axes.empty() ? can_be_light_field(entry) : has_axes) possible.push_back(&entry);
   }
   if (possible.size() <= 1) return possible;
-  using Claim = bool (*)(const ArrayEntry*);
+  using Claim = std::function<bool(const ArrayEntry*)>;
   const Claim has_name = [](const ArrayEntry* entry) { return is_light_field_name(entry->name); };
   const Claim has_five = [](const ArrayEntry* entry) { return entry->shape.size() >= 5; };
   const Claim is_no_map = [](const ArrayEntry* entry) { return !has_other_name(*entry); };
-  const Claim is_likely = [](const ArrayEntry* entry) {
-    return entry->shape.size() >= 5 && !has_other_name(*entry);
+  const Claim is_likely = [&](const ArrayEntry* entry) {
+    return has_five(entry) && is_no_map(entry);
   };
   std::vector<const ArrayEntry*> several;
-  for (const Claim is_meant : {has_name, is_likely, has_five, is_no_map}) {
+  for (const Claim& is_meant : {has_name, is_likely, has_five, is_no_map}) {
     std::vector<const ArrayEntry*> meant;
     std::ranges::copy_if(possible, std::back_inserter(meant), is_meant);
     if (meant.size() == 1) return meant;

@@ -80,35 +80,22 @@ class Elements {
   Read read_;
 };
 
-/// A compressed variable, read from its front to its end.
-class Unpacked {
- public:
-  Unpacked(const fs::path& path, const Element& packed)
-      : stream_(path, packed.begin, packed.end - packed.begin) {}
-
-  std::string read(std::uint64_t at, std::uint64_t count) {
-    std::string bytes(count, '\0');
-    if (!stream_.skip_to(at)) return {};
-    bytes.resize(stream_.read(count, reinterpret_cast<std::uint8_t*>(bytes.data())));
-    return bytes;
-  }
-
- private:
-  InflateStream stream_;
-};
-
 /// The dimensions and the name of a compressed variable must be there as a whole; of one that holds
 /// others, all of them.
 void check_compressed(const fs::path& path, bool is_little, const Element& packed) {
-  Unpacked unpacked(path, packed);
-  const Elements elements(path, is_little, [&](std::uint64_t at, std::uint64_t count) {
-    return unpacked.read(at, count);
-  });
-  const std::string tag = unpacked.read(0, kTag);
+  InflateStream stream(path, packed.begin, packed.end - packed.begin);
+  const auto read = [&stream](std::uint64_t at, std::uint64_t count) {
+    std::string bytes(count, '\0');
+    if (!stream.skip_to(at)) return std::string();
+    bytes.resize(stream.read(count, reinterpret_cast<std::uint8_t*>(bytes.data())));
+    return bytes;
+  };
+  const Elements elements(path, is_little, read);
+  const std::string tag = read(0, kTag);
   if (tag.size() != kTag || number_at(tag, 0, is_little) != kMatrix) throw elements.damaged();
   const std::uint64_t end = kTag + number_at(tag, 4, is_little);
   const Element flags = elements.at(kTag, end);
-  const std::string kind = unpacked.read(flags.begin, 4);
+  const std::string kind = read(flags.begin, 4);
   if (kind.size() != 4) throw elements.damaged();
   if ((number_at(kind, 0, is_little) & 0xFF) <= kStruct) {
     return elements.check(flags.next, end, 1);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace episcope::io {
@@ -24,11 +23,6 @@ DisparityField empty_like(const DisparityField& field, int height, int width) {
   const ViewStack<float>& maps = field.disparity;
   return {ViewStack<float>(maps.grid(), height, width, 1, maps.first()),
           ViewStack<std::uint8_t>(maps.grid(), height, width, 1, maps.first())};
-}
-
-bool is_valid(const DisparityView& map, int y, int x) {
-  const bool is_kept = map.valid.empty() || map.valid.at(y, x) != 0;
-  return is_kept && std::isfinite(map.disparity.at(y, x));
 }
 
 /// Calls `set(view of the result, y, x)` for all pixels, with the map of the view.
@@ -53,7 +47,7 @@ DisparityField reduced(const DisparityField& field, int times) {
     for (int i = 0; i < times * times; ++i) {
       const int from_y = times * y + i / times;
       const int from_x = times * x + i % times;
-      if (is_valid(map, from_y, from_x)) values.push_back(map.disparity.at(from_y, from_x));
+      if (map.is_valid(from_y, from_x)) values.push_back(map.disparity.at(from_y, from_x));
     }
     result.valid.view(view).at(y, x) = values.empty() ? 0 : 1;
     if (values.empty()) return;
@@ -68,7 +62,7 @@ DisparityField enlarged(const DisparityField& field, int times) {
   const ViewStack<float>& maps = field.disparity;
   DisparityField result = empty_like(field, maps.height() * times, maps.width() * times);
   for_pixels(field, result, [&](const DisparityView& map, ViewIndex view, int y, int x) {
-    const bool is_there = is_valid(map, y / times, x / times);
+    const bool is_there = map.is_valid(y / times, x / times);
     result.valid.view(view).at(y, x) = is_there ? 1 : 0;
     if (is_there) result.disparity.view(view).at(y, x) = map.disparity.at(y / times, x / times);
   });

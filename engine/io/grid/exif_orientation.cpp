@@ -2,72 +2,49 @@
 #include "engine/io/grid/exif_orientation.h"
 
 #include "engine/core/text/suffix.h"
+#include "engine/io/grid/file_bytes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <map>
-#include <string_view>
 
 namespace episcope::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBegin = 65536;  ///< Bytes that hold the first segments of a JPEG file.
-constexpr unsigned kOrientationTag = 0x0112;
-
-/// Numbers of a part of a file, in either byte order; 0 behind its end.
-class Bytes {
- public:
-  Bytes(std::string_view bytes, bool is_little) : bytes_(bytes), is_little_(is_little) {}
-  [[nodiscard]] unsigned word(std::size_t at) const { return number(at, 2); }
-  [[nodiscard]] unsigned long_word(std::size_t at) const { return number(at, 4); }
-
- private:
-  [[nodiscard]] unsigned number(std::size_t at, std::size_t length) const {
-    if (at > bytes_.size() || bytes_.size() - at < length) return 0;
-    unsigned value = 0;
-    for (std::size_t i = 0; i < length; ++i) {
-      const std::size_t place = is_little_ ? at + length - 1 - i : at + i;
-      value = value << 8 | static_cast<std::uint8_t>(bytes_[place]);
-    }
-    return value;
-  }
-
-  std::string_view bytes_;
-  bool is_little_;
-};
+constexpr std::uint32_t kOrientationTag = 0x0112;
+constexpr int kMostEntries = 1000;  ///< Of segments, and of tags.
 
 /// Of the TIFF structure in an Exif segment; 0 if it states none.
-int orientation_in(std::string_view tiff) {
-  const Bytes bytes(tiff, tiff.starts_with("II"));
-  const std::size_t directory = bytes.long_word(4);
-  const std::size_t entries = std::min<std::size_t>(bytes.word(directory), 1000);
-  for (std::size_t i = 0; i < entries; ++i) {
-    const std::size_t entry = directory + 2 + 12 * i;
-    if (bytes.word(entry) == kOrientationTag) return static_cast<int>(bytes.word(entry + 8));
+int orientation_in(FileBytes& file, std::streamoff tiff) {
+  const bool is_little = file.number(tiff, 2, true) == 0x4949;  // "II"
+  const auto number = [&](std::streamoff at, int count) {
+    return static_cast<int>(file.number(at, count, is_little));
+  };
+  const std::streamoff directory = tiff + file.number(tiff + 4, 4, is_little);
+  const int entries = std::min(number(directory, 2), kMostEntries);
+  for (int i = 0; i < entries && !file.is_short(); ++i) {
+    const std::streamoff entry = directory + 2 + 12 * i;
+    if (number(entry, 2) == kOrientationTag) return number(entry + 8, 2);
   }
   return 0;
 }
 
 /// Of the first Exif segment of a JPEG file; 0 if there is none.
-int orientation_in_jpeg(std::string_view file) {
-  constexpr std::string_view kExif("Exif\0\0", 6);
-  const Bytes bytes(file, false);
-  if (bytes.word(0) != 0xFFD8) return 0;
-  std::size_t at = 2;
-  while (at + 4 < file.size()) {
-    const unsigned marker = bytes.word(at);
-    const std::size_t length = bytes.word(at + 2);
+int orientation_in_jpeg(FileBytes& file) {
+  constexpr std::uint32_t kExif = 0x45786966;
+  if (file.number(0, 2, false) != 0xFFD8) return 0;
+  std::streamoff at = 2;
+  for (int i = 0; i < kMostEntries && !file.is_short(); ++i) {
+    const std::uint32_t marker = file.number(at, 2, false), length = file.number(at + 2, 2, false);
     if (marker < 0xFF00 || marker == 0xFFDA || length < 2) return 0;  // samples begin
-    const std::string_view segment = file.substr(at + 4, length - 2);
-    if (marker == 0xFFE1 && segment.starts_with(kExif)) {
-      return orientation_in(segment.substr(kExif.size()));
-    }
-    at += 2 + length;
+    const bool is_exif =
+        file.number(at + 4, 4, false) == kExif && file.number(at + 8, 2, false) == 0;
+    if (marker == 0xFFE1 && is_exif) return orientation_in(file, at + 10);
+    at += 2 + static_cast<std::streamoff>(length);
   }
   return 0;
 }
@@ -99,11 +76,8 @@ Image<T> upright_image(const Image<T>& stored, int orientation) {
 int exif_orientation(const fs::path& path) {
   const std::string suffix = suffix_of(path);
   if (suffix != ".jpg" && suffix != ".jpeg") return 1;
-  std::ifstream in(path, std::ios::binary);
-  std::string begin(kBegin, '\0');
-  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
-  const int orientation = orientation_in_jpeg(begin);
+  FileBytes file(path);
+  const int orientation = orientation_in_jpeg(file);
   return orientation >= 1 && orientation <= 8 ? orientation : 1;
 }
 

@@ -2,52 +2,16 @@
 #include "engine/io/grid/image_header.h"
 
 #include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/file_bytes.h"
 
 #include <array>
 #include <cstdint>
-#include <fstream>
+#include <istream>
 #include <optional>
 #include <string_view>
 
 namespace episcope::io {
 namespace {
-
-/// Bytes of a file; what lies behind its end reads as 0 and is remembered.
-class Bytes {
- public:
-  explicit Bytes(const std::filesystem::path& path) : in_(path, std::ios::binary) {}
-
-  [[nodiscard]] std::uint32_t number(std::streamoff at, int count, bool is_little_endian) {
-    std::array<unsigned char, 4> bytes{};
-    in_.clear();
-    in_.seekg(at);
-    in_.read(reinterpret_cast<char*>(bytes.data()), count);
-    if (!in_) is_short_ = true;
-    std::uint32_t value = 0;
-    for (int i = 0; i < count; ++i) {
-      const int place = is_little_endian ? count - 1 - i : i;
-      value = value << 8 | bytes[static_cast<std::size_t>(place)];
-    }
-    return value;
-  }
-  [[nodiscard]] bool begins_with(std::string_view signature) {
-    for (std::size_t i = 0; i < signature.size(); ++i) {
-      const auto expected = static_cast<unsigned char>(signature[i]);
-      if (number(static_cast<std::streamoff>(i), 1, true) != expected) return false;
-    }
-    return true;
-  }
-  [[nodiscard]] std::istream& at(std::streamoff place) {
-    in_.clear();
-    in_.seekg(place);
-    return in_;
-  }
-  [[nodiscard]] bool is_short() const { return is_short_; }
-
- private:
-  std::ifstream in_;
-  bool is_short_ = false;
-};
 
 int length(std::uint32_t value) {
   constexpr std::uint32_t longest = 1 << 24;
@@ -58,7 +22,7 @@ SampleType of_bits(std::uint32_t bits) {
   return bits > 8 ? SampleType::UInt16 : SampleType::UInt8;
 }
 
-ImageHeader png_header(Bytes& file) {
+ImageHeader png_header(FileBytes& file) {
   constexpr std::uint32_t grey = 0;
   const std::uint32_t color = file.number(25, 1, false);
   return {length(file.number(20, 4, false)), length(file.number(16, 4, false)),
@@ -66,7 +30,7 @@ ImageHeader png_header(Bytes& file) {
 }
 
 /// The first frame header among the segments.
-ImageHeader jpeg_header(Bytes& file) {
+ImageHeader jpeg_header(FileBytes& file) {
   constexpr int most_segments = 1000;
   std::streamoff at = 2;
   for (int i = 0; i < most_segments && !file.is_short(); ++i) {
@@ -86,7 +50,7 @@ ImageHeader jpeg_header(Bytes& file) {
   return {};
 }
 
-ImageHeader bmp_header(Bytes& file) {
+ImageHeader bmp_header(FileBytes& file) {
   const bool has_palette = file.number(28, 2, true) <= 8;  // which may be grey or not
   const std::uint32_t height = file.number(22, 4, true);   // negative where it is from the top
   constexpr std::uint32_t sign = 1U << 31;
@@ -94,7 +58,7 @@ ImageHeader bmp_header(Bytes& file) {
           has_palette ? 0 : 3, SampleType::UInt8};
 }
 
-ImageHeader pnm_header(Bytes& file, int channels) {
+ImageHeader pnm_header(FileBytes& file, int channels) {
   std::istream& in = file.at(2);
   std::array<std::uint32_t, 3> numbers{};
   for (std::uint32_t& number : numbers) {
@@ -105,7 +69,7 @@ ImageHeader pnm_header(Bytes& file, int channels) {
   return {length(numbers[1]), length(numbers[0]), channels, of_bits(numbers[2] > 255 ? 16 : 8)};
 }
 
-ImageHeader tiff_header(Bytes& file, bool is_little_endian) {
+ImageHeader tiff_header(FileBytes& file, bool is_little_endian) {
   const auto number = [&](std::streamoff at, int count) {
     return file.number(at, count, is_little_endian);
   };
@@ -150,7 +114,7 @@ ImageHeader tiff_header(Bytes& file, bool is_little_endian) {
 }  // namespace
 
 std::optional<ImageHeader> stated_image_header(const std::filesystem::path& path) {
-  Bytes file(path);
+  FileBytes file(path);
   ImageHeader header;
   if (file.begins_with("\x89PNG\r\n\x1a\n")) {
     header = png_header(file);

@@ -92,6 +92,20 @@ ColumnRange next_marked(const std::uint8_t* marks, int begin, int width) {
   return found;
 }
 
+// Calls `work(view, y, room)` for each row of each view.
+template <class Work>
+void for_rows(const ViewStack<std::int32_t>& labels, int label_count, const Progress& progress,
+              const Work& work) {
+  parallel_for_workers(labels.grid().count(), progress, [&] {
+    return [&, row = Row(labels.width(), label_count)](int i) mutable {
+      for (int y = 0; y < labels.height(); ++y) {
+        progress.check();
+        work(labels.view_at(i), y, row);
+      }
+    };
+  });
+}
+
 }  // namespace
 
 ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
@@ -99,14 +113,8 @@ ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
   const Vote vote(labels, votes);
   const int width = labels.width();
   ViewStack<std::int32_t> decided(labels.grid(), labels.height(), width, 1, labels.first());
-  parallel_for_workers(labels.grid().count(), progress, [&] {
-    return [&, row = Row(width, votes.label_count)](int i) mutable {
-      const ViewIndex view = labels.view_at(i);
-      for (int y = 0; y < labels.height(); ++y) {
-        progress.check();
-        vote.decide(view, y, {0, width}, row, decided.view(view).row(y));
-      }
-    };
+  for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, Row& row) {
+    vote.decide(view, y, {0, width}, row, decided.view(view).row(y));
   });
   return decided;
 }
@@ -119,18 +127,12 @@ ViewStack<std::int32_t> vote_again_along_rays(const ViewStack<std::int32_t>& bef
   const Vote vote(labels, votes);
   const int width = labels.width();
   ViewStack<std::int32_t> decided = labels.clone();
-  parallel_for_workers(labels.grid().count(), progress, [&] {
-    return [&, row = Row(width, votes.label_count)](int i) mutable {
-      const ViewIndex view = labels.view_at(i);
-      for (int y = 0; y < labels.height(); ++y) {
-        progress.check();
-        const std::uint8_t* const marked = marks.view(view).row(y);
-        for (ColumnRange columns = next_marked(marked, 0, width); columns.begin < width;
-             columns = next_marked(marked, columns.end, width)) {
-          vote.decide(view, y, columns, row, decided.view(view).row(y));
-        }
-      }
-    };
+  for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, Row& row) {
+    const std::uint8_t* const marked = marks.view(view).row(y);
+    for (ColumnRange columns = next_marked(marked, 0, width); columns.begin < width;
+         columns = next_marked(marked, columns.end, width)) {
+      vote.decide(view, y, columns, row, decided.view(view).row(y));
+    }
   });
   return decided;
 }

@@ -2,19 +2,12 @@
 #include "engine/solvers/simplex/racing_layers.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/solvers/simplex/pair_labels.h"
 
 #include <algorithm>
 
 namespace episcope {
 namespace {
-
-void find_least(VolumeView<const float> cost, int y, float* least) {
-  std::copy_n(cost.row(y, 0), cost.width, least);
-  for (int l = 1; l < cost.layers; ++l) {
-    const float* const row = cost.row(y, l);
-    for (int x = 0; x < cost.width; ++x) least[x] = std::min(least[x], row[x]);
-  }
-}
 
 bool is_any_near(const float* cost, const float* least, int count, float behind) {
   int near = 0;
@@ -56,9 +49,10 @@ void RacingLayers::choose(VolumeView<const float> cost, float behind, ImageView<
 
 void RacingLayers::find_near(VolumeView<const float> cost, float behind,
                              ImageView<const int> labels, int row) {
-  std::vector<float> least(static_cast<std::size_t>(width_));
+  std::vector<float> least;
+  std::vector<int> cheapest(static_cast<std::size_t>(width_));
   for (int y = row * kTileRows; y < std::min(height_, (row + 1) * kTileRows); ++y) {
-    find_least(cost, y, least.data());
+    take_cheapest(cost, y, cheapest.data(), least);
     for (int column = 0; column < across_; ++column) {
       Layers& near = at(near_, row, column);
       const int begin = column * kLayerColumns, end = std::min(width_, begin + kLayerColumns);

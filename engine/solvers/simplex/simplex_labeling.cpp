@@ -186,7 +186,6 @@ void SimplexSolver::State::climb(const SimplexProblem& problem, const Progress& 
 // Those of the labels reached so far take part in any case.
 void SimplexSolver::State::choose_layers(const SimplexProblem& problem,
                                          const SimplexOptions& options, const Progress& progress) {
-  racing.take_all();
   if (options.racing_iterations == 0) return;
   parallel_for(sweep.bands(), progress, [&](int i) {
     for (int y = sweep.band(i).begin; y < sweep.band(i).end; ++y) {
@@ -202,7 +201,6 @@ void SimplexSolver::State::take_over(const SimplexProblem& problem, const Simple
   const ImageView<const std::int32_t> from = options.from_last;
   if (!last) last.emplace(sweep.height(), sweep.shape().steps, sweep.shape().width);
   std::swap(sweep, *last);
-  racing.take_all();
   if (options.racing_iterations > 0) {
     Image<int> moved(rounded.height(), rounded.width());
     for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -215,6 +213,7 @@ void SimplexSolver::State::take_over(const SimplexProblem& problem, const Simple
 
 void SimplexSolver::State::begin(const SimplexProblem& problem, const SimplexOptions& options,
                                  const Progress& progress) {
+  racing.take_all();
   if (options.from_last.empty() || !has_run) {
     start(problem, progress);
     climb(problem, progress);
