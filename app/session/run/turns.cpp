@@ -2,13 +2,26 @@
 #include "app/session/run/turns.h"
 
 #include <linux/sched.h>
-#include <linux/sched/types.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cstdint>
+
 namespace episcope {
 namespace {
+
+// As in linux/sched/types.h, which in Debian 12 cannot be included beside the C library's sched.h.
+struct SchedulingAttributes {
+  std::uint32_t size = sizeof(SchedulingAttributes);
+  std::uint32_t policy = SCHED_NORMAL;
+  std::uint64_t flags = 0;
+  std::int32_t nice = 0;
+  std::uint32_t priority = 0;
+  std::uint64_t runtime = 0;
+  std::uint64_t deadline = 0;
+  std::uint64_t period = 0;
+};
 
 // The shortest that can be asked for.
 constexpr std::uint64_t kShortTurn_ns = 100'000;
@@ -20,11 +33,9 @@ void ask_for_short_turns() {
 }
 
 void set_turns(int nice, std::uint64_t turn_ns) {
-  sched_attr attributes{};
-  attributes.size = sizeof attributes;
-  attributes.sched_policy = SCHED_NORMAL;
-  attributes.sched_nice = nice;
-  attributes.sched_runtime = turn_ns;
+  SchedulingAttributes attributes;
+  attributes.nice = nice;
+  attributes.runtime = turn_ns;
   if (syscall(SYS_sched_setattr, 0, &attributes, 0U) != 0) setpriority(PRIO_PROCESS, 0, nice);
 }
 
