@@ -7,11 +7,15 @@
 namespace episcope::cuda {
 namespace {
 
-// Before the first pixel of a plane, besides a row.
+// Before the first pixel of a plane, besides a row, and behind the last.
 constexpr long kMargin = 32;
 
+long plane_size(const TvL2Level& level, int views) {
+  return views * level.view + 2 * kMargin;
+}
+
 // Level by level down to a single pixel, at least two.
-TvL2Levels make_levels(int height, int width, int views) {
+TvL2Levels make_levels(int height, int width) {
   TvL2Levels levels;
   for (;;) {
     TvL2Level& level = levels.level[levels.count++];
@@ -21,16 +25,15 @@ TvL2Levels make_levels(int height, int width, int views) {
     level.odd = round_up(level.half() + 1, unit);
     level.pitch = 2 * level.odd;
     level.view = (height + 2) * level.pitch;
-    level.plane = views * level.view + 2 * kMargin;
     if (std::max(height, width) == 1 && levels.count >= 2) return levels;
     height = (height + 1) / 2;
     width = (width + 1) / 2;
   }
 }
 
-std::size_t floats_of(const TvL2Levels& levels) {
+std::size_t floats_of(const TvL2Levels& levels, int views) {
   long floats = 0;
-  for (int k = 0; k < levels.count; ++k) floats += kTvL2Slots * levels.level[k].plane;
+  for (int k = 0; k < levels.count; ++k) floats += kTvL2Slots * plane_size(levels.level[k], views);
   return static_cast<std::size_t>(floats);
 }
 
@@ -38,20 +41,22 @@ std::size_t floats_of(const TvL2Levels& levels) {
 
 TvL2Grids::TvL2Grids(int height, int width, int views, const DeviceStream& stream)
     : view_count_(views),
-      levels_(make_levels(height, width, views)),
-      memory_(floats_of(levels_), stream),
+      levels_(make_levels(height, width)),
+      memory_(floats_of(levels_, views), stream),
       views_(static_cast<std::size_t>(views), stream) {
   memory_.clear();
   float* next = memory_.data();
   for (int k = 0; k < levels_.count; ++k) {
     TvL2Level& level = levels_.level[k];
-    level.memory = next + kMargin + level.pitch;
-    next += kTvL2Slots * level.plane;
+    for (float*& plane : level.planes) {
+      plane = next + kMargin + level.pitch;
+      next += plane_size(level, views);
+    }
   }
 }
 
 std::size_t TvL2Grids::bytes_per_view(int height, int width) {
-  return floats_of(make_levels(height, width, 1)) * sizeof(float);
+  return floats_of(make_levels(height, width), 1) * sizeof(float);
 }
 
 void TvL2Grids::set_views(const std::vector<TvL2View>& views, const DeviceStream& stream) {

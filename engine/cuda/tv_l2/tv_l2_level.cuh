@@ -22,26 +22,26 @@ inline constexpr int kTvL2Slots = kTvL2Planes + 4;
 /// padding above and two below, padding after each half row; it is 0, and stays so because the
 /// coefficients there are 0.
 struct TvL2Level {
-  float* memory = nullptr;
-  long plane = 0, view = 0;  ///< Floats from plane to plane, and from view to view.
+  /// Pixel (0, 0) of the first view in each plane; the last four are the second planes of those
+  /// that are moved.
+  float* planes[kTvL2Slots] = {};
+  long view = 0;  ///< Floats from view to view.
   int height = 0, width = 0;
   long pitch = 0, odd = 0;
   float data_scale = 1;  ///< Factor of c when the level serves as multigrid level.
-  /// Where planes lie now: the last four slots are the second planes of those that are moved.
-  std::int8_t slot[kTvL2Slots] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
 
   /// Pixel (0, 0) of a view.
   [[nodiscard]] __device__ float* of(TvL2Plane which, int v) const {
-    return memory + slot[static_cast<int>(which)] * plane + v * view;
+    return planes[static_cast<int>(which)] + v * view;
   }
   /// The second plane of kTvL2Moved[moved].
   [[nodiscard]] __device__ float* second(int moved, int v) const {
-    return memory + slot[kTvL2Planes + moved] * plane + v * view;
+    return planes[kTvL2Planes + moved] + v * view;
   }
   /// The second planes take the place of the first.
   void swap_moved() {
     for (int i = 0; i < kTvL2Slots - kTvL2Planes; ++i) {
-      std::swap(slot[static_cast<int>(kTvL2Moved[i])], slot[kTvL2Planes + i]);
+      std::swap(planes[static_cast<int>(kTvL2Moved[i])], planes[kTvL2Planes + i]);
     }
   }
   [[nodiscard]] __host__ __device__ long at(int y, int x) const {

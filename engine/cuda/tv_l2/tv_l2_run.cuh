@@ -45,9 +45,9 @@ void run_on_grid(const DeviceStream& stream, const char* name, const Step& step,
 /// By the block of a view: returns when all of it is done.
 template <class Step>
 __device__ void run_in_block(const Step& step, TvL2Extent extent, int view) {
-  const int count = extent.rows * extent.places;
-  for (int at = static_cast<int>(threadIdx.x); at < count; at += static_cast<int>(blockDim.x)) {
-    step(view, at / extent.places, at % extent.places);
+  const int warp = static_cast<int>(threadIdx.x) / 32, warps = static_cast<int>(blockDim.x) / 32;
+  for (int y = warp; y < extent.rows; y += warps) {
+    for (int i = static_cast<int>(threadIdx.x) % 32; i < extent.places; i += 32) step(view, y, i);
   }
   __syncthreads();
 }

@@ -22,9 +22,6 @@ constexpr float kPenaltyScale = 5.0F;
 constexpr float kPenaltyKnee = 0.07F;
 constexpr float kSafePace = 1.0F;
 
-// Levels of at most so many pixels a side are left to one block for each view.
-constexpr int kTailSide = 48;
-
 // The data term from images `[view][y][x]`.
 struct Load {
   TvL2Level level;
@@ -77,10 +74,8 @@ struct Unload {
 TvL2DeviceSolver::TvL2DeviceSolver(int height, int width, int views, const DeviceStream& stream)
     : stream_(stream), grids_(height, width, views, stream) {
   const TvL2Levels& levels = grids_.levels();
-  const auto is_small = [&](int k) {
-    return std::max(levels.level[k].height, levels.level[k].width) <= kTailSide;
-  };
-  while (first_of_tail_ + 1 < levels.count && !is_small(first_of_tail_)) ++first_of_tail_;
+  while (first_of_tail_ + 1 < levels.count && !fits_in_tail(levels, first_of_tail_))
+    ++first_of_tail_;
   const std::size_t count =
       static_cast<std::size_t>(views) * chunks_of(levels.level[0]) * kTvL2Sums;
   sums_ = DeviceArray<double>(count, stream);
@@ -149,7 +144,6 @@ void TvL2DeviceSolver::measure() {
 void TvL2DeviceSolver::renew_penalty(int stage, bool first) {
   const TvL2Level solved = level(stage, stage);
   run("tv_l2: penalty", Penalise{solved, grids_.of_views(), first}, solved, 20, 60);
-  run("tv_l2: diagonal", InvertDiagonal{solved}, solved, 8, 14);
   for (int k = stage + 1; k < first_of_tail_; ++k) {
     run_cells("tv_l2: coarser penalty",
               CoarsenPenalty{level(k - 1, stage), level(k, stage), grids_.of_views()},
@@ -167,9 +161,7 @@ void TvL2DeviceSolver::correct(int stage) {
   correct_tail(stream_, {grids_.levels(), first_of_tail_, grids_.views(), grids_.of_views()},
                stage);
   for (int k = first_of_tail_; --k > stage;) {
-    const TvL2Level fine = level(k, stage), coarse = level(k + 1, stage);
-    run("tv_l2: correct and relax", CorrectAndRelax{fine, coarse}, fine, 9, 13);
-    run("tv_l2: relax", RelaxColour{fine, 0}, fine, 8, 9);
+    ascend_level(stream_, level(k, stage), level(k + 1, stage), grids_.views(), grids_.of_views());
   }
 }
 
@@ -177,8 +169,9 @@ void TvL2DeviceSolver::iterate(int stage, int iteration, const Progress& progres
   progress.check();
   if (iteration % kPenaltyEvery == 0) renew_penalty(stage, iteration == 0);
   if (iteration > 0) correct(stage);
-  iterate_level(stream_, level(stage, stage), level(stage + 1, stage), grids_.views(),
-                grids_.of_views(), iteration == 0);
+  const TvL2Level solved = level(stage, stage);
+  const auto run = has_enough_strips(solved, grids_.views()) ? iterate_by_strips : iterate_by_tiles;
+  run(stream_, solved, level(stage + 1, stage), grids_.views(), grids_.of_views(), iteration == 0);
   grids_.swap_moved(stage);
 }
 

@@ -14,6 +14,8 @@ struct TvL2Tail {
   TvL2View* of_views = nullptr;
 };
 
+/// Whether the levels from `first` on are few enough pixels for that.
+[[nodiscard]] bool fits_in_tail(const TvL2Levels& levels, int first);
 /// Solves the levels of the tail, coarse to fine; z of the first is projected at the end.
 void climb_tail(const DeviceStream& stream, const TvL2Tail& tail, int iterations,
                 int penalty_every);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The steps of tv_l2_steps.cuh on tiles in shared memory: a step needs its neighbours' results, so
 // a tile computes some of what belongs to its neighbours too, instead of all going through memory
-// after each step.
+// after each step. All pixels at once, for few of them; see tv_l2_strips.cu.
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/tv_l2/tv_l2_iteration.cuh"
 #include "engine/cuda/tv_l2/tv_l2_steps.cuh"
@@ -10,13 +10,13 @@ namespace episcope::cuda {
 namespace {
 
 // Places (pairs of pixels) and rows of a tile, and what it reads around them.
-constexpr int kTilePlaces = 32, kTileRows = 32;
+constexpr int kTilePlaces = 32, kTileRows = 30;
 constexpr int kHaloPlaces = 3, kHaloRows = 5;
 constexpr int kPlaces = kTilePlaces + 2 * kHaloPlaces;
 constexpr int kRows = kTileRows + 2 * kHaloRows;
-constexpr int kThreads = 544;
+constexpr int kThreads = 768;
 constexpr int kEach = (kPlaces * kRows + kThreads - 1) / kThreads;  // places of a thread
-constexpr int kPlane = kRows * 2 * kPlaces;
+constexpr int kRow = 2 * kPlaces, kPlane = kRows * kRow;
 constexpr int kSharedPlanes = 5;
 
 // How many pixels around the tile a step computes, for those after it to have their neighbours.
@@ -39,6 +39,7 @@ struct Place {
   bool is_inside = false;  // in the level
   bool is_odd = false;     // its row
   bool has_below = false;  // in the level
+  int from_right = 0;      // pixels of the level from its even pixel on, but for that
 
   [[nodiscard]] __device__ bool exists() const { return reach <= kReadReach; }
   // Of the tile itself.
@@ -66,6 +67,7 @@ __device__ Place place_of(const TvL2Level& level, const TvL2Level& coarse, int n
       result.exists() && row >= 0 && row < level.height && place >= 0 && place < level.half();
   result.is_odd = (row & 1) != 0;
   result.has_below = row + 1 < level.height;
+  result.from_right = level.width - 1 - 2 * place;
   return result;
 }
 
@@ -85,6 +87,7 @@ class Tile {
 
   // Reads the tile; colour 0 with the correction of its cell.
   __device__ void load(const TvL2Level& coarse, bool is_first);
+  __device__ void invert_diagonal();
   // Relaxes one colour from b as it is.
   __device__ void relax(int colour, int reach);
   __device__ void move_dual(float relaxation);
@@ -92,21 +95,29 @@ class Tile {
   __device__ void store(const TvL2Level& coarse);
 
  private:
+  // What no block writes meanwhile.
   [[nodiscard]] __device__ Pair read(TvL2Plane which, const Place& place) const {
     if (!place.is_inside) return {};
     const float* const from = level_.of(which, view_) + place.from;
-    return {{from[0], from[level_.odd]}};
+    return {{__ldg(from), __ldg(from + level_.odd)}};
   }
   __device__ void write(int moved, const Place& place, const Pair& values) const {
     float* const to = level_.second(moved, view_) + place.from;
     to[0] = values.of[0];
     to[level_.odd] = values.of[1];
   }
+  // The penalty of a pixel's edges: what is stored of that below in the last column, else of that
+  // to the right.
+  [[nodiscard]] __device__ float read_penalty(const Place& place, int half) const {
+    if (!place.is_inside) return 0;
+    const float* const from = place.from_right > half ? level_.of(TvL2Plane::Rx, view_)
+                                                      : level_.of(TvL2Plane::Ry, view_);
+    return __ldg(from + place.from + half * level_.odd);
+  }
   // Σ penalty·neighbour, and with the pixel itself as `here` Σ penalty·(neighbour − here).
   [[nodiscard]] __device__ float pull(int at, int left, float here) const {
     return rx_[at] * (u_[left + 1] - here) + rx_[left] * (u_[left] - here) +
-           ry_[at] * (u_[at + 2 * kPlaces] - here) +
-           ry_[at - 2 * kPlaces] * (u_[at - 2 * kPlaces] - here);
+           ry_[at] * (u_[at + kRow] - here) + ry_[at - kRow] * (u_[at - kRow] - here);
   }
   [[nodiscard]] __device__ static int left_of(const Place& place, int half) {
     return half == 0 ? place.at + kPlaces - 1 : place.at;
@@ -125,12 +136,10 @@ __device__ void Tile::load(const TvL2Level& coarse, bool is_first) {
     const Place& place = places_[k];
     if (!place.exists()) continue;
     Pair u = read(TvL2Plane::U, place);
-    const Pair rx = read(TvL2Plane::Rx, place), ry = read(TvL2Plane::Ry, place);
-    if (place.reach <= kReachOfRelaxed1) inverse_[k] = read(TvL2Plane::Inverse, place);
     if (!is_first) {
       if (place.reach <= kReachOfRelaxed1) b_[k] = read(TvL2Plane::B, place);
       if (place.is_inside) {
-        const float cell = coarse.of(TvL2Plane::U, view_)[place.cell];
+        const float cell = __ldg(coarse.of(TvL2Plane::U, view_) + place.cell);
         place.is_odd ? u.of[1] += cell : u.of[0] += cell;
       }
     }
@@ -138,11 +147,28 @@ __device__ void Tile::load(const TvL2Level& coarse, bool is_first) {
     for (int half = 0; half < 2; ++half) {
       const int at = place.at + half * kPlaces;
       u_[at] = u.of[half];
-      rx_[at] = rx.of[half];
-      ry_[at] = ry.of[half];
+      const float penalty = read_penalty(place, half);
+      rx_[at] = place.from_right > half ? penalty : 0.0F;
+      ry_[at] = place.has_below ? penalty : 0.0F;
     }
   }
   __syncthreads();
+}
+
+__device__ void Tile::invert_diagonal() {
+#pragma unroll
+  for (int k = 0; k < kEach; ++k) {
+    const Place& place = places_[k];
+    if (place.reach > kReachOfRelaxed1) continue;
+    const Pair c = read(TvL2Plane::C, place);
+#pragma unroll
+    for (int half = 0; half < 2; ++half) {
+      const int at = place.at + half * kPlaces;
+      const float edges = rx_[at] + rx_[left_of(place, half)] + ry_[at] + ry_[at - kRow];
+      const float own = level_.data_scale * c.of[half];
+      inverse_[k].of[half] = own > 0 ? 1 / (own + edges) : 0.0F;
+    }
+  }
 }
 
 __device__ void Tile::relax(int colour, int reach) {
@@ -172,7 +198,7 @@ __device__ void Tile::move_dual(float relaxation) {
       const int at = place.at + half * kPlaces;
       const int right = half == 0 ? place.at + kPlaces : place.at + 1;
       const float along = u_[right] - u_[at];
-      const float down = u_[at + 2 * kPlaces] - u_[at];
+      const float down = u_[at + kRow] - u_[at];
       const float stay = 1 - relaxation * (1 - shrinkage(zx.of[half], zy.of[half], g.of[half]));
       zx.of[half] = zx.of[half] * stay + relaxation * rx_[at] * along;
       zy.of[half] = zy.of[half] * stay + relaxation * ry_[at] * down;
@@ -197,7 +223,7 @@ __device__ void Tile::renew() {
 #pragma unroll
     for (int half = 0; half < 2; ++half) {
       const int at = place.at + half * kPlaces;
-      b_[k].of[half] += (qx_[at] - qx_[left_of(place, half)]) + (qy_[at] - qy_[at - 2 * kPlaces]);
+      b_[k].of[half] += (qx_[at] - qx_[left_of(place, half)]) + (qy_[at] - qy_[at - kRow]);
     }
     if (place.is_core()) write(3, place, b_[k]);
   }
@@ -223,7 +249,7 @@ __device__ void Tile::store(const TvL2Level& coarse) {
     const Place& place = places_[k];
     if (!place.is_core() || place.is_odd) continue;
     float sum = qx_[place.at];
-    if (place.has_below) sum += qx_[place.at + 3 * kPlaces];
+    if (place.has_below) sum += qx_[place.at + kRow + kPlaces];
     coarse.of(TvL2Plane::B, view_)[place.cell] = sum;
   }
 }
@@ -242,12 +268,14 @@ __device__ void keep(const TvL2Level& level, const TvL2Level& coarse, int view) 
 }
 
 __global__ void __launch_bounds__(kThreads, 2)
-    iterate_tiles(TvL2Level level, TvL2Level coarse, const TvL2View* views, bool is_first) {
+    iterate_tiles(const __grid_constant__ TvL2Level level, const __grid_constant__ TvL2Level coarse,
+                  const TvL2View* views, bool is_first) {
   extern __shared__ float shared[];
   const int view = static_cast<int>(blockIdx.z);
   if (views[view].is_active == 0) return keep(level, coarse, view);
   Tile tile(level, coarse, view, shared);
   tile.load(coarse, is_first);
+  tile.invert_diagonal();
   if (!is_first) {
     tile.relax(1, kReachOfRelaxed1);
     tile.relax(0, kReachOfRelaxed0);
@@ -261,14 +289,14 @@ __global__ void __launch_bounds__(kThreads, 2)
 
 }  // namespace
 
-void iterate_level(const DeviceStream& stream, const TvL2Level& level, const TvL2Level& coarse,
-                   int views, const TvL2View* of_views, bool is_first) {
+void iterate_by_tiles(const DeviceStream& stream, const TvL2Level& level, const TvL2Level& coarse,
+                      int views, const TvL2View* of_views, bool is_first) {
   constexpr int kBytes = kSharedPlanes * kPlane * static_cast<int>(sizeof(float));
   check(cudaFuncSetAttribute(iterate_tiles, cudaFuncAttributeMaxDynamicSharedMemorySize, kBytes));
   const dim3 grid(blocks_for(level.half(), kTilePlaces), blocks_for(level.height, kTileRows),
                   static_cast<unsigned>(views));
   const double places = static_cast<double>(level.height) * level.half() * views;
-  launch(stream, {"tv_l2: iteration", places * 28 * sizeof(float), places * 220}, [&] {
+  launch(stream, {"tv_l2: iteration by tiles", places * 24 * sizeof(float), places * 220}, [&] {
     iterate_tiles<<<grid, kThreads, kBytes, stream.get()>>>(level, coarse, of_views, is_first);
   });
 }

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The steps of tv_l2_steps.cuh, all of an iteration in one pass over the rows of a strip of columns:
+// each step follows the one before it at the least distance that its neighbours allow, and rows in
+// between stay in shared memory. On the level being solved all edges of a pixel have the same
+// penalty, so that one plane and the borders of the image tell it.
+#include "engine/cuda/device/launch.cuh"
+#include "engine/cuda/tv_l2/tv_l2_iteration.cuh"
+#include "engine/cuda/tv_l2/tv_l2_steps.cuh"
+
+namespace episcope::cuda {
+namespace {
+
+// A thread has a place of every row, two pixels; those beside the strip, and the rows above and
+// below, are computed for the sake of the five pixels that results depend on.
+constexpr int kThreads = 96;
+constexpr int kHaloPlaces = 3, kHaloRows = 6;
+constexpr int kStripPlaces = kThreads - 2 * kHaloPlaces;
+constexpr int kStripRows = 64;
+constexpr int kRing = 8;  // rows in shared memory
+
+// Rows behind the one that is read.
+constexpr int kRelaxed1 = 1, kRelaxed0 = 2, kDual = 3, kLast1 = 4, kStored = 5;
+
+// The even pixel first.
+struct Pair {
+  float of[2] = {0, 0};
+};
+
+using Row = float[2][kThreads + 2];  // of both halves, beside which a place more
+struct Shared {
+  Row u[kRing], r[kRing], qx;
+};
+
+// What is read of a row when it enters, when its dual moves, and when it leaves.
+struct Entering {
+  Pair u, r, b, c;
+};
+struct Moving {
+  Pair zx, zy, g, cf;
+};
+
+class Strip {
+ public:
+  __device__ Strip(const TvL2Level& level, const TvL2Level& coarse, int view, Shared& shared)
+      : level_(level),
+        coarse_(coarse),
+        view_(view),
+        shared_(shared),
+        lane_(static_cast<int>(threadIdx.x)),
+        place_(static_cast<int>(blockIdx.x) * kStripPlaces + lane_ - kHaloPlaces),
+        first_(static_cast<int>(blockIdx.y) * kStripRows),
+        end_(min(first_ + kStripRows, level.height)),
+        in_level_(place_ >= 0 && place_ < level.half()),
+        in_strip_(in_level_ && lane_ >= kHaloPlaces && lane_ < kThreads - kHaloPlaces),
+        right_{{2 * place_ + 1 < level.width ? 1.0F : 0.0F,
+                2 * place_ + 2 < level.width ? 1.0F : 0.0F}} {}
+
+  __device__ void iterate(float relaxation, bool is_first);
+  // A view that is done keeps its u.
+  __device__ void keep() const;
+
+ private:
+  template <int kOdd>
+  __device__ void step(int t, float relaxation, bool is_first);
+  __device__ void read_ahead(int t, bool is_first);
+  __device__ void enter(int t);
+  __device__ void invert_diagonal(int y);
+  template <int kHalf>
+  __device__ void relax(int y, float b, float inverse);
+  __device__ void move_dual(int y, float relaxation);
+  __device__ void renew(int y);
+  template <int kHalf>
+  __device__ void leave(int y, const Pair& c);
+
+  // What no block writes meanwhile.
+  [[nodiscard]] __device__ Pair read(TvL2Plane which, int y) const {
+    if (!in_level_ || y < 0 || y >= level_.height) return {};
+    const float* const from = level_.of(which, 0) + at(y);
+    return {{__ldg(from), __ldg(from + level_.odd)}};
+  }
+  [[nodiscard]] __device__ Pair read_penalties(int y) const;
+  __device__ void write(int moved, int y, int half, float value) const {
+    if (!in_strip_ || y < first_ || y >= end_) return;
+    level_.second(moved, 0)[at(y) + half * level_.odd] = value;
+  }
+  // In a plane of all views: one sum for all planes.
+  [[nodiscard]] __device__ long at(int y) const {
+    return view_ * level_.view + place_ + y * level_.pitch;
+  }
+  [[nodiscard]] __device__ float below(int y) const { return y + 1 < level_.height ? 1.0F : 0.0F; }
+
+  // A place of a row that is held, and what stands to the left and to the right of its pixels.
+  [[nodiscard]] __device__ float& own(Row* rows, int y, int half) const {
+    return rows[y & (kRing - 1)][half][lane_ + 1];
+  }
+  [[nodiscard]] __device__ float left(const Row& row, int half) const {
+    return half == 0 ? row[1][lane_] : row[0][lane_ + 1];
+  }
+  [[nodiscard]] __device__ float right(const Row& row, int half) const {
+    return half == 0 ? row[1][lane_ + 1] : row[0][lane_ + 2];
+  }
+  // Σ penalty·neighbour, and with the pixel itself as `here` Σ penalty·(neighbour − here).
+  [[nodiscard]] __device__ float pull(int y, int half, float here) const {
+    const Row &u = shared_.u[y & (kRing - 1)], &r = shared_.r[y & (kRing - 1)];
+    const float beside = right_.of[half] * (right(u, half) - here) +
+                         below(y) * (own(shared_.u, y + 1, half) - here);
+    return own(shared_.r, y, half) * beside + left(r, half) * (left(u, half) - here) +
+           own(shared_.r, y - 1, half) * (own(shared_.u, y - 1, half) - here);
+  }
+
+  const TvL2Level &level_, &coarse_;
+  int view_;
+  Shared& shared_;
+  int lane_, place_, first_, end_;
+  bool in_level_, in_strip_;
+  Pair right_;  // 1 where there is a pixel to the right in the level
+
+  // Of the rows to come next, and of those that are held: [0] is the one that was read last, or of
+  // `renewed_` the one whose dual was moved last.
+  Entering entering_;
+  Moving moving_;
+  Pair c_of_leaving_;
+  float cell_ = 0;
+  Pair b_[3], inverse_[5], renewed_[3];
+  Pair qy_above_;
+  float residual_ = 0;
+};
+
+// The penalty of a pixel's edges: what is stored of that below in the last column, else of that to
+// the right.
+__device__ Pair Strip::read_penalties(int y) const {
+  if (!in_level_ || y < 0 || y >= level_.height) return {};
+  const float* const rx = level_.of(TvL2Plane::Rx, 0);
+  const float* const ry = level_.of(TvL2Plane::Ry, 0);
+  return {{__ldg((right_.of[0] > 0 ? rx : ry) + at(y)),
+           __ldg((right_.of[1] > 0 ? rx : ry) + at(y) + level_.odd)}};
+}
+
+// For step t.
+__device__ void Strip::read_ahead(int t, bool is_first) {
+  entering_.u = read(TvL2Plane::U, t);
+  entering_.r = read_penalties(t);
+  entering_.c = read(TvL2Plane::C, t);
+  if (!is_first) {
+    entering_.b = read(TvL2Plane::B, t);
+    const bool has_cell = in_level_ && t >= 0 && t < level_.height;
+    cell_ = has_cell ? __ldg(coarse_.of(TvL2Plane::U, view_) + coarse_.at(t >> 1, place_)) : 0.0F;
+  }
+  moving_ = {read(TvL2Plane::Zx, t - kDual), read(TvL2Plane::Zy, t - kDual),
+             read(TvL2Plane::G, t - kDual), read(TvL2Plane::Cf, t - kDual)};
+  c_of_leaving_ = read(TvL2Plane::C, t - kStored);
+}
+
+// Row t, colour 0 with the correction of its cells.
+__device__ void Strip::enter(int t) {
+#pragma unroll
+  for (int half = 0; half < 2; ++half) {
+    own(shared_.u, t, half) = entering_.u.of[half] + ((t & 1) == half ? cell_ : 0.0F);
+    own(shared_.r, t, half) = entering_.r.of[half];
+  }
+#pragma unroll
+  for (int i = 2; i > 0; --i) b_[i] = b_[i - 1];
+  b_[0] = entering_.b;
+}
+
+// Of row y, whose c stands in inverse_[1] until then.
+__device__ void Strip::invert_diagonal(int y) {
+  const Row& r = shared_.r[y & (kRing - 1)];
+#pragma unroll
+  for (int half = 0; half < 2; ++half) {
+    const float c = level_.data_scale * inverse_[1].of[half];
+    const float diagonal = c + own(shared_.r, y, half) * (right_.of[half] + below(y)) +
+                           left(r, half) + own(shared_.r, y - 1, half);
+    inverse_[1].of[half] = c > 0 ? 1 / diagonal : 0.0F;
+  }
+}
+
+template <int kHalf>
+__device__ void Strip::relax(int y, float b, float inverse) {
+  own(shared_.u, y, kHalf) = (b + pull(y, kHalf, 0)) * inverse;
+}
+
+// z ← p + relaxed step along the gradient; 2p − z is kept for `renew`, across in shared memory and
+// down in place of z.
+__device__ void Strip::move_dual(int y, float relaxation) {
+  const Row& u = shared_.u[y & (kRing - 1)];
+#pragma unroll
+  for (int half = 0; half < 2; ++half) {
+    const float here = own(shared_.u, y, half), r = own(shared_.r, y, half);
+    const float along = right_.of[half] * (right(u, half) - here);
+    const float down = below(y) * (own(shared_.u, y + 1, half) - here);
+    const float x = moving_.zx.of[half], d = moving_.zy.of[half], g = moving_.g.of[half];
+    const float stay = 1 - relaxation * (1 - shrinkage(x, d, g));
+    const float zx = x * stay + relaxation * r * along;
+    const float zy = d * stay + relaxation * r * down;
+    const float mirror = 2 * shrinkage(zx, zy, g) - 1;
+    shared_.qx[half][lane_ + 1] = zx * mirror;
+    moving_.zy.of[half] = zy * mirror;
+    write(1, y, half, zx);
+    write(2, y, half, zy);
+  }
+}
+
+// b ← c·f + div(2p − z).
+__device__ void Strip::renew(int y) {
+  Pair b = moving_.cf;
+#pragma unroll
+  for (int half = 0; half < 2; ++half) {
+    const float qy = moving_.zy.of[half];
+    b.of[half] += (shared_.qx[half][lane_ + 1] - left(shared_.qx, half)) +
+                  (qy - qy_above_.of[half]);
+    qy_above_.of[half] = qy;
+    write(3, y, half, b.of[half]);
+  }
+  renewed_[2] = renewed_[1];
+  renewed_[1] = renewed_[0];
+  renewed_[0] = b;
+}
+
+// Stores u, and the residual of colour 0, half kHalf, of cells of 2×2; colour 1, relaxed last, has
+// none.
+template <int kHalf>
+__device__ void Strip::leave(int y, const Pair& c) {
+  for (int half = 0; half < 2; ++half) write(0, y, half, own(shared_.u, y, half));
+  const float here = own(shared_.u, y, kHalf);
+  const float own_pull = level_.data_scale * c.of[kHalf] * here;
+  const float residual = renewed_[2].of[kHalf] - own_pull + pull(y, kHalf, here);
+  residual_ = kHalf == 0 ? residual : residual_ + residual;
+  const bool is_whole = kHalf == 1 || y + 1 == level_.height;
+  if (!in_strip_ || !is_whole || y < first_ || y >= end_) return;
+  coarse_.of(TvL2Plane::B, view_)[coarse_.at(y >> 1, place_)] = residual_;
+}
+
+// Row t enters; rows behind it are at their steps. kOdd: t is odd.
+template <int kOdd>
+__device__ void Strip::step(int t, float relaxation, bool is_first) {
+  constexpr int kOther = 1 - kOdd;
+  enter(t);
+#pragma unroll
+  for (int i = 4; i > 0; --i) inverse_[i] = inverse_[i - 1];
+  inverse_[0] = entering_.c;
+  __syncthreads();
+  invert_diagonal(t - kRelaxed1);
+  if (!is_first) {
+    relax<kOdd>(t - kRelaxed1, b_[kRelaxed1].of[kOdd], inverse_[kRelaxed1].of[kOdd]);
+    __syncthreads();
+    relax<kOdd>(t - kRelaxed0, b_[kRelaxed0].of[kOdd], inverse_[kRelaxed0].of[kOdd]);
+    __syncthreads();
+  }
+  move_dual(t - kDual, relaxation);
+  __syncthreads();
+  renew(t - kDual);
+  relax<kOther>(t - kDual, renewed_[0].of[kOther], inverse_[kDual].of[kOther]);
+  const Pair c = c_of_leaving_;
+  read_ahead(t + 1, is_first);
+  __syncthreads();
+  relax<kOther>(t - kLast1, renewed_[1].of[kOther], inverse_[kLast1].of[kOther]);
+  __syncthreads();
+  leave<kOther>(t - kStored, c);
+}
+
+__device__ void Strip::iterate(float relaxation, bool is_first) {
+  read_ahead(first_ - kHaloRows, is_first);
+  for (int t = first_ - kHaloRows; t < end_ + kStored; t += 2) {
+    step<0>(t, relaxation, is_first);
+    step<1>(t + 1, relaxation, is_first);
+  }
+}
+
+__device__ void Strip::keep() const {
+  for (int y = first_; y < end_; ++y) {
+    const Pair u = read(TvL2Plane::U, y);
+    for (int half = 0; half < 2; ++half) write(0, y, half, u.of[half]);
+  }
+}
+
+__global__ void __launch_bounds__(kThreads, 8)
+    iterate_strips(const __grid_constant__ TvL2Level level, const __grid_constant__ TvL2Level coarse,
+                   const TvL2View* views, bool is_first) {
+  __shared__ Shared shared;
+  const int view = static_cast<int>(blockIdx.z);
+  Strip strip(level, coarse, view, shared);
+  if (views[view].is_active == 0) return strip.keep();
+  strip.iterate(views[view].relaxation, is_first);
+}
+
+dim3 strips(const TvL2Level& level, int views) {
+  return {blocks_for(level.half(), kStripPlaces), blocks_for(level.height, kStripRows),
+          static_cast<unsigned>(views)};
+}
+
+}  // namespace
+
+bool has_enough_strips(const TvL2Level& level, int views) {
+  constexpr unsigned kEnough = 300;
+  const dim3 grid = strips(level, views);
+  return grid.x * grid.y * grid.z >= kEnough;
+}
+
+void iterate_by_strips(const DeviceStream& stream, const TvL2Level& level, const TvL2Level& coarse,
+                       int views, const TvL2View* of_views, bool is_first) {
+  const double places = static_cast<double>(level.height) * level.half() * views;
+  launch(stream, {"tv_l2: iteration by strips", places * 24 * sizeof(float), places * 220}, [&] {
+    iterate_strips<<<strips(level, views), kThreads, 0, stream.get()>>>(level, coarse, of_views,
+                                                                        is_first);
+  });
+}
+
+}  // namespace episcope::cuda
