@@ -11,7 +11,7 @@ namespace episcope::cuda {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{32} << 20;
-constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
 
 // Pinned buffers: while one is copied by the device, another is by the host. Pinning takes
 // milliseconds, so the program keeps them.

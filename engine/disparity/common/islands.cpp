@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/common/islands.h"
 
+#include "engine/core/array/volume.h"
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
@@ -30,12 +31,14 @@ class Surroundings {
   static constexpr int kMargin = 2;
 
   Surroundings(ImageView<const float> map, const Progress& progress)
-      : padded_(map.height + 2 * kMargin, map.width + 2 * kMargin, 1, kNothing) {
-    parallel_for(map.height, progress, [&](int y) { std::copy_n(map.row(y), map.width, row(y)); });
+      : padded_(map.height + 2 * kMargin, 1, map.width + 2 * kMargin) {
+    parallel_for(padded_.height(), progress, [&](int i) { fill(map, i - kMargin); });
   }
   /// Readable for the margin on either side, and above and below.
-  [[nodiscard]] float* row(int y) { return padded_.row(y + kMargin) + kMargin; }
-  [[nodiscard]] const float* row(int y) const { return padded_.row(y + kMargin) + kMargin; }
+  [[nodiscard]] float* row(int y) { return padded_.view().row(y + kMargin, 0) + kMargin; }
+  [[nodiscard]] const float* row(int y) const {
+    return padded_.view().row(y + kMargin, 0) + kMargin;
+  }
   void forget(Offset at) { row(at.y)[at.x] = kNothing; }
 
   /// Calls `visit(y, x, value)` for the pixels within `radius` of a pixel, itself left out.
@@ -50,7 +53,19 @@ class Surroundings {
 
  private:
   static constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-  Image<float> padded_;
+
+  void fill(ImageView<const float> map, int y) {
+    float* const first = row(y) - kMargin;
+    if (y < 0 || y >= map.height) {
+      std::fill_n(first, padded_.width(), kNothing);
+      return;
+    }
+    std::fill_n(first, kMargin, kNothing);
+    std::copy_n(map.row(y), map.width, row(y));
+    std::fill_n(row(y) + map.width, kMargin, kNothing);
+  }
+
+  Volume<float> padded_;
 };
 
 /// How many of its neighbours agree with a pixel.
