@@ -2,18 +2,15 @@
 // Multigrid, down and up one level: the steps of tv_l2_steps.cuh on tiles in shared memory.
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/tv_l2/tv_l2_iteration.cuh"
+#include "engine/cuda/tv_l2/tv_l2_tile_shape.cuh"
 
 namespace episcope::cuda {
 namespace {
 
-constexpr int kTilePlaces = 32, kTileRows = 16;
-// What the last step of a tile needs around it: two pixels.
-constexpr int kHaloPlaces = 1, kHaloRows = 2;
-constexpr int kPlaces = kTilePlaces + 2 * kHaloPlaces;
-constexpr int kRows = kTileRows + 2 * kHaloRows;
-constexpr int kThreads = 352;
-constexpr int kEach = (kPlaces * kRows + kThreads - 1) / kThreads;
-constexpr int kRow = 2 * kPlaces, kPlane = kRows * kRow;
+// The last step of a tile needs two pixels around it.
+using Shape = TvL2TileShape<32, 16, 1, 2, 352>;
+constexpr int kThreads = Shape::kThreads, kEach = Shape::kEach;
+constexpr int kPlaces = Shape::kPlaces, kRow = Shape::kRow, kPlane = Shape::kPlane;
 
 struct Shared {
   float u[kPlane], rx[kPlane], ry[kPlane], residual[kPlane];
@@ -32,28 +29,24 @@ struct Place {
 };
 
 __device__ Place place_of(const TvL2Level& level, const TvL2Level& coarse, int number) {
-  const int index = static_cast<int>(threadIdx.x) + number * kThreads;
-  const int y = index / kPlaces, i = index % kPlaces;
-  const int row = static_cast<int>(blockIdx.y) * kTileRows + y - kHaloRows;
-  const int place = static_cast<int>(blockIdx.x) * kTilePlaces + i - kHaloPlaces;
+  const TvL2TilePlace place = Shape::place(level, number);
   Place result;
 #pragma unroll
   for (int colour = 0; colour < 2; ++colour) {
-    const int half = (row + colour) & 1;
-    result.at[colour] = y * kRow + half * kPlaces + i;
-    result.left[colour] = y * kRow + (half == 0 ? kPlaces - 1 : 0) + i;
-    result.from[colour] =
-        row * static_cast<int>(level.pitch) + half * static_cast<int>(level.odd) + place;
+    const int half = (place.row + colour) & 1;
+    result.at[colour] = place.y * kRow + half * kPlaces + place.i;
+    result.left[colour] = place.y * kRow + (half == 0 ? kPlaces - 1 : 0) + place.i;
+    result.from[colour] = place.row * static_cast<int>(level.pitch) +
+                          half * static_cast<int>(level.odd) + place.place;
   }
-  result.cell = static_cast<int>(coarse.at(row >> 1, place));
-  result.exists = index < kPlaces * kRows;
-  result.is_inside =
-      result.exists && row >= 0 && row < level.height && place >= 0 && place < level.half();
-  result.is_core = result.is_inside && y >= kHaloRows && y < kHaloRows + kTileRows &&
-                   i >= kHaloPlaces && i < kHaloPlaces + kTilePlaces;
-  result.is_inner = result.exists && y > 0 && y + 1 < kRows;
-  result.is_even = (row & 1) == 0;
-  result.has_below = row + 1 < level.height;
+  result.cell = static_cast<int>(coarse.at(place.row >> 1, place.place));
+  result.exists = place.exists;
+  result.is_inside = place.is_inside;
+  result.is_core =
+      place.is_inside && Shape::rows_beside(place) == 0 && Shape::pixels_beside(place) == 0;
+  result.is_inner = place.exists && place.y > 0 && place.y + 1 < Shape::kRows;
+  result.is_even = (place.row & 1) == 0;
+  result.has_below = place.row + 1 < level.height;
   return result;
 }
 
@@ -163,53 +156,51 @@ __device__ void Tile::store() const {
   }
 }
 
-__global__ void __launch_bounds__(kThreads, 4)
-    descend_tiles(const __grid_constant__ TvL2Level level, const __grid_constant__ TvL2Level coarse,
-                  const TvL2View* views) {
+enum class Way { Down, Up };
+
+// On the way down nothing but colour 0 is found that is needed on the way up, and that again from b
+// alone.
+template <Way kWay>
+__global__ void __launch_bounds__(kThreads, 3)
+    cycle_tiles(const __grid_constant__ TvL2Level level, const __grid_constant__ TvL2Level coarse,
+                const TvL2View* views) {
   __shared__ Shared shared;
   const int view = static_cast<int>(blockIdx.z);
   if (views[view].is_active == 0) return;
   Tile tile(level, coarse, view, shared);
   tile.load();
+  if constexpr (kWay == Way::Up) tile.correct();
   tile.relax(1);
-  tile.restrict_residual();
+  if constexpr (kWay == Way::Down) {
+    tile.restrict_residual();
+  } else {
+    tile.relax(0);
+    tile.store();
+  }
 }
 
-// On the way down nothing but colour 0 was found that is needed here, and that again from b alone.
-__global__ void __launch_bounds__(kThreads, 4)
-    ascend_tiles(const __grid_constant__ TvL2Level level, const __grid_constant__ TvL2Level coarse,
-                  const TvL2View* views) {
-  __shared__ Shared shared;
-  const int view = static_cast<int>(blockIdx.z);
-  if (views[view].is_active == 0) return;
-  Tile tile(level, coarse, view, shared);
-  tile.load();
-  tile.correct();
-  tile.relax(1);
-  tile.relax(0);
-  tile.store();
-}
-
-template <class Kernel>
-void run_tiles(const DeviceStream& stream, const char* name, Kernel kernel, const TvL2Level& level,
-               const TvL2Level& coarse, int views, const TvL2View* of_views, double floats) {
-  const dim3 grid(blocks_for(level.half(), kTilePlaces), blocks_for(level.height, kTileRows),
-                  static_cast<unsigned>(views));
+template <Way kWay>
+void run_tiles(const DeviceStream& stream, const TvL2Level& level, const TvL2Level& coarse,
+               int views, const TvL2View* of_views) {
+  const char* const name = kWay == Way::Down ? "tv_l2: descent" : "tv_l2: ascent";
+  const double floats = kWay == Way::Down ? 9.5 : 10.5;
   const double places = static_cast<double>(level.height) * level.half() * views;
-  launch(stream, {name, places * floats * sizeof(float), places * 40},
-         [&] { kernel<<<grid, kThreads, 0, stream.get()>>>(level, coarse, of_views); });
+  launch(stream, {name, places * floats * sizeof(float), places * 40}, [&] {
+    cycle_tiles<kWay><<<Shape::blocks(level, views), kThreads, 0, stream.get()>>>(level, coarse,
+                                                                                  of_views);
+  });
 }
 
 }  // namespace
 
 void descend_level(const DeviceStream& stream, const TvL2Level& level, const TvL2Level& coarse,
                    int views, const TvL2View* of_views) {
-  run_tiles(stream, "tv_l2: descent", descend_tiles, level, coarse, views, of_views, 9.5);
+  run_tiles<Way::Down>(stream, level, coarse, views, of_views);
 }
 
 void ascend_level(const DeviceStream& stream, const TvL2Level& level, const TvL2Level& coarse,
                   int views, const TvL2View* of_views) {
-  run_tiles(stream, "tv_l2: ascent", ascend_tiles, level, coarse, views, of_views, 10.5);
+  run_tiles<Way::Up>(stream, level, coarse, views, of_views);
 }
 
 }  // namespace episcope::cuda

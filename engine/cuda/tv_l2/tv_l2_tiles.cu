@@ -5,18 +5,14 @@
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/tv_l2/tv_l2_iteration.cuh"
 #include "engine/cuda/tv_l2/tv_l2_steps.cuh"
+#include "engine/cuda/tv_l2/tv_l2_tile_shape.cuh"
 
 namespace episcope::cuda {
 namespace {
 
-// Places (pairs of pixels) and rows of a tile, and what it reads around them.
-constexpr int kTilePlaces = 32, kTileRows = 30;
-constexpr int kHaloPlaces = 3, kHaloRows = 5;
-constexpr int kPlaces = kTilePlaces + 2 * kHaloPlaces;
-constexpr int kRows = kTileRows + 2 * kHaloRows;
-constexpr int kThreads = 768;
-constexpr int kEach = (kPlaces * kRows + kThreads - 1) / kThreads;  // places of a thread
-constexpr int kRow = 2 * kPlaces, kPlane = kRows * kRow;
+using Shape = TvL2TileShape<32, 30, 3, 5, 768>;
+constexpr int kThreads = Shape::kThreads, kEach = Shape::kEach;
+constexpr int kPlaces = Shape::kPlaces, kRow = Shape::kRow, kPlane = Shape::kPlane;
 constexpr int kSharedPlanes = 5;
 
 // How many pixels around the tile a step computes, for those after it to have their neighbours.
@@ -46,28 +42,18 @@ struct Place {
   [[nodiscard]] __device__ bool is_core() const { return reach == 0 && is_inside; }
 };
 
-// Of a row, or of a place times two.
-__device__ int outside(int at, int halo, int size) {
-  return max(0, max(halo - at, at - (halo + size - 1)));
-}
-
 __device__ Place place_of(const TvL2Level& level, const TvL2Level& coarse, int number) {
-  const int index = static_cast<int>(threadIdx.x) + number * kThreads;
-  const int y = index / kPlaces, i = index % kPlaces;
-  const int row = static_cast<int>(blockIdx.y) * kTileRows + y - kHaloRows;
-  const int place = static_cast<int>(blockIdx.x) * kTilePlaces + i - kHaloPlaces;
+  const TvL2TilePlace place = Shape::place(level, number);
   Place result;
-  result.at = y * 2 * kPlaces + i;
-  result.from = row * static_cast<int>(level.pitch) + place;
-  result.cell = static_cast<int>(coarse.at(row >> 1, place));
-  result.reach = index < kPlaces * kRows ? max(outside(y, kHaloRows, kTileRows),
-                                               2 * outside(i, kHaloPlaces, kTilePlaces) - 1)
-                                         : kReadReach + 1;
-  result.is_inside =
-      result.exists() && row >= 0 && row < level.height && place >= 0 && place < level.half();
-  result.is_odd = (row & 1) != 0;
-  result.has_below = row + 1 < level.height;
-  result.from_right = level.width - 1 - 2 * place;
+  result.at = place.y * kRow + place.i;
+  result.from = place.row * static_cast<int>(level.pitch) + place.place;
+  result.cell = static_cast<int>(coarse.at(place.row >> 1, place.place));
+  result.reach = place.exists ? max(Shape::rows_beside(place), Shape::pixels_beside(place))
+                              : kReadReach + 1;
+  result.is_inside = place.is_inside;
+  result.is_odd = (place.row & 1) != 0;
+  result.has_below = place.row + 1 < level.height;
+  result.from_right = level.width - 1 - 2 * place.place;
   return result;
 }
 
@@ -293,11 +279,10 @@ void iterate_by_tiles(const DeviceStream& stream, const TvL2Level& level, const 
                       int views, const TvL2View* of_views, bool is_first) {
   constexpr int kBytes = kSharedPlanes * kPlane * static_cast<int>(sizeof(float));
   check(cudaFuncSetAttribute(iterate_tiles, cudaFuncAttributeMaxDynamicSharedMemorySize, kBytes));
-  const dim3 grid(blocks_for(level.half(), kTilePlaces), blocks_for(level.height, kTileRows),
-                  static_cast<unsigned>(views));
   const double places = static_cast<double>(level.height) * level.half() * views;
   launch(stream, {"tv_l2: iteration by tiles", places * 24 * sizeof(float), places * 220}, [&] {
-    iterate_tiles<<<grid, kThreads, kBytes, stream.get()>>>(level, coarse, of_views, is_first);
+    iterate_tiles<<<Shape::blocks(level, views), kThreads, kBytes, stream.get()>>>(
+        level, coarse, of_views, is_first);
   });
 }
 
