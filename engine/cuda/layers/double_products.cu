@@ -63,21 +63,28 @@ struct Products {
 __device__ Products products_at(const DoubleLine& line, const DoubleFilters& filters, int row,
                                 int step, const DoublePlanes& planes, const float* derivatives,
                                 int a, int b) {
-  const long size = planes.size();
-  const long order = static_cast<long>(line.samples.channels) * line.rows * size;
+  constexpr int kChannels = 3;  // at most
+  const int channels = line.samples.channels;
+  const long channel = line.rows * planes.size(), order = channels * channel;
   const int radius = filters.views[0].radius;
-  float sums[6] = {};
-  for (int c = 0; c < line.samples.channels; ++c) {
-    float xx = 0, xu = 0, uu = 0;
-    for (int i = -radius; i <= radius; ++i) {
-      const long at =
-          (static_cast<long>(c) * line.rows + row + i) * size + planes.at_clamped(a - i * step, b);
-      xx += filters.views[0].values[i + radius] * derivatives[2 * order + at];
-      xu += filters.views[1].values[i + radius] * derivatives[order + at];
-      uu += filters.views[2].values[i + radius] * derivatives[at];
+  float xx[kChannels] = {}, xu[kChannels] = {}, uu[kChannels] = {};
+  for (int i = -radius; i <= radius; ++i) {
+    const float* const from =
+        derivatives + (row + i) * planes.size() + planes.at_clamped(a - i * step, b);
+#pragma unroll
+    for (int c = 0; c < kChannels; ++c) {
+      if (c >= channels) break;
+      xx[c] += filters.views[0].values[i + radius] * __ldg(from + c * channel + 2 * order);
+      xu[c] += filters.views[1].values[i + radius] * __ldg(from + c * channel + order);
+      uu[c] += filters.views[2].values[i + radius] * __ldg(from + c * channel);
     }
-    const float third = filters.scale[2] * uu + filters.mix * xx;
-    const float first = filters.scale[0] * xx, middle = filters.scale[1] * xu;
+  }
+  float sums[6] = {};
+#pragma unroll
+  for (int c = 0; c < kChannels; ++c) {
+    if (c >= channels) break;
+    const float third = filters.scale[2] * uu[c] + filters.mix * xx[c];
+    const float first = filters.scale[0] * xx[c], middle = filters.scale[1] * xu[c];
     sums[0] += first * first;
     sums[1] += first * middle;
     sums[2] += first * third;
@@ -140,18 +147,63 @@ __global__ void multiply_planes(DoubleLine line, DoubleFilters filters, int step
   }
 }
 
-// Block z is a plane. Beyond the first and last EPI, these repeat.
-__global__ void average_planes(DoubleTaps taps, DoublePlanes planes, const float* products,
-                               float* averaged) {
-  const Place place = place_of_thread(planes);
-  if (!place.is_inside) return;
-  const long first = blockIdx.z * planes.size();
-  float sum = 0;
-  for (int i = -taps.radius; i <= taps.radius; ++i) {
-    const int b = min(max(place.b + i, 0), planes.breadth() - 1);
-    sum += taps.values[i + taps.radius] * products[first + planes.at(place.a, b)];
+// Rows that a thread goes down.
+constexpr int kRun = 8;
+
+// Σ weight·value over a window of which the thread's next row brings one value more.
+template <int kRadius>
+__device__ void average_down(const DoubleTaps& taps, int width, int height, int x, int first,
+                             const float* from, float* to) {
+  constexpr int kTaps = 2 * kRadius + 1;
+  const auto value = [&](int y) { return __ldg(from + min(max(y, 0), height - 1) * width + x); };
+  float window[kTaps];
+#pragma unroll
+  for (int i = 1; i < kTaps; ++i) window[i] = value(first - kRadius + i - 1);
+#pragma unroll
+  for (int y = first; y < first + kRun; ++y) {
+    if (y >= height) return;
+#pragma unroll
+    for (int i = 0; i + 1 < kTaps; ++i) window[i] = window[i + 1];
+    window[kTaps - 1] = value(y + kRadius);
+    float sum = 0;
+#pragma unroll
+    for (int i = 0; i < kTaps; ++i) sum += taps.values[i] * window[i];
+    to[y * width + x] = sum;
   }
-  averaged[first + planes.at(place.a, place.b)] = sum;
+}
+
+template <int kRadius>
+__device__ void average_along(const DoubleTaps& taps, int width, int height, int x, int first,
+                              const float* from, float* to) {
+  constexpr int kTaps = 2 * kRadius + 1;
+  int at[kTaps];
+#pragma unroll
+  for (int i = 0; i < kTaps; ++i) at[i] = min(max(x + i - kRadius, 0), width - 1);
+  for (int y = first; y < min(first + kRun, height); ++y) {
+    float sum = 0;
+#pragma unroll
+    for (int i = 0; i < kTaps; ++i) sum += taps.values[i] * __ldg(from + y * width + at[i]);
+    to[y * width + x] = sum;
+  }
+}
+
+// Block z is a plane. Beyond the first and last EPI, these repeat. kRadius is that of the taps.
+template <int kRadius>
+__global__ void average_planes(const __grid_constant__ DoubleTaps taps, DoublePlanes planes,
+                               const float* products, float* averaged) {
+  const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  const int first = static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y) * kRun;
+  const int margins = 2 * planes.margin;
+  const int width = planes.width + (planes.is_horizontal ? margins : 0);
+  const int height = planes.height + (planes.is_horizontal ? 0 : margins);
+  if (x >= width || first >= height) return;
+  const long plane = blockIdx.z * planes.size();
+  const float* const from = products + plane;
+  if (planes.is_horizontal) {
+    average_down<kRadius>(taps, width, height, x, first, from, averaged + plane);
+  } else {
+    average_along<kRadius>(taps, width, height, x, first, from, averaged + plane);
+  }
 }
 
 }  // namespace
@@ -196,9 +248,21 @@ void average_across(const DoubleLine& line, const DoubleFilters& filters,
                     const DeviceStream& stream) {
   const int count = 6 * line.product_rows;
   const double places = static_cast<double>(planes.size()) * count;
+  const dim3 each = blocks_of(planes, count);
+  const dim3 grid(each.x, blocks_for(each.y, kRun), each.z);
+  const auto run = [&] {
+    switch (filters.across.radius) {
+      case 0: return average_planes<0>;
+      case 1: return average_planes<1>;
+      case 2: return average_planes<2>;
+      case 3: return average_planes<3>;
+      case 4: return average_planes<4>;
+      case 5: return average_planes<5>;
+      default: return average_planes<DoubleTaps::kMost / 2>;
+    }
+  }();
   launch(stream, {"double: across EPIs", places * 8, places * 10}, [&] {
-    average_planes<<<blocks_of(planes, count), dim3(32, 8), 0, stream.get()>>>(
-        filters.across, planes, products, averaged);
+    run<<<grid, dim3(32, 8), 0, stream.get()>>>(filters.across, planes, products, averaged);
   });
 }
 

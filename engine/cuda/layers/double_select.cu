@@ -2,6 +2,9 @@
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/layers/double_planes.cuh"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace episcope::cuda {
 namespace {
 
@@ -64,29 +67,52 @@ __device__ Answer solve(const float (&products)[6], const DoubleFilters& filters
   return answer;
 }
 
-// Block z is a wanted view.
-__global__ void select_best(DoubleLine line, DoubleFilters filters, const float* row_weights,
-                            DoubleLimits limits, DoublePlanes planes, const float* products,
-                            DoubleBest best) {
-  const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
-  const int y = static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y);
-  if (x >= planes.width || y >= planes.height) return;
-  const int number = static_cast<int>(blockIdx.z), row = best.first + number;
-  const int a = planes.is_horizontal ? x : y, b = planes.is_horizontal ? y : x;
-  const long size = planes.size(), order = line.product_rows * size;
-  float sums[6] = {};
-  for (int i = 0; i < line.product_rows; ++i) {
-    const float weight = row_weights[row * line.product_rows + i];
-    if (weight == 0) continue;
-    const int moved = limits.step * (line.first_product + i - row);
-    const float* const from = products + i * size + planes.at(a - moved, b);
-    for (int j = 0; j < 6; ++j) sums[j] += weight * from[j * order];
+// The lines of a shear on which wanted views lie: line a + step·row goes through pixel a of view
+// `row`, and takes the same of the products for all of them.
+struct Lines {
+  int first = 0, count = 0;
+
+  Lines(const DoublePlanes& planes, const DoubleBest& best, int step) {
+    const int one = step * best.first, other = step * (best.first + best.count - 1);
+    first = std::min(one, other);
+    count = planes.length() + std::abs(other - one);
   }
-  const Answer answer = solve(sums, filters);
+};
+
+// The products of a line, of the thread alone: `[product row][which of 6][thread]`.
+class LineProducts {
+ public:
+  __device__ LineProducts(const DoubleLine& line, const DoublePlanes& planes, int step, int on,
+                          int b, const float* products, float* memory)
+      : own_(memory + threadIdx.x), rows_(line.product_rows) {
+    const long size = planes.size();
+    for (int i = 0; i < rows_; ++i) {
+      const float* const from =
+          products + i * size + planes.at(on - step * (line.first_product + i), b);
+      for (int j = 0; j < 6; ++j) at(i, j) = __ldg(from + j * rows_ * size);
+    }
+  }
+  __device__ void weigh(const float* weights, float (&sums)[6]) const {
+    for (int i = 0; i < rows_; ++i) {
+      const float weight = __ldg(weights + i);
+      for (int j = 0; j < 6; ++j) sums[j] += weight * at(i, j);
+    }
+  }
+
+ private:
+  [[nodiscard]] __device__ float& at(int i, int j) const {
+    return own_[(i * 6 + j) * static_cast<int>(blockDim.x)];
+  }
+
+  float* own_;
+  int rows_;
+};
+
+__device__ void keep_better(const Answer& answer, const DoubleLimits& limits,
+                            const DoubleBest& best, long at) {
   const auto step = static_cast<float>(limits.step);
   const float near = answer.mean + answer.half_distance + step;
   const float far = answer.mean - answer.half_distance + step;
-  const long at = (static_cast<long>(number) * planes.height + y) * planes.width + x;
   const bool better = answer.is_real && fabsf(answer.mean) <= limits.limit &&
                       answer.half_distance >= 0.5F * limits.min_distance && near <= limits.max &&
                       far >= limits.min && answer.confidence > best.confidence[at];
@@ -96,19 +122,45 @@ __global__ void select_best(DoubleLine line, DoubleFilters filters, const float*
   best.confidence[at] = answer.confidence;
 }
 
+__global__ void select_best(DoubleLine line, DoubleFilters filters, const float* row_weights,
+                            DoubleLimits limits, DoublePlanes planes, Lines lines,
+                            const float* products, DoubleBest best) {
+  extern __shared__ float memory[];
+  const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  const int y = static_cast<int>(blockIdx.y);
+  const int on = lines.first + (planes.is_horizontal ? x : y);
+  const int b = planes.is_horizontal ? y : x;
+  if (on >= lines.first + lines.count || b >= planes.breadth()) return;
+  const LineProducts own(line, planes, limits.step, on, b, products, memory);
+  const DoublePlanes views{planes.is_horizontal, planes.height, planes.width, 0};
+  for (int number = 0; number < best.count; ++number) {
+    const int row = best.first + number, a = on - limits.step * row;
+    if (a < 0 || a >= planes.length()) continue;
+    float sums[6] = {};
+    own.weigh(row_weights + row * line.product_rows, sums);
+    keep_better(solve(sums, filters), limits, best, number * views.size() + views.at(a, b));
+  }
+}
+
 }  // namespace
 
 void select(const DoubleLine& line, const DoubleFilters& filters, const float* row_weights,
             const DoubleLimits& limits, const DoublePlanes& planes, const float* products,
             const DoubleBest& best, const DeviceStream& stream) {
-  const dim3 grid(blocks_for(planes.width, 32), blocks_for(planes.height, 8),
-                  static_cast<unsigned>(best.count));
+  constexpr std::size_t kMostBytes = std::size_t{48} << 10;
+  const std::size_t of_thread = static_cast<std::size_t>(line.product_rows) * 6 * sizeof(float);
+  int threads = 128;
+  while (threads > 32 && threads * of_thread > kMostBytes) threads /= 2;
+  const Lines lines(planes, best, limits.step);
+  const int across = planes.is_horizontal ? lines.count : planes.breadth();
+  const int down = planes.is_horizontal ? planes.breadth() : lines.count;
+  const dim3 grid(blocks_for(across, threads), static_cast<unsigned>(down));
   const double pixels = static_cast<double>(planes.width) * planes.height * best.count;
-  const double read = static_cast<double>(planes.size()) * line.product_rows * 6 * sizeof(float);
+  const double read = static_cast<double>(planes.size()) * static_cast<double>(of_thread);
   launch(stream, {"double: select", read + pixels * 12, pixels * (line.product_rows * 12 + 140)},
          [&] {
-           select_best<<<grid, dim3(32, 8), 0, stream.get()>>>(line, filters, row_weights, limits,
-                                                               planes, products, best);
+           select_best<<<grid, threads, threads * of_thread, stream.get()>>>(
+               line, filters, row_weights, limits, planes, lines, products, best);
          });
 }
 
