@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,27 @@ std::string colmap_poses() {
   return text;
 }
 
+template <class T>
+void append(std::string& bytes, T number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+}
+
+std::string binary_colmap_poses() {
+  std::string bytes;
+  append(bytes, std::uint64_t{kSide * kSide});
+  for (int i = 0; i < kSide * kSide; ++i) {
+    append(bytes, static_cast<std::uint32_t>(i));
+    for (const double number : {1.0, 0.0, 0.0, 0.0, -1.0 * (i % kSide), -1.0 * (i / kSide), 0.0}) {
+      append(bytes, number);
+    }
+    append(bytes, std::uint32_t{1});
+    bytes += image_name(i) + '\0';
+    append(bytes, std::uint64_t{i % 2 == 0 ? 1U : 0U});
+    if (i % 2 == 0) bytes.append(24, '\1');
+  }
+  return bytes;
+}
+
 void write_seeds(const std::filesystem::path& folder) {
   std::vector<float> numbers;
   for (int i = 0; i < kSide * kSide; ++i) {
@@ -49,11 +71,13 @@ void write_seeds(const std::filesystem::path& folder) {
   io::write_npy<float>(folder / "poses.npy", {kSide * kSide, 17}, numbers);
   write_bytes(folder / "transforms", nerf_poses());
   write_bytes(folder / "images", colmap_poses());
+  write_bytes(folder / "binary", binary_colmap_poses());
 }
 
 std::string name_of(std::string_view bytes) {
   return bytes.starts_with("\x93NUMPY") ? "poses_bounds.npy"
          : bytes.starts_with('{')       ? "transforms.json"
+         : bytes.starts_with('\x09')    ? "images.bin"
                                         : "images.txt";
 }
 
@@ -61,8 +85,9 @@ std::string name_of(std::string_view bytes) {
 void read(const std::filesystem::path& file) {
   std::vector<std::filesystem::path> images;
   for (int i = 0; i < kSide * kSide; ++i) images.emplace_back(image_name(i));
-  const io::FoundPoses found = io::find_poses(file.parent_path(), file.parent_path(), images);
-  if (found.problem.empty()) (void)io::find_pose_grid(found.poses);
+  for (const auto& found : io::find_poses(file.parent_path(), file.parent_path(), images)) {
+    if (found.problem.empty()) (void)io::find_pose_grid(found.poses);
+  }
 }
 
 }  // namespace

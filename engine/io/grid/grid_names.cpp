@@ -194,8 +194,7 @@ ListLayout layout_by_views(const fs::path& folder, const NamedGrid& named,
     return layout_of_list(folder, named.placed.views, options, progress);
   } catch (const Undecided&) {
     if (named.poses.problem.empty()) throw;
-    throw IoError(folder, fmt::format("by {}, {}; {}", named.poses.file.filename().string(),
-                                      named.poses.problem, kPoseAdvice));
+    refuse_poses(folder, named.poses);
   }
 }
 
@@ -207,7 +206,7 @@ void settle_orientation(PlacedViews& placed) {
 }
 
 NamedGrid by_poses(const fs::path& folder, PosedViews poses) {
-  NamedGrid grid{std::move(poses.placed), "*, placed by " + poses.file.filename().string(), {}};
+  NamedGrid grid{std::move(poses.placed), "*, placed by " + poses.name(), {}};
   grid.left_out = left_out_of(list_images(folder), grid.placed.views);
   grid.poses = std::move(poses);
   settle_orientation(grid.placed);
@@ -245,12 +244,13 @@ NamedGrid by_names(const fs::path& folder, const OpenOptions& options) {
 NamedGrid name_grid(const fs::path& folder, const OpenOptions& options) {
   PosedViews poses = place_by_poses(folder, options);
   if (poses.are_used()) return by_poses(folder, std::move(poses));
+  if (!poses.problem.empty() && has_parts_with_poses(folder)) refuse_poses(folder, poses);
   NamedGrid grid = by_names(folder, options);
   if (!poses.problem.empty()) {
     grid.placed.warnings.push_back(
         fmt::format("The poses of {} are not used, as {}; the names and the views themselves tell "
                     "rows and columns.",
-                    poses.file.filename().string(), poses.problem));
+                    poses.name(), poses.problem));
   }
   grid.poses = std::move(poses);
   return grid;

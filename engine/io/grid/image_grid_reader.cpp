@@ -9,6 +9,7 @@
 #include "engine/io/grid/image_list.h"
 #include "engine/io/grid/left_out.h"
 #include "engine/io/grid/load_views.h"
+#include "engine/io/grid/posed_views.h"
 #include "engine/io/grid/row_folders.h"
 #include "engine/io/maps/sample_range.h"
 #include "engine/io/open/assemble_scene.h"
@@ -27,7 +28,9 @@ fs::path find_grid(const fs::path& path, const OpenOptions& options) {
   const fs::path folder = scene_folder(path);
   if (folder.empty()) return {};
   const fs::path inside = views_folder(folder);
-  return count_images(inside) > 0 || find_row_folders(inside, options) ? folder : fs::path();
+  const bool is_found = count_images(inside) > 0 || has_parts_with_poses(inside) ||
+                        find_row_folders(inside, options);
+  return is_found ? folder : fs::path();
 }
 
 Scene read_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
@@ -49,11 +52,10 @@ FolderAccount account_of(const fs::path& source, const fs::path& folder, const V
 /// What poses tell of distances: that of cameras side by side, whose views are not shifted.
 void add_camera(const PosedViews& poses, const LightField::Samples& samples, CameraGrid& camera,
                 FolderAccount& account) {
-  account.add_folder(poses.file.parent_path());
-  account.use(poses.file, "pose files");
-  const fs::path cameras = poses.file.parent_path() / "cameras.txt";
-  if (poses.file.filename() == "images.txt" && is_there(cameras))
-    account.use(cameras, "pose files");
+  for (const fs::path& file : poses.files) {
+    account.add_folder(file.parent_path());
+    account.use(file, "pose files");
+  }
   if (camera.is_known() || !(poses.focal_widths > 0)) return;
   const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
   camera.baseline = poses.step;

@@ -4,9 +4,11 @@
 #include "engine/core/error.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/maps/parse_number.h"
+#include "engine/io/poses/colmap_pose.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -16,8 +18,6 @@ namespace episcope::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uintmax_t kLargest = 1'000'000'000;  ///< In bytes: `images.txt` holds all points.
 
 std::vector<std::string> words_of(const std::string& line) {
   std::istringstream in(line);
@@ -52,19 +52,11 @@ std::map<std::string, double> focal_widths(const fs::path& path) {
   return focals;
 }
 
-/// Rows of the rotation of a quaternion, which has not to be normalised.
-std::array<Direction, 3> rows_of(double w, double x, double y, double z) {
-  const double n = 2 / (w * w + x * x + y * y + z * z);
-  return {{{1 - n * (y * y + z * z), n * (x * y - z * w), n * (x * z + y * w)},
-           {n * (x * y + z * w), 1 - n * (x * x + z * z), n * (y * z - x * w)},
-           {n * (x * z - y * w), n * (y * z + x * w), 1 - n * (x * x + y * y)}}};
-}
-
 }  // namespace
 
 std::vector<CameraPose> read_colmap_poses(const fs::path& path) {
   require_readable_file(path);
-  if (fs::file_size(path) > kLargest) throw IoError(path, "this file is larger than 1 GB");
+  if (fs::file_size(path) > kLargestColmap) throw IoError(path, "this file is larger than 1 GB");
   const std::map<std::string, double> focals = focal_widths(path.parent_path() / "cameras.txt");
   std::vector<CameraPose> poses;
   std::ifstream in(path);
@@ -76,12 +68,12 @@ std::vector<CameraPose> read_colmap_poses(const fs::path& path) {
     if (std::exchange(is_of_points, !is_of_points)) continue;
     const std::vector<std::string> words = words_of(line);
     if (words.size() < 10) refuse(path, number);
-    const auto value = [&](std::size_t i) { return number_in(path, number, words[i]); };
-    const auto [right, down, ahead] = rows_of(value(1), value(2), value(3), value(4));
-    CameraPose pose{.image = words[9], .right = right, .down = down, .ahead = ahead};
-    for (std::size_t i = 0; i < 3; ++i) {
-      pose.center[i] = -(right[i] * value(5) + down[i] * value(6) + ahead[i] * value(7));
+    std::array<double, 7> numbers{};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      numbers[i] = number_in(path, number, words[i + 1]);
     }
+    CameraPose pose = colmap_pose(numbers);
+    pose.image = words[9];
     const auto focal = focals.find(words[8]);
     if (focal != focals.end()) pose.focal_widths = focal->second;
     poses.push_back(std::move(pose));

@@ -2,6 +2,7 @@
 #include "engine/core/error.h"
 #include "engine/io/arrays/npy_file.h"
 #include "engine/io/grid/image_file.h"
+#include "engine/io/poses/colmap_binary.h"
 #include "engine/io/poses/colmap_poses.h"
 #include "engine/io/poses/pose_grid.h"
 #include "tests/engine/io/beside/layered_folder.h"
@@ -10,7 +11,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 
@@ -54,14 +57,17 @@ class PosedViewsTest : public QObject {
                     folder_->scene.views.view(view_of(i)));
     }
   }
-  void write_nerf(double off = 0) const {
-    std::ofstream out(folder_->path("transforms.json"));
+  /// The poses of every `step`-th image from `first` on, whose paths `path_of` gives.
+  template <class PathOf>
+  void write_nerf(const std::string& name, int first, int step, const PathOf& path_of,
+                  double off = 0) const {
+    std::ofstream out(folder_->path(name));
     out << fmt::format("{{\"camera_angle_x\": {}, \"frames\": [",
                        2 * std::atan(0.5 / kFocal_widths));
-    for (int i = 0; i < kGrid.count(); ++i) {
+    for (int i = first; i < kGrid.count(); i += step) {
       const io::Direction center = center_of(i, off);
-      out << (i > 0 ? "," : "")
-          << fmt::format("{{\"file_path\": \"./images/img{:02}\", \"transform_matrix\": [", i);
+      out << (i > first ? "," : "")
+          << fmt::format("{{\"file_path\": \"{}\", \"transform_matrix\": [", path_of(i));
       for (std::size_t row = 0; row < 3; ++row) {
         out << fmt::format("[{}, {}, {}, {}],", kRight[row], -kDown[row], -kAhead[row],
                            center[row]);
@@ -69,6 +75,22 @@ class PosedViewsTest : public QObject {
       out << "[0, 0, 0, 1]]}";
     }
     out << "]}";
+  }
+  void write_nerf(double off = 0) const {
+    write_nerf(
+        "transforms.json", 0, 1, [](int i) { return fmt::format("./images/img{:02}", i); }, off);
+  }
+  /// Every third view is in the same part, where it has a number of its own.
+  void write_parts() const {
+    const char* parts[] = {"train", "val", "test"};
+    const auto path_of = [&](int i) { return fmt::format("{}/r_{}", parts[i % 3], i / 3); };
+    for (int part = 0; part < 3; ++part) {
+      write_nerf(fmt::format("transforms_{}.json", parts[part]), part, 3,
+                 [&](int i) { return "./" + path_of(i); });
+    }
+    for (int i = 0; i < kGrid.count(); ++i) {
+      io::write_png(folder_->place(path_of(i) + ".png"), folder_->scene.views.view(view_of(i)));
+    }
   }
   void write_llff() const {
     std::vector<float> all;
@@ -84,23 +106,51 @@ class PosedViewsTest : public QObject {
     }
     io::write_npy<float>(folder_->path("poses_bounds.npy"), {15, 17}, all);
   }
+  /// The quaternion of the matrix with the rows right, down and ahead, and the translation.
+  static std::array<double, 7> colmap_numbers(int number) {
+    const double w = 0.5 * std::sqrt(1 + kRight[0] + kDown[1] + kAhead[2]);
+    const io::Direction center = center_of(number);
+    return {w,
+            (kAhead[1] - kDown[2]) / (4 * w),
+            (kRight[2] - kAhead[0]) / (4 * w),
+            (kDown[0] - kRight[1]) / (4 * w),
+            -io::dot(kRight, center),
+            -io::dot(kDown, center),
+            -io::dot(kAhead, center)};
+  }
+  template <class... Numbers>
+  static void put(std::ofstream& out, Numbers... numbers) {
+    (out.write(reinterpret_cast<const char*>(&numbers), sizeof(numbers)), ...);
+  }
   void write_colmap() const {
     fs::create_directories(folder_->path("sparse/0"));
     std::ofstream(folder_->path("sparse/0/cameras.txt"))
         << fmt::format("# cameras\n1 SIMPLE_PINHOLE 72 60 {} 36 30\n", kFocal_widths * 72);
-    // The quaternion of the matrix with the rows right, down and ahead.
-    const double w = 0.5 * std::sqrt(1 + kRight[0] + kDown[1] + kAhead[2]);
-    const double x = (kAhead[1] - kDown[2]) / (4 * w);
-    const double y = (kRight[2] - kAhead[0]) / (4 * w);
-    const double z = (kDown[0] - kRight[1]) / (4 * w);
     std::ofstream out(folder_->path("sparse/0/images.txt"));
     out << "# images\n";
     for (int i = 0; i < kGrid.count(); ++i) {
-      const io::Direction center = center_of(i);
-      out << fmt::format("{} {} {} {} {} {} {} {} 1 img{:02}.png\n", i + 1, w, x, y, z,
-                         -io::dot(kRight, center), -io::dot(kDown, center),
-                         -io::dot(kAhead, center), i)
-          << (i % 2 == 0 ? "\n" : "10.5 20.5 -1\n");
+      out << i + 1;
+      for (const double number : colmap_numbers(i)) out << ' ' << fmt::format("{}", number);
+      out << fmt::format(" 1 img{:02}.png\n", i) << (i % 2 == 0 ? "\n" : "10.5 20.5 -1\n");
+    }
+  }
+  void write_binary_colmap() const {
+    fs::create_directories(folder_->path("sparse/0"));
+    std::ofstream cameras(folder_->path("sparse/0/cameras.bin"), std::ios::binary);
+    put(cameras, std::uint64_t{2});
+    for (const std::uint32_t id : {7U, 1U}) {  // SIMPLE_RADIAL and PINHOLE
+      put(cameras, id, id == 1 ? 1U : 2U, std::uint64_t{72}, std::uint64_t{60});
+      put(cameras, id == 1 ? kFocal_widths * 72 : 1.0, 90.0, 36.0, 30.0);
+    }
+    std::ofstream out(folder_->path("sparse/0/images.bin"), std::ios::binary);
+    put(out, static_cast<std::uint64_t>(kGrid.count()));
+    for (int i = 0; i < kGrid.count(); ++i) {
+      put(out, static_cast<std::uint32_t>(i + 1));
+      for (const double number : colmap_numbers(i)) put(out, number);
+      put(out, 1U);
+      out << fmt::format("img{:02}.png", i) << '\0';
+      put(out, static_cast<std::uint64_t>(i % 3));
+      for (int point = 0; point < i % 3; ++point) put(out, 10.5, 20.5, std::uint64_t{4});
     }
   }
   bool has_views_in_order(const Scene& scene) const {
@@ -117,13 +167,18 @@ class PosedViewsTest : public QObject {
     QTest::newRow("NeRF") << "transforms.json";
     QTest::newRow("LLFF") << "poses_bounds.npy";
     QTest::newRow("COLMAP") << "images.txt";
+    QTest::newRow("COLMAP, binary") << "images.bin";
+    QTest::newRow("NeRF in parts") << "transforms_train.json, transforms_val.json, transforms_test";
   }
   void posesOfAGrid_placeTheViews() {
     QFETCH(QString, form);
-    write_views("images/");
+    const bool is_in_parts = form.startsWith("transforms_");
+    if (is_in_parts) write_parts();
+    if (!is_in_parts) write_views("images/");
     if (form == "transforms.json") write_nerf();
     if (form == "poses_bounds.npy") write_llff();
     if (form == "images.txt") write_colmap();
+    if (form == "images.bin") write_binary_colmap();
 
     const Scene scene = folder_->open();
 
@@ -136,6 +191,36 @@ class PosedViewsTest : public QObject {
     QVERIFY(std::abs(camera.focal_length - 72 * kFocal_widths) < 1e-3);
     QCOMPARE(scene.light_field->info().positions.size(), std::size_t{15});
     QVERIFY(std::abs(scene.light_field->info().positions.back().x - 4 * kStep) < 1e-5);
+  }
+
+  void trainingViewsOfAGrid_openAlone() {
+    write_parts();
+    const auto all_views = [](int i) { return fmt::format("train/r_{}", i); };
+    for (int i = 0; i < kGrid.count(); ++i) {
+      io::write_png(folder_->place(all_views(i) + ".png"), folder_->scene.views.view(view_of(i)));
+    }
+    write_nerf("transforms_train.json", 0, 1, all_views);
+
+    const Scene scene = folder_->open();
+
+    QVERIFY(has_views_in_order(scene));
+    QVERIFY(scene.convention.order_check.starts_with("3×5 by transforms_train.json: "));
+  }
+
+  void partsOffThePlane_areToldWhy() {
+    write_parts();
+    write_nerf(
+        "transforms_test.json", 2, 3, [](int i) { return fmt::format("./test/r_{}", i / 3); }, 0.5);
+
+    try {
+      (void)folder_->open();
+      QFAIL("it was read");
+    } catch (const IoError& error) {
+      const std::string text = error.what();
+      QVERIFY2(text.find("transforms_test.json, the cameras do not stand on a plane") !=
+                   std::string::npos,
+               text.c_str());
+    }
   }
 
   void posesOffThePlane_areNoLightField() {
@@ -196,6 +281,18 @@ class PosedViewsTest : public QObject {
     QVERIFY2(problem.isEmpty() == found.empty() &&
                  found.find(problem.toStdString()) != std::string::npos,
              found.c_str());
+  }
+
+  void shortenedColmap_isRefused() {
+    write_binary_colmap();
+    const fs::path path = folder_->path("sparse/0/images.bin");
+    const auto size = fs::file_size(path);
+    fs::resize_file(folder_->path("sparse/0/cameras.bin"), 30);
+    for (const std::uintmax_t left : {size - 1, size / 2, std::uintmax_t{20}, std::uintmax_t{3}}) {
+      fs::resize_file(path, left);
+
+      QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_binary_colmap_poses(path));
+    }
   }
 
   void damagedColmap_namesItsLine() {
