@@ -23,6 +23,7 @@ struct ArrayEntry {
   /// Names of arrays of the file that are this one's parts (`join_arrays`), and
   std::vector<std::string> parts{};
   std::string leading{};  ///< what their places mean, "c", "n", "vu", as letters of axes.
+  std::string warning{};  ///< What is missing among them, and left out; empty for all.
 
   /// Whether its parts are views, or maps of views, even if some are missing.
   [[nodiscard]] bool is_of_views() const { return !leading.empty() && leading != "c"; }

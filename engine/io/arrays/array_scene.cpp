@@ -61,6 +61,7 @@ void report_form(const ArrayFile& file, const ArrayEntry& entry, const ChosenLay
   report.format =
       fmt::format("{} ({}{} {}; axes {})", file.form(), name,
                   layout_text(chosen.layout, entry.order), number_name(entry.type), chosen.reason);
+  if (!entry.warning.empty()) report.warnings.push_back(entry.warning);
   if (!chosen.warning.empty()) report.warnings.push_back(chosen.warning);
 }
 

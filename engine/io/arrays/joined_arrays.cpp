@@ -3,6 +3,8 @@
 
 #include "engine/core/text/suffix.h"
 #include "engine/io/beside/map_name.h"
+#include "engine/io/grid/grid_with_gaps.h"
+#include "engine/io/grid/number_run.h"
 
 #include <fmt/format.h>
 
@@ -85,18 +87,34 @@ void sort_by_place(std::vector<Numbered>& series, const std::vector<bool>& varie
   std::ranges::sort(series, {}, &Numbered::numbers);
 }
 
-/// The first place of a grid that is not in the sorted series; empty if it is full.
-std::string missing_place(const std::vector<Numbered>& series, const std::set<long>& rows,
-                          const std::set<long>& columns) {
-  for (const long row : rows) {
-    for (const long column : columns) {
-      const std::vector<long> place{row, column};
-      if (!std::ranges::binary_search(series, place, {}, &Numbered::numbers)) {
-        return fmt::format("{},{}", row, column);
-      }
-    }
+/// The places of a series with two numbers, where its arrays are by their names; nothing if there
+/// are less than half as many arrays.
+std::optional<GridWithGaps> grid_of(const std::vector<ArrayEntry>& entries,
+                                    const std::vector<Numbered>& series) {
+  std::vector<long long> rows;
+  std::vector<long long> columns;
+  for (const Numbered& one : series) {
+    rows.push_back(one.numbers[0]);
+    columns.push_back(one.numbers[1]);
   }
-  return {};
+  GridWithGaps grid{NumberRun(std::move(rows)).filled(), NumberRun(std::move(columns)).filled()};
+  const std::size_t places = grid.rows.size() * grid.columns.size();
+  if (2 * series.size() < places) return std::nullopt;
+  grid.files.resize(places);
+  const auto place_in = [](const std::vector<long long>& numbers, long number) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(numbers, number) - numbers.begin());
+  };
+  for (const Numbered& one : series) {
+    const std::size_t row = place_in(grid.rows, one.numbers[0]);
+    const std::size_t column = place_in(grid.columns, one.numbers[1]);
+    grid.files[row * grid.columns.size() + column] = entries[one.at].name;
+  }
+  return grid;
+}
+
+void add_axes(ArrayEntry& whole, GridShape grid) {
+  whole.shape.insert(whole.shape.begin(),
+                     {static_cast<std::size_t>(grid.v), static_cast<std::size_t>(grid.u)});
 }
 
 /// The whole of a series, whose places are sorted; nothing if they are not those of views.
@@ -111,23 +129,22 @@ std::optional<ArrayEntry> whole_of(const std::vector<ArrayEntry>& entries,
     whole.shape.insert(whole.shape.begin(), series.size());
     return whole;
   }
-  std::set<long> rows;
-  std::set<long> columns;
-  for (const Numbered& one : series) {
-    rows.insert(one.numbers[0]);
-    columns.insert(one.numbers[1]);
-  }
   whole.leading = "vu";
-  const std::size_t places = rows.size() * columns.size();
-  if (2 * series.size() < places) return std::nullopt;
-  if (series.size() < places) {
-    whole.other_kind =
-        fmt::format("{} views on a grid of {}×{}, of which {} is missing", series.size(),
-                    rows.size(), columns.size(), missing_place(series, rows, columns));
-    whole.parts.clear();
-    return whole;
+  const auto grid = grid_of(entries, series);
+  if (!grid) return std::nullopt;
+  const auto part = grid->missing() > 0 ? part_to_open(*grid) : std::nullopt;
+  whole.parts.clear();
+  if (part) {
+    for (const auto& one : files_of_part(*grid, *part).files) whole.parts.push_back(one.string());
+    whole.warning = part_text(*grid, *part);
+    add_axes(whole, part->grid);
+  } else if (grid->missing() > 0) {
+    whole.other_kind = fmt::format("{} views on a grid of {}×{}, {}", series.size(),
+                                   grid->rows.size(), grid->columns.size(), missing_text(*grid));
+  } else {
+    for (const auto& one : grid->files) whole.parts.push_back(one.string());
+    add_axes(whole, grid->shape());
   }
-  whole.shape.insert(whole.shape.begin(), {rows.size(), columns.size()});
   return whole;
 }
 

@@ -16,8 +16,9 @@ namespace episcope::io {
 /// - a view each ([y][x], with channels last or first), numbered by row and column, or in a row:
 ///   view_00_00, 3/4, cam012. Three at least; numbers that are the same in all names say nothing.
 ///
-/// The whole is called like its parts, with # for the numbers. A grid that is not full becomes an
-/// entry of another kind that says what is missing.
+/// The whole is called like its parts, with # for the numbers. Of a grid that is not full it is the
+/// largest part without a gap (`part_to_open`), with a warning; without such a part it is an entry
+/// of another kind that says what is missing.
 void join_arrays(std::vector<ArrayEntry>& entries);
 
 /// The cells of a cell array of MATLAB as one array, if all are views of one size, or maps; nothing

@@ -4,7 +4,9 @@
 #include "engine/core/error.h"
 #include "engine/core/text/character.h"
 #include "engine/core/text/join.h"
+#include "engine/io/arrays/array_preview.h"
 #include "engine/io/arrays/choose_layout.h"
+#include "engine/io/arrays/unlike_planes.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +15,9 @@
 namespace episcope::io {
 namespace {
 
-constexpr std::size_t kFewestAxes = 6;  ///< Of a stack: with fewer, axes could mean anything.
-constexpr std::size_t kMostNamed = 8;   ///< Light fields that a sentence names.
+constexpr std::size_t kGreyAxes = 5;   ///< Of a stack of grey light fields in C order.
+constexpr std::size_t kMostNamed = 8;  ///< Light fields that a sentence names.
+constexpr int kLookedAt_px = 256;      ///< Side of what is compared of a view.
 
 /// One of the arrays along the first axis of a stack.
 class SliceInput : public ArrayInput {
@@ -83,6 +86,32 @@ void PartOfFile::add_slice(ArrayEntry entry) {
   add(slice_of(std::move(entry)));
 }
 
+/// What the slices of an array of five axes in C order can be, if they are grids of grey views.
+std::vector<ArrayLayout> grey_layouts(const ArrayEntry& entry) {
+  const bool is_plain = entry.shape.size() == kGreyAxes && entry.order == IndexOrder::C &&
+                        entry.stated_axes.empty() && entry.parts.empty();
+  if (!is_plain) return {};
+  std::vector<ArrayLayout> layouts = possible_layouts(slice_of(entry).shape, entry.order);
+  std::erase_if(layouts, [](const ArrayLayout& layout) { return layout.axes != "vuyx"; });
+  return layouts;
+}
+
+/// Whether the three or four planes along the first axis, channels by their number, are different
+/// light fields. Reads a view of each.
+bool has_unlike_planes(const ArrayFile& file, const ArrayEntry& entry) {
+  const std::vector<ArrayLayout> slices = grey_layouts(entry);
+  if (slices.empty()) return false;
+  const std::vector<ArrayLayout> whole = possible_layouts(entry.shape, entry.order);
+  if (whole.size() != 1 || whole.front().axes != "cvuyx" || entry.shape.front() < 2) return false;
+  std::vector<Image<float>> planes;
+  for (std::size_t i = 0; i < entry.shape.front(); ++i) {
+    const SliceInput slice(file.open(entry), i);
+    const ViewIndex center = slices.front().grid().center();
+    planes.push_back(array_windows(slice, slices.front(), {center}, kLookedAt_px).front());
+  }
+  return are_unlike(planes);
+}
+
 bool is_word_end(const std::string& text, std::size_t at) {
   return at >= text.size() || !(is_letter(text[at]) || is_digit(text[at]));
 }
@@ -137,11 +166,12 @@ bool have_one_shape(const std::vector<const ArrayEntry*>& entries) {
 }  // namespace
 
 bool can_be_stack(const ArrayEntry& entry) {
-  if (!entry.other_kind.empty() || entry.is_of_views() || entry.shape.size() < kFewestAxes) {
+  if (!entry.other_kind.empty() || entry.is_of_views() || entry.shape.size() < kGreyAxes) {
     return false;
   }
   if (entry.shape.front() < 2 || can_be_light_field(entry)) return false;
-  return can_be_light_field(slice_of(entry));
+  if (entry.shape.size() > kGreyAxes) return can_be_light_field(slice_of(entry));
+  return entry.leading.empty() && !grey_layouts(entry).empty();
 }
 
 std::optional<SeveralFields> SeveralFields::find(const ArrayFile& file,
@@ -157,18 +187,23 @@ std::optional<SeveralFields> SeveralFields::find(const ArrayFile& file,
         std::ranges::find(several.names_, options.dataset) != several.names_.end();
     return is_meant ? std::optional(several) : std::nullopt;
   }
+  const bool is_grey_stack = fields.size() == 1 && options.axes.empty() &&
+                             (options.dataset.empty() || fields.front()->name == options.dataset) &&
+                             has_unlike_planes(file, *fields.front());
   const auto is_stack = [&](const ArrayEntry& entry) {
     const bool is_named =
         options.dataset.empty() ? !has_other_name(entry) : entry.name == options.dataset;
-    return is_named && can_be_stack(entry);
+    return is_named && (is_grey_stack ? &entry == fields.front() : can_be_stack(entry));
   };
-  const bool is_one =
-      std::ranges::any_of(fields, [](const ArrayEntry* entry) { return !has_other_name(*entry); });
+  const bool is_one = !is_grey_stack && std::ranges::any_of(fields, [](const ArrayEntry* entry) {
+    return !has_other_name(*entry);
+  });
   const auto& all = file.entries();
   if ((is_one && options.dataset.empty()) || std::ranges::count_if(all, is_stack) != 1) return {};
   const ArrayEntry& stack = *std::ranges::find_if(all, is_stack);
   several.names_ = {stack.name};
   several.count_ = static_cast<int>(std::min<std::size_t>(stack.shape.front(), 1'000'000));
+  several.are_unlike_planes_ = is_grey_stack;
   return several;
 }
 
@@ -217,9 +252,12 @@ std::unique_ptr<ArrayFile> SeveralFields::one(const ArrayFile& file, int index) 
 std::string SeveralFields::text(int index) const {
   if (names_.size() == 1) {
     return fmt::format(
-        "{} holds {} light fields: number {} is opened, --frame 0 to {} opens "
-        "another.",
-        names_.front().empty() ? "The array" : names_.front(), count_, index, count_ - 1);
+        "{} holds {} light fields{}: number {} is opened, --frame 0 to {} opens another.",
+        names_.front().empty() ? "The array" : names_.front(), count_,
+        are_unlike_planes_ ? ", for the planes of its first axis show different scenes (--axes "
+                             "cvuyx takes them for channels)"
+                           : "",
+        index, count_ - 1);
   }
   std::vector<std::string> some = names_;
   some.resize(std::min(some.size(), kMostNamed));

@@ -11,12 +11,13 @@
 
 namespace episcope::io {
 
-/// Whether an array can hold light fields along its first axis (of those stored), N×V×U×H×W×C, and
-/// is none itself.
+/// Whether an array can hold light fields along its first axis (of those stored), N×V×U×H×W×C or
+/// grey ones N×V×U×H×W, and is none itself.
 [[nodiscard]] bool can_be_stack(const ArrayEntry& entry);
 
 /// Light fields of equal right in one file: arrays of one shape that are called alike, in several
-/// groups ("a/LF", "b/LF") or with numbers, or one array that is a stack of them. The option
+/// groups ("a/LF", "b/LF") or with numbers, or one array that is a stack of them; also where its
+/// three or four slices could be channels but show different scenes (unlike_planes.h). The option
 /// `frame` says which is meant, or `dataset`.
 class SeveralFields {
  public:
@@ -40,6 +41,7 @@ class SeveralFields {
  private:
   std::vector<std::string> names_;  ///< Of arrays; of a stack its own.
   int count_ = 0;
+  bool are_unlike_planes_ = false;
 };
 
 }  // namespace episcope::io

@@ -16,8 +16,8 @@ namespace episcope::io {
 using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<float>>;
 
 /// Decodes PNG, JPEG, JPEG 2000, WebP, TIFF, BMP, PPM, OpenEXR and Radiance HDR; a palette is
-/// resolved. The samples of the last two are linear. Orientation tags are ignored: views are taken
-/// as stored. Throws IoError.
+/// resolved. The samples of the last two are linear. TIFF files that state an orientation come
+/// upright; Exif orientation (exif_orientation.h) is ignored. Throws IoError.
 [[nodiscard]] AnyImage decode_image(const std::filesystem::path& path);
 
 /// The first `count` pages of a TIFF file, likewise. Throws IoError, also if there are less.

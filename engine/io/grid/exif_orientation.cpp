@@ -36,7 +36,6 @@ int orientation_in(FileBytes& file, std::streamoff tiff) {
 /// Of the first Exif segment of a JPEG file; 0 if there is none.
 int orientation_in_jpeg(FileBytes& file) {
   constexpr std::uint32_t kExif = 0x45786966;
-  if (file.number(0, 2, false) != 0xFFD8) return 0;
   std::streamoff at = 2;
   for (int i = 0; i < kMostEntries && !file.is_short(); ++i) {
     const std::uint32_t marker = file.number(at, 2, false), length = file.number(at + 2, 2, false);
@@ -45,6 +44,34 @@ int orientation_in_jpeg(FileBytes& file) {
         file.number(at + 4, 4, false) == kExif && file.number(at + 8, 2, false) == 0;
     if (marker == 0xFFE1 && is_exif) return orientation_in(file, at + 10);
     at += 2 + static_cast<std::streamoff>(length);
+  }
+  return 0;
+}
+
+/// Of the eXIf chunk of a PNG file, before its samples; 0 if there is none.
+int orientation_in_png(FileBytes& file) {
+  constexpr std::uint32_t kExif = 0x65584966, kSamples = 0x49444154;
+  std::streamoff at = 8;
+  for (int i = 0; i < kMostEntries && !file.is_short(); ++i) {
+    const std::uint32_t length = file.number(at, 4, false), type = file.number(at + 4, 4, false);
+    if (type == kExif) return orientation_in(file, at + 8);
+    if (type == kSamples) return 0;
+    at += 12 + static_cast<std::streamoff>(length);
+  }
+  return 0;
+}
+
+/// Of the EXIF chunk of a WebP file, which may begin as the segment of a JPEG file does; 0 if there
+/// is none.
+int orientation_in_webp(FileBytes& file) {
+  constexpr std::uint32_t kExif = 0x45584946, kSegment = 0x45786966;
+  if (file.number(8, 4, false) != 0x57454250) return 0;  // "WEBP"
+  std::streamoff at = 12;
+  for (int i = 0; i < kMostEntries && !file.is_short(); ++i) {
+    const std::uint32_t type = file.number(at, 4, false), length = file.number(at + 4, 4, true);
+    const bool is_segment = type == kExif && file.number(at + 8, 4, false) == kSegment;
+    if (type == kExif) return orientation_in(file, at + 8 + (is_segment ? 6 : 0));
+    at += 8 + static_cast<std::streamoff>(length) + length % 2;
   }
   return 0;
 }
@@ -75,9 +102,14 @@ Image<T> upright_image(const Image<T>& stored, int orientation) {
 
 int exif_orientation(const fs::path& path) {
   const std::string suffix = suffix_of(path);
-  if (suffix != ".jpg" && suffix != ".jpeg") return 1;
+  const bool can_state =
+      suffix == ".jpg" || suffix == ".jpeg" || suffix == ".png" || suffix == ".webp";
+  if (!can_state) return 1;
   FileBytes file(path);
-  const int orientation = orientation_in_jpeg(file);
+  const int orientation = file.begins_with("\xff\xd8")            ? orientation_in_jpeg(file)
+                          : file.begins_with("\x89PNG\r\n\x1a\n") ? orientation_in_png(file)
+                          : file.begins_with("RIFF")              ? orientation_in_webp(file)
+                                                                  : 0;
   return orientation >= 1 && orientation <= 8 ? orientation : 1;
 }
 

@@ -9,9 +9,9 @@
 
 namespace episcope::io {
 
-/// How a camera was held, as JPEG files state it (Exif 2.3, tag 0x0112): 1 = upright, 3 = upside
-/// down, 6 and 8 = turned by a quarter, others mirrored. 1 for other files, and where nothing is
-/// stated. Reads the beginning of the file only, and throws nothing.
+/// How a camera was held, as JPEG, PNG and WebP files state it (Exif 2.3, tag 0x0112): 1 = upright,
+/// 3 = upside down, 6 and 8 = turned by a quarter, others mirrored. 1 for other files, of which
+/// TIFF is decoded upright, and where nothing is stated. Reads headers only, and throws nothing.
 [[nodiscard]] int exif_orientation(const std::filesystem::path& path);
 
 /// The image as it is to be looked at.

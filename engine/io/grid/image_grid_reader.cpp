@@ -28,8 +28,8 @@ fs::path find_grid(const fs::path& path, const OpenOptions& options) {
   const fs::path folder = scene_folder(path);
   if (folder.empty()) return {};
   const fs::path inside = views_folder(folder);
-  const bool is_found = count_images(inside) > 0 || has_parts_with_poses(inside) ||
-                        find_row_folders(inside, options);
+  const bool is_found =
+      count_images(inside) > 0 || has_parts_with_poses(inside) || find_row_folders(inside, options);
   return is_found ? folder : fs::path();
 }
 

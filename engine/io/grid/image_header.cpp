@@ -9,6 +9,7 @@
 #include <istream>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -78,6 +79,7 @@ ImageHeader tiff_header(FileBytes& file, bool is_little_endian) {
   ImageHeader header{0, 0, 1, SampleType::UInt8};
   std::uint32_t bits = 8;
   std::uint32_t format = 1;
+  bool is_turned = false;  // decoded upright
   const std::streamoff directory = number(4, 4);
   const std::uint32_t entries = number(directory, 2);
   for (std::uint32_t i = 0; i < entries && !file.is_short(); ++i) {
@@ -97,6 +99,9 @@ ImageHeader tiff_header(FileBytes& file, bool is_little_endian) {
       case 258:
         bits = value;
         break;
+      case 274:
+        is_turned = value >= 5 && value <= 8;
+        break;
       case 277:
         header.channels = value < 3 ? 1 : 3;
         break;
@@ -107,6 +112,7 @@ ImageHeader tiff_header(FileBytes& file, bool is_little_endian) {
         break;
     }
   }
+  if (is_turned) std::swap(header.width, header.height);
   header.sample_type = format == float_format ? SampleType::Float32 : of_bits(bits);
   return header;
 }

@@ -16,6 +16,15 @@ NumberRun::NumberRun(std::vector<long long> all) : values(std::move(all)) {
   step = std::max(common, 1LL);
 }
 
+std::vector<long long> NumberRun::filled() const {
+  if (is_scattered()) return values;
+  std::vector<long long> all;
+  for (long long value = values.front(); value <= values.back(); value += step) {
+    all.push_back(value);
+  }
+  return all;
+}
+
 std::optional<std::size_t> NumberRun::place_of(long long value) const {
   const auto found = std::ranges::lower_bound(values, value);
   if (found == values.end() || *found != value) return std::nullopt;

@@ -22,6 +22,8 @@ struct NumberRun {
   [[nodiscard]] bool is_scattered() const {
     return length() > 2 * static_cast<long long>(values.size());
   }
+  /// The values with those that are missing between them, if it is an index.
+  [[nodiscard]] std::vector<long long> filled() const;
   /// 0 … n−1 or 1 … n.
   [[nodiscard]] bool is_plain() const {
     return !has_gaps() && step == 1 && (values.front() == 0 || values.front() == 1);

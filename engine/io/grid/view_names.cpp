@@ -28,15 +28,9 @@ NumberRun run_of(const ViewNames& names, const std::function<long long(const Nam
   return NumberRun(std::move(values));
 }
 
-/// The values that places are made for: with gaps filled, unless a user meant them or nearly all is
-/// missing.
+/// The values that places are made for: gaps that a user named are meant.
 std::vector<long long> expected_values(const NumberRun& run, bool is_chosen) {
-  if (is_chosen || run.is_scattered()) return run.values;
-  std::vector<long long> values;
-  for (long long value = run.values.front(); value <= run.values.back(); value += run.step) {
-    values.push_back(value);
-  }
-  return values;
+  return is_chosen ? run.values : run.filled();
 }
 
 void warn_of_steps(const char* what, const NumberRun& run, std::vector<std::string>& warnings) {

@@ -15,11 +15,10 @@ inline constexpr std::uintmax_t kLargestColmap = 1'000'000'000;  ///< In bytes: 
 [[nodiscard]] inline CameraPose colmap_pose(const std::array<double, 7>& numbers) {
   const auto [w, x, y, z, tx, ty, tz] = numbers;
   const double n = 2 / (w * w + x * x + y * y + z * z);
-  CameraPose pose{
-      .image = {},
-      .right = {1 - n * (y * y + z * z), n * (x * y - z * w), n * (x * z + y * w)},
-      .down = {n * (x * y + z * w), 1 - n * (x * x + z * z), n * (y * z - x * w)},
-      .ahead = {n * (x * z - y * w), n * (y * z + x * w), 1 - n * (x * x + y * y)}};
+  CameraPose pose{.image = {},
+                  .right = {1 - n * (y * y + z * z), n * (x * y - z * w), n * (x * z + y * w)},
+                  .down = {n * (x * y + z * w), 1 - n * (x * x + z * z), n * (y * z - x * w)},
+                  .ahead = {n * (x * z - y * w), n * (y * z + x * w), 1 - n * (x * x + y * y)}};
   for (std::size_t i = 0; i < 3; ++i) {
     pose.center[i] = -(pose.right[i] * tx + pose.down[i] * ty + pose.ahead[i] * tz);
   }

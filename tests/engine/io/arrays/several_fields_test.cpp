@@ -12,6 +12,8 @@
 #include <QTemporaryDir>
 
 #include <algorithm>
+#include <numeric>
+#include <random>
 
 namespace episcope::in_several_fields_test {
 
@@ -71,6 +73,36 @@ class SeveralFieldsTest : public QObject {
     QVERIFY(largest_difference(read.truth->field, scenes_[index].truth->field) < 1e-6);
   }
 
+  static constexpr GridShape kGreyGrid{3, 5};
+  /// A wall of grain of its own, which moves by a pixel from view to view.
+  static ViewStack<std::uint8_t> grey_views(unsigned seed) {
+    std::mt19937 random(seed);
+    Image<float> grain(60, 60);
+    for (float& value : grain) value = static_cast<float>(random() % 256);
+    ViewStack<std::uint8_t> views(kGreyGrid, 40, 48, 1);
+    for (int i = 0; i < kGreyGrid.count(); ++i) {
+      const ViewIndex view = kGreyGrid.view_at(i);
+      for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 48; ++x) {
+          const int at = y + view.v, across = x + view.u;
+          const float four = grain.at(at, across) + grain.at(at + 1, across) +
+                             grain.at(at, across + 1) + grain.at(at + 1, across + 1);
+          views.view(view).at(y, x) = static_cast<std::uint8_t>(four / 4);
+        }
+      }
+    }
+    return views;
+  }
+  /// Along the first axis of an array.
+  static void write_grey(const fs::path& path, const std::vector<unsigned>& seeds) {
+    std::vector<std::uint8_t> all;
+    for (const unsigned seed : seeds) {
+      const ViewStack<std::uint8_t> views = grey_views(seed);
+      all.insert(all.end(), views.data(), views.data() + views.size());
+    }
+    io::write_npy<std::uint8_t>(path, {seeds.size(), 3, 5, 40, 48}, all);
+  }
+
  private slots:
   void initTestCase() {
     for (const double d : {0.3, 1.3}) {
@@ -106,6 +138,35 @@ class SeveralFieldsTest : public QObject {
 
     check(read, 1);
     QCOMPARE(read.sequence.count, 0);
+  }
+
+  void greyLightFields_areNoChannels_data() {
+    QTest::addColumn<int>("count");
+    for (const int count : {2, 3, 4, 5}) QTest::addRow("%d", count) << count;
+  }
+  void greyLightFields_areNoChannels() {
+    QFETCH(int, count);
+    std::vector<unsigned> seeds(static_cast<std::size_t>(count));
+    std::iota(seeds.begin(), seeds.end(), 1);
+    write_grey(path("grey.npy"), seeds);
+
+    for (int i = 0; i < count; ++i) {
+      const Scene read = open(path("grey.npy"), i);
+      const ViewStack<std::uint8_t> views = grey_views(seeds[static_cast<std::size_t>(i)]);
+      QCOMPARE(read.light_field->channels(), 1);
+      QVERIFY(std::equal(views.data(), views.data() + views.size(), bytes_of(read).data()));
+      QCOMPARE(read.sequence.count, count);
+    }
+  }
+
+  void channelsOfOneScene_stayChannels() {
+    write_grey(path("rgb.npy"), {1, 1, 1});
+    write_grey(path("other.npy"), {1, 2, 3});
+    io::OpenOptions options;
+    options.axes = "cvuyx";
+
+    QCOMPARE(open(path("rgb.npy"), 0).light_field->channels(), 3);
+    QCOMPARE(io::open_scene(path("other.npy"), options, Progress(1)).light_field->channels(), 3);
   }
 
   void stackOfNumpy_isReadByItsParts() {
