@@ -47,7 +47,11 @@ QString summary_of(const io::PatternPreview& preview) {
       preview.is_list
           ? PatternPanel::tr("a list of %1 views, whose rows the images tell").arg(preview.grid.u)
           : PatternPanel::tr("%1×%2 views").arg(preview.grid.v).arg(preview.grid.u);
-  return matches + ": " + grid;
+  QString warnings;
+  for (const std::string& warning : preview.warnings) {
+    warnings += ". " + breakable(QString::fromStdString(warning));
+  }
+  return matches + ": " + grid + warnings;
 }
 
 io::PatternPreview preview_of(const std::string& folder, const std::string& pattern,
@@ -127,7 +131,7 @@ void PatternPanel::fill(const io::PatternPreview& preview) {
   names_->setColumnHidden(3, !has_index);
   names_->setColumnHidden(kViewColumn, !has_view);
   summary_->setText(summary_of(preview));
-  const bool is_wrong = !preview.problem.empty();
+  const bool is_wrong = !preview.problem.empty() || !preview.warnings.empty();
   summary_->setPalette(is_wrong ? theme::text_palette(theme::warning_text(palette())) : palette());
 }
 

@@ -65,6 +65,18 @@ void add_lists(const ArrayShape& lengths, std::vector<std::string>& out) {
   if (can_be_channels(l[2]) && l[2] > 1 && is_list(l[3], l[0], l[1])) out.emplace_back("yxcn");
 }
 
+/// With a batch of one before it, as networks take it, a list is written like the only row of a
+/// grid: it is read as a list, whose views can speak for either.
+void add_batch(const ArrayShape& lengths, std::vector<std::string>& out) {
+  std::vector<std::string> lists;
+  add_lists(ArrayShape(lengths.begin() + 1, lengths.end()), lists);
+  std::erase_if(lists, [](const std::string& axes) { return !axes.starts_with('n'); });
+  if (!lists.empty()) {
+    std::erase_if(out, [](const std::string& axes) { return axes.starts_with("vu"); });
+  }
+  for (const std::string& axes : lists) out.push_back(kSingle + axes);
+}
+
 }  // namespace
 
 ArrayShape in_index_order(ArrayShape stored, IndexOrder order) {
@@ -124,6 +136,8 @@ std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder o
   } else if (lengths.size() == 3) {
     add_lists(lengths, found);
   }
+  const bool may_be_batch = order == IndexOrder::C && singles.empty() && lengths.size() > 3;
+  if (may_be_batch && lengths.front() == 1) add_batch(lengths, found);
   std::vector<ArrayLayout> layouts;
   for (const std::string& axes : found)
     layouts.push_back({stored, in_index_order(singles + axes, order)});

@@ -50,7 +50,7 @@ struct ArrayLayout {
 /// the length 1 and stand first. Rows are taken to
 /// come before columns in the order of indices, but for arrays of pixels before views with channels
 /// first, as MATLAB's in other programs, in which columns come first. Arrays of 3 axes are lists of
-/// grey views; of 4, grey views or lists.
+/// grey views; of 4, grey views or lists. In C order 1×N views are a list, too ("1nyxc").
 [[nodiscard]] std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder order);
 
 /// The layout that `axes` states, in the order of indices ("vuyxc", "v,u,y,x"; s and t as in

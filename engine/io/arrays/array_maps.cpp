@@ -30,7 +30,7 @@ std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, const ArrayLayout
   ArrayLayout layout{entry.shape, {}};
   std::string all;
   for (const char letter : in_index_order(light_field.axes, order)) {
-    if (letter != 'c') all += letter;
+    if (letter != 'c' && letter != kSingle) all += letter;
   }
   std::string pixels;
   for (const char letter : all) {

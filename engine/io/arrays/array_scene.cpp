@@ -112,7 +112,11 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   parts.valid = std::move(read.valid);
   combine(parts.valid, std::move(maps.valid));
   parts.truth = std::move(maps.truth);
-  if (chosen.layout.has('n')) arrange_list(file.path(), options, parts, chosen.reason, progress);
+  if (chosen.layout.has('n')) {
+    const bool is_row = chosen.layout.has(kSingle) && options.axes.empty();
+    arrange_list(file.path(), options, parts, chosen.reason, progress,
+                 is_row ? StoredAs::Row : StoredAs::List);
+  }
   settle_disparity(parts.samples, maps, parts.truth.field, parts.info.camera, scene.convention);
   report_form(file, entry, chosen, scene.convention);
   parts.files = std::move(maps.uses);

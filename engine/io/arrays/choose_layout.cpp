@@ -132,7 +132,8 @@ std::optional<ArrayLayout> grid_or_list(const ArrayFile& file, const ArrayEntry&
   const ArrayLayout& list = layouts[is_list_first ? 0 : 1];
   const ArrayLayout& grid = layouts[is_list_first ? 1 : 0];
   const std::size_t channels = list.axes.find('c');
-  if (!list.has('n') || grid.has('n') || grid.has('c') || channels == std::string::npos) {
+  const bool is_grey = grid.length('c') == 1;
+  if (!list.has('n') || grid.has('n') || !is_grey || channels == std::string::npos) {
     return std::nullopt;
   }
   const char letter = grid.axes[channels];

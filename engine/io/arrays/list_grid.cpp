@@ -47,7 +47,7 @@ std::vector<ReadingChoice> grid_choices(int count) {
 }  // namespace
 
 void arrange_list(const std::filesystem::path& path, const OpenOptions& options, SceneParts& parts,
-                  std::string& reason, const Progress& progress) {
+                  std::string& reason, const Progress& progress, StoredAs stored) {
   const int count =
       std::visit([](const auto& stack) { return stack.grid().count(); }, parts.samples);
   ListLayout layout;
@@ -63,7 +63,11 @@ void arrange_list(const std::filesystem::path& path, const OpenOptions& options,
   } else {
     progress.step("arranging the views of the list");
     layout = find_list_layout(parts.samples, progress);
-    if (!layout.is_decided) {
+    if (!layout.is_decided && stored == StoredAs::Row) {
+      layout.grid = {1, count};
+      layout.order = ListOrder::Rows;
+      layout.evidence = "as stored, for the views do not tell: " + layout.evidence;
+    } else if (!layout.is_decided) {
       throw Undecided(path,
                       fmt::format("this is a list of {} views, and how they lie on a grid is "
                                   "not certain ({})",

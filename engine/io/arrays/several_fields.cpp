@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kGreyAxes = 5;   ///< Of a stack of grey light fields in C order.
 constexpr std::size_t kMostNamed = 8;  ///< Light fields that a sentence names.
 constexpr int kLookedAt_px = 256;      ///< Side of what is compared of a view.
+constexpr int kLongest = 8;            ///< Of sides of grey views in a stack.
 
 /// One of the arrays along the first axis of a stack.
 class SliceInput : public ArrayInput {
@@ -92,7 +93,10 @@ std::vector<ArrayLayout> grey_layouts(const ArrayEntry& entry) {
                         entry.stated_axes.empty() && entry.parts.empty();
   if (!is_plain) return {};
   std::vector<ArrayLayout> layouts = possible_layouts(slice_of(entry).shape, entry.order);
-  std::erase_if(layouts, [](const ArrayLayout& layout) { return layout.axes != "vuyx"; });
+  std::erase_if(layouts, [](const ArrayLayout& layout) {
+    const auto [less, more] = std::minmax({layout.height(), layout.width()});
+    return layout.axes != "vuyx" || more > kLongest * less;
+  });
   return layouts;
 }
 
@@ -103,11 +107,16 @@ bool has_unlike_planes(const ArrayFile& file, const ArrayEntry& entry) {
   if (slices.empty()) return false;
   const std::vector<ArrayLayout> whole = possible_layouts(entry.shape, entry.order);
   if (whole.size() != 1 || whole.front().axes != "cvuyx" || entry.shape.front() < 2) return false;
-  std::vector<Image<float>> planes;
+  const GridShape grid = slices.front().grid();
+  const ViewIndex center = grid.center();
+  const bool is_above = grid.u == 1;
+  const ViewIndex beside =
+      is_above ? ViewIndex{center.v - 1, center.u} : ViewIndex{center.v, center.u - 1};
+  std::vector<PlaneViews> planes;
   for (std::size_t i = 0; i < entry.shape.front(); ++i) {
     const SliceInput slice(file.open(entry), i);
-    const ViewIndex center = slices.front().grid().center();
-    planes.push_back(array_windows(slice, slices.front(), {center}, kLookedAt_px).front());
+    auto views = array_windows(slice, slices.front(), {center, beside}, kLookedAt_px);
+    planes.push_back({std::move(views[0]), std::move(views[1]), is_above});
   }
   return are_unlike(planes);
 }

@@ -2,13 +2,17 @@
 #include "engine/io/arrays/unlike_planes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace episcope::io {
 namespace {
 
 constexpr int kSquare_px = 8;        ///< Of pictures of half the size.
+constexpr int kFurthest_px = 4;      ///< Motion of these squares that is looked for.
+constexpr double kUnlike_px = 0.2;   ///< Difference of motion of different scenes is above.
 constexpr double kUnlike = 0.5;      ///< Correlation of different scenes is below.
 constexpr double kNoDetail = 1e-12;  ///< Variance, relative to the mean square.
 
@@ -45,30 +49,82 @@ std::optional<double> correlation(const Image<float>& a, const Image<float>& b, 
   return std::abs(ab - sum_a * sum_b / count) / std::sqrt(variance_a * variance_b);
 }
 
-/// Of the squares in which both vary.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Calls `use(top, left)` for the squares of a picture that may move by `margin` within it.
+template <class Use>
+void for_squares(const Image<float>& picture, int margin, const Use& use) {
+  for (int y = margin; y + kSquare_px + margin <= picture.height(); y += kSquare_px) {
+    for (int x = margin; x + kSquare_px + margin <= picture.width(); x += kSquare_px) use(y, x);
+  }
+}
+
+/// Of the squares in which both vary; 0 if there are none.
 double median_correlation(const Image<float>& a, const Image<float>& b) {
   std::vector<double> all;
-  for (int y = 0; y + kSquare_px <= a.height(); y += kSquare_px) {
-    for (int x = 0; x + kSquare_px <= a.width(); x += kSquare_px) {
-      if (const auto one = correlation(a, b, y, x, kSquare_px, kSquare_px)) all.push_back(*one);
+  for_squares(a, 0, [&](int y, int x) {
+    if (const auto one = correlation(a, b, y, x, kSquare_px, kSquare_px)) all.push_back(*one);
+  });
+  return all.empty() ? 0 : median(std::move(all));
+}
+
+/// How far each square has moved in the neighbouring view, to a fraction of a pixel.
+std::vector<double> motion_of(const PlaneViews& plane) {
+  std::vector<double> all;
+  for_squares(plane.center, kFurthest_px, [&](int top, int left) {
+    std::array<double, 2 * kFurthest_px + 1> costs{};
+    for (int shift = -kFurthest_px; shift <= kFurthest_px; ++shift) {
+      for (int y = top; y < top + kSquare_px; ++y) {
+        for (int x = left; x < left + kSquare_px; ++x) {
+          const double off =
+              plane.center.at(y, x) - (plane.is_above ? plane.neighbour.at(y + shift, x)
+                                                      : plane.neighbour.at(y, x + shift));
+          costs[static_cast<std::size_t>(shift + kFurthest_px)] += off * off;
+        }
+      }
     }
-  }
-  if (all.empty()) return 0;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::ranges::nth_element(all, middle);
-  return *middle;
+    const auto best = std::ranges::min_element(costs) - costs.begin();
+    double part = 0;
+    if (best > 0 && best < 2 * kFurthest_px) {
+      const auto at = static_cast<std::size_t>(best);
+      const double bend = costs[at - 1] - 2 * costs[at] + costs[at + 1];
+      if (bend > 0) part = (costs[at - 1] - costs[at + 1]) / (2 * bend);
+    }
+    all.push_back(static_cast<double>(best) + part);
+  });
+  return all;
+}
+
+bool move_differently(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.empty()) return false;
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(std::abs(a[i] - b[i]));
+  constexpr double kHalved = 2;
+  return kHalved * median(std::move(differences)) > kUnlike_px;
+}
+
+bool are_correlated(const Image<float>& a, const Image<float>& b) {
+  const auto whole = correlation(a, b, 0, 0, a.height(), a.width());
+  return !whole || *whole > kUnlike || median_correlation(a, b) > kUnlike;
 }
 
 }  // namespace
 
-bool are_unlike(const std::vector<Image<float>>& pictures) {
-  std::vector<Image<float>> halves;
-  for (const Image<float>& picture : pictures) halves.push_back(halved(picture));
+bool are_unlike(const std::vector<PlaneViews>& planes) {
+  std::vector<PlaneViews> halves;
+  std::vector<std::vector<double>> motions;
+  for (const PlaneViews& plane : planes) {
+    halves.push_back({halved(plane.center), halved(plane.neighbour), plane.is_above});
+    motions.push_back(motion_of(halves.back()));
+  }
   for (std::size_t i = 0; i < halves.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      const Image<float>&a = halves[i], &b = halves[k];
-      const auto whole = correlation(a, b, 0, 0, a.height(), a.width());
-      if (!whole || *whole > kUnlike || median_correlation(a, b) > kUnlike) return false;
+      if (are_correlated(halves[i].center, halves[k].center)) return false;
+      if (!move_differently(motions[i], motions[k])) return false;
     }
   }
   return halves.size() > 1;

@@ -56,29 +56,10 @@ void store(const Image<float>& map, ViewIndex view, DisparityField& field) {
   }
 }
 
-/// Of a map that was written as a gray picture of three channels, one of them. Throws IoError if
-/// they differ.
-Image<float> one_channel(const fs::path& path, Image<float> map) {
-  if (map.channels() == 1) return map;
-  Image<float> first(map.height(), map.width());
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      const float value = map.at(y, x, 0);
-      const bool is_gray =
-          std::isnan(value) || (map.at(y, x, 1) == value && map.at(y, x, 2) == value);
-      if (!is_gray) {
-        throw IoError(path, "this map has 3 channels, but 1 is expected; remove or replace it");
-      }
-      first.at(y, x) = value;
-    }
-  }
-  return first;
-}
-
 Image<float> read_map(const fs::path& path, const BesideViews& views) {
-  Image<float> map = read_pfm(path);
+  Image<float> map = read_pfm_map(path);
   require_view_size(path, map.height(), map.width(), views);
-  return one_channel(path, std::move(map));
+  return map;
 }
 
 /// Depth of the benchmark is in metres or in millimetres, told apart by the focus distance.

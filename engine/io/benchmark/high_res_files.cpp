@@ -44,10 +44,7 @@ class TruthInFiles : public HighResTruth {
 
   [[nodiscard]] Image<float> read_disparity() const override {
     require_memory();
-    Image<float> map = read_pfm(disparity_);
-    if (map.channels() != 1) {
-      throw IoError(disparity_, "this map has 3 channels, but 1 is expected; replace or remove it");
-    }
+    Image<float> map = read_pfm_map(disparity_);
     require_size(disparity_, map, height_, width_);
     return map;
   }

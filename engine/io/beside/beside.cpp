@@ -35,7 +35,7 @@ void set_aside(std::vector<MapSet>& sets, const BesideNotes& notes) {
 
 FoundBeside read_beside(const BesideViews& views, const BesideNotes& notes,
                         const Progress& progress) {
-  MapsBeside maps = find_maps(views.files, views.folder);
+  MapsBeside maps = find_maps(views.files, views.folder, views.is_own);
   FoundBeside found{{}, {}, views.camera};
   if (maps.sets.empty()) return found;
   progress.step("reading truth");

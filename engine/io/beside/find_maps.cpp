@@ -325,7 +325,7 @@ fs::path MapSet::file_of(int view) const {
   return found == entries.end() ? fs::path() : found->file;
 }
 
-MapsBeside find_maps(const ViewFiles& views, const fs::path& folder) {
+MapsBeside find_maps(const ViewFiles& views, const fs::path& folder, const IsOwnFile& is_own) {
   std::set<fs::path> taken(views.files.begin(), views.files.end());
   taken.insert(views.left_out.begin(), views.left_out.end());
   const ViewKeys keys = keys_of_views(views);
@@ -333,7 +333,7 @@ MapsBeside find_maps(const ViewFiles& views, const fs::path& folder) {
   for (const Place& place : places_of(folder)) {
     std::map<std::pair<MapKind, std::string>, std::vector<fs::path>> groups;
     for (const fs::path& file : list_files(place.folder)) {
-      if (taken.contains(file)) continue;
+      if (taken.contains(file) || (is_own && !is_own(file))) continue;
       const auto kind = kind_of(file, place.kind);
       if (!kind) continue;
       const std::string pattern =

@@ -5,6 +5,7 @@
 #include "engine/io/grid/load_views.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,12 +37,16 @@ struct MapsBeside {
   std::vector<std::filesystem::path> folders;
 };
 
+/// Whether a file may belong to the views, where several light fields share a folder.
+using IsOwnFile = std::function<bool(const std::filesystem::path& file)>;
+
 /// Finds maps by their names (`map_kind`), without opening a file: in the folder of the views, in
 /// folders inside it (`is_map_folder`), and around it if it is called lf, views or the like or if
 /// it has a `kBaselineFile`. Numbers of names are those of the views, or count them row by row;
 /// they may begin at another number. A single map without such numbers belongs to the centre view,
-/// of a part of a grid to that of the whole.
-/// Linear in the files.
-[[nodiscard]] MapsBeside find_maps(const ViewFiles& views, const std::filesystem::path& folder);
+/// of a part of a grid to that of the whole. Files that are not `is_own` are as if they were not
+/// there. Linear in the files.
+[[nodiscard]] MapsBeside find_maps(const ViewFiles& views, const std::filesystem::path& folder,
+                                   const IsOwnFile& is_own = {});
 
 }  // namespace episcope::io

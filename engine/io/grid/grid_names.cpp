@@ -217,6 +217,11 @@ NamedGrid by_poses(const fs::path& folder, PosedViews poses) {
 NamedGrid by_names(const fs::path& folder, const OpenOptions& options) {
   if (const auto rows = find_row_folders(folder, options)) {
     NamedGrid grid{place_rows(folder, *rows), rows->pattern, {}};
+    if (options.snake && grid.placed.views.part) {
+      throw IoError(folder,
+                    "views are missing, and in snake order what is left is no grid; add them");
+    }
+    if (options.snake) arrange(grid.placed, row_by_row(grid.placed.views.grid, options));
     settle_orientation(grid.placed);
     return grid;
   }
@@ -233,7 +238,8 @@ NamedGrid by_names(const fs::path& folder, const OpenOptions& options) {
                                              : ", such as " + images.front().filename().string(),
                               kPatternAdvice));
   }
-  NamedGrid grid{place_views(folder, names), names.pattern, {}};
+  NamedGrid grid{
+      place_views(folder, options.snake ? with_turned_rows(names) : names), names.pattern, {}};
   grid.left_out = left_out_of(images, grid.placed.views);
   settle_orientation(grid.placed);
   return grid;
@@ -269,12 +275,6 @@ std::string settle_grid(const fs::path& folder, NamedGrid& named, const OpenOpti
                                 "--grid out, or number the views by --pattern with {{index}}",
                                 grid_text(placed.views.grid), grid_text(*given)));
     }
-    if (options.snake && part) {
-      throw IoError(folder,
-                    "views are missing, and in snake order what is left is no grid; add "
-                    "them");
-    }
-    if (options.snake) arrange(placed, row_by_row(placed.views.grid, options));
     return {};
   }
   if (placed.gaps) {

@@ -31,12 +31,10 @@ std::string sentence_of(const IoError& error) {
 }
 
 /// Where views are, by path.
-std::map<fs::path, ViewIndex> places_of(const ViewFiles& views, bool snake) {
+std::map<fs::path, ViewIndex> places_of(const ViewFiles& views) {
   std::map<fs::path, ViewIndex> places;
   for (int i = 0; i < views.grid.count(); ++i) {
-    ViewIndex at = views.grid.view_at(i);
-    if (snake && at.v % 2 == 1) at.u = views.grid.u - 1 - at.u;
-    places.emplace(views.files[static_cast<std::size_t>(i)], at);
+    places.emplace(views.files[static_cast<std::size_t>(i)], views.grid.view_at(i));
   }
   return places;
 }
@@ -71,10 +69,12 @@ void preview_names(const fs::path& folder, const std::vector<fs::path>& images,
       preview.problem = fmt::format("{} of {} images match; a grid has two or more views",
                                     names.views.size(), images.size());
     } else {
-      const PlacedViews placed = place_views(folder, names);
+      const PlacedViews placed = place_views(folder, snake ? with_turned_rows(names) : names);
       preview.grid = placed.views.grid;
       preview.is_list = placed.is_list;
-      if (!placed.is_list) places = places_of(placed.views, snake);
+      preview.warnings = placed.warnings;
+      if (placed.gaps) preview.warnings.push_back(placed.gaps->text + ": state the grid.");
+      if (!placed.is_list) places = places_of(placed.views);
     }
   } catch (const IoError& error) {
     preview.problem = sentence_of(error);

@@ -31,6 +31,7 @@ struct PatternPreview {
   GridShape grid{};                  ///< 1×N for a list, whose rows and columns the images tell.
   bool is_list = false;
   std::string problem{};  ///< Why there is no grid, as a sentence; empty if there is one.
+  std::vector<std::string> warnings{};  ///< A sentence each: what is missing and left out, ….
 };
 
 /// What `pattern` (name_pattern.h), or if it is empty the one that is detected, makes of the images

@@ -155,6 +155,7 @@ PlacedViews place_on_grid(const fs::path& folder, const ViewNames& names) {
   const Axes axes{run_of(names, row_of), run_of(names, column_of)};
   GridWithGaps views{expected_values(axes.rows, names.is_chosen),
                      expected_values(axes.columns, names.is_chosen)};
+  if (names.is_turned) views.numbering = "as in the names, with every second row turned round";
   const std::size_t places = views.rows.size() * views.columns.size();
   if (places > std::max(kMostPlaces, sorted.size())) {
     throw IoError(folder, fmt::format("{} of {} places of a grid of {}×{} have no view ({}); {}",
@@ -227,6 +228,19 @@ PlacedViews place_views(const fs::path& folder, const ViewNames& names) {
     return place_on_grid(folder, numbered);
   }
   return names.views.front().index ? place_in_list(folder, names) : place_on_grid(folder, names);
+}
+
+ViewNames with_turned_rows(ViewNames names) {
+  const NamedView& first = names.views.front();
+  if (!first.row || !first.column) return names;
+  const NumberRun rows = run_of(names, row_of);
+  const NumberRun columns = run_of(names, column_of);
+  for (NamedView& view : names.views) {
+    const bool is_odd = (*view.row - rows.values.front()) / rows.step % 2 == 1;
+    if (is_odd) view.column = columns.values.front() + columns.values.back() - *view.column;
+  }
+  names.is_turned = true;
+  return names;
 }
 
 }  // namespace episcope::io

@@ -27,6 +27,7 @@ struct ViewNames {
   std::vector<NamedView> views{};
   bool is_chosen = false;  ///< A user named the pattern: then gaps in numbers are meant.
   int images = 0;          ///< In the folder, for messages.
+  bool is_turned = false;  ///< `with_turned_rows`.
 };
 
 /// What is missing from a list of views.
@@ -52,6 +53,10 @@ struct PlacedViews {
 /// Throws IoError that names views that are missing if there is no such part, or two views of one
 /// place; `folder` is for messages.
 [[nodiscard]] PlacedViews place_views(const std::filesystem::path& folder, const ViewNames& names);
+
+/// Names of a grid in snake order as if each row went the same way: the columns of every second row
+/// are counted from the other end. Names of a list stay as they are.
+[[nodiscard]] ViewNames with_turned_rows(ViewNames names);
 
 /// How to say what the names of views mean, for the ends of messages.
 inline constexpr const char* kPatternAdvice =

@@ -163,7 +163,7 @@ void mark_invalid(DisparityField& field) {
 DisparityField read_disparity_map(const fs::path& path, GridShape grid) {
   require_readable_file(path);
   const std::string suffix = suffix_of(path);
-  if (suffix == ".pfm") return center_field(path, read_pfm(path), grid);
+  if (suffix == ".pfm") return center_field(path, read_pfm_map(path), grid);
   if (suffix == ".npy") return read_npy_field(path, grid);
   if (suffix == ".tif" || suffix == ".tiff") {
     return center_field(path, read_float_tiff(path), grid);

@@ -69,6 +69,17 @@ Header read_header(const std::filesystem::path& path, std::istream& in) {
   return header;
 }
 
+/// Where samples begin after the header: after the line feed of a file whose lines end as in
+/// Windows, which leaves one byte too many. −1 where the header is all there is.
+std::streamoff begin_of_samples(std::istream& in, std::uintmax_t bytes, std::uintmax_t needed) {
+  const std::streamoff begin = in.tellg();
+  if (begin < 1 || bytes - static_cast<std::uintmax_t>(begin) <= needed) return begin;
+  in.seekg(begin - 1);
+  const bool is_windows_line = in.get() == '\r' && in.peek() == '\n';
+  if (is_windows_line) in.get();
+  return in.tellg();
+}
+
 void swap_bytes(float* row, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto bits = std::bit_cast<std::uint32_t>(row[i]);
@@ -78,13 +89,33 @@ void swap_bytes(float* row, std::size_t count) {
 
 }  // namespace
 
+Image<float> read_pfm_map(const std::filesystem::path& path) {
+  Image<float> map = read_pfm(path);
+  if (map.channels() == 1) return map;
+  Image<float> first(map.height(), map.width());
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      const float value = map.at(y, x, 0);
+      const bool is_gray =
+          std::isnan(value) || (map.at(y, x, 1) == value && map.at(y, x, 2) == value);
+      if (!is_gray) {
+        throw IoError(path,
+                      "this map has 3 channels that differ, but 1 is expected; remove or replace "
+                      "it");
+      }
+      first.at(y, x) = value;
+    }
+  }
+  return first;
+}
+
 Image<float> read_pfm(const std::filesystem::path& path) {
   require_readable_file(path);
   std::ifstream in(path, std::ios::binary);
   const Header header = read_header(path, in);
   const std::size_t count = static_cast<std::size_t>(header.width) * header.channels;
-  const std::streamoff begin = in.tellg();  // -1 where the header is all there is
   const std::uintmax_t bytes = std::filesystem::file_size(path);
+  const std::streamoff begin = begin_of_samples(in, bytes, 4 * count * header.height);
   const std::uintmax_t present =
       begin < 0 ? 0 : (bytes - static_cast<std::uintmax_t>(begin)) / (4 * count);
   if (present < static_cast<std::uintmax_t>(header.height)) {

@@ -5,11 +5,15 @@
 #include "engine/io/grid/decode_image.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
 namespace episcope::io {
 namespace {
+
+constexpr std::string_view kEslf = "eslf";
+constexpr std::array<std::string_view, 3> kLensletWords{"macpi", "lenslet", "lenslets"};
 
 /// "eslf" and "flower_eslf", but not "heslf".
 bool ends_with_word(const std::string& stem, std::string_view word) {
@@ -24,11 +28,22 @@ bool ends_with_word(const std::string& stem, std::string_view word) {
 MosaicName mosaic_name(const std::filesystem::path& path) {
   if (!is_image_name(path)) return MosaicName::Plain;
   const std::string stem = lower_case(path.stem().string());
-  if (ends_with_word(stem, "eslf")) return MosaicName::Eslf;
-  for (const char* word : {"macpi", "lenslet", "lenslets"}) {
+  if (ends_with_word(stem, kEslf)) return MosaicName::Eslf;
+  for (const std::string_view word : kLensletWords) {
     if (ends_with_word(stem, word)) return MosaicName::Lenslets;
   }
   return stem == "lf" ? MosaicName::Mosaic : MosaicName::Plain;
+}
+
+std::string scene_of_mosaic(const std::filesystem::path& path) {
+  std::string stem = lower_case(path.stem().string());
+  for (const std::string_view word :
+       {kEslf, kLensletWords[0], kLensletWords[1], kLensletWords[2]}) {
+    if (stem.size() <= word.size() + 1 || !ends_with_word(stem, word)) continue;
+    stem.resize(stem.size() - word.size() - 1);
+    break;
+  }
+  return stem;
 }
 
 }  // namespace episcope::io

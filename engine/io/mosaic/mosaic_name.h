@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace episcope::io {
 
@@ -15,5 +16,8 @@ enum class MosaicName {
 
 /// Regardless of case. Plain for a file that is no image.
 [[nodiscard]] MosaicName mosaic_name(const std::filesystem::path& path);
+
+/// What the scene is called: "flower" of "Flower_eslf.png" and of "flower.png", in small letters.
+[[nodiscard]] std::string scene_of_mosaic(const std::filesystem::path& path);
 
 }  // namespace episcope::io

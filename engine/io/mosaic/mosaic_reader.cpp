@@ -8,6 +8,7 @@
 #include "engine/io/mosaic/find_mosaic.h"
 #include "engine/io/mosaic/mosaic_dataset.h"
 #include "engine/io/mosaic/mosaic_name.h"
+#include "engine/io/mosaic/own_files.h"
 #include "engine/io/mosaic/split_mosaic.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/center_preview.h"
@@ -51,18 +52,25 @@ std::vector<FileUse> account_of(const fs::path& path) {
   return account.uses();
 }
 
-/// Truth in the folder of a mosaic without others, and what becomes of all files there.
+/// Truth in the folder of a mosaic, and what becomes of the files there.
 void add_beside(const fs::path& path, const OpenOptions& options, SceneParts& parts, Scene& scene,
                 const Progress& progress) {
   const bool is_itself_a_map = map_kind(path.stem().string()).has_value();
-  if (!is_only_mosaic(path) || is_itself_a_map) return;
+  if (is_itself_a_map) return;
   const fs::path folder = scene_folder(path);
-  FolderAccount account(folder);
+  FolderAccount account(is_only_mosaic(path) ? folder : path);
   account.use(path, "mosaics");
   const ViewFiles views{grid_of(parts.samples), {}};
-  FoundBeside beside = read_beside(
-      {views, folder, parts.samples, parts.info.camera, options.map_views(), options.needs_truth},
-      {account, scene.convention}, progress);
+  const OwnFiles own(path);
+  FoundBeside beside =
+      read_beside({.files = views,
+                   .folder = folder,
+                   .samples = parts.samples,
+                   .camera = parts.info.camera,
+                   .map_views = options.map_views(),
+                   .needs_truth = options.needs_truth,
+                   .is_own = [&](const fs::path& file) { return own.contains(file); }},
+                  {account, scene.convention}, progress);
   parts.truth = std::move(beside.truth);
   parts.info.camera = beside.camera;
   scene.scribbles.labels = std::move(beside.label_infos);

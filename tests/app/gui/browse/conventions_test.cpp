@@ -14,6 +14,7 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QDir>
+#include <QFile>
 #include <QImage>
 #include <QLabel>
 #include <QLineEdit>
@@ -106,6 +107,7 @@ class ConventionsTest : public QObject {
   void builtinScene_hasNoChoice();
   void gridOfOddNames_opensByPattern();
   void pattern_isPreviewedWhileTyped();
+  void missingViews_areToldBesideThePattern();
   void viewsThatTellNothing_areAskedFor();
   void questionThatIsCancelled_opensNothing();
   void folderThatFailed_mayBeReadOtherwise();
@@ -290,6 +292,20 @@ void ConventionsTest::pattern_isPreviewedWhileTyped() {
   QTest::keyClicks(line, "x");
   QTRY_VERIFY2_WITH_TIMEOUT(summary->text().contains("0 of 12"), qPrintable(summary->text()),
                             kPatience);
+}
+
+void ConventionsTest::missingViews_areToldBesideThePattern() {
+  WindowFixture f;
+  const QString folder = write_odd_grid(f.path("odd"));
+  QFile::remove(folder + "/take-4of3-final.png");
+  f.window.bench().opener.open(folder);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene(), kScenePatience);
+  QDialog* dialog = open_dialog(f.window);
+  QVERIFY(dialog);
+
+  auto* summary = dialog->findChild<QLabel*>("pattern.summary");
+  QTRY_VERIFY2_WITH_TIMEOUT(summary->text().remove(QChar(0x200b)).contains("view 4,3 is missing"),
+                            qPrintable(summary->text()), kPatience);
 }
 
 void ConventionsTest::viewsThatTellNothing_areAskedFor() {

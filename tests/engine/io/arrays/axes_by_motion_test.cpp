@@ -79,6 +79,39 @@ class AxesByMotionTest : public QObject {
              scene.convention.format.c_str());
     QVERIFY(has_samples(scene, views));
   }
+
+  void viewsAfterABatchOfOne_areAList_data() {
+    QTest::addColumn<QString>("axes");
+    for (const char* axes : {"vuyxc", "vucyx"}) QTest::newRow(axes) << axes;
+  }
+  void viewsAfterABatchOfOne_areAList() {
+    QFETCH(QString, axes);
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const std::string letters = axes.toStdString();
+    const ViewStack<std::uint8_t> views = coloured_views({5, 5});
+    io::ArrayShape lengths = lengths_of(views, letters);
+    lengths[0] = 1;
+    lengths[1] = 25;
+    io::write_npy<std::uint8_t>(file, lengths, in_axes(views, letters));
+
+    const Scene scene = io::open_scene(file, {}, Progress(1));
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{5, 5}));
+    QVERIFY(has_samples(scene, views));
+  }
+
+  void onlyRow_staysOne() {
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const ViewStack<std::uint8_t> views = coloured_views({1, 9});
+    io::write_npy<std::uint8_t>(file, lengths_of(views, "vuyxc"), in_axes(views, "vuyxc"));
+
+    const Scene scene = io::open_scene(file, {}, Progress(1));
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{1, 9}));
+    QVERIFY(has_samples(scene, views));
+  }
 };
 
 }  // namespace episcope::in_axes_by_motion_test

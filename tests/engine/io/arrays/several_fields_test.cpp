@@ -74,17 +74,18 @@ class SeveralFieldsTest : public QObject {
   }
 
   static constexpr GridShape kGreyGrid{3, 5};
-  /// A wall of grain of its own, which moves by a pixel from view to view.
+  /// A wall of grain of its own, which moves by so many pixels from view to view.
   static ViewStack<std::uint8_t> grey_views(unsigned seed) {
     std::mt19937 random(seed);
-    Image<float> grain(60, 60);
+    Image<float> grain(60, 80);
     for (float& value : grain) value = static_cast<float>(random() % 256);
     ViewStack<std::uint8_t> views(kGreyGrid, 40, 48, 1);
     for (int i = 0; i < kGreyGrid.count(); ++i) {
       const ViewIndex view = kGreyGrid.view_at(i);
       for (int y = 0; y < 40; ++y) {
         for (int x = 0; x < 48; ++x) {
-          const int at = y + view.v, across = x + view.u;
+          const int at = y + view.v * static_cast<int>(seed),
+                    across = x + view.u * static_cast<int>(seed);
           const float four = grain.at(at, across) + grain.at(at + 1, across) +
                              grain.at(at, across + 1) + grain.at(at + 1, across + 1);
           views.view(view).at(y, x) = static_cast<std::uint8_t>(four / 4);

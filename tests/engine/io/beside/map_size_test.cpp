@@ -177,6 +177,22 @@ class MapSizeTest : public QObject {
       QVERIFY(std::equal(labels.row(y), labels.row(y) + labels.width, wanted.row(y)));
     }
   }
+
+  void truthBesideSeveralMosaics_isThatOfItsName() {
+    const Image<std::uint8_t> picture = io::join_lenslets(folder_->scene.views, Progress(1));
+    for (const char* name : {"set/rose_macpi.png", "set/rose_2_macpi.png", "set/oak_macpi.png"}) {
+      io::write_png(folder_->place(name), picture.view());
+    }
+    folder_->write_npy("set/rose_2_disparity.npy", center());
+    folder_->write_npy("set/rose_2_labels.npy", folder_->scene.labels.view({1, 1}));
+    folder_->write_npy("set/disparity.npy", center());
+
+    QCOMPARE(right(folder_->open("set/rose_2_macpi.png", {.grid = "3x3"})), 1.0);
+    for (const char* name : {"set/rose_macpi.png", "set/oak_macpi.png"}) {
+      const Scene scene = folder_->open(name, {.grid = "3x3"});
+      QVERIFY(!scene.truth || scene.truth->field.empty());
+    }
+  }
 };
 
 }  // namespace episcope::in_map_size_test

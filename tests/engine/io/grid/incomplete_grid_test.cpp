@@ -2,6 +2,7 @@
 #include "engine/core/error.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/io/grid/part_of_grid.h"
+#include "engine/io/grid/pattern_preview.h"
 #include "engine/io/open/undecided.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -52,6 +53,29 @@ class IncompleteGridTest : public QObject {
     folder_ = std::make_unique<LayeredFolder>(GridShape{5, 5});
     folder_->write_views(LayeredFolder::named("{}_{}.png"));
     fs::remove(folder_->path("4_5.png"));
+  }
+
+  void snakeOrder_turnsRowsBeforeTheGap() {
+    for (int row = 1; row <= 5; ++row) {
+      for (int column = 1; column <= 5; ++column) {
+        fs::remove(folder_->path(fmt::format("{}_{}.png", row, column)));
+      }
+    }
+    folder_->write_views([](int row, int column) {
+      return fmt::format("{}_{}.png", row, row % 2 == 0 ? 6 - column : column);
+    });
+    fs::remove(folder_->path("4_5.png"));  // of column 1
+    io::OpenOptions options;
+    options.snake = true;
+
+    const Scene scene = folder_->open({}, options);
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{5, 4}));
+    QVERIFY(has_views_from(scene, {0, 1}));
+    QVERIFY(warns_of(scene, "view 4,1 is missing (row,column as in the names, with every second"));
+    const io::PatternPreview preview = io::preview_pattern(folder_->path(), {}, true);
+    QCOMPARE(preview.grid, (GridShape{5, 4}));
+    QCOMPARE(preview.warnings.size(), std::size_t{1});
   }
 
   void missingView_leavesOutItsColumn() {

@@ -5,6 +5,7 @@
 
 #include <QTemporaryDir>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <fstream>
@@ -78,6 +79,31 @@ class PfmTest : public QObject {
 
     QCOMPARE(io::read_pfm(path("big.pfm")).at(0, 1), 3.0F);
     QCOMPARE(io::read_pfm(path("little.pfm")).at(0, 0), 0.75F);
+  }
+
+  void linesOfWindows_endTheHeader() {
+    const std::uint32_t values[] = {std::bit_cast<std::uint32_t>(1.5F),
+                                    std::bit_cast<std::uint32_t>(-2.0F)};
+    write(path("windows.pfm"), "Pf\r\n2 1\r\n-1.0\r\n", {values[0], values[1]});
+    // The first sample begins with the byte of a line feed.
+    write(path("return.pfm"), "Pf\n2 1\n-1.0\r", {0x3F80000AU, values[1]});
+
+    const Image<float> windows = io::read_pfm(path("windows.pfm"));
+    QCOMPARE(windows.at(0, 0), 1.5F);
+    QCOMPARE(windows.at(0, 1), -2.0F);
+    QCOMPARE(io::read_pfm(path("return.pfm")).at(0, 1), -2.0F);
+  }
+
+  void grayOfThreeChannels_isAMap() {
+    Image<float> image(2, 2, 3);
+    for (int i = 0; i < 4; ++i) std::fill_n(&image.at(i / 2, i % 2), 3, 0.5F * i);
+    io::write_pfm(path("gray.pfm"), image.view());
+    image.at(1, 0, 2) = 7;
+    io::write_pfm(path("colour.pfm"), image.view());
+
+    QCOMPARE(io::read_pfm_map(path("gray.pfm")).channels(), 1);
+    QCOMPARE(io::read_pfm_map(path("gray.pfm")).at(1, 1), 1.5F);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_pfm_map(path("colour.pfm")));
   }
 
   void badFiles_areRefused_data() {
