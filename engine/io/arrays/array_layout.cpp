@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -47,34 +48,43 @@ void add_grids(const ArrayShape& lengths, std::size_t channel_axis, std::vector<
   }
 }
 
+bool can_be_list(std::size_t n, std::size_t y, std::size_t x) {
+  return n > 1 && n <= kMostViews && can_be_pixels(y, x) && (n < std::max(y, x) || n > 4);
+}
+
 void add_lists(const ArrayShape& lengths, std::vector<std::string>& out) {
-  const auto is_list = [](std::size_t n, std::size_t y, std::size_t x) {
-    return n > 1 && n <= kMostViews && can_be_pixels(y, x) && (n < std::max(y, x) || n > 4);
-  };
   const ArrayShape& l = lengths;
   if (l.size() == 3) {
-    if (!can_be_channels(l[2]) && is_list(l[0], l[1], l[2])) out.emplace_back("nyx");
-    if (!can_be_channels(l[0]) && is_list(l[2], l[0], l[1]) && l[2] < std::min(l[0], l[1]) &&
+    if (!can_be_channels(l[2]) && can_be_list(l[0], l[1], l[2])) out.emplace_back("nyx");
+    if (!can_be_channels(l[0]) && can_be_list(l[2], l[0], l[1]) && l[2] < std::min(l[0], l[1]) &&
         !can_be_channels(l[2]) && l[0] > l[2]) {
       out.emplace_back("yxn");
     }
     return;
   }
-  if (can_be_channels(l[3]) && is_list(l[0], l[1], l[2])) out.emplace_back("nyxc");
-  if (can_be_channels(l[1]) && l[1] > 1 && is_list(l[0], l[2], l[3])) out.emplace_back("ncyx");
-  if (can_be_channels(l[2]) && l[2] > 1 && is_list(l[3], l[0], l[1])) out.emplace_back("yxcn");
+  if (can_be_channels(l[3]) && can_be_list(l[0], l[1], l[2])) out.emplace_back("nyxc");
+  if (can_be_channels(l[1]) && l[1] > 1 && can_be_list(l[0], l[2], l[3])) out.emplace_back("ncyx");
+  if (can_be_channels(l[2]) && l[2] > 1 && can_be_list(l[3], l[0], l[1])) out.emplace_back("yxcn");
 }
 
-/// With a batch of one before it, as networks take it, a list is written like the only row of a
-/// grid: it is read as a list, whose views can speak for either.
-void add_batch(const ArrayShape& lengths, std::vector<std::string>& out) {
+/// Lists as networks take them, which are written like the only row or column of a grid: after a
+/// batch of one, or with one channel. They are read as lists, whose views can speak for either.
+void add_network_lists(const ArrayShape& lengths, std::vector<std::string>& out) {
+  const bool is_batch = lengths.front() == 1;
+  const ArrayShape rest(lengths.begin() + (is_batch ? 1 : 0), lengths.end());
   std::vector<std::string> lists;
-  add_lists(ArrayShape(lengths.begin() + 1, lengths.end()), lists);
+  if (is_batch) add_lists(rest, lists);
+  if (rest.size() == 4 && rest[1] == 1 && can_be_list(rest[0], rest[2], rest[3])) {
+    lists.emplace_back("ncyx");
+  }
   std::erase_if(lists, [](const std::string& axes) { return !axes.starts_with('n'); });
   if (!lists.empty()) {
     std::erase_if(out, [](const std::string& axes) { return axes.starts_with("vu"); });
   }
-  for (const std::string& axes : lists) out.push_back(kSingle + axes);
+  for (std::string& axes : lists) {
+    if (is_batch) axes.insert(axes.begin(), kSingle);
+    out.push_back(std::move(axes));
+  }
 }
 
 }  // namespace
@@ -136,8 +146,8 @@ std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder o
   } else if (lengths.size() == 3) {
     add_lists(lengths, found);
   }
-  const bool may_be_batch = order == IndexOrder::C && singles.empty() && lengths.size() > 3;
-  if (may_be_batch && lengths.front() == 1) add_batch(lengths, found);
+  const bool may_be_of_network = order == IndexOrder::C && singles.empty() && lengths.size() > 3;
+  if (may_be_of_network) add_network_lists(lengths, found);
   std::vector<ArrayLayout> layouts;
   for (const std::string& axes : found)
     layouts.push_back({stored, in_index_order(singles + axes, order)});

@@ -162,12 +162,22 @@ bool has_other_name(const ArrayEntry& entry) {
       kWords, [&](const char* word) { return name.find(word) != std::string::npos; });
 }
 
+/// Whether the array is named like a map, beside another that is not and holds as many numbers,
+/// which is rather the light field.
+bool is_beside_more(const ArrayEntry& map, const ArrayFile& file) {
+  return has_other_name(map) && std::ranges::any_of(file.entries(), [&](const ArrayEntry& other) {
+           return other.other_kind.empty() && !has_other_name(other) && other.shape.size() > 2 &&
+                  element_count(other.shape) >= element_count(map.shape);
+         });
+}
+
 std::vector<const ArrayEntry*> light_fields_of(const ArrayFile& file, const std::string& axes) {
   std::vector<const ArrayEntry*> possible;
   for (const ArrayEntry& entry : file.entries()) {
     const bool has_axes = entry.other_kind.empty() && entry.shape.size() == letter_count(axes);
     if (axes.empty() ? can_be_light_field(entry) : has_axes) possible.push_back(&entry);
   }
+  if (axes.empty() && possible.size() == 1 && is_beside_more(*possible.front(), file)) return {};
   if (possible.size() <= 1) return possible;
   using Claim = std::function<bool(const ArrayEntry*)>;
   const Claim has_name = [](const ArrayEntry* entry) { return is_light_field_name(entry->name); };

@@ -3,10 +3,12 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
+#include "engine/io/arrays/choose_layout.h"
 #include "engine/io/arrays/deflated_npy.h"
 #include "engine/io/arrays/npy_file.h"
 #include "engine/io/beside/map_name.h"
 #include "engine/io/durable/system_error.h"
+#include "engine/io/grid/decode_image.h"
 
 #include <algorithm>
 #include <fstream>
@@ -17,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostBeside = 100;
+constexpr std::size_t kMostInFolder = 10'000;
 
 bool begins_as_npy(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -39,7 +42,37 @@ std::vector<fs::path> maps_beside(const fs::path& path) {
   return found;
 }
 
+/// In the order of their names; none if there are too many, or images.
+std::vector<fs::path> arrays_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (is_image_name(entry.path())) return {};
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (!is_hidden && suffix_of(entry.path()) == ".npy") found.push_back(entry.path());
+    if (found.size() > kMostInFolder) return {};
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+/// Coloured, or grey in whole numbers: maps have one channel, and fractions mostly.
+bool is_of_pictures(const ArrayEntry& entry) {
+  if (!entry.is_of_views() || !entry.other_kind.empty() || has_other_name(entry)) return false;
+  const std::size_t axes = entry.shape.size() - entry.leading.size();
+  return axes == 3 || entry.type == NumberType::UInt8 || entry.type == NumberType::UInt16;
+}
+
 }  // namespace
+
+bool is_folder_of_views(const fs::path& folder) {
+  const std::vector<fs::path> arrays = arrays_in(folder);
+  const bool are_maps = std::ranges::all_of(
+      arrays, [](const fs::path& path) { return map_kind(path.stem().string()).has_value(); });
+  if (are_maps) return false;
+  const NumpyFile file(folder);
+  return std::ranges::any_of(file.entries(), is_of_pictures);
+}
 
 bool is_numpy_file(const fs::path& path) {
   const std::string suffix = suffix_of(path);
@@ -47,13 +80,24 @@ bool is_numpy_file(const fs::path& path) {
 }
 
 NumpyFile::NumpyFile(const fs::path& path)
-    : ArrayFile(path, suffix_of(path) == ".npz" ? "NumPy archive" : "NumPy array") {
-  require_readable_file(path);
-  if (suffix_of(path) != ".npz") {
-    add_source({path.stem().string(), path, {}}, true);
-    for (const fs::path& map : maps_beside(path)) add_source({map.stem().string(), map, {}}, false);
+    : ArrayFile(path, fs::is_directory(path)      ? "folder of NumPy arrays"
+                      : suffix_of(path) == ".npz" ? "NumPy archive"
+                                                  : "NumPy array") {
+  if (fs::is_directory(path)) {
+    for (const fs::path& one : arrays_in(path)) add_source({one.stem().string(), one, {}}, false);
+    join_parts();
     return;
   }
+  require_readable_file(path);
+  if (suffix_of(path) == ".npz") {
+    add_archive(path);
+    return;
+  }
+  add_source({path.stem().string(), path, {}}, true);
+  for (const fs::path& map : maps_beside(path)) add_source({map.stem().string(), map, {}}, false);
+}
+
+void NumpyFile::add_archive(const fs::path& path) {
   if (!has_zip_signature(path)) {
     throw IoError(path, "this is not an .npz file, despite its name; choose another file");
   }

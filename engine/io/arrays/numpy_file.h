@@ -11,10 +11,11 @@
 
 namespace episcope::io {
 
-/// `.npy` files and `.npz` archives of them, by name without suffix.
+/// `.npy` files, alone or in a folder, and `.npz` archives of them, by name without suffix.
 class NumpyFile : public ArrayFile {
  public:
-  /// An archive, or one `.npy` with those beside it that hold no light field. Throws IoError.
+  /// An archive, all of a folder, or one `.npy` with those beside it that hold no light field.
+  /// Throws IoError.
   explicit NumpyFile(const std::filesystem::path& path);
 
  private:
@@ -26,9 +27,13 @@ class NumpyFile : public ArrayFile {
     std::optional<ZipEntry> zipped;
   };
   void add_source(Source source, bool is_needed);
+  void add_archive(const std::filesystem::path& path);
 
   std::vector<Source> sources_;
 };
+
+/// Whether a folder holds pictures as `.npy` files, numbered, and no images.
+[[nodiscard]] bool is_folder_of_views(const std::filesystem::path& folder);
 
 /// Whether a file can be one, by its suffix or how it begins.
 [[nodiscard]] bool is_numpy_file(const std::filesystem::path& path);

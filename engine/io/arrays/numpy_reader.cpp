@@ -29,7 +29,10 @@ bool can_hold_views(const fs::path& path) {
 }
 
 fs::path find_numpy(const fs::path& path, const OpenOptions&) {
-  if (fs::is_directory(path)) return only_file_in(path, can_hold_views);
+  if (fs::is_directory(path)) {
+    fs::path only = only_file_in(path, can_hold_views);
+    return only.empty() && is_folder_of_views(path) ? path : only;
+  }
   return is_numpy_file(path) ? path : fs::path();
 }
 

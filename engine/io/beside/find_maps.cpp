@@ -312,6 +312,27 @@ std::optional<MapKind> kind_of(const fs::path& file, std::optional<MapKind> of_f
   return may_be_text && is_text_map(file) ? kind : std::nullopt;
 }
 
+/// Maps that lie with their view in a folder of its own, and are called the same in all of these.
+std::vector<MapSet> maps_with_views(const ViewFiles& views, const fs::path& folder) {
+  std::map<std::pair<MapKind, std::string>, MapSet> sets;
+  std::set<fs::path> seen;
+  for (std::size_t i = 0; i < views.files.size(); ++i) {
+    const fs::path inside = views.files[i].parent_path();
+    if (inside == folder || !seen.insert(inside).second) return {};
+    for (const fs::path& file : list_files(inside)) {
+      const auto kind = file == views.files[i] ? std::nullopt : kind_of(file, std::nullopt);
+      if (!kind) continue;
+      MapSet& set = sets[{*kind, file.filename().string()}];
+      set.kind = *kind;
+      set.pattern = "*/" + file.filename().string();
+      set.entries.push_back({static_cast<int>(i), file});
+    }
+  }
+  std::vector<MapSet> all;
+  for (auto& [key, set] : sets) all.push_back(std::move(set));
+  return all;
+}
+
 }  // namespace
 
 std::vector<fs::path> MapSet::files() const {
@@ -330,6 +351,7 @@ MapsBeside find_maps(const ViewFiles& views, const fs::path& folder, const IsOwn
   taken.insert(views.left_out.begin(), views.left_out.end());
   const ViewKeys keys = keys_of_views(views);
   MapsBeside found;
+  found.sets = maps_with_views(views, folder);
   for (const Place& place : places_of(folder)) {
     std::map<std::pair<MapKind, std::string>, std::vector<fs::path>> groups;
     for (const fs::path& file : list_files(place.folder)) {

@@ -42,10 +42,10 @@ using IsOwnFile = std::function<bool(const std::filesystem::path& file)>;
 
 /// Finds maps by their names (`map_kind`), without opening a file: in the folder of the views, in
 /// folders inside it (`is_map_folder`), and around it if it is called lf, views or the like or if
-/// it has a `kBaselineFile`. Numbers of names are those of the views, or count them row by row;
-/// they may begin at another number. A single map without such numbers belongs to the centre view,
-/// of a part of a grid to that of the whole. Files that are not `is_own` are as if they were not
-/// there. Linear in the files.
+/// it has a `kBaselineFile`; and with each view, where each has a folder of its own. Numbers of
+/// names are those of the views, or count them row by row; they may begin at another number. A
+/// single map without such numbers belongs to the centre view, of a part of a grid to that of the
+/// whole. Files that are not `is_own` are as if they were not there. Linear in the files.
 [[nodiscard]] MapsBeside find_maps(const ViewFiles& views, const std::filesystem::path& folder,
                                    const IsOwnFile& is_own = {});
 

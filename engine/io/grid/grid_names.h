@@ -23,9 +23,9 @@ struct NamedGrid {
 /// Finds the place of every view by the poses of their cameras, if a file states them and they are
 /// those of a light field (posed_views.h); else from its name: by the option `pattern` if it is
 /// given, else by what the names have in common (view_group.h), or by the folders that they are in
-/// (row_folders.h). With the option `snake` every second row is turned round. A list of views is
-/// not yet a grid. Throws IoError that says which view is missing, which pattern was tried and how
-/// many files matched; InvalidInput for a wrong pattern.
+/// (row_folders.h, view_folders.h). With the option `snake` every second row is turned round. A
+/// list of views is not yet a grid. Throws IoError that says which view is missing, which pattern
+/// was tried and how many files matched; InvalidInput for a wrong pattern.
 [[nodiscard]] NamedGrid name_grid(const std::filesystem::path& folder, const OpenOptions& options);
 
 /// Gives the views the rows and columns that they have in the end: those of the option `grid` for a

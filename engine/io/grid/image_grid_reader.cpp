@@ -11,6 +11,7 @@
 #include "engine/io/grid/load_views.h"
 #include "engine/io/grid/posed_views.h"
 #include "engine/io/grid/row_folders.h"
+#include "engine/io/grid/view_folders.h"
 #include "engine/io/maps/sample_range.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/folder_account.h"
@@ -28,8 +29,8 @@ fs::path find_grid(const fs::path& path, const OpenOptions& options) {
   const fs::path folder = scene_folder(path);
   if (folder.empty()) return {};
   const fs::path inside = views_folder(folder);
-  const bool is_found =
-      count_images(inside) > 0 || has_parts_with_poses(inside) || find_row_folders(inside, options);
+  const bool is_found = count_images(inside) > 0 || has_parts_with_poses(inside) ||
+                        find_row_folders(inside, options) || find_view_folders(inside);
   return is_found ? folder : fs::path();
 }
 

@@ -101,6 +101,28 @@ class AxesByMotionTest : public QObject {
     QVERIFY(has_samples(scene, views));
   }
 
+  void greyViewsWithAChannel_areAList_data() {
+    QTest::addColumn<bool>("is_batch");
+    QTest::newRow("N×1×H×W") << false;
+    QTest::newRow("1×N×1×H×W") << true;
+  }
+  void greyViewsWithAChannel_areAList() {
+    QFETCH(bool, is_batch);
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const ViewStack<std::uint8_t> views = layered_views({.grid = {5, 5}});
+    const auto height = static_cast<std::size_t>(views.height());
+    const auto width = static_cast<std::size_t>(views.width());
+    io::ArrayShape lengths{25, 1, height, width};
+    if (is_batch) lengths.insert(lengths.begin(), 1);
+    io::write_npy<std::uint8_t>(file, lengths, in_axes(views, "vuyx"));
+
+    const Scene scene = io::open_scene(file, {}, Progress(1));
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{5, 5}));
+    QVERIFY(has_samples(scene, views));
+  }
+
   void onlyRow_staysOne() {
     const QTemporaryDir folder;
     const std::filesystem::path file = folder.filePath("lf.npy").toStdString();

@@ -154,6 +154,52 @@ class JoinedArraysTest : public QObject {
     QVERIFY2(why.find("view 1,0 is missing") != std::string::npos, why.c_str());
   }
 
+  void folderOfArrays_isOneLightField() {
+    const Scene scene = reference({5, 7});
+    const ViewStack<std::uint8_t>& views = bytes_of(scene);
+    const ViewStack<float>& disparity = scene.truth->field.disparity;
+    for (int i = 0; i < views.grid().count(); ++i) {
+      const ViewIndex view = views.view_at(i);
+      const std::string name = fmt::format("{:02}_{:02}.npy", view.v, view.u);
+      const auto* samples = views.view(view).data;
+      const auto* map = disparity.view(view).data;
+      io::write_npy<std::uint8_t>(path("view_" + name), {64, 80, 3},
+                                  std::vector(samples, samples + views.view_size()));
+      io::write_npy<float>(path("disparity_" + name), {64, 80},
+                           std::vector(map, map + disparity.view_size()));
+    }
+
+    const Scene read = io::open_scene(path(""), {}, Progress(1));
+
+    QVERIFY2(has_same_samples(read, scene), describe(read.convention).c_str());
+    QCOMPARE(largest_difference(read.truth->field, scene.truth->field), 0.0);
+  }
+
+  void folderOfMaps_isNoLightField() {
+    for (int i = 0; i < 9; ++i) {
+      io::write_npy<float>(path(fmt::format("{}_{}.npy", i / 3, i % 3)), {8, 9},
+                           std::vector<float>(72));
+    }
+
+    QVERIFY_THROWS_EXCEPTION(Error, (void)io::open_scene(path(""), {}, Progress(1)));
+  }
+
+  void mapBesideViewsOfAnotherForm_isNoLightField() {
+    {
+      io::AtomicFile target(path("lf.h5"));
+      io::Hdf5Output file(target);
+      file.add_dataset<std::uint8_t>("x", {5, 5, 40, 48, 2}, "", "");
+      file.add_dataset<float>("disp", {5, 5, 40, 48}, "", "");
+      file.close();
+      target.commit();
+    }
+
+    const std::string why = refusal_of(path("lf.h5"));
+
+    QVERIFY2(why.find("which holds disp, x") != std::string::npos,
+             why.c_str());
+  }
+
   void planesAtTheTop_areOneLightField_data() {
     QTest::addColumn<QString>("names");
     QTest::newRow("r") << "r g b";

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace episcope::in_incomplete_grid_test {
@@ -76,6 +77,28 @@ class IncompleteGridTest : public QObject {
     const io::PatternPreview preview = io::preview_pattern(folder_->path(), {}, true);
     QCOMPARE(preview.grid, (GridShape{5, 4}));
     QCOMPARE(preview.warnings.size(), std::size_t{1});
+  }
+
+  void numbersOfFrames_areNoRows() {
+    const LayeredFolder cameras(GridShape{4, 4});
+    for (const int frame : {1, 2, 3}) {
+      cameras.write_views([frame](int row, int column) {
+        return fmt::format("pr_{:05}_{:02}.png", frame, 4 * row + column - 5);
+      });
+    }
+    const auto& wanted = cameras.scene.views;
+
+    try {
+      (void)cameras.open();
+      QFAIL("it was read");
+    } catch (const IoError& error) {
+      const std::string text = error.what();
+      QVERIFY2(text.find("the views of a row lie on a grid of 4×4 themselves") != std::string::npos,
+               text.c_str());
+    }
+    const Scene frame = cameras.open({}, {.pattern = "pr_00002_{index}.png"});
+    const auto& views = std::get<ViewStack<std::uint8_t>>(frame.light_field->samples());
+    QVERIFY(std::equal(wanted.data(), wanted.data() + wanted.size(), views.data()));
   }
 
   void missingView_leavesOutItsColumn() {
