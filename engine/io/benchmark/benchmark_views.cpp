@@ -34,15 +34,16 @@ GridShape square_grid(const fs::path& folder, int count) {
                                     kBenchmarkConfig, count));
 }
 
-/// Rows and columns that the parameter file promises, unless more files are numbered without a gap,
-/// and make a square: then it is that of another scene.
+/// Rows and columns that the parameter file promises, unless the files are numbered without a gap
+/// and make another square: then it is that of another scene, or of all views of which these are
+/// some.
 GridShape promised_grid(GridShape promised, const std::map<int, fs::path>& found) {
   const auto count = static_cast<int>(found.size());
   const int side = static_cast<int>(std::lround(std::sqrt(count)));
   const bool has_gap = found.empty() || found.rbegin()->first - found.begin()->first + 1 != count;
-  if (has_gap || side * side != count || promised.count() >= count) {
-    return promised;
-  }
+  constexpr int kSmallestSide = 3;
+  if (has_gap || side * side != count || promised.count() == count) return promised;
+  if (promised.count() > count && side < kSmallestSide) return promised;
   return {side, side};
 }
 

@@ -261,19 +261,26 @@ class BenchmarkFolderTest : public QObject {
     QVERIFY2(warns_of(scene, "focus_distance_m is missing"), warnings_of(scene).c_str());
   }
 
+  void configOfAnotherScene_losesToTheFiles_data() {
+    QTest::addColumn<int>("columns");
+    QTest::newRow("less") << 2;
+    QTest::newRow("more") << 5;
+  }
   void configOfAnotherScene_losesToTheFiles() {
+    QFETCH(int, columns);
     write_views("");
     write_truth("gt_disp_lowres.pfm", 1);
     std::ofstream(folder_->path("parameters.cfg"))
-        << "[extrinsics]\nnum_cams_x = 2\nnum_cams_y = 3\n";
+        << fmt::format("[extrinsics]\nnum_cams_x = {}\nnum_cams_y = 3\n", columns);
 
     const Scene scene = folder_->open();
 
     QVERIFY2(has_views_in_order(scene), scene.convention.order.c_str());
     const auto& warnings = scene.convention.warnings;
     QVERIFY(!warnings.empty());
-    QVERIFY2(warnings.front().find("promises 3×2 views") != std::string::npos,
-             warnings.front().c_str());
+    QVERIFY2(
+        warnings.front().find(fmt::format("promises 3×{} views", columns)) != std::string::npos,
+        warnings.front().c_str());
   }
 
   void withoutConfig_gridsThatAreNotSquareAreLists() {
