@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int kForm = 2;
+constexpr int kForm = 3;  ///< Counts up when readers find other light fields.
 
 /// Other readers may find other light fields.
 std::string key_of_program() {

@@ -149,10 +149,13 @@ std::size_t image_count(const FolderListing& listing) {
       listing.files, [](const ListedFile& file) { return is_image_name(file.path); }));
 }
 
-/// Any folder of pictures may be taken for a grid of views.
+/// Any folder of pictures may be taken for a grid of views; but not one whose views lie in several
+/// folders inside, which are none of their own.
 void add_image_grid(const FolderListing& listing, CollectionEntry entry, FolderRecord& record) {
-  record.is_doubtful = true;
   const bool is_inside = views_folder(listing.folder) != listing.folder;
+  const bool is_of_folders = entry.problem.empty() && !is_inside && image_count(listing) == 0;
+  record.is_doubtful = !is_of_folders;
+  record.descends = !is_of_folders;
   const bool is_counted =
       entry.problem.empty() || is_inside || image_count(listing) >= kFewestViews;
   if (is_counted) record.entries.push_back(std::move(entry));

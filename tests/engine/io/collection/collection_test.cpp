@@ -124,6 +124,17 @@ class CollectionTest : public QObject {
     QCOMPARE(summary(), QStringList({"scene:archive", "views:image_grid"}));
   }
 
+  void viewsInSeveralFolders_areOneLightField() {
+    const auto view = bytes_of(scene_).view({0, 0});
+    for (int i = 0; i < 9; ++i) {
+      const std::string row = std::to_string(i / 3), column = std::to_string(i % 3);
+      io::write_png(made("lines/row_" + row) / ("view_" + column + ".png"), view);
+      io::write_png(made("render/cam_" + row + "_" + column) / "rgb.png", view);
+    }
+
+    QCOMPARE(summary(), QStringList({"lines:image_grid", "render:image_grid"}));
+  }
+
   void picturesBesideScenes_areNoLightField() {
     write_grid("a");
     write_grid("b");
