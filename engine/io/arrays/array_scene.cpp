@@ -9,6 +9,7 @@
 #include "engine/io/arrays/choose_layout.h"
 #include "engine/io/arrays/list_grid.h"
 #include "engine/io/arrays/several_fields.h"
+#include "engine/io/arrays/stacked_channels.h"
 #include "engine/io/maps/sample_range.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/grid_option.h"
@@ -135,7 +136,10 @@ std::span<const char* const> array_options() {
 
 SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
   const auto several = SeveralFields::find(file, options);
-  if (!several) return probe_single(file, options);
+  if (!several) {
+    const auto colours = with_stacked_channels(file, options);
+    return probe_single(colours ? *colours : file, options);
+  }
   SceneProbe probe = probe_single(*several->one(file, several->index(file, options)), options);
   if (!several->is_named(options)) probe.frames = several->count();
   return probe;
@@ -144,7 +148,10 @@ SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
 Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOptions& options,
                        const Progress& progress, const OtherArrays& more) {
   const auto several = SeveralFields::find(file, options);
-  if (!several) return read_single(file, reader, options, progress, more);
+  if (!several) {
+    const auto colours = with_stacked_channels(file, options);
+    return read_single(colours ? *colours : file, reader, options, progress, more);
+  }
   const int index = several->index(file, options);
   Scene scene = read_single(*several->one(file, index), reader, options, progress, {});
   if (!several->is_named(options)) scene.sequence = {index, several->count()};

@@ -4,10 +4,9 @@
 #include "engine/core/error.h"
 #include "engine/core/text/join.h"
 #include "engine/core/text/suffix.h"
-#include "engine/io/arrays/array_preview.h"
+#include "engine/io/arrays/array_parallax.h"
 #include "engine/io/arrays/joined_arrays.h"
 #include "engine/io/open/undecided.h"
-#include "engine/io/order/parallax_axis.h"
 
 #include <fmt/format.h>
 
@@ -19,8 +18,6 @@
 
 namespace episcope::io {
 namespace {
-
-constexpr int kWindow = 256;
 
 bool is_light_field_name(const std::string& name) {
   constexpr const char* kNames[] = {"lf",    "lightfield", "light_field", "light-field", "lf_rgb",
@@ -76,28 +73,6 @@ std::vector<ArrayLayout> layouts_of(const ArrayEntry& entry) {
   return layouts;
 }
 
-/// What moves between the centre and its neighbours along each axis of views.
-struct Parallax {
-  AxisEvidence along_u;
-  AxisEvidence along_v;
-};
-
-Parallax measure_parallax(const ArrayInput& array, const ArrayLayout& layout) {
-  const GridShape grid = layout.grid();
-  const ViewIndex center = grid.center();
-  std::vector<ViewIndex> views{center};
-  if (grid.u > 1) views.push_back({center.v, center.u - 1});
-  if (grid.v > 1) views.push_back({center.v - 1, center.u});
-  const std::vector<Image<float>> windows = array_windows(array, layout, views, kWindow);
-  const MotionPictures middle(windows.front());
-  Parallax parallax;
-  for (std::size_t i = 1; i < views.size(); ++i) {
-    AxisEvidence& axis = views[i].u == center.u ? parallax.along_v : parallax.along_u;
-    axis.add(MotionPictures(windows[i]), middle);
-  }
-  return parallax;
-}
-
 /// Of several meanings of a shape the only one in which both axes of the grid show motion: channels
 /// differ in colour, not in place. Nothing if there is none or several.
 std::optional<ArrayLayout> layout_with_motion(const ArrayFile& file, const ArrayEntry& entry,
@@ -116,10 +91,6 @@ std::optional<ArrayLayout> layout_with_motion(const ArrayFile& file, const Array
     found = layout;
   }
   return found;
-}
-
-double gone(const AxisEvidence& evidence) {
-  return std::max(evidence.gone_along_x(), evidence.gone_along_y());
 }
 
 /// Of a grid of grey views and a list of coloured ones, whose channels are the rows or columns of
@@ -143,8 +114,7 @@ std::optional<ArrayLayout> grid_or_list(const ArrayFile& file, const ArrayEntry&
   const AxisEvidence& of_views = letter == 'v' ? along_u : along_v;
   if (!of_views.is_decided()) return std::nullopt;
   if (of_channels.is_decided()) return grid;
-  constexpr double kClearlyLess = 0.5;
-  return gone(of_channels) < kClearlyLess * gone(of_views) ? std::optional(list) : std::nullopt;
+  return are_rather_channels(of_channels, of_views) ? std::optional(list) : std::nullopt;
 }
 
 }  // namespace

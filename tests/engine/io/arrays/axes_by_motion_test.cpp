@@ -123,6 +123,31 @@ class AxesByMotionTest : public QObject {
     QVERIFY(has_samples(scene, views));
   }
 
+  void channelsOneAfterTheOther_areNoViews() {
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const ViewStack<std::uint8_t> views = coloured_views({5, 5});
+    const auto height = static_cast<std::size_t>(views.height());
+    const auto width = static_cast<std::size_t>(views.width());
+    io::write_npy<std::uint8_t>(file, {75, height, width}, in_axes(views, "vucyx"));
+
+    const Scene scene = io::open_scene(file, {}, Progress(1));
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{5, 5}));
+    QVERIFY(has_samples(scene, views));
+  }
+
+  void greyListOfThreeTimesSoMany_staysOne() {
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const ViewStack<std::uint8_t> views = layered_views({.grid = {5, 9}});
+    const auto height = static_cast<std::size_t>(views.height());
+    const auto width = static_cast<std::size_t>(views.width());
+    io::write_npy<std::uint8_t>(file, {45, height, width}, in_axes(views, "vuyx"));
+
+    QCOMPARE(io::open_scene(file, {}, Progress(1)).light_field->grid(), (GridShape{5, 9}));
+  }
+
   void onlyRow_staysOne() {
     const QTemporaryDir folder;
     const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
