@@ -9,8 +9,10 @@
 #include "engine/labeling/features/training_samples.h"
 #include "engine/labeling/forest/device_forest.h"
 #include "engine/labeling/forest/pixel_votes.h"
+#include "engine/labeling/judge_colors.h"
 #include "engine/labeling/predict_from_strokes.h"
 #include "engine/labeling/rays/edge_probability.h"
+#include "engine/labeling/requested_views.h"
 
 #include <fmt/format.h>
 
@@ -40,16 +42,6 @@ ForestOptions forest_options(const LabelerParameters& parameters) {
   options.depth = parameters.depth;
   options.seed = parameters.seed;
   return options;
-}
-
-void require_views(ViewRectangle views, GridShape grid) {
-  const ViewIndex last{views.first.v + views.grid.v - 1, views.first.u + views.grid.u - 1};
-  if (views.grid.v > 0 && views.grid.u > 0 && grid.contains(views.first) && grid.contains(last)) {
-    return;
-  }
-  throw InvalidInput(
-      fmt::format("views {} to {} were requested, but there are {}×{} views, counted from 0",
-                  view_text(views.first), view_text(last), grid.v, grid.u));
 }
 
 void require_disparity(Regularizer regularizer, bool has_disparity) {
@@ -250,11 +242,30 @@ struct Labeler::State {
 
   /// Replaces the labels by regularised ones.
   void regularise(const Learned& learned, Labeling& labeling, const Progress& progress) {
-    if (labeling.probabilities.grid.count() > 1) {
-      regularise_together(learned.parameters, labeling, progress);
+    LabelProbabilities& own = labeling.probabilities;
+    if (own.grid.count() > 1) {
+      const ViewIndex middle{own.first.v + own.grid.v / 2, own.first.u + own.grid.u / 2};
+      judge(learned.parameters, middle, own, progress.part(0, 0.05));
+      regularise_together(learned.parameters, labeling, progress.part(0.05, 1));
     } else {
       regularise_alone(learned, labeling, progress);
     }
+  }
+
+  /// Has the colours beside boundaries speak for labels, unless disparity that is right does.
+  void judge(const LabelerParameters& parameters, ViewIndex reference, LabelProbabilities& own,
+             const Progress& progress) {
+    if (set.with_disparity && !confidence) return;
+    progress.step("finding edges");
+    find_edges({own.first, own.grid}, progress.part(0, 0.5));
+    const RayLabelingInput input{nullptr, disparity.get(), edges.get(), light_field.get()};
+    judge_colors(input, reference, options_of(parameters), progress.part(0.5, 1), own);
+  }
+
+  static RayLabelingParameters options_of(const LabelerParameters& parameters) {
+    RayLabelingParameters options;
+    options.smoothness = parameters.smoothness;
+    return options;
   }
 
   void regularise_together(const LabelerParameters& parameters, Labeling& labeling,
@@ -262,8 +273,7 @@ struct Labeler::State {
     const LabelProbabilities& own = labeling.probabilities;
     progress.step("finding edges");
     find_edges({own.first, own.grid}, progress.part(0, 0.05));
-    RayLabelingParameters options;
-    options.smoothness = parameters.smoothness;
+    RayLabelingParameters options = options_of(parameters);
     const RayLabelingInput input{&own, disparity.get(), edges.get(), light_field.get()};
     compute([&] {
       options.device = used;
@@ -277,36 +287,25 @@ struct Labeler::State {
     LabelProbabilities& own = labeling.probabilities;
     ViewRectangle views{own.first, own.grid};
     // Where rays of other views agree, two of them are nearly as informative as all.
-    if (info_of(regularizer).joins_views) views = neighbours(own.first);
+    if (info_of(regularizer).joins_views) views = neighbours(own.first, light_field->grid());
     progress.step("finding edges");
     find_edges(views, progress.part(0, 0.05));
-    RayLabelingParameters options;
-    options.smoothness = learned.parameters.smoothness;
+    RayLabelingParameters options = options_of(learned.parameters);
     options.gap = kLiveGap;
     LabelProbabilities around = empty_probabilities(own.ids, views);
     around.view(own.first) = std::move(own.views[0]);
     progress.step("labeling neighbouring views");
     predict(learned, around, progress.part(0.05, 0.3));
+    judge(learned.parameters, own.first, around, progress.part(0.3, 0.5));
     const RayLabelingInput input{&around, disparity.get(), edges.get(), light_field.get()};
     progress.step("regularising");
-    set_labels(label_view(input, own.first, regularizer, options, progress.part(0.3, 1)), labeling);
+    set_labels(label_view(input, own.first, regularizer, options, progress.part(0.5, 1)), labeling);
     own.views[0] = std::move(around.view(own.first));
   }
 
   static void set_labels(RayLabeling result, Labeling& labeling) {
     labeling.gap = result.relative_gap();
     labeling.labels = std::move(result.labels);
-  }
-
-  /// The view and those beside it in its row; in a grid of one column, above and below.
-  [[nodiscard]] ViewRectangle neighbours(ViewIndex view) const {
-    const GridShape grid = light_field->grid();
-    const int down = grid.u > 1 ? 0 : 1;
-    const int across = 1 - down;
-    const ViewIndex first{std::max(view.v - down, 0), std::max(view.u - across, 0)};
-    const ViewIndex last{std::min(view.v + down, grid.v - 1),
-                         std::min(view.u + across, grid.u - 1)};
-    return {first, {last.v - first.v + 1, last.u - first.u + 1}};
   }
 };
 
