@@ -19,7 +19,7 @@ namespace episcope {
 
 /// A segmentation of a rectangle of views.
 struct Labeling {
-  LabelProbabilities probabilities;  ///< Of the forest, before regularisation.
+  LabelProbabilities probabilities;  ///< Of the forest and all else, before regularisation.
   ViewStack<std::int32_t> labels;    ///< The label of each pixel, one of `probabilities.ids`.
   bool is_draft = false;             ///< Whether the labels are still to be regularised.
   double gap = 0;                    ///< Relative duality gap of the regulariser.
@@ -41,9 +41,11 @@ struct Labeling {
 /// of thin things (engine/labeling/thin_gaps.h; likewise), and, since a forest knows nothing about
 /// what lies between a pixel and a stroke, by how near the strokes of each label are along
 /// surfaces, exp(−nearness·excess) (engine/labeling/features/stroke_distance.h).
-/// Pixels that are painted on a view keep their labels there before smoothing. Labels are then made
-/// consistent (engine/labeling/rays/regularizer.h). With `rayspace`, a single view uses its rays in
-/// neighbouring views only, for a quick answer; all views use those of all.
+/// Pixels that are painted on a view keep their labels there before smoothing. Unless disparity is
+/// known to be right (it comes without confidence), the middle view is then smoothed alone, and the
+/// colours near its boundaries speak for labels in all views (engine/labeling/judge_colors.h).
+/// Labels are then made consistent (engine/labeling/rays/regularizer.h). With `rayspace`, a single
+/// view uses its rays in neighbouring views only, for a quick answer; all views use those of all.
 ///
 /// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weightings are additions; what they
 /// gain is in tests/accuracy/tuning.md.
