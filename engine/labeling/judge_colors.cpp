@@ -18,19 +18,24 @@ namespace {
 constexpr int kSure = 242;  // Of 255.
 constexpr float kLabUnit = 0.01F;
 
-// L*a*b* of a view, divided by 100.
-Image<float> colors_of(const LightField& light_field, ViewIndex view) {
-  Image<float> samples = light_field.view_as_float(view);
+// L*a*b*/100 of samples of one or three channels, side by side.
+void to_lab(std::vector<float>& samples, int channels, std::vector<float>& lab) {
+  const int count = static_cast<int>(samples.size()) / channels;
+  lab.resize(static_cast<std::size_t>(count) * 3);
+  if (count == 0) return;
+  const cv::Mat in(1, count, CV_32FC(channels), samples.data());
+  cv::Mat out(1, count, CV_32FC3, lab.data());
+  if (channels == 1) cv::cvtColor(in, out, cv::COLOR_GRAY2RGB);
+  cv::cvtColor(channels == 1 ? out : in, out, cv::COLOR_RGB2Lab);
+  for (float& value : lab) value *= kLabUnit;
+}
+
+Image<float> lab_of(const LightField& light_field, ViewIndex view) {
+  const Image<float> samples = light_field.view_as_float(view);
+  std::vector<float> in(samples.begin(), samples.end()), lab;
+  to_lab(in, samples.channels(), lab);
   Image<float> colors(samples.height(), samples.width(), 3);
-  const cv::Mat in(samples.height(), samples.width(), CV_32FC(samples.channels()), samples.data());
-  cv::Mat out(samples.height(), samples.width(), CV_32FC3, colors.data());
-  if (samples.channels() == 3) {
-    cv::cvtColor(in, out, cv::COLOR_RGB2Lab);
-  } else {
-    cv::cvtColor(in, out, cv::COLOR_GRAY2RGB);
-    cv::cvtColor(out, out, cv::COLOR_RGB2Lab);
-  }
-  for (float& value : colors) value *= kLabUnit;
+  std::ranges::copy(lab, colors.begin());
   return colors;
 }
 
@@ -50,9 +55,11 @@ Image<std::int32_t> layers_of(const RayLabelingInput& input, ViewIndex view,
 
 // What is known about a view, and by how many views it is away from the reference.
 struct JudgedView {
-  Image<float> colors;
+  Image<float> samples;
   DisparityView disparity;  // Empty = of the reference itself.
   ViewIndex step;
+
+  [[nodiscard]] bool moves() const { return !disparity.disparity.empty(); }
 };
 
 class Judge {
@@ -70,14 +77,24 @@ class Judge {
       std::transform(most_.begin(), most_.end(), p, most_.begin(),
                      [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
     }
-    const bool moves = !view.disparity.disparity.empty();
+    unsure_.clear();
+    samples_.clear();
+    const int channels = view.samples.channels();
     for (int x = 0; x < probabilities_.width; ++x) {
-      if (most_[x] > kSure || (moves && !view.disparity.is_valid(y, x))) continue;
-      const float disparity = moves ? view.disparity.disparity.at(y, x) : 0;
-      judge_pixel({view.colors.at(y, x, 0), view.colors.at(y, x, 1), view.colors.at(y, x, 2)},
+      if (most_[x] > kSure || (view.moves() && !view.disparity.is_valid(y, x))) continue;
+      unsure_.push_back(x);
+      const float* const sample = view.samples.row(y) + static_cast<std::ptrdiff_t>(x) * channels;
+      samples_.insert(samples_.end(), sample, sample + channels);
+    }
+    to_lab(samples_, channels, lab_);
+    const float* color = lab_.data();
+    for (const int x : unsure_) {
+      const float disparity = view.moves() ? view.disparity.disparity.at(y, x) : 0;
+      judge_pixel({color[0], color[1], color[2]},
                   {static_cast<float>(y) + disparity * static_cast<float>(view.step.v),
                    static_cast<float>(x) + disparity * static_cast<float>(view.step.u)},
                   y, x);
+      color += 3;
     }
   }
 
@@ -97,8 +114,10 @@ class Judge {
 
   const LocalColors& near_;
   VolumeView<std::uint8_t> probabilities_;
+  // Room for a row.
   std::vector<std::uint8_t> most_;
-  std::vector<float> own_;
+  std::vector<int> unsure_;
+  std::vector<float> samples_, lab_, own_;
 };
 
 }  // namespace
@@ -110,7 +129,7 @@ void judge_colors(const RayLabelingInput& input, ViewIndex reference,
   known.probabilities = &probabilities;
   const int labels = static_cast<int>(probabilities.ids.size());
   const Image<std::int32_t> layers = layers_of(known, reference, parameters, progress.part(0, 0.5));
-  const LocalColors near(colors_of(*input.light_field, reference), layers, labels);
+  const LocalColors near(lab_of(*input.light_field, reference), layers, labels);
   parallel_for(probabilities.grid.count(), progress.part(0.5, 1), [&](int i) {
     const ViewIndex at = probabilities.view_at(i);
     JudgedView view;
@@ -119,7 +138,7 @@ void judge_colors(const RayLabelingInput& input, ViewIndex reference,
       if (input.disparity == nullptr || !input.disparity->contains(at)) return;
       view.disparity = input.disparity->view(at);
     }
-    view.colors = colors_of(*input.light_field, at);
+    view.samples = input.light_field->view_as_float(at);
     const VolumeView<std::uint8_t> of_view = probabilities.view(at).view();
     Judge judge(near, of_view);
     for (int y = 0; y < of_view.height; ++y) judge.judge_row(view, y);

@@ -13,8 +13,13 @@ constexpr float kBesideOthers = 0.1F;  // What a pixel beside another label coun
 constexpr float kFewest = 2;           // Pixels of a label that is nearby.
 constexpr float kFloor = 0.01F;
 
-int squares_in(int pixels) {
-  return (pixels + LocalColors::kSquare_px - 1) / LocalColors::kSquare_px;
+// Side of a square in views of this size.
+int square_of(int height, int width) {
+  return std::clamp(std::max(height, width) / 64, 2, 4);
+}
+
+int squares_in(int pixels, int square_px) {
+  return (pixels + square_px - 1) / square_px;
 }
 
 bool is_beside_others(ImageView<const std::int32_t> labels, int y, int x) {
@@ -29,8 +34,8 @@ bool is_beside_others(ImageView<const std::int32_t> labels, int y, int x) {
   return false;
 }
 
-int square_at(float place, int count) {
-  const float square = std::floor(place / LocalColors::kSquare_px);
+int square_at(float place, int square_px, int count) {
+  const float square = std::floor(place / static_cast<float>(square_px));
   return static_cast<int>(std::clamp(square, 0.0F, static_cast<float>(count - 1)));
 }
 
@@ -46,8 +51,9 @@ LocalColors::Sums& LocalColors::Sums::operator+=(const Sums& other) {
 LocalColors::LocalColors(ImageView<const float> colors, ImageView<const std::int32_t> labels,
                          int label_count)
     : label_count_(label_count),
-      rows_(squares_in(labels.height)),
-      columns_(squares_in(labels.width)) {
+      square_px_(square_of(labels.height, labels.width)),
+      rows_(squares_in(labels.height, square_px_)),
+      columns_(squares_in(labels.width, square_px_)) {
   const std::vector<Sums> squares = sums_of(colors, labels);
   near_.reserve(squares.size());
   for (int row = 0; row < rows_; ++row) {
@@ -75,7 +81,7 @@ std::vector<LocalColors::Sums> LocalColors::sums_of(ImageView<const float> color
         pixel.colors[c] = pixel.weight * value;
         pixel.squares += pixel.weight * value * value;
       }
-      squares[index(y / kSquare_px, x / kSquare_px) + labels.at(y, x)] += pixel;
+      squares[index(y / square_px_, x / square_px_) + labels.at(y, x)] += pixel;
     }
   }
   return squares;
@@ -96,7 +102,8 @@ LocalColors::Colors LocalColors::colors_of(const Sums& sums) {
 
 void LocalColors::weigh(std::array<float, 3> color, float y, float x,
                         std::span<float> probabilities) const {
-  const Colors* const near = near_.data() + index(square_at(y, rows_), square_at(x, columns_));
+  const Colors* const near =
+      near_.data() + index(square_at(y, square_px_, rows_), square_at(x, square_px_, columns_));
   const auto fit = [&](const Colors& of) {
     float distance = of.variance;
     for (std::size_t c = 0; c < color.size(); ++c) {

@@ -23,7 +23,6 @@ class LocalColors {
   /// `colors` of the view, L*a*b* divided by 100; `labels` in [0, label_count), one a pixel.
   LocalColors(ImageView<const float> colors, ImageView<const std::int32_t> labels, int label_count);
 
-  static constexpr int kSquare_px = 4;
   /// Least share that colours leave of a probability.
   static constexpr float kLeastShare = 0.135F;
 
@@ -52,7 +51,7 @@ class LocalColors {
   }
   static Colors colors_of(const Sums& sums);
 
-  int label_count_, rows_, columns_;
+  int label_count_, square_px_, rows_, columns_;
   std::vector<Colors> near_;  // [row][column][label] of squares
 };
 

@@ -12,7 +12,7 @@ namespace episcope::in_judge_colors_test {
 
 namespace {
 
-constexpr int kHeight = 32, kWidth = 64;
+constexpr int kHeight = 32, kWidth = 256;
 constexpr int kBar = 24, kBarEnd = 36;  // The bar in the left view; 3 px further left in the other.
 constexpr float kDisparity = 3;
 constexpr int kDoubt_px = 3;

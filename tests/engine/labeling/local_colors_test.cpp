@@ -12,7 +12,7 @@ namespace episcope::in_local_colors_test {
 
 namespace {
 
-constexpr int kHeight = 32, kWidth = 48, kMiddle = kWidth / 2;
+constexpr int kHeight = 32, kWidth = 256, kMiddle = kWidth / 2;
 constexpr std::array<float, 3> kDark{0.2F, 0, 0}, kLight{0.8F, 0, 0};
 
 // Label 0 is dark on the left, label 1 light on the right; label 2 is nowhere.
