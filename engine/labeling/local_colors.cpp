@@ -116,7 +116,9 @@ void LocalColors::weigh(std::array<float, 3> color, float y, float x,
   if (most == 0) return;
   float sum = 0;
   for (int l = 0; l < label_count_; ++l) {
-    probabilities[l] = (probabilities[l] + kFloor) * std::max(fit(near[l]) / most, kLeastShare);
+    const bool is_nearby = std::isfinite(near[l].variance);
+    const float share = is_nearby ? std::max(fit(near[l]) / most, kLeastShare) : kShareElsewhere;
+    probabilities[l] = (probabilities[l] + kFloor) * share;
     sum += probabilities[l];
   }
   for (float& p : probabilities) p /= sum;

@@ -23,8 +23,10 @@ class LocalColors {
   /// `colors` of the view, L*a*b* divided by 100; `labels` in [0, label_count), one a pixel.
   LocalColors(ImageView<const float> colors, ImageView<const std::int32_t> labels, int label_count);
 
-  /// Least share that colours leave of a probability.
+  /// Least share that colours leave of a probability, and what they leave of that of a label which
+  /// is not nearby: smoothing may just have lost it.
   static constexpr float kLeastShare = 0.135F;
+  static constexpr float kShareElsewhere = 0.7F;
 
   /// Multiplies the probabilities of a pixel at `y`, `x` by 1/(v + |c − m|²), m the mean colour of
   /// the label there, v the variance of its colours and a noise of 0.03, relative to the label for
