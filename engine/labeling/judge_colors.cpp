@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kSure = 242;  // Of 255.
 constexpr float kLabUnit = 0.01F;
+constexpr double kReferenceGap = 5e-3;
 
 // L*a*b*/100 of samples of one or three channels, side by side.
 void to_lab(std::vector<float>& samples, int channels, std::vector<float>& lab) {
@@ -42,7 +43,7 @@ Image<float> lab_of(const LightField& light_field, ViewIndex view) {
 // The labels of `view` as layers of its probabilities, smoothed within the view.
 Image<std::int32_t> layers_of(const RayLabelingInput& input, ViewIndex view,
                               RayLabelingParameters parameters, const Progress& progress) {
-  parameters.gap = parameters.gap_all_views;
+  parameters.gap = kReferenceGap;
   const RayLabeling smoothed = smooth_view(input, view, parameters, progress);
   const std::vector<std::int32_t>& ids = input.probabilities->ids;
   const ImageView<const std::int32_t> labels = smoothed.labels.view(view);
