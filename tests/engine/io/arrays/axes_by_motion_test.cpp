@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/array_input.h"
+#include "engine/io/arrays/npy_file.h"
 #include "engine/io/arrays/write_arrays.h"
 #include "engine/io/open/open.h"
 #include "tests/engine/io/arrays/array_files.h"
