@@ -22,8 +22,8 @@ Image<float> halved(const Image<float>& picture) {
   for (int y = 0; y < half.height(); ++y) {
     const float* above = picture.row(2 * y);
     const float* below = picture.row(2 * y + 1);
-    for (int x = 0; x < half.width(); ++x) {
-      half.at(y, x) = (above[2 * x] + above[2 * x + 1] + below[2 * x] + below[2 * x + 1]) / 4;
+    for (int x = 0; x < half.width(); ++x, above += 2, below += 2) {
+      half.at(y, x) = (above[0] + above[1] + below[0] + below[1]) / 4;
     }
   }
   return half;
@@ -77,19 +77,20 @@ std::vector<double> motion_of(const PlaneViews& plane) {
   std::vector<double> all;
   for_squares(plane.center, kFurthest_px, [&](int top, int left) {
     std::array<double, 2 * kFurthest_px + 1> costs{};
-    for (int shift = -kFurthest_px; shift <= kFurthest_px; ++shift) {
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+      const int shift = static_cast<int>(i) - kFurthest_px;
       for (int y = top; y < top + kSquare_px; ++y) {
         for (int x = left; x < left + kSquare_px; ++x) {
           const double off =
               plane.center.at(y, x) - (plane.is_above ? plane.neighbour.at(y + shift, x)
                                                       : plane.neighbour.at(y, x + shift));
-          costs[static_cast<std::size_t>(shift + kFurthest_px)] += off * off;
+          costs[i] += off * off;
         }
       }
     }
     const auto best = std::ranges::min_element(costs) - costs.begin();
     double part = 0;
-    if (best > 0 && best < 2 * kFurthest_px) {
+    if (best > 0 && best + 1 < std::ssize(costs)) {
       const auto at = static_cast<std::size_t>(best);
       const double bend = costs[at - 1] - 2 * costs[at] + costs[at + 1];
       if (bend > 0) part = (costs[at - 1] - costs[at + 1]) / (2 * bend);

@@ -64,6 +64,7 @@ std::optional<ViewNames> find_view_folders(const fs::path& folder) {
   const std::map<fs::path, fs::path> pictures = pictures_by_folder(folder);
   if (pictures.size() < kFewestFolders) return std::nullopt;
   std::vector<fs::path> as_files;
+  as_files.reserve(pictures.size());
   for (const auto& [file, picture] : pictures) as_files.push_back(file);
   try {
     ViewNames names = find_view_names(folder, as_files);
