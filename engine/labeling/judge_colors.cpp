@@ -2,10 +2,9 @@
 #include "engine/labeling/judge_colors.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/labeling/features/lab_colors.h"
 #include "engine/labeling/local_colors.h"
 #include "engine/labeling/rays/view_smoothing.h"
-
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,27 +15,14 @@ namespace episcope {
 namespace {
 
 constexpr int kSure = 242;  // Of 255.
-constexpr float kLabUnit = 0.01F;
 constexpr double kReferenceGap = 5e-3;
 
-// L*a*b*/100 of samples of one or three channels, side by side.
-void to_lab(std::vector<float>& samples, int channels, std::vector<float>& lab) {
-  const int count = static_cast<int>(samples.size()) / channels;
-  lab.resize(static_cast<std::size_t>(count) * 3);
-  if (count == 0) return;
-  const cv::Mat in(1, count, CV_32FC(channels), samples.data());
-  cv::Mat out(1, count, CV_32FC3, lab.data());
-  if (channels == 1) cv::cvtColor(in, out, cv::COLOR_GRAY2RGB);
-  cv::cvtColor(channels == 1 ? out : in, out, cv::COLOR_RGB2Lab);
-  for (float& value : lab) value *= kLabUnit;
-}
-
 Image<float> lab_of(const LightField& light_field, ViewIndex view) {
-  const Image<float> samples = light_field.view_as_float(view);
-  std::vector<float> in(samples.begin(), samples.end()), lab;
-  to_lab(in, samples.channels(), lab);
+  Image<float> samples = light_field.view_as_float(view);
+  const cv::Mat lab = lab_colors(
+      {samples.height(), samples.width(), CV_32FC(samples.channels()), samples.data()});
   Image<float> colors(samples.height(), samples.width(), 3);
-  std::ranges::copy(lab, colors.begin());
+  std::copy_n(lab.ptr<float>(), colors.size(), colors.data());
   return colors;
 }
 
@@ -87,8 +73,10 @@ class Judge {
       const float* const sample = view.samples.row(y) + static_cast<std::ptrdiff_t>(x) * channels;
       samples_.insert(samples_.end(), sample, sample + channels);
     }
-    to_lab(samples_, channels, lab_);
-    const float* color = lab_.data();
+    if (unsure_.empty()) return;
+    const cv::Mat lab = lab_colors(
+        {1, static_cast<int>(unsure_.size()), CV_32FC(channels), samples_.data()});
+    const float* color = lab.ptr<float>();
     for (const int x : unsure_) {
       const float disparity = view.moves() ? view.disparity.disparity.at(y, x) : 0;
       judge_pixel({color[0], color[1], color[2]},
@@ -118,7 +106,7 @@ class Judge {
   // Room for a row.
   std::vector<std::uint8_t> most_;
   std::vector<int> unsure_;
-  std::vector<float> samples_, lab_, own_;
+  std::vector<float> samples_, own_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/labeling/features/disparity_slope.h"
+#include "engine/labeling/features/lab_colors.h"
 #include "engine/labeling/features/surface_filter.h"
 
 #include <opencv2/imgproc.hpp>
@@ -24,7 +25,6 @@ constexpr double kSurfaceScale = 6;
 constexpr int kSurfaceRadius_px = 6;
 constexpr int kSurfacePasses = 2;
 constexpr double kDisparityScale = 2;
-constexpr double kLabUnit = 0.01;
 
 // First layers of the groups, in the order of `pixel_feature_names`.
 constexpr int kSurfaceLayer = 9;
@@ -98,10 +98,7 @@ class LayerWriter {
 cv::Mat color_image(const LightField& lf, ViewIndex view) {
   Image<float> samples = lf.view_as_float(view);
   const cv::Mat wrapped(lf.height(), lf.width(), CV_32FC(lf.channels()), samples.data());
-  if (lf.channels() == 3) return wrapped.clone();
-  cv::Mat color;
-  cv::cvtColor(wrapped, color, cv::COLOR_GRAY2RGB);
-  return color;
+  return lf.channels() == 3 ? wrapped.clone() : rgb_colors(wrapped);
 }
 
 void add_color(LayerWriter& layers, const cv::Mat& rgb, const std::vector<cv::Mat>& lab) {
@@ -194,11 +191,8 @@ PixelFeatures compute_pixel_features(const LightField& lf, ViewIndex view,
   PixelFeatures features(lf.height(), static_cast<int>(pixel_feature_names(set).size()),
                          lf.width());
   const cv::Mat rgb = color_image(lf, view);
-  cv::Mat lab_image;
-  cv::cvtColor(rgb, lab_image, cv::COLOR_RGB2Lab);
-  lab_image *= kLabUnit;
   std::vector<cv::Mat> lab;
-  cv::split(lab_image, lab);
+  cv::split(lab_colors(rgb), lab);
   Image<float> filled(lf.height(), lf.width());
   if (!disparity.disparity.empty()) filled = filled_disparity(disparity);
   const cv::Mat map(lf.height(), lf.width(), CV_32F, filled.data());
