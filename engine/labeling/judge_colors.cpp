@@ -19,8 +19,8 @@ constexpr double kReferenceGap = 5e-3;
 
 Image<float> lab_of(const LightField& light_field, ViewIndex view) {
   Image<float> samples = light_field.view_as_float(view);
-  const cv::Mat lab = lab_colors(
-      {samples.height(), samples.width(), CV_32FC(samples.channels()), samples.data()});
+  const cv::Mat lab =
+      lab_colors({samples.height(), samples.width(), CV_32FC(samples.channels()), samples.data()});
   Image<float> colors(samples.height(), samples.width(), 3);
   std::copy_n(lab.ptr<float>(), colors.size(), colors.data());
   return colors;
@@ -74,8 +74,8 @@ class Judge {
       samples_.insert(samples_.end(), sample, sample + channels);
     }
     if (unsure_.empty()) return;
-    const cv::Mat lab = lab_colors(
-        {1, static_cast<int>(unsure_.size()), CV_32FC(channels), samples_.data()});
+    const cv::Mat lab =
+        lab_colors({1, static_cast<int>(unsure_.size()), CV_32FC(channels), samples_.data()});
     const float* color = lab.ptr<float>();
     for (const int x : unsure_) {
       const float disparity = view.moves() ? view.disparity.disparity.at(y, x) : 0;
