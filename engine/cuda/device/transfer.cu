@@ -80,8 +80,8 @@ void upload_bytes(void* device, const void* host, std::size_t bytes, const Devic
   stream.wait();
 }
 
-void download_bytes(void* host, const void* device, std::size_t bytes, const DeviceStream& stream,
-                    const Progress& progress) {
+void download_bytes(std::initializer_list<void*> hosts, const void* device, std::size_t bytes,
+                    const DeviceStream& stream, const Progress& progress) {
   const std::lock_guard lock(buffers_lock);
   PinnedBuffers& buffers = pinned_buffers();
   const std::size_t chunks = (bytes + kBufferBytes - 1) / kBufferBytes;
@@ -98,9 +98,16 @@ void download_bytes(void* host, const void* device, std::size_t bytes, const Dev
     auto& buffer = buffers.buffer(i);
     check(cudaEventSynchronize(buffer.copied));
     const Chunk chunk = chunk_of(i, bytes);
-    copy_on_host(static_cast<char*>(host) + chunk.first, buffer.memory, chunk.bytes, progress);
+    for (void* host : hosts) {
+      copy_on_host(static_cast<char*>(host) + chunk.first, buffer.memory, chunk.bytes, progress);
+    }
   }
   stream.wait();
+}
+
+void download_bytes(void* host, const void* device, std::size_t bytes, const DeviceStream& stream,
+                    const Progress& progress) {
+  download_bytes({host}, device, bytes, stream, progress);
 }
 
 PipelinedDownload::PipelinedDownload(const DeviceStream& computed, const Progress& progress)

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <initializer_list>
 #include <mutex>
 
 namespace episcope::cuda {
@@ -19,6 +20,9 @@ void upload_bytes(void* device, const void* host, std::size_t bytes, const Devic
 /// Cancelled.
 void download_bytes(void* host, const void* device, std::size_t bytes, const DeviceStream& stream,
                     const Progress& progress);
+/// The same to several places.
+void download_bytes(std::initializer_list<void*> hosts, const void* device, std::size_t bytes,
+                    const DeviceStream& stream, const Progress& progress);
 
 /// An array like that of the host, of `size` elements.
 template <class T>

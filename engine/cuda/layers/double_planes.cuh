@@ -18,6 +18,7 @@ struct DoublePlanes {
   [[nodiscard]] __host__ __device__ long size() const {
     return static_cast<long>(length() + 2 * margin) * breadth();
   }
+  [[nodiscard]] __device__ bool has(int a) const { return a >= -margin && a < length() + margin; }
   [[nodiscard]] __host__ __device__ long at(int a, int b) const {
     return is_horizontal ? static_cast<long>(b) * (width + 2 * margin) + a + margin
                          : static_cast<long>(a + margin) * width + b;

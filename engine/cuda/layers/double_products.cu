@@ -2,6 +2,9 @@
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/layers/double_planes.cuh"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace episcope::cuda {
 namespace {
 
@@ -55,36 +58,66 @@ __global__ void differentiate_planes(DoubleLine line, DoubleFilters filters, Dou
   for (int order = 0; order < 3; ++order) derivatives[order * count * size + at] = sums[order];
 }
 
+// Product rows of a block, which read much the same derivatives.
+constexpr int kRowsAtOnce = 3;
+constexpr int kChannels = 3;  // at most
+
+// Sums over views along a line, the derivatives of which are read once for all rows.
+struct LineSums {
+  float xx[kRowsAtOnce][kChannels] = {}, xu[kRowsAtOnce][kChannels] = {};
+  float uu[kRowsAtOnce][kChannels] = {};
+};
+
+struct Rows {
+  int first = 0, count = 0;
+};
+
+// Line a + step·row goes through pixel a of view `row`.
+__device__ LineSums sums_of(const DoubleLine& line, const DoubleFilters& filters, const Rows& rows,
+                            int step, const DoublePlanes& planes, const float* derivatives, int on,
+                            int b) {
+  const int channels = line.samples.channels;
+  const long channel = line.rows * planes.size(), order = channels * channel;
+  const int radius = filters.views[0].radius;
+  LineSums sums;
+  for (int view = rows.first - radius; view < rows.first + rows.count + radius; ++view) {
+    const float* const from =
+        derivatives + view * planes.size() + planes.at_clamped(on - view * step, b);
+    float values[3][kChannels] = {};
+#pragma unroll
+    for (int c = 0; c < kChannels; ++c) {
+      if (c >= channels) break;
+      for (int k = 0; k < 3; ++k) values[k][c] = __ldg(from + c * channel + k * order);
+    }
+#pragma unroll
+    for (int r = 0; r < kRowsAtOnce; ++r) {
+      const int tap = view - rows.first - r + radius;
+      if (tap < 0 || tap > 2 * radius) continue;
+#pragma unroll
+      for (int c = 0; c < kChannels; ++c) {
+        sums.xx[r][c] += filters.views[0].values[tap] * values[2][c];
+        sums.xu[r][c] += filters.views[1].values[tap] * values[1][c];
+        sums.uu[r][c] += filters.views[2].values[tap] * values[0][c];
+      }
+    }
+  }
+  return sums;
+}
+
 struct Products {
   float values[6];
 };
 
 // Products of the whitened derivatives, channels summed, toned down.
-__device__ Products products_at(const DoubleLine& line, const DoubleFilters& filters, int row,
-                                int step, const DoublePlanes& planes, const float* derivatives,
-                                int a, int b) {
-  constexpr int kChannels = 3;  // at most
-  const int channels = line.samples.channels;
-  const long channel = line.rows * planes.size(), order = channels * channel;
-  const int radius = filters.views[0].radius;
-  float xx[kChannels] = {}, xu[kChannels] = {}, uu[kChannels] = {};
-  for (int i = -radius; i <= radius; ++i) {
-    const float* const from =
-        derivatives + (row + i) * planes.size() + planes.at_clamped(a - i * step, b);
-#pragma unroll
-    for (int c = 0; c < kChannels; ++c) {
-      if (c >= channels) break;
-      xx[c] += filters.views[0].values[i + radius] * __ldg(from + c * channel + 2 * order);
-      xu[c] += filters.views[1].values[i + radius] * __ldg(from + c * channel + order);
-      uu[c] += filters.views[2].values[i + radius] * __ldg(from + c * channel);
-    }
-  }
+__device__ Products products_of(const LineSums& line, int row, int channels,
+                                const DoubleFilters& filters) {
   float sums[6] = {};
 #pragma unroll
   for (int c = 0; c < kChannels; ++c) {
     if (c >= channels) break;
-    const float third = filters.scale[2] * uu[c] + filters.mix * xx[c];
-    const float first = filters.scale[0] * xx[c], middle = filters.scale[1] * xu[c];
+    const float third = filters.scale[2] * line.uu[row][c] + filters.mix * line.xx[row][c];
+    const float first = filters.scale[0] * line.xx[row][c];
+    const float middle = filters.scale[1] * line.xu[row][c];
     sums[0] += first * first;
     sums[1] += first * middle;
     sums[2] += first * third;
@@ -103,46 +136,53 @@ __device__ Products products_at(const DoubleLine& line, const DoubleFilters& fil
 }
 
 // Tiles of a block, with the halo of the integration along a.
-constexpr int kLongTile = 128, kThinTile = 2;    // a, b of horizontal EPIs
-constexpr int kSquareTile = 16, kWideTile = 32;  // of vertical ones
+constexpr int kLongTile = 128, kThinTile = 2;      // a, b of horizontal EPIs
+constexpr int kSquareTile = 16, kNarrowTile = 16;  // of vertical ones
 constexpr int kThreads = 256;
 constexpr int kMostRadius = DoubleTaps::kMost / 2;
 
+// Blocks x are groups of product rows, y and z tiles of lines.
 template <int kTileA, int kTileB>
-__global__ void multiply_planes(DoubleLine line, DoubleFilters filters, int step,
+__global__ void multiply_planes(const __grid_constant__ DoubleLine line,
+                                const __grid_constant__ DoubleFilters filters, int step,
                                 DoublePlanes of_derivatives, const float* derivatives,
-                                DoublePlanes planes, float* products) {
+                                DoublePlanes planes, int first_line, float* products) {
   constexpr int kMostA = kTileA + 2 * kMostRadius;
-  __shared__ float tile[6][kMostA * kTileB];
+  __shared__ float tile[kRowsAtOnce][6][kMostA * kTileB];
   const bool is_horizontal = planes.is_horizontal;
-  const int first_a =
-      static_cast<int>(is_horizontal ? blockIdx.x : blockIdx.y) * kTileA - planes.margin;
-  const int first_b = static_cast<int>(is_horizontal ? blockIdx.y : blockIdx.x) * kTileB;
-  const int product_row = static_cast<int>(blockIdx.z);
-  const int radius = filters.integrate.radius;
-  const int long_a = kTileA + 2 * radius;
-  const auto a_of = [&](int i) { return is_horizontal ? i % long_a : i / kTileB; };
-  const auto b_of = [&](int i) { return is_horizontal ? i / long_a : i % kTileB; };
+  const auto block_a = static_cast<int>(is_horizontal ? blockIdx.y : blockIdx.z);
+  const auto block_b = static_cast<int>(is_horizontal ? blockIdx.z : blockIdx.y);
+  const int first_on = block_a * kTileA + first_line, first_b = block_b * kTileB;
+  const int first_row = static_cast<int>(blockIdx.x) * kRowsAtOnce;
+  const Rows rows{line.first_product + first_row, min(kRowsAtOnce, line.product_rows - first_row)};
+  const int radius = filters.integrate.radius, long_a = kTileA + 2 * radius;
   for (int i = static_cast<int>(threadIdx.x); i < long_a * kTileB; i += kThreads) {
-    const int a = a_of(i), b = b_of(i);
-    const Products here =
-        products_at(line, filters, line.first_product + product_row, step, of_derivatives,
-                    derivatives, first_a + a - radius, min(first_b + b, planes.breadth() - 1));
-    for (int j = 0; j < 6; ++j) tile[j][b * kMostA + a] = here.values[j];
+    const int a = is_horizontal ? i % long_a : i / kTileB;
+    const int b = is_horizontal ? i / long_a : i % kTileB;
+    const LineSums sums = sums_of(line, filters, rows, step, of_derivatives, derivatives,
+                                  first_on + a - radius, min(first_b + b, planes.breadth() - 1));
+#pragma unroll
+    for (int r = 0; r < kRowsAtOnce; ++r) {
+      const Products here = products_of(sums, r, line.samples.channels, filters);
+      for (int j = 0; j < 6; ++j) tile[r][j][b * kMostA + a] = here.values[j];
+    }
   }
   __syncthreads();
   const long size = planes.size(), order = line.product_rows * size;
   for (int i = static_cast<int>(threadIdx.x); i < kTileA * kTileB; i += kThreads) {
     const int a = is_horizontal ? i % kTileA : i / kTileB;
     const int b = is_horizontal ? i / kTileA : i % kTileB;
-    if (first_a + a >= planes.length() + planes.margin || first_b + b >= planes.breadth()) continue;
-    const long at = product_row * size + planes.at(first_a + a, first_b + b);
-    for (int j = 0; j < 6; ++j) {
-      float sum = 0;
+    if (first_b + b >= planes.breadth()) continue;
+    for (int r = 0; r < rows.count; ++r) {
+      const int pixel = first_on + a - step * (rows.first + r);
+      if (!planes.has(pixel)) continue;
+      float sums[6] = {};
       for (int k = 0; k <= 2 * radius; ++k) {
-        sum += filters.integrate.values[k] * tile[j][b * kMostA + a + k];
+        const float weight = filters.integrate.values[k];
+        for (int j = 0; j < 6; ++j) sums[j] += weight * tile[r][j][b * kMostA + a + k];
       }
-      products[j * order + at] = sum;
+      const long at = (first_row + r) * size + planes.at(pixel, first_b + b);
+      for (int j = 0; j < 6; ++j) products[j * order + at] = sums[j];
     }
   }
 }
@@ -226,19 +266,23 @@ void multiply(const DoubleLine& line, const DoubleFilters& filters, int step,
   const KernelWork work{"double: products",
                         4 * (3 * line.samples.channels * read + 6 * line.product_rows * places),
                         places * line.product_rows * (line.samples.channels * 48 + 110)};
-  const int length = planes.length() + 2 * planes.margin;
-  const auto count = static_cast<unsigned>(line.product_rows);
+  // Of the first and the last product row, every pixel lies on one of these lines.
+  const int one = step * line.first_product,
+            other = step * (line.first_product + line.product_rows - 1);
+  const int first_line = std::min(one, other) - planes.margin;
+  const int lines = planes.length() + 2 * planes.margin + std::abs(other - one);
+  const unsigned groups = blocks_for(line.product_rows, kRowsAtOnce);
   launch(stream, work, [&] {
     if (planes.is_horizontal) {
-      const dim3 grid(blocks_for(length, kLongTile), blocks_for(planes.breadth(), kThinTile),
-                      count);
+      const dim3 grid(groups, blocks_for(lines, kLongTile),
+                      blocks_for(planes.breadth(), kThinTile));
       multiply_planes<kLongTile, kThinTile><<<grid, kThreads, 0, stream.get()>>>(
-          line, filters, step, of_derivatives, derivatives, planes, products);
+          line, filters, step, of_derivatives, derivatives, planes, first_line, products);
     } else {
-      const dim3 grid(blocks_for(planes.breadth(), kWideTile), blocks_for(length, kSquareTile),
-                      count);
-      multiply_planes<kSquareTile, kWideTile><<<grid, kThreads, 0, stream.get()>>>(
-          line, filters, step, of_derivatives, derivatives, planes, products);
+      const dim3 grid(groups, blocks_for(planes.breadth(), kNarrowTile),
+                      blocks_for(lines, kSquareTile));
+      multiply_planes<kSquareTile, kNarrowTile><<<grid, kThreads, 0, stream.get()>>>(
+          line, filters, step, of_derivatives, derivatives, planes, first_line, products);
     }
   });
 }
@@ -252,13 +296,20 @@ void average_across(const DoubleLine& line, const DoubleFilters& filters,
   const dim3 grid(each.x, blocks_for(each.y, kRun), each.z);
   const auto run = [&] {
     switch (filters.across.radius) {
-      case 0: return average_planes<0>;
-      case 1: return average_planes<1>;
-      case 2: return average_planes<2>;
-      case 3: return average_planes<3>;
-      case 4: return average_planes<4>;
-      case 5: return average_planes<5>;
-      default: return average_planes<DoubleTaps::kMost / 2>;
+      case 0:
+        return average_planes<0>;
+      case 1:
+        return average_planes<1>;
+      case 2:
+        return average_planes<2>;
+      case 3:
+        return average_planes<3>;
+      case 4:
+        return average_planes<4>;
+      case 5:
+        return average_planes<5>;
+      default:
+        return average_planes<DoubleTaps::kMost / 2>;
     }
   }();
   launch(stream, {"double: across EPIs", places * 8, places * 10}, [&] {

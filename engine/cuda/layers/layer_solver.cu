@@ -9,6 +9,8 @@
 #include "engine/cuda/tv_l2/tv_l2_solver.cuh"
 
 #include <algorithm>
+#include <future>
+#include <memory>
 #include <utility>
 
 namespace episcope::cuda {
@@ -24,17 +26,13 @@ struct Maps {
   float* coherence = nullptr;
   float* near = nullptr;
   float* far = nullptr;
-  std::uint8_t* layers = nullptr;
+  std::uint8_t* layers = nullptr;  ///< Their confidence in 1/255; with a region, their number.
   std::uint8_t* region = nullptr;  ///< 1 = two layers.
   float* data = nullptr;
   float* weight = nullptr;
   float* image_edges = nullptr;
   float* edges = nullptr;
 };
-
-__device__ float confidence_at(const Maps& maps, long i) {
-  return static_cast<float>(maps.layers[i]) / 255;
-}
 
 __device__ long place() {
   return static_cast<long>(blockIdx.x) * blockDim.x + threadIdx.x;
@@ -49,13 +47,15 @@ __global__ void clear_invalid(Maps maps, DeviceSamples samples, MapPointers view
   if (samples.valid[samples.pixel(v, u, 0, 0) + i] == 0) maps.layers[map * pixels + i] = 0;
 }
 
-// The region from the solution in `data`, and what either layer is trusted.
+// The region from the solution in `data`: so many layers, their confidence, and as much trust.
 __global__ void find_region(Maps maps, float* trust) {
   const long i = place();
   if (i >= maps.count) return;
   const bool is_double = maps.data[i] > 0;
+  if (is_double) maps.coherence[i] = static_cast<float>(maps.layers[i]) / 255;
+  trust[i] = maps.coherence[i];
   maps.region[i] = is_double ? 1 : 0;
-  trust[i] = is_double ? confidence_at(maps, i) : maps.coherence[i];
+  maps.layers[i] = is_double ? 2 : 1;
 }
 
 // The surface is an area, not a texture: it ignores image edges, and may jump at its border.
@@ -81,17 +81,14 @@ __global__ void begin_background(Maps maps) {
   maps.edges[i] = is_double ? 1.0F : maps.image_edges[i];
 }
 
-// Orders the layers, and writes confidence and number of layers.
-__global__ void finish_layers(Maps maps, float min, float max) {
+__global__ void order_layers(Maps maps, float min, float max) {
   const long i = place();
   if (i >= maps.count) return;
   const bool is_double = maps.region[i] != 0;
   float near = is_double ? maps.near[i] : maps.far[i], far = maps.far[i];
   if (near < far) near = far = 0.5F * (near + far);
-  if (is_double) maps.coherence[i] = confidence_at(maps, i);
   maps.near[i] = fminf(fmaxf(near, min), max);
   maps.far[i] = fminf(fmaxf(far, min), max);
-  maps.layers[i] = is_double ? 2 : 1;
 }
 
 // All that the device holds for a run.
@@ -101,6 +98,11 @@ class LayerSolver {
               const Progress& progress);
 
   void find_score(DeviceMaps fit);
+  // Of either layer's data, and of the variation; after it, confidence and number of layers stay.
+  void find_weights(const Progress& progress);
+  // Begins to fill them, and to count rays with two, while layers are solved.
+  std::future<std::size_t> begin_download(const LayerResults& results,
+                                          const Progress& progress) const;
   std::vector<double> solve(const Progress& progress);
   void download_to(const LayerResults& results, const Progress& progress) const;
 
@@ -111,7 +113,6 @@ class LayerSolver {
     launch(stream_, {name, bytes * count, 8 * count},
            [&] { kernel(blocks_for(maps_.count, kThreads)); });
   }
-  void find_weights(const Progress& progress);
   void solve_layer(double lambda, float* result, const Progress& progress);
 
   LayerSmoothing smoothing_;
@@ -173,11 +174,10 @@ void LayerSolver::find_score(DeviceMaps fit) {
   fit.memory().stream.wait_for(stream_);
 }
 
-// Of either layer's data, and of the variation.
 void LayerSolver::find_weights(const Progress& progress) {
   (void)solver_.solve({data_.data(), weight_.data(), nullptr, smoothing_.region_smoothness},
                       smoothing_.region_iterations, smoothing_.region_gap, progress, data_.data());
-  run("layers: region", 14, [&](unsigned blocks) {
+  run("layers: region", 18, [&](unsigned blocks) {
     find_region<<<blocks, kThreads, 0, stream_.get()>>>(maps_, edges_.data());
   });
   MapDenoising weights;
@@ -199,40 +199,52 @@ void LayerSolver::solve_layer(double lambda, float* result, const Progress& prog
 }
 
 std::vector<double> LayerSolver::solve(const Progress& progress) {
-  find_weights(progress.part(0, 0.3));
   const auto factor = static_cast<float>(std::max(smoothing_.layer_smoothness, 1.0));
   run("layers: foreground", 18, [&](unsigned blocks) {
     begin_foreground<<<blocks, kThreads, 0, stream_.get()>>>(maps_, factor,
                                                              smoothing_.border_weight);
   });
-  solve_layer(smoothing_.lambda * factor, maps_.near, progress.part(0.3, 0.65));
+  solve_layer(smoothing_.lambda * factor, maps_.near, progress.part(0, 0.5));
   run("layers: background", 18,
       [&](unsigned blocks) { begin_background<<<blocks, kThreads, 0, stream_.get()>>>(maps_); });
-  solve_layer(smoothing_.lambda, maps_.far, progress.part(0.65, 1));
-  run("layers: order", 22, [&](unsigned blocks) {
-    finish_layers<<<blocks, kThreads, 0, stream_.get()>>>(maps_, smoothing_.min, smoothing_.max);
+  solve_layer(smoothing_.lambda, maps_.far, progress.part(0.5, 1));
+  run("layers: order", 17, [&](unsigned blocks) {
+    order_layers<<<blocks, kThreads, 0, stream_.get()>>>(maps_, smoothing_.min, smoothing_.max);
   });
   return gaps_;
 }
 
+std::future<std::size_t> LayerSolver::begin_download(const LayerResults& results,
+                                                     const Progress& progress) const {
+  auto copies = std::make_unique<DeviceStream>();
+  copies->wait_for(stream_);
+  return std::async(std::launch::async, [this, results, progress, copies = std::move(copies)] {
+    download(results.confidence, single_.confidence, *copies, progress);
+    download(results.layers, layers_.confidence, *copies, progress);
+    const std::uint8_t* const layers = results.layers.data();
+    return static_cast<std::size_t>(std::count(layers, layers + results.layers.size(), 2));
+  });
+}
+
 void LayerSolver::download_to(const LayerResults& results, const Progress& progress) const {
-  download(results.near, layers_.near, stream_, progress);
-  download(results.near_again, layers_.near, stream_, progress);
+  download_bytes({results.near.data(), results.near_again.data()}, layers_.near.data(),
+                 layers_.near.byte_size(), stream_, progress);
   download(results.far, layers_.far, stream_, progress);
-  download(results.confidence, single_.confidence, stream_, progress);
-  download(results.layers, layers_.confidence, stream_, progress);
 }
 
 }  // namespace
 
-std::vector<double> solve_layers(const LightField& lf, const LayerSmoothing& smoothing,
-                                 const RawLayers& raw, DeviceMaps fit, const LayerResults& results,
-                                 const Progress& progress) {
+LayerOutcome solve_layers(const LightField& lf, const LayerSmoothing& smoothing,
+                          const RawLayers& raw, DeviceMaps fit, const LayerResults& results,
+                          const Progress& progress) {
   LayerSolver solver(lf, smoothing, raw, progress.part(0, 0));
   solver.find_score(std::move(fit));
-  std::vector<double> gaps = solver.solve(progress.part(0, 0.9));
+  solver.find_weights(progress.part(0, 0.3));
+  std::future<std::size_t> doubles = solver.begin_download(results, progress.part(0.3, 0.3));
+  LayerOutcome outcome{solver.solve(progress.part(0.3, 0.9))};
   solver.download_to(results, progress.part(0.9, 1));
-  return gaps;
+  outcome.doubles = doubles.get();
+  return outcome;
 }
 
 }  // namespace episcope::cuda

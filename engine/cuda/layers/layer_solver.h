@@ -6,6 +6,7 @@
 #include "engine/core/parallel/progress.h"
 #include "engine/cuda/layers/double_layers.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -44,12 +45,17 @@ struct LayerResults {
   ViewStack<std::uint8_t>& layers;
 };
 
-/// Steps 2 to 4 of EPI_TWO_LAYER on the device; returns the relative gap of every view. `fit` holds
-/// the coherence of one orientation before its lines were checked. Throws DeviceFailure, Cancelled.
-[[nodiscard]] std::vector<double> solve_layers(const LightField& light_field,
-                                               const LayerSmoothing& smoothing,
-                                               const RawLayers& raw, DeviceMaps fit,
-                                               const LayerResults& results,
-                                               const Progress& progress);
+/// What a run tells besides its results.
+struct LayerOutcome {
+  std::vector<double> gaps;  ///< Relative, of every view.
+  std::size_t doubles = 0;   ///< Rays with two layers.
+};
+
+/// Steps 2 to 4 of EPI_TWO_LAYER on the device. `fit` holds the coherence of one orientation before
+/// its lines were checked. Throws DeviceFailure, Cancelled.
+[[nodiscard]] LayerOutcome solve_layers(const LightField& light_field,
+                                        const LayerSmoothing& smoothing, const RawLayers& raw,
+                                        DeviceMaps fit, const LayerResults& results,
+                                        const Progress& progress);
 
 }  // namespace episcope::cuda

@@ -4,8 +4,8 @@
 
 namespace episcope::cuda {
 
-std::vector<double> solve_layers(const LightField&, const LayerSmoothing&, const RawLayers&,
-                                 DeviceMaps, const LayerResults&, const Progress&) {
+LayerOutcome solve_layers(const LightField&, const LayerSmoothing&, const RawLayers&, DeviceMaps,
+                          const LayerResults&, const Progress&) {
   throw DeviceFailure(known_cuda_device().why_not);
 }
 

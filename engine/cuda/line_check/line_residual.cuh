@@ -9,14 +9,19 @@ namespace episcope::cuda {
 
 inline constexpr int kMaxArmViews = 4;
 
+/// In units of 1/1023, plus 2²³: differences are exact, and no conversion is needed.
 struct PackedColour {
   float channel[3];
 };
 
 __device__ inline PackedColour unpacked(std::uint32_t packed) {
-  return {{static_cast<float>(packed_channel(packed, 0)),
-           static_cast<float>(packed_channel(packed, 1)),
-           static_cast<float>(packed_channel(packed, 2))}};
+  constexpr std::uint32_t kExponent = 0x4B000000U;
+  PackedColour colour;
+  for (int c = 0; c < 3; ++c) {
+    colour.channel[c] =
+        __uint_as_float(kExponent | (packed >> (kPackedBits * c) & std::uint32_t{kPackedMost}));
+  }
+  return colour;
 }
 
 /// An arm with fewer views that see the line does not count.
@@ -30,11 +35,12 @@ __device__ inline float arm_residual(const PackedField& field, const RayPlace& r
                                      const PackedColour& own, float disparity) {
   const bool vertical = dv != 0;
   const int last = (vertical ? field.height : field.width) - 1;
-  const long stride = vertical ? field.width : 1;
-  const long line = vertical ? ray.x : static_cast<long>(ray.y) * field.width;
+  const int stride = vertical ? field.width : 1;
+  const int line = vertical ? ray.x : ray.y * field.width;
   const auto start = static_cast<float>(vertical ? ray.y : ray.x);
   float sum = 0;
   int count = 0;
+#pragma unroll
   for (int k = 1; k <= kMaxArmViews; ++k) {
     const int v = ray.v + k * dv, u = ray.u + k * du;
     if (!field.contains(v, u)) break;
@@ -43,7 +49,8 @@ __device__ inline float arm_residual(const PackedField& field, const RayPlace& r
     const int tap = static_cast<int>(at);
     const float weight = at - static_cast<float>(tap);
     const std::uint32_t* const from = field.view(v, u) + line;
-    const std::uint32_t first = from[tap * stride], second = from[min(tap + 1, last) * stride];
+    const std::uint32_t first = __ldg(from + tap * stride);
+    const std::uint32_t second = __ldg(from + min(tap + 1, last) * stride);
     if (field.has_invalid && !(is_valid(first) && is_valid(second))) continue;
     const PackedColour a = unpacked(first), b = unpacked(second);
     float square = 0;
@@ -60,6 +67,8 @@ __device__ inline float arm_residual(const PackedField& field, const RayPlace& r
 }
 
 /// Least mean squared difference of the four arms, samples in [0, 1]; infinite where none counts.
+/// kUnrolled = 1 where more registers than one arm needs would be too many.
+template <int kUnrolled = 4>
 __device__ inline float line_residual(const PackedField& field, const RayPlace& ray,
                                       float disparity) {
   constexpr float kUnit = 1.0F / static_cast<float>(kPackedMost);
@@ -67,10 +76,13 @@ __device__ inline float line_residual(const PackedField& field, const RayPlace& 
       field.view(ray.v, ray.u)[static_cast<long>(ray.y) * field.width + ray.x];
   if (field.has_invalid && !is_valid(packed)) return INFINITY;
   const PackedColour own = unpacked(packed);
-  float best = arm_residual(field, ray, 0, 1, own, disparity);
-  best = fminf(best, arm_residual(field, ray, 0, -1, own, disparity));
-  best = fminf(best, arm_residual(field, ray, 1, 0, own, disparity));
-  best = fminf(best, arm_residual(field, ray, -1, 0, own, disparity));
+  float best = INFINITY;
+#pragma unroll kUnrolled
+  for (int arm = 0; arm < 4; ++arm) {
+    const int step = (arm & 1) == 0 ? 1 : -1;
+    best = fminf(best,
+                 arm_residual(field, ray, arm < 2 ? 0 : step, arm < 2 ? step : 0, own, disparity));
+  }
   return best * (kUnit * kUnit);
 }
 

@@ -37,7 +37,7 @@ struct Sides {
 // `disparity` and `confidence` are those of a view.
 __device__ Sides find_sides(const PackedField& field, const float* disparity,
                             const float* confidence, int y, int x) {
-  const long here = static_cast<long>(y) * field.width + x;
+  const int here = y * field.width + x;
   Sides sides;
   sides.own = sides.far = sides.near = disparity[here];
   sides.own_confidence = sides.far_confidence = sides.near_confidence = confidence[here];
@@ -46,7 +46,7 @@ __device__ Sides find_sides(const PackedField& field, const float* disparity,
   for (int k = 0; k < kNeighbours; ++k) {
     const int py = min(max(y + kOffsets[k][0], 0), field.height - 1);
     const int px = min(max(x + kOffsets[k][1], 0), field.width - 1);
-    const long at = static_cast<long>(py) * field.width + px;
+    const int at = py * field.width + px;
     const float d = disparity[at], r = confidence[at];
     if (d < sides.far && r >= least_trust) {
       sides.far = d;
@@ -60,22 +60,34 @@ __device__ Sides find_sides(const PackedField& field, const float* disparity,
   return sides;
 }
 
+// What stands for the residual of a side that is none: own counts there, too.
+constexpr float kAsOwn = -1;
+enum Side { kOwn, kFar, kNear, kSides };
+
 // What pixels of a tile and around it vote with.
 struct Ballots {
-  float own[kPlaces], far[kPlaces], near[kPlaces];  // residuals
+  float residual[kSides][kPlaces];  // first the disparities that are asked for
   float color[3][kPlaces];
-  bool has_jump[kPlaces];  // of those in the tile, whose votes are counted
+  std::uint16_t asked[kSides * kPlaces];  // a side of a place each, in any order
+  int asked_count;
+  std::uint32_t jumps[kRows];  // a bit for each pixel of the tile, whose votes are counted
+
+  __device__ float of(int side, int place) const {
+    const float value = residual[side][place];
+    return value == kAsOwn ? residual[kOwn][place] : value;
+  }
 };
 
+// Whether a pixel that jumps is near.
 __device__ bool is_asked(const Ballots& ballots, int place) {
   const int row = place / kWide, column = place % kWide;
-  bool asked = false;
-  for (int j = max(row - kVoteRadius, 0); j <= min(row + kVoteRadius, kHigh - 1); ++j) {
-    for (int i = max(column - kVoteRadius, 0); i <= min(column + kVoteRadius, kWide - 1); ++i) {
-      asked = asked || ballots.has_jump[j * kWide + i];
-    }
+  std::uint32_t jumps = 0;
+  for (int j = max(row - 2 * kVoteRadius, 0); j <= min(row, kRows - 1); ++j) {
+    jumps |= ballots.jumps[j];
   }
-  return asked;
+  // Of a row of the tile, bits column − 2·kVoteRadius to column are near.
+  constexpr std::uint64_t kWindow = (1U << (2 * kVoteRadius + 1)) - 1;
+  return (std::uint64_t{jumps} << (2 * kVoteRadius) >> column & kWindow) != 0;
 }
 
 // One view, and the part of it that a block decides.
@@ -85,27 +97,42 @@ struct Tile {
   const float* confidence;
 };
 
-__device__ void fill_ballot(const PackedField& field, const Tile& tile, float cap, int place,
-                            Ballots& ballots) {
-  const int y = tile.y + place / kWide - kVoteRadius, x = tile.x + place % kWide - kVoteRadius;
-  const bool exists = y >= 0 && y < field.height && x >= 0 && x < field.width;
-  ballots.own[place] = ballots.far[place] = ballots.near[place] = 0;
-  if (!exists) {
+// The pixel that a place stands for, which may lie outside.
+__device__ RayPlace pixel_of(const Tile& tile, int place) {
+  return {tile.v, tile.u, tile.y + place / kWide - kVoteRadius,
+          tile.x + place % kWide - kVoteRadius};
+}
+
+// All but the residuals.
+__device__ void begin_ballot(const PackedField& field, const Tile& tile, int place,
+                             Ballots& ballots) {
+  const auto [v, u, y, x] = pixel_of(tile, place);
+  if (y < 0 || y >= field.height || x < 0 || x >= field.width) {
+    for (auto& residual : ballots.residual) residual[place] = 0;
     for (auto& color : ballots.color) color[place] = kNoPixel;
     return;
   }
-  const std::uint32_t packed = field.view(tile.v, tile.u)[static_cast<long>(y) * field.width + x];
+  const std::uint32_t packed = field.view(v, u)[static_cast<long>(y) * field.width + x];
   for (int c = 0; c < 3; ++c) {
     ballots.color[c][place] = static_cast<float>(packed_channel(packed, c)) / kPackedMost;
   }
   const Sides sides = find_sides(field, tile.disparity, tile.confidence, y, x);
-  const RayPlace ray{tile.v, tile.u, y, x};
-  const float own = fminf(line_residual(field, ray, sides.own), cap);
-  ballots.own[place] = own;
-  ballots.far[place] =
-      sides.far == sides.own ? own : fminf(line_residual(field, ray, sides.far), cap);
-  ballots.near[place] =
-      sides.near == sides.own ? own : fminf(line_residual(field, ray, sides.near), cap);
+  const float wanted[kSides] = {sides.own, sides.far, sides.near};
+  for (int side = 0; side < kSides; ++side) {
+    const bool asks = side == kOwn || wanted[side] != sides.own;
+    ballots.residual[side][place] = asks ? wanted[side] : kAsOwn;
+    if (asks) {
+      ballots.asked[atomicAdd(&ballots.asked_count, 1)] =
+          static_cast<std::uint16_t>(side * kPlaces + place);
+    }
+  }
+}
+
+__device__ void fill_residual(const PackedField& field, const Tile& tile, float cap, int asked,
+                              Ballots& ballots) {
+  const int place = asked % kPlaces;
+  float& residual = ballots.residual[asked / kPlaces][place];
+  residual = fminf(line_residual<1>(field, pixel_of(tile, place), residual), cap);
 }
 
 struct Votes {
@@ -125,9 +152,9 @@ __device__ Votes collect(const Ballots& ballots, int place, float sharpness) {
       }
       const float root = fmaxf(__fmaf_rn(-sharpness, square, 1), 0);
       const float weight = root * root * root * root;
-      votes.own = __fmaf_rn(weight, ballots.own[at], votes.own);
-      votes.far = __fmaf_rn(weight, ballots.far[at], votes.far);
-      votes.near = __fmaf_rn(weight, ballots.near[at], votes.near);
+      votes.own = __fmaf_rn(weight, ballots.of(kOwn, at), votes.own);
+      votes.far = __fmaf_rn(weight, ballots.of(kFar, at), votes.far);
+      votes.near = __fmaf_rn(weight, ballots.of(kNear, at), votes.near);
     }
   }
   return votes;
@@ -153,8 +180,9 @@ __device__ float2 decide(const Sides& sides, const Votes& votes) {
   return {sides.own, sides.own_confidence * (is_doubtful ? kept_share(votes) : 1)};
 }
 
-__global__ __launch_bounds__(kThreads) void choose(PackedField field, MapPointers before, float cap,
-                                                   float sharpness, MapPointers after) {
+__global__ __launch_bounds__(kThreads, 4) void choose(PackedField field, MapPointers before,
+                                                      float cap, float sharpness,
+                                                      MapPointers after) {
   __shared__ Ballots ballots;
   const long size = static_cast<long>(field.height) * field.width;
   const int number = static_cast<int>(blockIdx.z);
@@ -165,21 +193,22 @@ __global__ __launch_bounds__(kThreads) void choose(PackedField field, MapPointer
   const int y = tile.y + static_cast<int>(threadIdx.y);
   const int x = tile.x + static_cast<int>(threadIdx.x);
   const bool exists = y < field.height && x < field.width;
-  for (int i = thread; i < kPlaces; i += kThreads) ballots.has_jump[i] = false;
-  __syncthreads();
+  if (thread == 0) ballots.asked_count = 0;
   const int place = (static_cast<int>(threadIdx.y) + kVoteRadius) * kWide +
                     static_cast<int>(threadIdx.x) + kVoteRadius;
   Sides sides{};
-  bool has_jump = false;
-  if (exists) {
-    sides = find_sides(field, tile.disparity, tile.confidence, y, x);
-    has_jump = sides.has_far() || sides.has_near();
-    ballots.has_jump[place] = has_jump;
-  }
+  if (exists) sides = find_sides(field, tile.disparity, tile.confidence, y, x);
+  const bool has_jump = exists && (sides.has_far() || sides.has_near());
+  const std::uint32_t jumps = __ballot_sync(~0U, has_jump);
+  if (threadIdx.x == 0) ballots.jumps[threadIdx.y] = jumps;
   float2 decided{sides.own, sides.own_confidence};
   if (__syncthreads_or(has_jump)) {
     for (int i = thread; i < kPlaces; i += kThreads) {
-      if (is_asked(ballots, i)) fill_ballot(field, tile, cap, i, ballots);
+      if (is_asked(ballots, i)) begin_ballot(field, tile, i, ballots);
+    }
+    __syncthreads();
+    for (int i = thread; i < ballots.asked_count; i += kThreads) {
+      fill_residual(field, tile, cap, ballots.asked[i], ballots);
     }
     __syncthreads();
     if (has_jump) decided = decide(sides, collect(ballots, place, sharpness));

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The steps of tv_l2_steps.cuh, all of an iteration in one pass over the rows of a strip of columns:
-// each step follows the one before it at the least distance that its neighbours allow, and rows in
-// between stay in shared memory. On the level being solved all edges of a pixel have the same
-// penalty, so that one plane and the borders of the image tell it.
+// The steps of tv_l2_steps.cuh, all of an iteration in one pass over the rows of a strip of
+// columns: each step follows the one before it at the least distance that its neighbours allow, and
+// rows in between stay in shared memory. On the level being solved all edges of a pixel have the
+// same penalty, so that one plane and the borders of the image tell it.
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/tv_l2/tv_l2_iteration.cuh"
 #include "engine/cuda/tv_l2/tv_l2_steps.cuh"
+
+#include <algorithm>
+#include <limits>
 
 namespace episcope::cuda {
 namespace {
@@ -13,9 +16,9 @@ namespace {
 // A thread has a place of every row, two pixels; those beside the strip, and the rows above and
 // below, are computed for the sake of the five pixels that results depend on.
 constexpr int kThreads = 96;
-constexpr int kHaloPlaces = 3, kHaloRows = 6;
+constexpr int kHaloPlaces = 4, kHaloRows = 6;  // strips begin where sectors of memory do
 constexpr int kStripPlaces = kThreads - 2 * kHaloPlaces;
-constexpr int kStripRows = 64;
+constexpr int kLeastRows = 32;
 constexpr int kRing = 8;  // rows in shared memory
 
 // Rows behind the one that is read.
@@ -41,15 +44,19 @@ struct Moving {
 
 class Strip {
  public:
-  __device__ Strip(const TvL2Level& level, const TvL2Level& coarse, int view, Shared& shared)
+  __device__ Strip(const TvL2Level& level, const TvL2Level& coarse, int view, int rows,
+                   Shared& shared)
       : level_(level),
         coarse_(coarse),
         view_(view),
         shared_(shared),
         lane_(static_cast<int>(threadIdx.x)),
         place_(static_cast<int>(blockIdx.x) * kStripPlaces + lane_ - kHaloPlaces),
-        first_(static_cast<int>(blockIdx.y) * kStripRows),
-        end_(min(first_ + kStripRows, level.height)),
+        pitch_(static_cast<int>(level.pitch)),
+        odd_(static_cast<int>(level.odd)),
+        origin_(static_cast<int>(view * level.view) + place_),
+        first_(static_cast<int>(blockIdx.y) * rows),
+        end_(min(first_ + rows, level.height)),
         in_level_(place_ >= 0 && place_ < level.half()),
         in_strip_(in_level_ && lane_ >= kHaloPlaces && lane_ < kThreads - kHaloPlaces),
         right_{{2 * place_ + 1 < level.width ? 1.0F : 0.0F,
@@ -76,17 +83,15 @@ class Strip {
   [[nodiscard]] __device__ Pair read(TvL2Plane which, int y) const {
     if (!in_level_ || y < 0 || y >= level_.height) return {};
     const float* const from = level_.of(which, 0) + at(y);
-    return {{__ldg(from), __ldg(from + level_.odd)}};
+    return {{__ldg(from), __ldg(from + odd_)}};
   }
   [[nodiscard]] __device__ Pair read_penalties(int y) const;
   __device__ void write(int moved, int y, int half, float value) const {
     if (!in_strip_ || y < first_ || y >= end_) return;
-    level_.second(moved, 0)[at(y) + half * level_.odd] = value;
+    level_.second(moved, 0)[at(y) + half * odd_] = value;
   }
   // In a plane of all views: one sum for all planes.
-  [[nodiscard]] __device__ long at(int y) const {
-    return view_ * level_.view + place_ + y * level_.pitch;
-  }
+  [[nodiscard]] __device__ int at(int y) const { return origin_ + y * pitch_; }
   [[nodiscard]] __device__ float below(int y) const { return y + 1 < level_.height ? 1.0F : 0.0F; }
 
   // A place of a row that is held, and what stands to the left and to the right of its pixels.
@@ -102,8 +107,8 @@ class Strip {
   // Σ penalty·neighbour, and with the pixel itself as `here` Σ penalty·(neighbour − here).
   [[nodiscard]] __device__ float pull(int y, int half, float here) const {
     const Row &u = shared_.u[y & (kRing - 1)], &r = shared_.r[y & (kRing - 1)];
-    const float beside = right_.of[half] * (right(u, half) - here) +
-                         below(y) * (own(shared_.u, y + 1, half) - here);
+    const float beside =
+        right_.of[half] * (right(u, half) - here) + below(y) * (own(shared_.u, y + 1, half) - here);
     return own(shared_.r, y, half) * beside + left(r, half) * (left(u, half) - here) +
            own(shared_.r, y - 1, half) * (own(shared_.u, y - 1, half) - here);
   }
@@ -111,7 +116,9 @@ class Strip {
   const TvL2Level &level_, &coarse_;
   int view_;
   Shared& shared_;
-  int lane_, place_, first_, end_;
+  int lane_, place_, pitch_, odd_;
+  int origin_;  // of the place in row 0, in a plane of all views
+  int first_, end_;
   bool in_level_, in_strip_;
   Pair right_;  // 1 where there is a pixel to the right in the level
 
@@ -133,7 +140,7 @@ __device__ Pair Strip::read_penalties(int y) const {
   const float* const rx = level_.of(TvL2Plane::Rx, 0);
   const float* const ry = level_.of(TvL2Plane::Ry, 0);
   return {{__ldg((right_.of[0] > 0 ? rx : ry) + at(y)),
-           __ldg((right_.of[1] > 0 ? rx : ry) + at(y) + level_.odd)}};
+           __ldg((right_.of[1] > 0 ? rx : ry) + at(y) + odd_)}};
 }
 
 // For step t.
@@ -207,8 +214,8 @@ __device__ void Strip::renew(int y) {
 #pragma unroll
   for (int half = 0; half < 2; ++half) {
     const float qy = moving_.zy.of[half];
-    b.of[half] += (shared_.qx[half][lane_ + 1] - left(shared_.qx, half)) +
-                  (qy - qy_above_.of[half]);
+    b.of[half] +=
+        (shared_.qx[half][lane_ + 1] - left(shared_.qx, half)) + (qy - qy_above_.of[half]);
     qy_above_.of[half] = qy;
     write(3, y, half, b.of[half]);
   }
@@ -275,34 +282,69 @@ __device__ void Strip::keep() const {
 }
 
 __global__ void __launch_bounds__(kThreads, 8)
-    iterate_strips(const __grid_constant__ TvL2Level level, const __grid_constant__ TvL2Level coarse,
-                   const TvL2View* views, bool is_first) {
+    iterate_strips(const __grid_constant__ TvL2Level level,
+                   const __grid_constant__ TvL2Level coarse, const TvL2View* views, bool is_first,
+                   int rows) {
   __shared__ Shared shared;
   const int view = static_cast<int>(blockIdx.z);
-  Strip strip(level, coarse, view, shared);
+  Strip strip(level, coarse, view, rows, shared);
   if (views[view].is_active == 0) return strip.keep();
   strip.iterate(views[view].relaxation, is_first);
 }
 
-dim3 strips(const TvL2Level& level, int views) {
-  return {blocks_for(level.half(), kStripPlaces), blocks_for(level.height, kStripRows),
+dim3 strips(const TvL2Level& level, int views, int rows) {
+  return {blocks_for(level.half(), kStripPlaces), blocks_for(level.height, rows),
           static_cast<unsigned>(views)};
+}
+
+// Strips that the device works on together.
+long strips_at_once() {
+  static const long count = [] {
+    int device = 0, processors = 0, each = 0;
+    check(cudaGetDevice(&device));
+    check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device));
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&each, iterate_strips, kThreads, 0));
+    return std::max(1L, static_cast<long>(processors) * each);
+  }();
+  return count;
+}
+
+// Rows of a strip, an even number: those with which the device, which works on so many strips at a
+// time, is done first. Strips of more rows compute fewer of them twice, but the last of them may
+// leave it idle.
+int rows_of(const TvL2Level& level, int views) {
+  const long at_once = strips_at_once();
+  const long most = std::max(level.height / kLeastRows, 1);
+  int best = 0;
+  long least = std::numeric_limits<long>::max();
+  for (long count = 1; count <= most; ++count) {
+    const int rows = 2 * static_cast<int>(blocks_for(level.height, static_cast<int>(2 * count)));
+    const dim3 grid = strips(level, views, rows);
+    const long turns = (static_cast<long>(grid.x) * grid.y * grid.z + at_once - 1) / at_once;
+    const long time = turns * (rows + kHaloRows + kStored);
+    if (time < least) {
+      least = time;
+      best = rows;
+    }
+  }
+  return best;
 }
 
 }  // namespace
 
 bool has_enough_strips(const TvL2Level& level, int views) {
   constexpr unsigned kEnough = 300;
-  const dim3 grid = strips(level, views);
+  const dim3 grid = strips(level, views, 2 * kLeastRows);
   return grid.x * grid.y * grid.z >= kEnough;
 }
 
 void iterate_by_strips(const DeviceStream& stream, const TvL2Level& level, const TvL2Level& coarse,
                        int views, const TvL2View* of_views, bool is_first) {
   const double places = static_cast<double>(level.height) * level.half() * views;
+  const int rows = rows_of(level, views);
   launch(stream, {"tv_l2: iteration by strips", places * 24 * sizeof(float), places * 220}, [&] {
-    iterate_strips<<<strips(level, views), kThreads, 0, stream.get()>>>(level, coarse, of_views,
-                                                                        is_first);
+    iterate_strips<<<strips(level, views, rows), kThreads, 0, stream.get()>>>(
+        level, coarse, of_views, is_first, rows);
   });
 }
 

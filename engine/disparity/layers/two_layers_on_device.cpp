@@ -74,11 +74,11 @@ Estimate two_layers_on_device(const LightField& lf, const EpiTwoLayerParameters&
   const LineCheck& lines = parameters.line_check;
   cuda::check_lines(lf, {lines.chooses_sides, lines.is_on}, single, progress.part(0.35, 0.4));
   progress.step("layers");
-  const std::vector<double> gaps =
+  const cuda::LayerOutcome outcome =
       cuda::solve_layers(lf, smoothing_of(lf, parameters, estimate.range), {single, layers},
                          std::move(fit), results, progress.part(0.4, 1));
-  estimate.notes = layer_notes(count_doubles(layered.layers), layered.layers.size(),
-                               *std::ranges::max_element(gaps));
+  estimate.notes =
+      layer_notes(outcome.doubles, layered.layers.size(), *std::ranges::max_element(outcome.gaps));
   return estimate;
 }
 
