@@ -12,14 +12,16 @@ constexpr float kTextureGain = 4;
 constexpr int kColumns = 32, kRows = 8;
 constexpr int kWide = kColumns + 2 * kRadius, kHigh = kRows + 2 * kRadius;
 
-__device__ float squared_difference(std::uint32_t a, std::uint32_t b) {
+// Whole numbers, which floats hold.
+__device__ float squared_difference(const PackedColour& a, std::uint32_t packed) {
   constexpr float kUnit = 1.0F / static_cast<float>(kPackedMost);
-  int sum = 0;
+  const PackedColour b = unpacked(packed);
+  float sum = 0;
   for (int c = 0; c < 3; ++c) {
-    const int off = packed_channel(a, c) - packed_channel(b, c);
-    sum += off * off;
+    const float off = a.channel[c] - b.channel[c];
+    sum = __fmaf_rn(off, off, sum);
   }
-  return static_cast<float>(sum) * (kUnit * kUnit);
+  return sum * (kUnit * kUnit);
 }
 
 // Of the pixel and those around it: sums over both axes of squared differences.
@@ -35,8 +37,8 @@ __device__ int mirrored(int at, int size) {
 
 __device__ Gradients gradients_at(const PackedField& field, const std::uint32_t* view, int y,
                                   int x) {
-  const auto pixel = [&](int py, int px) { return view[static_cast<long>(py) * field.width + px]; };
-  const std::uint32_t here = pixel(y, x);
+  const auto pixel = [&](int py, int px) { return __ldg(view + py * field.width + px); };
+  const PackedColour here = unpacked(pixel(y, x));
   const float left = squared_difference(here, pixel(y, mirrored(x - 1, field.width)));
   const float right = squared_difference(here, pixel(y, mirrored(x + 1, field.width)));
   const float up = squared_difference(here, pixel(mirrored(y - 1, field.height), x));
@@ -60,7 +62,7 @@ __device__ float window_mean(const PackedField& field, const float (&mean)[kHigh
 
 __global__ __launch_bounds__(kColumns* kRows) void reduce(PackedField field, MapPointers maps,
                                                           float variance) {
-  __shared__ float mean[kHigh][kWide];
+  __shared__ float mean[kHigh][kWide], own[kHigh][kWide];
   const int place = static_cast<int>(blockIdx.z);
   const int v = maps.first.v + place / maps.grid.u, u = maps.first.u + place % maps.grid.u;
   const std::uint32_t* const view = field.view(v, u);
@@ -70,7 +72,9 @@ __global__ __launch_bounds__(kColumns* kRows) void reduce(PackedField field, Map
   for (int i = thread; i < kHigh * kWide; i += kColumns * kRows) {
     const int y = first_y + i / kWide - kRadius, x = first_x + i % kWide - kRadius;
     const bool exists = y >= 0 && y < field.height && x >= 0 && x < field.width;
-    mean[i / kWide][i % kWide] = exists ? gradients_at(field, view, y, x).mean : 0;
+    const Gradients gradients = exists ? gradients_at(field, view, y, x) : Gradients{0, 0};
+    mean[i / kWide][i % kWide] = gradients.mean;
+    own[i / kWide][i % kWide] = gradients.own;
   }
   __syncthreads();
   const int y = first_y + static_cast<int>(threadIdx.y);
@@ -81,8 +85,8 @@ __global__ __launch_bounds__(kColumns* kRows) void reduce(PackedField field, Map
   const float noise = __fmaf_rn(kMinDifference, kMinDifference, variance);
   const float beyond = fmaxf(residual - variance, 0);
   const float line = residual < INFINITY ? noise / (noise + beyond) : 1;
-  const float own = gradients_at(field, view, y, x).own;
-  const float share = kTextureGain * (own + noise) / (window_mean(field, mean, y, x) + noise);
+  const float change = own[threadIdx.y + kRadius][threadIdx.x + kRadius];
+  const float share = kTextureGain * (change + noise) / (window_mean(field, mean, y, x) + noise);
   maps.confidence[at] *= sqrtf(sqrtf(line * fminf(share, 1)));
 }
 

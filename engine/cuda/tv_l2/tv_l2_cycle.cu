@@ -10,7 +10,7 @@ namespace {
 // The last step of a tile needs two pixels around it.
 using Shape = TvL2TileShape<32, 16, 1, 2, 352>;
 constexpr int kThreads = Shape::kThreads, kEach = Shape::kEach;
-constexpr int kPlaces = Shape::kPlaces, kRow = Shape::kRow, kPlane = Shape::kPlane;
+constexpr int kOdd = Shape::kOdd, kRow = Shape::kRow, kPlane = Shape::kPlane;
 
 struct Shared {
   float u[kPlane], rx[kPlane], ry[kPlane], residual[kPlane];
@@ -34,8 +34,8 @@ __device__ Place place_of(const TvL2Level& level, const TvL2Level& coarse, int n
 #pragma unroll
   for (int colour = 0; colour < 2; ++colour) {
     const int half = (place.row + colour) & 1;
-    result.at[colour] = place.y * kRow + half * kPlaces + place.i;
-    result.left[colour] = place.y * kRow + (half == 0 ? kPlaces - 1 : 0) + place.i;
+    result.at[colour] = place.y * kRow + half * kOdd + place.i;
+    result.left[colour] = place.y * kRow + (half == 0 ? kOdd - 1 : 0) + place.i;
     result.from[colour] = place.row * static_cast<int>(level.pitch) +
                           half * static_cast<int>(level.odd) + place.place;
   }
@@ -109,7 +109,8 @@ __device__ void Tile::correct() {
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
     const Place& place = places_[k];
-    if (place.is_inside) shared_.u[place.at[0]] += __ldg(coarse_.of(TvL2Plane::U, view_) + place.cell);
+    if (place.is_inside)
+      shared_.u[place.at[0]] += __ldg(coarse_.of(TvL2Plane::U, view_) + place.cell);
   }
   __syncthreads();
 }
@@ -186,8 +187,8 @@ void run_tiles(const DeviceStream& stream, const TvL2Level& level, const TvL2Lev
   const double floats = kWay == Way::Down ? 9.5 : 10.5;
   const double places = static_cast<double>(level.height) * level.half() * views;
   launch(stream, {name, places * floats * sizeof(float), places * 40}, [&] {
-    cycle_tiles<kWay><<<Shape::blocks(level, views), kThreads, 0, stream.get()>>>(level, coarse,
-                                                                                  of_views);
+    cycle_tiles<kWay>
+        <<<Shape::blocks(level, views), kThreads, 0, stream.get()>>>(level, coarse, of_views);
   });
 }
 

@@ -7,8 +7,8 @@ namespace episcope::cuda {
 
 /// A place of a tile, of which each thread has several: two pixels.
 struct TvL2TilePlace {
-  int y = 0, i = 0;        ///< In the tile, what is read around it included.
-  int row = 0, place = 0;  ///< In the level.
+  int y = 0, i = 0;                        ///< In the tile, what is read around it included.
+  int row = 0, place = 0;                  ///< In the level.
   bool exists = false, is_inside = false;  ///< In the tile, and in the level too.
 };
 
@@ -20,7 +20,10 @@ struct TvL2TileShape {
   static constexpr int kPlaces = kTilePlaces + 2 * kHaloPlaces;
   static constexpr int kRows = kTileRows + 2 * kHaloRows;
   static constexpr int kEach = (kPlaces * kRows + kThreads - 1) / kThreads;  ///< Of a thread.
-  static constexpr int kRow = 2 * kPlaces, kPlane = kRows * kRow;
+  /// From a pixel of an even column to the odd one of its place: between the halves lies one float
+  /// that stands for what is beside the tile.
+  static constexpr int kOdd = kPlaces + 1;
+  static constexpr int kRow = kOdd + kPlaces, kPlane = kRows * kRow;
 
   [[nodiscard]] static __device__ TvL2TilePlace place(const TvL2Level& level, int number) {
     const int index = static_cast<int>(threadIdx.x) + number * kThreads;

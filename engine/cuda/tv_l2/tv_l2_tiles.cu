@@ -12,7 +12,7 @@ namespace {
 
 using Shape = TvL2TileShape<32, 30, 3, 5, 768>;
 constexpr int kThreads = Shape::kThreads, kEach = Shape::kEach;
-constexpr int kPlaces = Shape::kPlaces, kRow = Shape::kRow, kPlane = Shape::kPlane;
+constexpr int kOdd = Shape::kOdd, kRow = Shape::kRow, kPlane = Shape::kPlane;
 constexpr int kSharedPlanes = 5;
 
 // How many pixels around the tile a step computes, for those after it to have their neighbours.
@@ -48,8 +48,8 @@ __device__ Place place_of(const TvL2Level& level, const TvL2Level& coarse, int n
   result.at = place.y * kRow + place.i;
   result.from = place.row * static_cast<int>(level.pitch) + place.place;
   result.cell = static_cast<int>(coarse.at(place.row >> 1, place.place));
-  result.reach = place.exists ? max(Shape::rows_beside(place), Shape::pixels_beside(place))
-                              : kReadReach + 1;
+  result.reach =
+      place.exists ? max(Shape::rows_beside(place), Shape::pixels_beside(place)) : kReadReach + 1;
   result.is_inside = place.is_inside;
   result.is_odd = (place.row & 1) != 0;
   result.has_below = place.row + 1 < level.height;
@@ -96,8 +96,8 @@ class Tile {
   // to the right.
   [[nodiscard]] __device__ float read_penalty(const Place& place, int half) const {
     if (!place.is_inside) return 0;
-    const float* const from = place.from_right > half ? level_.of(TvL2Plane::Rx, view_)
-                                                      : level_.of(TvL2Plane::Ry, view_);
+    const float* const from =
+        place.from_right > half ? level_.of(TvL2Plane::Rx, view_) : level_.of(TvL2Plane::Ry, view_);
     return __ldg(from + place.from + half * level_.odd);
   }
   // Σ penalty·neighbour, and with the pixel itself as `here` Σ penalty·(neighbour − here).
@@ -106,7 +106,7 @@ class Tile {
            ry_[at] * (u_[at + kRow] - here) + ry_[at - kRow] * (u_[at - kRow] - here);
   }
   [[nodiscard]] __device__ static int left_of(const Place& place, int half) {
-    return half == 0 ? place.at + kPlaces - 1 : place.at;
+    return half == 0 ? place.at + kOdd - 1 : place.at;
   }
 
   const TvL2Level& level_;
@@ -131,7 +131,7 @@ __device__ void Tile::load(const TvL2Level& coarse, bool is_first) {
     }
 #pragma unroll
     for (int half = 0; half < 2; ++half) {
-      const int at = place.at + half * kPlaces;
+      const int at = place.at + half * kOdd;
       u_[at] = u.of[half];
       const float penalty = read_penalty(place, half);
       rx_[at] = place.from_right > half ? penalty : 0.0F;
@@ -149,7 +149,7 @@ __device__ void Tile::invert_diagonal() {
     const Pair c = read(TvL2Plane::C, place);
 #pragma unroll
     for (int half = 0; half < 2; ++half) {
-      const int at = place.at + half * kPlaces;
+      const int at = place.at + half * kOdd;
       const float edges = rx_[at] + rx_[left_of(place, half)] + ry_[at] + ry_[at - kRow];
       const float own = level_.data_scale * c.of[half];
       inverse_[k].of[half] = own > 0 ? 1 / (own + edges) : 0.0F;
@@ -163,7 +163,7 @@ __device__ void Tile::relax(int colour, int reach) {
     const Place& place = places_[k];
     if (place.reach > reach) continue;
     const int half = place.is_odd ? 1 - colour : colour;
-    const int at = place.at + half * kPlaces;
+    const int at = place.at + half * kOdd;
     const float b = half == 0 ? b_[k].of[0] : b_[k].of[1];
     const float inverse = half == 0 ? inverse_[k].of[0] : inverse_[k].of[1];
     u_[at] = (b + pull(at, left_of(place, half), 0)) * inverse;
@@ -181,8 +181,8 @@ __device__ void Tile::move_dual(float relaxation) {
     const Pair g = read(TvL2Plane::G, place);
 #pragma unroll
     for (int half = 0; half < 2; ++half) {
-      const int at = place.at + half * kPlaces;
-      const int right = half == 0 ? place.at + kPlaces : place.at + 1;
+      const int at = place.at + half * kOdd;
+      const int right = half == 0 ? place.at + kOdd : place.at + 1;
       const float along = u_[right] - u_[at];
       const float down = u_[at + kRow] - u_[at];
       const float stay = 1 - relaxation * (1 - shrinkage(zx.of[half], zy.of[half], g.of[half]));
@@ -208,7 +208,7 @@ __device__ void Tile::renew() {
     b_[k] = read(TvL2Plane::Cf, place);
 #pragma unroll
     for (int half = 0; half < 2; ++half) {
-      const int at = place.at + half * kPlaces;
+      const int at = place.at + half * kOdd;
       b_[k].of[half] += (qx_[at] - qx_[left_of(place, half)]) + (qy_[at] - qy_[at - kRow]);
     }
     if (place.is_core()) write(3, place, b_[k]);
@@ -222,12 +222,12 @@ __device__ void Tile::store(const TvL2Level& coarse) {
     const Place& place = places_[k];
     if (place.reach > 0) continue;
     const int half = place.is_odd ? 1 : 0;
-    const int at = place.at + half * kPlaces;
+    const int at = place.at + half * kOdd;
     const float here = u_[at];
     const Pair c = read(TvL2Plane::C, place);
     const float own = level_.data_scale * (half == 0 ? c.of[0] : c.of[1]) * here;
     qx_[at] = (half == 0 ? b_[k].of[0] : b_[k].of[1]) - own + pull(at, left_of(place, half), here);
-    if (place.is_inside) write(0, place, {{u_[place.at], u_[place.at + kPlaces]}});
+    if (place.is_inside) write(0, place, {{u_[place.at], u_[place.at + kOdd]}});
   }
   __syncthreads();
 #pragma unroll
@@ -235,7 +235,7 @@ __device__ void Tile::store(const TvL2Level& coarse) {
     const Place& place = places_[k];
     if (!place.is_core() || place.is_odd) continue;
     float sum = qx_[place.at];
-    if (place.has_below) sum += qx_[place.at + kRow + kPlaces];
+    if (place.has_below) sum += qx_[place.at + kRow + kOdd];
     coarse.of(TvL2Plane::B, view_)[place.cell] = sum;
   }
 }
