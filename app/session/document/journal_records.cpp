@@ -4,6 +4,7 @@
 #include "annotation/document/edit_encoding.h"
 #include "engine/core/error.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -12,6 +13,9 @@ namespace {
 
 constexpr std::uint64_t kVersion = 1;
 constexpr auto kMaxExtent = std::uint64_t{ScribbleLayer::kMaxExtent};
+// What no light field exceeds; a damaged head must not ask for memory that none has.
+constexpr int kMostViewsOfSide = 1000;
+constexpr std::int64_t kMostPixelsOfView = std::int64_t{1} << 28;
 
 PixelRect whole(const ScribbleLayer& layer) {
   return {0, 0, layer.height(), layer.width()};
@@ -76,6 +80,13 @@ struct Head {
   std::size_t history_bytes = 0;
 };
 
+void require_possible(const Head& head) {
+  if (std::max(head.grid.v, head.grid.u) > kMostViewsOfSide ||
+      std::int64_t{head.height} * head.width > kMostPixelsOfView) {
+    throw InvalidInput("the journal is of more views, or larger ones, than any light field has");
+  }
+}
+
 Head read_head(const io::LogRecord& record) {
   ByteReader in(record);
   if (in.number() != kVersion) throw InvalidInput("the journal is of another version");
@@ -86,6 +97,7 @@ Head read_head(const io::LogRecord& record) {
   for (int* extent : {&head.grid.v, &head.grid.u, &head.height, &head.width}) {
     *extent = static_cast<int>(in.number(kMaxExtent));
   }
+  require_possible(head);
   head.history_bytes = static_cast<std::size_t>(in.number());
   // Journals of earlier programs end here, or after the next.
   if (!in.at_end()) head.owner.focus_px = std::bit_cast<double>(in.number());

@@ -166,6 +166,21 @@ class JournalTest : public QObject {
     }
   }
 
+  // Found by a fuzzer: a head of 13 bytes asked for 4.3 GB.
+  void heads_ofMoreViewsThanAnyLightFieldHas_areRefused() {
+    const io::LogRecord views{1, 0, 0, 0, 0xf7, 0x7f, 0xfd, 0x7f, 0xf9, 1, 1, 0, 0};
+    const io::LogRecord pixels{1, 0, 0, 0, 1, 1, 0xff, 0xff, 3, 0xff, 0xff, 3, 0};
+    for (const io::LogRecord& head : {views, pixels}) {
+      QString told;
+      try {
+        (void)replay({head, {0}});
+      } catch (const InvalidInput& error) {
+        told = error.what();
+      }
+      QVERIFY2(told.contains("than any light field"), qPrintable(told));
+    }
+  }
+
   void leftJournals_areThoseOfTheDeadWithUnsavedChanges() {
     AnnotationDocument living(kGrid, kHeight, kWidth);
     const AnnotationJournal held(folder(), kOwner, living);
