@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/benchmark/config_file.h"
 #include "engine/io/beside/baseline_file.h"
 #include "engine/io/open/folder_account.h"
 #include "tests/engine/io/arrays/array_files.h"
@@ -23,11 +24,16 @@ void write_seeds(const std::filesystem::path& folder) {
 
 /// The parameters of a scene of the 2016 benchmark, and those of a folder with a baseline.
 void read(const std::filesystem::path& file) {
+  const io::ConfigFile config(file);
+  for (const char* key : {"num_cams_x", "baseline_mm", "focal_length_mm", "disp_min"}) {
+    (void)config.number(key);
+  }
+  io::FolderAccount account(file.parent_path());
+  (void)io::stated_unit(file.parent_path(), account);
+  if (!is_read_whole()) return;
   const std::filesystem::path scene = file.parent_path() / "scene";
   std::filesystem::copy_file(file, scene / kConfig,
                              std::filesystem::copy_options::overwrite_existing);
-  io::FolderAccount account(file.parent_path());
-  (void)io::stated_unit(file.parent_path(), account);
   open_light_field(scene);
 }
 

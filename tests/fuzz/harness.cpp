@@ -42,7 +42,7 @@ class Folder {
 };
 
 constexpr std::uint64_t kWholeOneOf = 16;
-bool is_read_whole = true;
+bool is_whole = true;
 
 const Folder& folder() {
   static const Folder folder;
@@ -53,7 +53,7 @@ const Folder& folder() {
 void begin_input(std::string_view bytes) {
   Fnv1a hash;
   hash.add(bytes);
-  is_read_whole = hash.value() % kWholeOneOf == 0;
+  is_whole = hash.value() % kWholeOneOf == 0;
 }
 
 }  // namespace
@@ -63,8 +63,12 @@ void write_bytes(const fs::path& path, std::string_view bytes) {
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
+bool is_read_whole() {
+  return is_whole;
+}
+
 Progress progress_of_reading() {
-  if (is_read_whole) return Progress(1);
+  if (is_whole) return Progress(1);
   std::stop_source stop;
   const auto listen = [stop](const ProgressState& state) mutable {
     if (state.step == "checking the order of views") stop.request_stop();

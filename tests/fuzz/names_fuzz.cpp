@@ -64,7 +64,7 @@ void read(const std::filesystem::path& file) {
   }
   (void)io::numbered_frames(folder);
   tolerate([&] { (void)io::preview_pattern(folder, pattern, true); });
-  open_light_field(folder);
+  is_read_whole() ? open_light_field(folder) : look_at_light_field(folder);
 }
 
 }  // namespace

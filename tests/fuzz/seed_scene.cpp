@@ -18,11 +18,15 @@ void write_seed(const std::string& writer, const std::filesystem::path& path) {
   io::writer_named(writer)->write(path, seed_scene(), Progress(1));
 }
 
-void open_light_field(const std::filesystem::path& path) {
+void look_at_light_field(const std::filesystem::path& path) {
   tolerate([&] {
     const io::FoundReader found = io::find_reader(path, {});
     if (found.reader && found.reader->probe) (void)found.reader->probe(found.path, {});
   });
+}
+
+void open_light_field(const std::filesystem::path& path) {
+  look_at_light_field(path);
   (void)io::open_scene(path, {}, progress_of_reading());
 }
 

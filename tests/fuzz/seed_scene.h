@@ -14,7 +14,10 @@ namespace episcope::fuzz {
 /// It by the writer of this id ("archive", "npz"); a folder, or a file of this name.
 void write_seed(const std::string& writer, const std::filesystem::path& path);
 
-/// Opens a light field with and without truth, after a look at its headers.
+/// Finds its reader and looks at its headers.
+void look_at_light_field(const std::filesystem::path& path);
+
+/// The same, and opens it.
 void open_light_field(const std::filesystem::path& path);
 
 }  // namespace episcope::fuzz
