@@ -6,7 +6,7 @@ namespace episcope::cuda {
 namespace {
 
 constexpr int kColumns = 32;
-constexpr int kLabelsAtOnce = 16;
+constexpr int kLabelsAtOnce = 32;
 
 // A view at one label, where the sample of pixel (y, x) is put together from taps.
 struct Sampled {
@@ -19,12 +19,11 @@ struct Sampled {
     const int from_x = min(max(x + column.origin + j, 0), width - 1);
     const auto tap = [&](int i) {
       const int from_y = min(max(y + row.origin + i, 0), height - 1);
-      return plane[static_cast<long>(from_y) * width + from_x];
+      return __ldg(plane + from_y * width + from_x);
     };
     if (row.taps == 1) return tap(0);
-    float sum = row.weights[0] * tap(0) + row.weights[1] * tap(1);
-    for (int i = 2; i < row.taps; ++i) sum += row.weights[i] * tap(i);
-    return sum;
+    const float sum = row.weights[0] * tap(0) + row.weights[1] * tap(1);
+    return row.taps == 2 ? sum : sum + row.weights[2] * tap(2) + row.weights[3] * tap(3);
   }
   [[nodiscard]] __device__ float operator()(const float* plane) const {
     if (column.taps == 1) return between_rows(plane, 0);
@@ -38,8 +37,9 @@ struct Sampled {
 __device__ float cost_of(const MatchingTables& tables, const float (&reference)[3], int label,
                          int y, int x) {
   float sum = 0, count = 0;
+#pragma unroll 2
   for (int i = 0; i < tables.view_count; ++i) {
-    const MatchedView& each = tables.views[i];
+    const MatchedView each = tables.views[i];
     const MatchShift& row = tables.rows[each.row * tables.labels + label];
     const MatchShift& column = tables.columns[each.column * tables.labels + label];
     if (y < row.first || y >= row.last || x < column.first || x >= column.last) continue;
@@ -56,7 +56,7 @@ __device__ float cost_of(const MatchingTables& tables, const float (&reference)[
   return count > 0 ? sum / count : tables.worst;
 }
 
-__global__ void find_least(MatchingTables tables, const int* rows, float most, float* least) {
+__global__ void find_least(const __grid_constant__ MatchingTables tables, const int* rows, float most, float* least) {
   __shared__ float of_labels[kLabelsAtOnce][kColumns];
   const ViewPlanes& planes = tables.planes;
   const int lane = static_cast<int>(threadIdx.x), first = static_cast<int>(threadIdx.y);

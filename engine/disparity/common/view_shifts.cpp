@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace episcope {
 namespace {
@@ -65,9 +66,16 @@ std::vector<AxisShift> make_shifts(const std::vector<double>& ways, int extent,
 
 std::vector<float> count_seen(const std::vector<AxisShift>& shifts, int labels, int extent) {
   std::vector<float> seen(static_cast<std::size_t>(labels) * extent, 0.0F);
+  // How many more views see a pixel than the one before it, and then their sums.
   for (std::size_t i = 0; i < shifts.size(); ++i) {
+    if (shifts[i].first >= shifts[i].last) continue;
     float* row = seen.data() + i % labels * extent;
-    for (int x = shifts[i].first; x < shifts[i].last; ++x) row[x] += 1;
+    row[shifts[i].first] += 1;
+    if (shifts[i].last < extent) row[shifts[i].last] -= 1;
+  }
+  for (int label = 0; label < labels; ++label) {
+    float* row = seen.data() + static_cast<std::size_t>(label) * extent;
+    std::partial_sum(row, row + extent, row);
   }
   return seen;
 }
