@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace episcope {
@@ -24,7 +25,7 @@ std::string identity_of(const Estimator& estimator, const BlockwiseRun& run,
                         std::uint64_t source_hash) {
   const MapGeometry& maps = run.maps;
   const nlohmann::json identity{
-      {"draft", 3},
+      {"draft", 4},
       {"version", kVersion},
       {"method", estimator.info.id},
       {"revision", estimator.info.revision},
@@ -76,6 +77,12 @@ std::string remark_on(const io::ResultDraft& draft, const std::filesystem::path&
   return {};
 }
 
+// What is left beside so many bytes.
+BlockMemory without(BlockMemory memory, std::size_t bytes) {
+  return {memory.wanted - std::min(bytes, memory.wanted),
+          memory.most - std::min(bytes, memory.most)};
+}
+
 }  // namespace
 
 bool should_run_in_blocks(const LightField& lf, const Estimator& estimator,
@@ -98,12 +105,14 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   BlockwiseRun run = estimator.in_blocks(lf, request.run.parameters, request.run.options,
                                          limited.part(0.02, 0.06));
   lf.forget_samples();
+  const BlockMemory memory = without(request.memory, lf.beside().bytes());
+  require_memory(run, memory);  // before what another run left is replaced
   run.provenance.source_hash = hash;
   io::ResultDraft draft(request.output, {run.maps, !lf.valid().empty(), run.has_layers, run.kept},
                         identity_of(estimator, run, hash));
   DraftStore store(draft, lf.info().source);
   FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};
-  finished.provenance = run_blocks(lf, run, store, request.memory, limited.part(0.06, 1));
+  finished.provenance = run_blocks(lf, run, store, memory, limited.part(0.06, 1));
   draft.commit(finished.provenance, source_text(request.input, request.output));
   return finished;
 }

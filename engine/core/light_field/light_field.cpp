@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/light_field/light_field.h"
 
+#include "engine/core/array/forget_view.h"
 #include "engine/core/array/mapped_memory.h"
 #include "engine/core/error.h"
 #include "engine/core/hash/fnv1a.h"
@@ -30,18 +31,6 @@ void convert(const T* in, std::size_t count, float* out) {
 std::uint64_t next_identity() {
   static std::atomic<std::uint64_t> last = 0;
   return ++last;
-}
-
-template <class T>
-std::size_t view_bytes(const ViewStack<T>& stack) {
-  return stack.view_size() * sizeof(T);
-}
-
-template <class T>
-void forget_views(const ViewStack<T>& stack, int first, int last) {
-  for (int i = first; i < last; ++i) {
-    forget_pages(stack.view(stack.view_at(i)).data, view_bytes(stack));
-  }
 }
 
 // Hashes bytes by words, whatever pieces they come in: a byte at a time would take a second for a
@@ -170,7 +159,7 @@ void LightField::fetch_samples(ViewIndex index, int first_row, int end_row) cons
 
 void LightField::forget_samples() const {
   const auto forget = [](const auto& stack) {
-    if (stack.is_on_disk()) forget_views(stack, 0, stack.grid().count());
+    for (int i = 0; i < stack.grid().count(); ++i) forget_view(stack, stack.view_at(i));
   };
   std::visit(forget, samples_);
   if (!valid_.empty()) forget(valid_);
@@ -186,8 +175,8 @@ std::uint64_t LightField::sample_hash() const {
           // The disk reads while the last view is being hashed.
           if (i + 1 < grid_.count()) fetch_samples(stack.view_at(i + 1), 0, height_);
           const auto* const first = stack.view(stack.view_at(i)).data;
-          words.add({reinterpret_cast<const char*>(first), view_bytes(stack)});
-          if (stack.is_on_disk()) forget_views(stack, i, i + 1);
+          words.add({reinterpret_cast<const char*>(first), stack.view_size() * sizeof *first});
+          forget_view(stack, stack.view_at(i));
         }
         words.finish();
       },

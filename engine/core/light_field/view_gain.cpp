@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/light_field/view_gain.h"
 
+#include "engine/core/array/forget_view.h"
 #include "engine/core/array/quantile.h"
 #include "engine/core/parallel/parallel.h"
 
@@ -224,8 +225,11 @@ Ratios find_ratios(const LightField::Samples& samples, const ViewStack<std::uint
   std::visit(
       [&]<class T>(const ViewStack<T>& stack) {
         const BlockRatios<T> ratios(stack, valid);
-        parallel_for(static_cast<int>(pairs.size()), progress,
-                     [&](int i) { blocks[i] = ratios.of(pairs[i], wanted); });
+        parallel_for(static_cast<int>(pairs.size()), progress, [&](int i) {
+          blocks[i] = ratios.of(pairs[i], wanted);
+          forget_view(stack, pairs[i].from);
+          forget_view(stack, pairs[i].to);
+        });
       },
       samples);
   Ratios ratios;

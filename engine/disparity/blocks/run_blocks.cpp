@@ -17,6 +17,15 @@ namespace {
 // Bands of fewer rows would mostly compute what they need around them.
 constexpr int kFewestRows = 8;
 
+int most_at_once(const BlockPass& pass, const MapGeometry& maps) {
+  const int views = pass.only.empty() ? maps.grid.u : 1;
+  return pass.unit == BlockUnit::Rows ? maps.height : views;
+}
+
+int fewest_at_once(const BlockPass& pass, const MapGeometry& maps) {
+  return std::min(pass.unit == BlockUnit::Rows ? kFewestRows : 1, most_at_once(pass, maps));
+}
+
 class Blocks {
  public:
   Blocks(const LightField& light_field, const BlockwiseRun& run, BlockStore& store,
@@ -25,13 +34,10 @@ class Blocks {
         run_(run),
         store_(store),
         wanted_(static_cast<double>(memory.wanted)),
-        most_(static_cast<double>(memory.most)),
         state_(store.progress()),
         seconds_before_(state_.seconds) {}
 
-  // Too little memory is told before anything is made.
   void make(const Progress& progress) {
-    for (const BlockPass& pass : run_.passes) require_memory(pass);
     const auto passes = static_cast<double>(run_.passes.size());
     while (state_.pass < static_cast<int>(run_.passes.size())) {
       make_pass(progress.part(state_.pass / passes, (state_.pass + 1) / passes));
@@ -58,27 +64,10 @@ class Blocks {
     return pass.only.empty() ? run_.maps.grid.count() : static_cast<int>(pass.only.size());
   }
 
-  [[nodiscard]] int most_at_once(const BlockPass& pass) const {
-    const int views = pass.only.empty() ? run_.maps.grid.u : 1;
-    return pass.unit == BlockUnit::Rows ? run_.maps.height : views;
-  }
-  [[nodiscard]] int fewest_at_once(const BlockPass& pass) const {
-    return std::min(pass.unit == BlockUnit::Rows ? kFewestRows : 1, most_at_once(pass));
-  }
-
-  void require_memory(const BlockPass& pass) const {
-    const double bytes = pass.bytes(fewest_at_once(pass));
-    if (bytes <= most_) return;
-    constexpr double kMegabyte = 1e6;
-    throw InvalidInput(
-        fmt::format("{} of this light field needs {:.0f} MB of memory at least, but only {:.0f} "
-                    "MB may be used; allow more",
-                    run_.provenance.method, std::ceil(bytes / kMegabyte), most_ / kMegabyte));
-  }
-
   // How many rows or views at once.
   [[nodiscard]] int block_size(const BlockPass& pass) const {
-    int few = fewest_at_once(pass), many = most_at_once(pass) + 1;  // that fit, and that do not
+    int few = fewest_at_once(pass, run_.maps);
+    int many = most_at_once(pass, run_.maps) + 1;  // few fit, many do not
     while (many - few > 1) {
       const int middle = few + (many - few) / 2;
       (pass.bytes(middle) <= wanted_ ? few : many) = middle;
@@ -155,7 +144,7 @@ class Blocks {
   const LightField& light_field_;
   const BlockwiseRun& run_;
   BlockStore& store_;
-  double wanted_, most_;
+  double wanted_;
   BlockProgress state_;
   double seconds_before_;
   Stopwatch watch_;
@@ -166,8 +155,23 @@ class Blocks {
 
 }  // namespace
 
+void require_memory(const BlockwiseRun& run, BlockMemory memory) {
+  constexpr double kMegabyte = 1e6;
+  const auto most = static_cast<double>(memory.most);
+  double least = 0;
+  for (const BlockPass& pass : run.passes) {
+    least = std::max(least, pass.bytes(fewest_at_once(pass, run.maps)));
+  }
+  if (least <= most) return;
+  throw InvalidInput(
+      fmt::format("{} of this light field needs {:.0f} MB of memory at least, but only {:.0f} "
+                  "MB may be used; allow more",
+                  run.provenance.method, std::ceil(least / kMegabyte), most / kMegabyte));
+}
+
 Provenance run_blocks(const LightField& lf, const BlockwiseRun& run, BlockStore& store,
                       BlockMemory memory, const Progress& progress) {
+  require_memory(run, memory);
   Blocks blocks(lf, run, store, memory);
   blocks.make(progress);
   return blocks.provenance();

@@ -34,9 +34,13 @@ struct BlockMemory {
   std::size_t most = 0;    ///< but the smallest may take this.
 };
 
+/// Throws InvalidInput, with the least that will do, if the smallest block of a pass exceeds the
+/// memory. For callers that have something to prepare, or to replace, before a run.
+void require_memory(const BlockwiseRun& run, BlockMemory memory);
+
 /// Makes what is missing of an estimate and returns its notes and seconds. Pixels that are not
-/// valid are marked so in the last pass. Throws InvalidInput if the smallest block exceeds the
-/// memory, with the number; Cancelled; what the method and the store throw.
+/// valid are marked so in the last pass. Throws as require_memory, before anything is made;
+/// Cancelled; what the method and the store throw.
 [[nodiscard]] Provenance run_blocks(const LightField& light_field, const BlockwiseRun& run,
                                     BlockStore& store, BlockMemory memory,
                                     const Progress& progress);

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/common/even_brightness.h"
 
+#include "engine/core/array/forget_view.h"
 #include "engine/core/light_field/many_views.h"
 #include "engine/core/light_field/view_gain.h"
+#include "engine/core/parallel/parallel.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -37,12 +41,16 @@ double mean_of(const ViewStack<T>& stack, ViewIndex index) {
 }
 
 // A first look, at one of 64 pixels.
-bool have_notable_means(const LightField& lf) {
+bool have_notable_means(const LightField& lf, const Progress& progress) {
   return std::visit(
       [&](const auto& stack) {
         const double center = mean_of(stack, lf.center());
         for (int i = 0; i < lf.grid().count(); ++i) {
+          progress.check();
+          // The disk reads while the view before is looked at.
+          if (i + 1 < lf.grid().count()) lf.fetch_samples(lf.grid().view_at(i + 1), 0, lf.height());
           const double mean = mean_of(stack, lf.grid().view_at(i));
+          forget_view(stack, lf.grid().view_at(i));
           if (!(std::abs(mean - center) <= kNotableMeans * center)) return true;
         }
         return false;
@@ -50,19 +58,61 @@ bool have_notable_means(const LightField& lf) {
       lf.samples());
 }
 
+// In memory or on disk, as it fits.
+template <class T>
+ViewStack<T> copied(const ViewStack<T>& stack, const Progress& progress) {
+  ViewStack<T> copy(stack.grid(), stack.height(), stack.width(), stack.channels());
+  parallel_for(stack.grid().count(), progress, [&](int i) {
+    const ViewIndex view = stack.grid().view_at(i);
+    std::copy_n(stack.view(view).data, stack.view_size(), copy.view(view).data);
+    forget_view(stack, view);
+    forget_view(copy, view);
+  });
+  return copy;
+}
+
 std::optional<EvenLightField> make_even(const LightField& lf, const Progress& progress) {
-  if (lf.grid().count() < 2 || lf.is_on_disk() || is_kept(lf) || !have_notable_means(lf)) return {};
+  if (lf.grid().count() < 2 || is_kept(lf) || !have_notable_means(lf, progress)) return {};
   const auto blocks = has_many_views(lf.grid()) ? GainBlocks::OneOfFour : GainBlocks::All;
-  const ViewGains gains = measure_view_gains(lf.samples(), lf.valid(), progress, blocks);
+  const ViewGains gains =
+      measure_view_gains(lf.samples(), lf.valid(), progress.part(0, 0.4), blocks);
+  lf.forget_samples();
   const double difference = std::abs(gains.of(gains.most_different()) - 1);
   if (!(difference > kNotableGain)) return {};
   LightField::Samples samples = std::visit(
-      [](const auto& stack) { return LightField::Samples(stack.clone()); }, lf.samples());
-  divide_by_gains(samples, gains, progress);
+      [&](const auto& stack) {
+        return LightField::Samples(copied(stack, progress.part(0.4, 0.7)));
+      },
+      lf.samples());
+  divide_by_gains(samples, gains, progress.part(0.7, 1));
   return EvenLightField{LightField(std::move(samples), lf.info(), lf.valid().clone()),
                         fmt::format("brightness of the views, which differs by up to {:.1f} %, was "
                                     "evened out",
                                     100 * difference)};
+}
+
+using KeptEven = std::shared_ptr<const std::optional<EvenLightField>>;
+
+// A pass refers to the light field that it sees, which lives as long as the pass, and of which it
+// holds nothing between blocks.
+BlockPass forgetting(const KeptEven& even, BlockPass pass) {
+  if (pass.prepare) {
+    pass.prepare = [even, prepare = std::move(pass.prepare)](const ReadBlock& read,
+                                                             const std::vector<double>& facts,
+                                                             const Progress& progress) {
+      std::vector<double> found = prepare(read, facts, progress);
+      (*even)->light_field.forget_samples();
+      return found;
+    };
+  }
+  pass.compute = [even, compute = std::move(pass.compute)](
+                     const MapBlock& block, const ReadBlock& read, const std::vector<double>& facts,
+                     const Progress& progress) {
+    FinishedBlock made = compute(block, read, facts, progress);
+    (*even)->light_field.forget_samples();
+    return made;
+  };
+  return pass;
 }
 
 }  // namespace
@@ -71,7 +121,8 @@ std::shared_ptr<const std::optional<EvenLightField>> even_brightness(const Light
                                                                      const Progress& progress) {
   return lf.beside().get<std::optional<EvenLightField>>([&] {
     std::optional<EvenLightField> even = make_even(lf, progress);
-    const std::size_t bytes = even ? even->light_field.byte_size() : 0;
+    const bool is_in_memory = even && !even->light_field.is_on_disk();
+    const std::size_t bytes = is_in_memory ? even->light_field.byte_size() : 0;
     return std::pair(std::move(even), bytes);
   });
 }
@@ -95,10 +146,7 @@ Estimator seeing_even_brightness(Estimator estimator) {
     if (!*even) return blocks(light_field, values, options, progress);
     BlockwiseRun run = blocks((*even)->light_field, values, options, progress);
     run.provenance.notes.push_back((*even)->note);
-    // The run refers to its light field, which lives as long as this.
-    run.notes = [even, notes = std::move(run.notes)](const BlockProgress& end) {
-      return notes ? notes(end) : std::vector<std::string>();
-    };
+    for (BlockPass& pass : run.passes) pass = forgetting(even, std::move(pass));
     return run;
   };
   return estimator;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/open/assemble_scene.h"
 
-#include "engine/core/array/mapped_memory.h"
+#include "engine/core/array/forget_view.h"
 #include "engine/core/light_field/many_views.h"
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/black_corners.h"
@@ -49,10 +49,8 @@ void crop_parts(SceneParts& parts, const ViewCrop& crop) {
 /// What was looked at so far of views that are on disk need not be held.
 void forget(const LightField::Samples& samples) {
   std::visit(
-      []<class T>(const ViewStack<T>& stack) {
-        for (int i = 0; stack.is_on_disk() && i < stack.grid().count(); ++i) {
-          forget_pages(stack.view(stack.view_at(i)).data, stack.view_size() * sizeof(T));
-        }
+      [](const auto& stack) {
+        for (int i = 0; i < stack.grid().count(); ++i) forget_view(stack, stack.view_at(i));
       },
       samples);
 }

@@ -25,14 +25,26 @@ foreach(method epi_l epi_s epi_c epi_two_layer st_av_l st_ch_l st_av_s st_ch_s p
 endforeach()
 expect_files(made epi_c.h5 epi_l.h5 epi_s.h5 epi_two_layer.h5 plane_pm.h5 st_av_l.h5 st_av_s.h5 st_ch_l.h5 st_ch_s.h5)
 
+# Views of different brightness are evened out also where they stay in their file.
+run_cli(synthesize random?seed=9 -o uneven.h5 --views 5x6 --size 210x190 -q)
+foreach(method st_av_s st_ch_l)
+  expect("${method} of uneven views" 0 ERR "evened out" ARGS estimate ${method} uneven.h5 -o once/uneven.h5)
+  expect("${method} of uneven views on disk" 0 ERR "evened out" ARGS estimate ${method} uneven.h5
+         -o made/uneven.h5 --memory 20M)
+  expect_same("${method} of uneven views on disk" once/uneven.h5 made/uneven.h5)
+endforeach()
+
 # A method that is not cut: what does not fit goes to disk.
 expect("at once" 0 ARGS estimate epi_g lf.h5 -o once/epi_g.h5 -q)
 expect("on disk" 0 ERR "epi_g runs at once: what does not fit is put on disk" ARGS estimate epi_g lf.h5
        -o made/epi_g.h5 --memory 3M)
 expect_same("on disk" once/epi_g.h5 made/epi_g.h5)
 
+# Nothing is left of a run that was refused.
+file(MAKE_DIRECTORY "${WORK}/refused")
 expect("too little memory" 1 ERR "needs [0-9]+ MB of memory at least" ARGS estimate epi_s lf.h5
-       -o none.h5 --memory 1M)
+       -o refused/none.h5 --memory 1M)
+expect_files(refused)
 expect("no size" 2 ERR "--memory is 'lots'.*4G, 800M" ARGS estimate epi_l lf.h5 -o none.h5
        --memory lots)
 expect("nothing" 2 ERR "--memory" ARGS estimate epi_l lf.h5 -o none.h5 --memory 0)
