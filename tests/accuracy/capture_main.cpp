@@ -2,7 +2,7 @@
 // Prints a Markdown table: from photographs of the synthesised gantry to ground truth, seed by
 // seed.
 #include "engine/core/error.h"
-#include "tests/accuracy/capture_way.h"
+#include "tests/engine/capture/capture_way.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -63,6 +63,7 @@ LightField smaller_views(const LightField& lf, int factor, const Progress& progr
       reduce(lf, view, factor, samples.view(view));
     }
     if (!valid.empty()) reduce_valid(lf, view, factor, valid.view(view));
+    lf.forget_samples();
   });
   return {std::move(samples), LightFieldInfo(), std::move(valid)};
 }

@@ -4,12 +4,12 @@
 #include "engine/core/error.h"
 #include "engine/io/durable/file_descriptor.h"
 #include "engine/io/durable/system_error.h"
+#include "engine/io/durable/temporary_name.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <string>
 
@@ -17,16 +17,6 @@ namespace episcope::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string temporary_name(const fs::path& target) {
-  static std::atomic<unsigned> next{0};
-  std::string name = target.filename().string().substr(0, 200);
-  return fmt::format("{}.{}-{}.part", name.insert(0, 1, '.'), ::getpid(), next++);
-}
-
-fs::path folder_of(const fs::path& target) {
-  return target.has_parent_path() ? target.parent_path() : fs::path(".");
-}
 
 fs::path resolve_link(const fs::path& named) {
   std::error_code error;
@@ -65,6 +55,7 @@ AtomicFile::AtomicFile(const fs::path& target, std::uintmax_t bytes)
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     throw IoError(named_, "this is not a regular file and is not overwritten; choose another name");
   }
+  remove_abandoned(target_);
   require_space(named_, folder_of(target_), bytes);
   temporary_ = folder_of(target_) / temporary_name(target_);
   errno = 0;

@@ -10,7 +10,8 @@ namespace episcope::io {
 
 /// A file that appears under its name only when it is whole: written as a hidden temporary file in
 /// the same folder, flushed to the disk, then renamed over the old one. Whatever happens before
-/// `commit`, the old file stays and the destructor removes the temporary one.
+/// `commit`, the old file stays and the destructor removes the temporary one; if the program is
+/// killed, the next that writes the same file on this machine does.
 class AtomicFile {
  public:
   /// Creates the temporary file. `bytes`: the expected size, to refuse at once what cannot fit.

@@ -4,12 +4,10 @@
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/durable/system_error.h"
-
-#include <unistd.h>
+#include "engine/io/durable/temporary_name.h"
 
 #include <cerrno>
 #include <cstdio>
-#include <string>
 
 namespace episcope::io {
 
@@ -24,10 +22,10 @@ AtomicFolder::AtomicFolder(const fs::path& target, std::uintmax_t bytes) : targe
   if (fs::is_directory(target_, error) && !fs::is_empty(target_, error)) {
     throw IoError(target, "the folder holds other files; name a new or an empty folder");
   }
-  const fs::path parent = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+  const fs::path parent = folder_of(target_);
+  remove_abandoned(target_);
   require_space(target, parent, bytes);
-  const std::string name = target_.filename().string().insert(0, 1, '.');
-  temporary_ = parent / (name + "." + std::to_string(::getpid()) + ".part");
+  temporary_ = parent / temporary_name(target_);
   errno = 0;
   if (!fs::create_directory(temporary_, error)) {
     errno = error.value();

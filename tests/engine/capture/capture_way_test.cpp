@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/accuracy/capture_way.h"
+#include "tests/engine/capture/capture_way.h"
 
 #include "tests/test_main.h"
 
