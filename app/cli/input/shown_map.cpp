@@ -5,6 +5,7 @@
 #include "app/cli/input/result_input.h"
 #include "app/session/labels/labeling_inputs.h"
 #include "app/session/labels/save_segmentation.h"
+#include "app/session/project/project_file.h"
 #include "app/session/run/read_result.h"
 #include "app/session/run/result_reading.h"
 #include "app/session/run/result_source.h"
@@ -15,6 +16,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -109,8 +112,23 @@ void take_scene(const ShownMap& shown, Scene scene, LoadedMap& loaded) {
   loaded.scene = std::move(scene);
 }
 
+/// The light field of a project that was in front when it was saved, read as it was then, unless
+/// options say otherwise.
+Scene load_current(const std::string& file, const ReadOptions& read, const Progress& progress) {
+  const Project project = read_project(file);
+  if (project.scenes.empty()) throw IoError(file, "this project has no light field");
+  const ProjectScene& current =
+      project.scenes[std::min(project.current, project.scenes.size() - 1)];
+  ParameterSet options = current.reading;
+  std::erase_if(options, [&](const auto& option) { return read.options.is_given(option.first); });
+  std::ranges::move(read.options.values(), std::back_inserter(options));
+  return load_input(current.input, io::open_schema().parse(options), read.needs_truth, progress);
+}
+
 void load_light_field(const ShownMap& shown, const ReadOptions& read, LoadedMap& loaded, Job& job) {
-  Scene scene = load_input(shown.subject, read, job.progress().part(0, 0.9));
+  const Progress progress = job.progress().part(0, 0.9);
+  Scene scene = names_project(shown.subject) ? load_current(shown.subject, read, progress)
+                                             : load_input(shown.subject, read, progress);
   loaded.source.view = view_of(shown, *scene.light_field);
   take_scene(shown, std::move(scene), loaded);
 }

@@ -125,7 +125,9 @@ bool parse(const VerbArguments& arguments, Request& request) {
   Arguments parser("show", {"Writes a picture of a light field, a result or labels, as the window "
                             "shows it.",
                             "episcope-cli show demo.h5 -o error.png --what error"});
-  parser.positional("INPUT|RESULT", request.map.subject, "A light field, a result, or labels");
+  parser.positional("INPUT|RESULT", request.map.subject,
+                    "A light field, a result, labels, or a project, of which "
+                    "the light field that was in front is shown");
   parser.required_option("-o,--output", request.output, text_value("OUT.png"),
                          "Picture to write; a movie as .mp4, .webm or .gif");
   parser.option("--what", request.what, what_value(),
