@@ -6,11 +6,13 @@
 #include "engine/core/light_field/scene.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/open/open_options.h"
+#include "engine/io/order/view_order.h"
 #include "engine/labeling/labeler_parameters.h"
 #include "engine/render/quantity.h"
 #include "engine/scenes/builtin.h"
 #include "engine/scenes/random/kinds.h"
 
+#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <set>
@@ -49,6 +51,12 @@ void add(Texts& texts, const std::vector<ParameterDescription>& parameters) {
   }
 }
 
+// How samples of these types are taken.
+template <class... T>
+void add_sample_texts(Texts& texts) {
+  (add(texts, stored_samples_text(ViewStack<T>({1, 1}, 1, 1))), ...);
+}
+
 Texts schema_texts() {
   Texts texts;
   for (const Estimator& estimator : registered_estimators()) {
@@ -61,6 +69,10 @@ Texts schema_texts() {
   add(texts, capture::rectify_schema().descriptions());
   for (const auto& scene : scenes::builtin_scenes()) add(texts, scene.summary);
   for (const std::string& kind : scenes::random_kind_names()) add(texts, kind);
+  add_sample_texts<std::uint8_t, std::uint16_t, float>(texts);
+  for (const bool v : {false, true}) {
+    for (const bool u : {false, true}) add(texts, io::flip_text({u, v}));
+  }
   for (const CompanionKind kind :
        {CompanionKind::EdgeProbabilities, CompanionKind::ImageProbabilities,
         CompanionKind::DepthProbabilities, CompanionKind::TrueDepthProbabilities}) {

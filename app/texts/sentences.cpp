@@ -25,7 +25,8 @@ std::string text_of(const std::filesystem::path& path) {
 
 std::set<std::string> literal_sentences(const std::filesystem::path& folder) {
   static const std::regex sentence(
-      R"re((?:[.]step\(|[.]step = |[.]why_not = )"((?:[^"\\]|\\.)*)"[;)])re");
+      R"re((?:[.]step\(|[.](?:step|why_not|format|order|order_check|sign_check|units|units_check|gain) = ))re"
+      R"re("((?:[^"\\]|\\.)*)"[;)])re");
   std::set<std::string> sentences;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (!is_source(entry.path())) continue;

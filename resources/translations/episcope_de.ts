@@ -6182,6 +6182,94 @@ s</translation>
         <source>aliased</source>
         <translation>unterabgetastet</translation>
     </message>
+    <message>
+        <source>2016 benchmark folder</source>
+        <translation>Ordner des Benchmarks von 2016</translation>
+    </message>
+    <message>
+        <source>archive excerpt (lf, depth.bin)</source>
+        <translation>Auszug des Archivs (lf, depth.bin)</translation>
+    </message>
+    <message>
+        <source>built-in scene</source>
+        <translation>eingebaute Szene</translation>
+    </message>
+    <message>
+        <source>canonical order</source>
+        <translation>kanonisch</translation>
+    </message>
+    <message>
+        <source>depth ignored</source>
+        <translation>Tiefe nicht benutzt</translation>
+    </message>
+    <message>
+        <source>exact by construction</source>
+        <translation>exakt erzeugt</translation>
+    </message>
+    <message>
+        <source>exact disparity by eq. 1</source>
+        <translation>exakt nach Gl. 1</translation>
+    </message>
+    <message>
+        <source>float32 as stored, taken as linear; estimators see the values</source>
+        <translation>float32 wie gespeichert, gilt als linear; Verfahren sehen die Werte</translation>
+    </message>
+    <message>
+        <source>no depth in a mosaic</source>
+        <translation>keine Tiefe in einem Mosaik</translation>
+    </message>
+    <message>
+        <source>no depth in an image grid</source>
+        <translation>keine Tiefe in einem Bildraster</translation>
+    </message>
+    <message>
+        <source>no depth in such a file</source>
+        <translation>keine Tiefe in einer solchen Datei</translation>
+    </message>
+    <message>
+        <source>no depth in this file</source>
+        <translation>keine Tiefe in dieser Datei</translation>
+    </message>
+    <message>
+        <source>no valid depth</source>
+        <translation>keine gültige Tiefe</translation>
+    </message>
+    <message>
+        <source>not known: the views are too dark, too bright or too small to compare</source>
+        <translation>nicht bekannt: die Ansichten sind zu dunkel, zu hell oder zu klein für einen Vergleich</translation>
+    </message>
+    <message>
+        <source>not measured, since that would read the whole file</source>
+        <translation>nicht gemessen, da dafür die ganze Datei zu lesen wäre</translation>
+    </message>
+    <message>
+        <source>the file states this formula</source>
+        <translation>die Datei nennt diese Formel</translation>
+    </message>
+    <message>
+        <source>the order was chosen by hand</source>
+        <translation>die Reihenfolge wurde von Hand gewählt</translation>
+    </message>
+    <message>
+        <source>u and v reversed</source>
+        <translation>u und v umgekehrt</translation>
+    </message>
+    <message>
+        <source>u reversed</source>
+        <translation>u umgekehrt</translation>
+    </message>
+    <message>
+        <source>uint16 as stored, taken as gamma-encoded; estimators see value/65535</source>
+        <translation>uint16 wie gespeichert, gilt als gammakodiert; Verfahren sehen Wert/65535</translation>
+    </message>
+    <message>
+        <source>uint8 as stored, taken as gamma-encoded; estimators see value/255</source>
+        <translation>uint8 wie gespeichert, gilt als gammakodiert; Verfahren sehen Wert/255</translation>
+    </message>
+    <message>
+        <source>v reversed</source>
+        <translation>v umgekehrt</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>

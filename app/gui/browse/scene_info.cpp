@@ -75,8 +75,13 @@ QString megabytes(std::size_t bytes) {
   return QString::number(count, 'f', count < 10 ? 1 : 0);
 }
 
+// A finding of the engine: translated where it is a sentence that stands in the program.
+QString finding_text(const std::string& finding) {
+  return with_minus(schema_text(finding));
+}
+
 QString by_whom(const std::string& finding, bool was_chosen) {
-  const QString shown = with_minus(QString::fromStdString(finding));
+  const QString shown = finding_text(finding);
   return was_chosen ? Text::tr("%1 (set by you)").arg(shown) : shown;
 }
 
@@ -103,18 +108,17 @@ QString gpu_text(const CudaDevice& device) {
 
 void add_conventions(SceneInfo& info, const CameraGrid& camera,
                      const ConventionReport& convention) {
-  const auto utf8 = [](const std::string& each) { return QString::fromStdString(each); };
   info.rows.push_back({Text::tr("Order"), by_whom(convention.order, convention.order_was_chosen),
-                       with_minus(utf8(convention.order_check)), "order"});
+                       finding_text(convention.order_check), "order"});
   info.rows.push_back({Text::tr("Sign"),
                        convention.sign.empty() ? Text::tr("not known") : Text::tr("checked"),
-                       with_minus(utf8(convention.sign_check)), "sign"});
+                       finding_text(convention.sign_check), "sign"});
   info.rows.push_back({Text::tr("Camera"), camera_text(camera), {}, "camera"});
   if (!convention.units.empty()) {
     info.rows.push_back({Text::tr("Depth"), by_whom(convention.units, convention.units_were_chosen),
-                         with_minus(utf8(convention.units_check)), "units"});
+                         finding_text(convention.units_check), "units"});
   }
-  info.rows.push_back({Text::tr("Format"), utf8(convention.format), {}, "format"});
+  info.rows.push_back({Text::tr("Format"), schema_text(convention.format), {}, "format"});
 }
 
 }  // namespace
@@ -133,7 +137,8 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
                            .arg(light_field.height())
                            .arg(megabytes(light_field.byte_size())),
                        {}});
-  info.rows.push_back({Text::tr("Samples"), sample_text(light_field), utf8(samples_text(scene))});
+  info.rows.push_back(
+      {Text::tr("Samples"), sample_text(light_field), schema_text(samples_text(scene))});
   if (!light_field.valid().empty()) {
     info.rows.push_back(
         {Text::tr("Valid"),
@@ -141,7 +146,7 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
          Text::tr("The others are dark or empty and do not count.")});
   }
   if (!convention.gain.empty()) {
-    info.rows.push_back({Text::tr("Brightness"), with_minus(utf8(convention.gain)), {}, "gain"});
+    info.rows.push_back({Text::tr("Brightness"), finding_text(convention.gain), {}, "gain"});
   }
   if (const Interval range = known_disparity_range(scene); range.length() > 0) {
     info.rows.push_back(

@@ -68,12 +68,10 @@ int shown(const QStringList& plain) {
   return static_cast<int>(plain.size());
 }
 
-/// Texts of the engine on this light field, not of the window: they are shown as they were made.
+/// Texts that the engine composes of what it found in this light field are shown as they were made.
 bool is_of_the_scene(const QObject& object) {
-  static const QStringList names{"info.title",      "info.order",      "info.check",
-                                 "info.format",     "info.units",      "info.source",
-                                 "info.files",      "info.gain",       "info.warning",
-                                 "annotation.file", "method.reference"};
+  static const QStringList names{"info.title",   "info.source",     "info.files",      "info.gain",
+                                 "info.warning", "annotation.file", "method.reference"};
   return names.contains(object.objectName());
 }
 
