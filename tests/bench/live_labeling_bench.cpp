@@ -40,6 +40,7 @@ Scene open_bench_scene() {
 struct Bench {
   Scene scene = open_bench_scene();
   std::shared_ptr<const DisparityField> disparity;
+  std::shared_ptr<const ViewStack<float>> confidence;
   double disparity_seconds = 0;
 
   Bench() {
@@ -47,6 +48,7 @@ struct Bench {
     auto estimate = std::make_shared<Estimate>(find_estimator("epi_s").run(
         *scene.light_field, {}, {.views = ViewSelection::All}, Progress()));
     disparity = {estimate, &estimate->field};
+    confidence = {estimate, &estimate->confidence};
     disparity_seconds = bench::now() - start;
   }
   static const Bench& get() {
@@ -54,7 +56,9 @@ struct Bench {
     return kept;
   }
   [[nodiscard]] ViewIndex center() const { return scene.light_field->center(); }
-  [[nodiscard]] Labeler labeler() const { return {scene.light_field, disparity}; }
+  [[nodiscard]] Labeler labeler() const {
+    return {scene.light_field, disparity, nullptr, confidence};
+  }
 };
 
 /// Paints one more short stroke on the centre view, of the label that is truly there.
