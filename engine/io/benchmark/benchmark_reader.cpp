@@ -178,9 +178,6 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   BenchmarkViews found = benchmark_views(folder, config, given);
   ViewFiles& views = found.views;
   account.add_folder(views.files.front().parent_path());
-  account.use(views.files, "views");
-  account.leave_out(views.left_out, kViewsLeftOut);
-  if (config) account.use(folder / kBenchmarkConfig, "parameter files");
   Scene scene;
   ConventionReport& report = scene.convention;
   report.format = "2016 benchmark folder";
@@ -204,10 +201,19 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   const auto show_center = [&](const Image<std::uint8_t>& center) {
     if (options.on_center_view) options.on_center_view(center, info, views.grid);
   };
-  LightField::Samples samples = load_views(views, show_center, progress.part(0, 0.85));
+  UsableViews usable = load_usable_views(views, show_center, progress.part(0, 0.85));
+  if (usable.kept) {
+    views = std::move(usable.views);
+    report.warnings.push_back(std::move(usable.warning));
+  }
+  LightField::Samples samples = std::move(usable.samples);
   if (!given && !views.part && arrange_as_seen(samples, views, report, progress)) {
     samples = load_views(views, show_center, progress.part(0, 0.85));
   }
+  account.use(views.files, "views");
+  account.leave_out(views.left_out, kViewsLeftOut);
+  account.leave_out(views.unusable, kUnusableViews);
+  if (config) account.use(folder / kBenchmarkConfig, "parameter files");
   settle_range(samples, options.levels, report);
   progress.step("reading truth");
   const Size size = size_of(samples);

@@ -7,6 +7,8 @@
 #include "engine/io/grid/claimed_pixels.h"
 #include "engine/io/grid/decode_png.h"
 #include "engine/io/grid/decode_radiance.h"
+#include "engine/io/grid/file_bytes.h"
+#include "engine/io/grid/jpeg_end.h"
 
 #include <fmt/format.h>
 #include <opencv2/core/utils/logger.hpp>
@@ -34,7 +36,20 @@ Image<T> copy_rgb(const cv::Mat& decoded) {
   return image;
 }
 
+bool is_animated_webp(const std::filesystem::path& path) {
+  constexpr std::uint32_t kAnimation = 2;
+  FileBytes file(path);
+  return file.begins_with("RIFF") && file.number(8, 4, false) == 0x57454250 &&  // "WEBP"
+         file.number(12, 4, false) == 0x56503858 &&                             // "VP8X"
+         (file.number(20, 1, false) & kAnimation) != 0;
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& path) {
+  if (is_animated_webp(path)) {
+    throw IoError(path,
+                  "animated WebP files are not read; save the pictures as PNG files in a folder, "
+                  "or as an animated PNG");
+  }
   throw IoError(path,
                 "the image cannot be decoded: it is damaged or its format does not match its name; "
                 "copy or export it again");
@@ -75,6 +90,7 @@ AnyImage decode_image(const std::filesystem::path& path) {
   if (has_png_signature(path)) return decode_png(path);
   require_plausible_picture(path);
   if (has_radiance_signature(path)) return decode_radiance(path);
+  require_whole_jpeg(path);
   return image_of(path, read_mat(path));
 }
 

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace episcope::io {
 namespace {
@@ -89,22 +90,40 @@ void arrange(PlacedViews& placed, const ListLayout& layout) {
   placed.positions = std::move(positions);
 }
 
-std::string size_text(const Image<float>& picture) {
-  return fmt::format("{}×{} px", picture.width(), picture.height());
+/// Of views of which some may be damaged or of another size, one that is like most: of the first,
+/// the middle and the last. Throws IoError if the first two of these cannot be decoded.
+Image<float> usual_view(const ViewFiles& list) {
+  const auto view = [&](std::size_t place) -> std::optional<Image<float>> {
+    try {
+      return grey_view(list.files[place], list.orientation);
+    } catch (const IoError&) {
+      return std::nullopt;
+    }
+  };
+  const auto first = view(0);
+  const auto middle = view(list.files.size() / 2);
+  const auto is_same = [](const std::optional<Image<float>>& a, const Image<float>& b) {
+    return a && a->height() == b.height() && a->width() == b.width();
+  };
+  if (first && is_same(middle, *first)) return *first;
+  const auto last = view(list.files.size() - 1);
+  if (first && (is_same(last, *first) || !middle)) return *first;
+  return middle ? *middle : grey_view(list.files.front(), list.orientation);
 }
 
-/// What the images of a list tell about their places.
+/// What the images of a list tell about their places. Those that cannot be used are blank, which
+/// tells nothing.
 ListLayout look_for_layout(const ViewFiles& list, const Progress& progress) {
-  const Image<float> first = grey_view(list.files.front(), list.orientation);
+  const Image<float> usual = usual_view(list);
   const auto view = [&](int index) {
-    const fs::path& path = list.files[static_cast<std::size_t>(index)];
-    Image<float> grey = grey_view(path, list.orientation);
-    if (grey.height() != first.height() || grey.width() != first.width()) {
-      throw IoError(path, "this view, reduced to " + size_text(grey) + ", differs in size from " +
-                              list.files.front().filename().string() + " with " + size_text(first) +
-                              "; all views must match");
+    const Image<float> blank(usual.height(), usual.width());
+    try {
+      Image<float> grey = grey_view(list.files[static_cast<std::size_t>(index)], list.orientation);
+      const bool fits = grey.height() == usual.height() && grey.width() == usual.width();
+      return fits ? grey : blank;
+    } catch (const IoError&) {
+      return blank;
     }
-    return grey;
   };
   return find_list_layout(list.grid.count(), view, progress);
 }
@@ -268,12 +287,9 @@ NamedGrid by_view_folders(const fs::path& folder, const ViewNames& names,
 /// Without poses.
 NamedGrid by_names(const fs::path& folder, const OpenOptions& options) {
   if (const auto rows = find_row_folders(folder, options)) {
-    NamedGrid grid{place_rows(folder, *rows), rows->pattern, {}};
-    if (options.snake && grid.placed.views.part) {
-      throw IoError(folder,
-                    "views are missing, and in snake order what is left is no grid; add them");
-    }
-    if (options.snake) arrange(grid.placed, row_by_row(grid.placed.views.grid, options));
+    NamedGrid grid{place_rows(folder, *rows, options.snake), rows->pattern, {}};
+    if (options.snake && !grid.placed.views.part)
+      arrange(grid.placed, row_by_row(grid.placed.views.grid, options));
     settle_orientation(grid.placed);
     return grid;
   }

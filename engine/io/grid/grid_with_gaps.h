@@ -39,5 +39,6 @@ inline constexpr std::size_t kMostNamedViews = 5;  ///< Missing views that these
 
 /// What these views are called in the account of a folder.
 inline constexpr const char* kViewsLeftOut = "views outside of the part that is opened";
+inline constexpr const char* kUnusableViews = "unusable views";
 
 }  // namespace episcope::io

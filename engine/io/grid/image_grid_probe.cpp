@@ -7,35 +7,56 @@
 #include "engine/io/grid/grid_names.h"
 #include "engine/io/grid/image_header.h"
 #include "engine/io/grid/image_list.h"
+#include "engine/io/grid/odd_views.h"
 #include "engine/io/open/grid_option.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace episcope::io {
+namespace {
 
-SceneProbe probe_views(const ViewFiles& views) {
-  const ViewIndex center = views.grid.center();
-  const int index = center.v * views.grid.u + center.u;
-  const ImageHeader header = read_image_header(views.files[static_cast<std::size_t>(index)]);
-  for (const std::filesystem::path& corner : {views.files.front(), views.files.back()}) {
-    const ImageHeader other = read_image_header(corner);
-    if (other.height == header.height && other.width == header.width) continue;
-    throw IoError(corner, fmt::format("this view has {}×{} px, but the centre view has {}×{} px; "
-                                      "all views must match",
-                                      other.width, other.height, header.width, header.height));
+using Size = std::pair<int, int>;
+
+/// Nothing for a file that cannot be decoded.
+std::optional<Size> size_of(const std::filesystem::path& file) {
+  try {
+    const ImageHeader header = read_image_header(file);
+    return Size{header.height, header.width};
+  } catch (const IoError&) {
+    return std::nullopt;
   }
-  const bool is_turned = is_quarter_turn(views.orientation);
-  return {.grid = views.grid,
-          .height = is_turned ? header.width : header.height,
-          .width = is_turned ? header.height : header.width,
-          .channels = header.channels,
-          .sample_type = header.sample_type};
 }
 
-namespace {
+/// Whether the centre and two corners are of one size.
+bool look_alike(const ViewFiles& views) {
+  const ViewIndex center = views.grid.center();
+  const auto size = size_of(views.file(center));
+  return size && size == size_of(views.files.front()) && size == size_of(views.files.back());
+}
+
+/// The views without those whose headers differ from most of the others. Throws IoError if too few
+/// are left.
+ViewFiles those_alike(const ViewFiles& views) {
+  std::vector<std::optional<Size>> sizes;
+  std::map<Size, int> counts;
+  for (const auto& file : views.files) {
+    sizes.push_back(size_of(file));
+    if (sizes.back()) ++counts[*sizes.back()];
+  }
+  const auto usual = std::ranges::max_element(counts, {}, &std::pair<const Size, int>::second);
+  std::vector<OddView> odd;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (usual == counts.end() || sizes[i] != usual->first) odd.push_back({static_cast<int>(i), {}});
+  }
+  auto left = without_views(views, odd);
+  if (left) return std::move(left->views);
+  throw IoError(views.files.front().parent_path(),
+                "the views differ in size, or cannot be decoded; all views must match");
+}
 
 /// "disparity of all views" of the largest set of a kind; empty if there is none.
 std::string maps_text(const MapsBeside& maps, MapKind kind, const char* name) {
@@ -48,6 +69,17 @@ std::string maps_text(const MapsBeside& maps, MapKind kind, const char* name) {
 }
 
 }  // namespace
+
+SceneProbe probe_views(const ViewFiles& given) {
+  const ViewFiles views = look_alike(given) ? given : those_alike(given);
+  const ImageHeader header = read_image_header(views.file(views.grid.center()));
+  const bool is_turned = is_quarter_turn(views.orientation);
+  return {.grid = views.grid,
+          .height = is_turned ? header.width : header.height,
+          .width = is_turned ? header.height : header.width,
+          .channels = header.channels,
+          .sample_type = header.sample_type};
+}
 
 SceneProbe probe_image_grid(const std::filesystem::path& folder, const OpenOptions& options) {
   const std::filesystem::path inside = views_folder(folder);

@@ -8,8 +8,9 @@
 
 namespace episcope::io {
 
-/// Grid, and size and samples by the header of the centre view, with which those of the first and
-/// the last view must agree. Throws IoError.
+/// Grid, and size and samples by the header of the centre view. Where the first or the last view
+/// has another size, or one cannot be decoded, what `load_usable_views` will open as far as headers
+/// tell it. Throws IoError.
 [[nodiscard]] SceneProbe probe_views(const ViewFiles& views);
 
 /// What names and headers of a folder of images tell, and names of the maps beside them. Throws

@@ -46,8 +46,20 @@ FolderAccount account_of(const fs::path& source, const fs::path& folder, const V
   account.add_folder(folder);
   account.use(views.files, "views");
   account.leave_out(views.left_out, kViewsLeftOut);
+  account.leave_out(views.unusable, kUnusableViews);
   for (const auto& [file, kind] : extras.files) account.use(file, kind);
   return account;
+}
+
+/// Of the cameras of a part of the views.
+std::vector<CameraPosition> positions_of(const PartOfGrid& part,
+                                         const std::vector<CameraPosition>& all) {
+  std::vector<CameraPosition> positions;
+  for (int i = 0; i < part.grid.count() && !all.empty(); ++i) {
+    const ViewIndex view = part.in_whole(part.grid.view_at(i));
+    positions.push_back(all[static_cast<std::size_t>(view.v * part.whole.u + view.u)]);
+  }
+  return positions;
 }
 
 /// What poses tell of distances: that of cameras side by side, whose views are not shifted.
@@ -96,7 +108,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
                       const ImageGridExtras& extras) {
   NamedGrid grid = name_grid(folder, options);
   const std::string evidence = settle_grid(folder, grid, options, progress.part(0, 0.15));
-  const ViewFiles& views = grid.placed.views;
+  ViewFiles& views = grid.placed.views;
   const bool is_linear = is_linear_format(views.files.front());
   Scene scene;
   ConventionReport& report = scene.convention;
@@ -112,12 +124,18 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
                       {.reader = extras.reader, .options = {}},
                       grid.placed.positions};
   progress.step("reading views");
-  LightField::Samples samples = load_views(
+  UsableViews usable = load_usable_views(
       views,
       [&](const Image<std::uint8_t>& center) {
         if (options.on_center_view) options.on_center_view(center, info, views.grid);
       },
       progress.part(0.15, 0.9));
+  LightField::Samples samples = std::move(usable.samples);
+  if (usable.kept) {
+    info.positions = positions_of(*usable.kept, info.positions);
+    views = std::move(usable.views);
+    report.warnings.push_back(std::move(usable.warning));
+  }
   if (!is_linear || !options.levels.empty()) settle_range(samples, options.levels, report);
   FolderAccount account = account_of(source, folder, views, extras);
   if (grid.poses.are_used()) add_camera(grid.poses, samples, info.camera, account);
@@ -131,6 +149,9 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
     parts.truth = std::move(beside.truth);
     info.camera = beside.camera;
     scene.scribbles.labels = std::move(beside.label_infos);
+  }
+  if (!options.pattern.empty()) {
+    grid.left_out = without_other_numbers(std::move(grid.left_out), views.files.front());
   }
   warn_of_left_out(grid.left_out, samples, report);
   parts.samples = std::move(samples);

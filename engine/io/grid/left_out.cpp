@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/name_parts.h"
 #include "engine/io/grid/name_words.h"
 
 #include <fmt/format.h>
@@ -50,6 +51,13 @@ void warn_of_left_out(const std::vector<fs::path>& left_out, const LightField::S
       fmt::format("{} images look like views, but their names have another form, such as {}: they "
                   "are not used. If they belong to the grid, name a pattern that matches all.",
                   strays.size(), strays.front().filename().string()));
+}
+
+std::vector<fs::path> without_other_numbers(std::vector<fs::path> left_out, const fs::path& view) {
+  const std::string skeleton = split_name(view).skeleton;
+  std::erase_if(left_out,
+                [&](const fs::path& path) { return split_name(path).skeleton == skeleton; });
+  return left_out;
 }
 
 }  // namespace episcope::io

@@ -15,4 +15,9 @@ namespace episcope::io {
 void warn_of_left_out(const std::vector<std::filesystem::path>& left_out,
                       const LightField::Samples& samples, ConventionReport& report);
 
+/// Without those whose names differ from that of a view in numbers only: a pattern that states one
+/// of them leaves the others out on purpose.
+[[nodiscard]] std::vector<std::filesystem::path> without_other_numbers(
+    std::vector<std::filesystem::path> left_out, const std::filesystem::path& view);
+
 }  // namespace episcope::io

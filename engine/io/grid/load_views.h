@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace episcope::io {
@@ -17,10 +18,14 @@ struct ViewFiles {
   GridShape grid;
   std::vector<std::filesystem::path> files;
   std::optional<PartOfGrid> part{};               ///< Of a grid with gaps that this is a part of,
-  std::vector<std::filesystem::path> left_out{};  ///< and its views that are not in this part.
+  std::vector<std::filesystem::path> left_out{};  ///< and its views that are not in this part,
+  std::vector<std::filesystem::path> unusable{};  ///< or that `load_usable_views` could not use.
 
   int orientation = 1;  ///< In which all of them are to be shown (`common_orientation`).
 
+  [[nodiscard]] const std::filesystem::path& file(ViewIndex view) const {
+    return files[static_cast<std::size_t>(view.v * grid.u + view.u)];
+  }
   /// With the views that are missing or left out.
   [[nodiscard]] GridShape whole_grid() const { return part ? part->whole : grid; }
   /// The place in the whole grid of a view, and where the centre of that grid is; nothing if it is
@@ -40,5 +45,19 @@ using OnCenterView = std::function<void(const Image<std::uint8_t>& center_rgb)>;
 /// one cannot be decoded or differs in size, channels or depth from the centre view; Cancelled.
 [[nodiscard]] LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_center,
                                              const Progress& progress);
+
+/// Samples of those views of a grid that can be used together.
+struct UsableViews {
+  LightField::Samples samples;
+  ViewFiles views;                   ///< All, or the part of them that `samples` holds.
+  std::optional<PartOfGrid> kept{};  ///< That part, if it is not all.
+  std::string warning{};             ///< What could not be used and why, and what is left.
+};
+
+/// The same for folders in which some files are damaged, or of another size or depth than most:
+/// these are as good as missing, and the largest part without them is kept (`without_views`).
+/// Throws IoError about the first of them if there is no such part; Cancelled.
+[[nodiscard]] UsableViews load_usable_views(const ViewFiles& views, const OnCenterView& on_center,
+                                            const Progress& progress);
 
 }  // namespace episcope::io

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text/join.h"
+#include "engine/io/grid/grid_with_gaps.h"
 #include "engine/io/grid/image_list.h"
 #include "engine/io/open/grid_option.h"
 #include "engine/io/poses/pose_grid.h"
@@ -10,6 +11,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 namespace episcope::io {
@@ -27,15 +31,49 @@ std::vector<fs::path> images_of(const fs::path& folder) {
   return images;
 }
 
+/// The largest part of cameras of which some are missing; empty if that is too small.
+std::optional<PlacedViews> part_without_gaps(const PoseGrid& grid,
+                                             const std::vector<fs::path>& images) {
+  GridWithGaps views{.rows = std::vector<long long>(static_cast<std::size_t>(grid.grid.v)),
+                     .columns = std::vector<long long>(static_cast<std::size_t>(grid.grid.u)),
+                     .numbering = "from 0"};
+  std::iota(views.rows.begin(), views.rows.end(), 0);
+  std::iota(views.columns.begin(), views.columns.end(), 0);
+  for (const std::size_t i : grid.order) {
+    views.files.push_back(i == kNoCamera ? fs::path() : images[i]);
+  }
+  const auto part = part_to_open(views);
+  if (!part) return std::nullopt;
+  PlacedViews placed{.views = files_of_part(views, *part)};
+  for (int i = 0; i < part->grid.count(); ++i) {
+    const ViewIndex view = part->in_whole(part->grid.view_at(i));
+    placed.positions.push_back(
+        grid.positions[static_cast<std::size_t>(view.v * grid.grid.u + view.u)]);
+  }
+  placed.warnings.push_back(part_text(views, *part));
+  return placed;
+}
+
 PosedViews place_by(FoundPoses found) {
   PosedViews posed{.files = std::move(found.files), .problem = std::move(found.problem)};
   if (!posed.problem.empty()) return posed;
   PoseGrid grid = find_pose_grid(found.poses);
   posed.problem = grid.problem;
   if (!posed.problem.empty()) return posed;
-  posed.placed.views.grid = grid.grid;
-  for (const std::size_t i : grid.order) posed.placed.views.files.push_back(found.images[i]);
-  posed.placed.positions = std::move(grid.positions);
+  if (std::ranges::find(grid.order, kNoCamera) != grid.order.end()) {
+    auto part = part_without_gaps(grid, found.images);
+    if (!part) {
+      posed.problem = fmt::format("{} cameras do not fill a grid of {} or a part of it",
+                                  found.images.size(), grid_text(grid.grid));
+      return posed;
+    }
+    posed.placed = std::move(*part);
+    grid.step *= posed.placed.views.part->step;
+  } else {
+    posed.placed.views.grid = grid.grid;
+    for (const std::size_t i : grid.order) posed.placed.views.files.push_back(found.images[i]);
+    posed.placed.positions = std::move(grid.positions);
+  }
   posed.step = grid.step;
   posed.focal_widths = grid.focal_widths;
   posed.evidence = fmt::format("{} by {}: {}", grid_text(grid.grid), posed.name(), grid.evidence);
@@ -56,13 +94,15 @@ bool has_parts_with_poses(const fs::path& folder) {
 
 PosedViews place_by_poses(const fs::path& folder, const OpenOptions& options) {
   if (!options.pattern.empty() || !options.grid.empty() || options.snake) return {};
+  PosedViews with_gaps;
   PosedViews first;
   for (FoundPoses& found : find_poses(folder, folder.parent_path(), images_of(folder))) {
     PosedViews posed = place_by(std::move(found));
-    if (posed.are_used()) return posed;
-    if (first.files.empty()) first = std::move(posed);
+    if (posed.are_used() && !posed.placed.views.part) return posed;
+    PosedViews& kept = posed.are_used() ? with_gaps : first;
+    if (kept.files.empty()) kept = std::move(posed);
   }
-  return first;
+  return with_gaps.are_used() ? with_gaps : first;
 }
 
 void refuse_poses(const fs::path& folder, const PosedViews& poses) {

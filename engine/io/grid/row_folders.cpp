@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/grid/image_list.h"
+#include "engine/io/grid/lettered_rows.h"
 #include "engine/io/grid/name_parts.h"
 #include "engine/io/open/grid_option.h"
 
@@ -94,6 +95,15 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
   return folders;
 }
 
+/// By their numbers, or by letters instead; then there are no numbers.
+std::optional<Numbered> folders_of_rows(const fs::path& folder) {
+  const std::vector<fs::path> folders = folders_in(folder);
+  if (auto numbered = by_number(folders)) return numbered;
+  const auto lettered = by_letter(folders);
+  if (!lettered) return std::nullopt;
+  return Numbered{*lettered, {}, std::string(1, kNumberMark)};
+}
+
 /// Of folders whose names are mere numbers.
 bool are_rather_rows(std::size_t folders, std::size_t images, const OpenOptions& options) {
   if (const auto given = given_grid(options)) {
@@ -113,7 +123,7 @@ std::optional<RowFolders> find_row_folders(const fs::path& folder, const OpenOpt
   if (!fs::is_directory(folder, error) || !options.pattern.empty() || count_images(folder) > 0) {
     return std::nullopt;
   }
-  const auto folders = by_number(folders_in(folder));
+  const auto folders = folders_of_rows(folder);
   if (!folders) return std::nullopt;
   const std::string word = letters_of(folders->skeleton);
   RowFolders found{
@@ -129,8 +139,8 @@ std::optional<RowFolders> find_row_folders(const fs::path& folder, const OpenOpt
     found.rows.push_back(std::move(images->paths));
     found.numbers.push_back(std::move(images->numbers));
   }
-  const bool is_certain =
-      !word.empty() || are_rather_rows(found.rows.size(), found.rows.front().size(), options);
+  const bool is_certain = folders->numbers.empty() || !word.empty() ||
+                          are_rather_rows(found.rows.size(), found.rows.front().size(), options);
   return is_certain ? std::optional(std::move(found)) : std::nullopt;
 }
 
@@ -144,7 +154,7 @@ std::size_t most_in_a_row(const RowFolders& found) {
 
 /// Folders of which some hold less images than others: their numbers say which are missing.
 /// Throws IoError if images are numbered anew in no folder.
-PlacedViews place_with_gaps(const fs::path& folder, const RowFolders& found) {
+PlacedViews place_with_gaps(const fs::path& folder, const RowFolders& found, bool is_snake) {
   const std::size_t most = most_in_a_row(found);
   ViewNames names{.pattern = found.pattern};
   std::set<long long> columns;
@@ -159,7 +169,9 @@ PlacedViews place_with_gaps(const fs::path& folder, const RowFolders& found) {
     }
   }
   names.images = static_cast<int>(names.views.size());
-  if (columns.size() == most) return place_views(folder, names);
+  if (columns.size() == most) {
+    return place_views(folder, is_snake ? with_turned_rows(std::move(names)) : names);
+  }
   const auto short_row = std::ranges::find_if(
       found.rows, [&](const std::vector<fs::path>& row) { return row.size() < most; });
   throw IoError(folder, fmt::format("{} holds {} images, but other folders of this light field "
@@ -170,12 +182,12 @@ PlacedViews place_with_gaps(const fs::path& folder, const RowFolders& found) {
 
 }  // namespace
 
-PlacedViews place_rows(const fs::path& folder, const RowFolders& found) {
+PlacedViews place_rows(const fs::path& folder, const RowFolders& found, bool is_snake) {
   const std::size_t rows = found.rows.size();
   const std::size_t most = most_in_a_row(found);
   const bool is_full = std::ranges::all_of(
       found.rows, [&](const std::vector<fs::path>& row) { return row.size() == most; });
-  if (!is_full) return place_with_gaps(folder, found);
+  if (!is_full) return place_with_gaps(folder, found, is_snake);
   PlacedViews placed;
   const auto length = [](std::size_t count) { return static_cast<int>(count); };
   placed.views.grid = found.are_columns ? GridShape{length(most), length(rows)}

@@ -19,16 +19,18 @@ struct RowFolders {
 
 /// The folders inside of `folder` if they are rows of one light field: their names differ in one
 /// number and speak of rows or columns (row, r, v, y, col, c, u, x), and in each of them the images
-/// are numbered by one number. Folders with mere numbers can also be light fields that follow each
-/// other in time: they are rows if there are as many images in each as there are folders, if the
-/// option `grid` says so, or if so many images are no square grid. Nothing if `folder` holds images
-/// itself.
+/// are numbered by one number; or their names are the letters from a on. Folders with mere numbers
+/// can also be light fields that follow each other in time: they are rows if there are as many
+/// images in each as there are folders, if the option `grid` says so, or if so many images are no
+/// square grid. Nothing if `folder` holds images itself.
 [[nodiscard]] std::optional<RowFolders> find_row_folders(const std::filesystem::path& folder,
                                                          const OpenOptions& options);
 
 /// The views in the order of the folders and of the images in them. Where folders have fewer images
-/// than others, the numbers of these say which are missing, as in `place_views`. Throws IoError
-/// that names such a folder if they do not.
-[[nodiscard]] PlacedViews place_rows(const std::filesystem::path& folder, const RowFolders& found);
+/// than others, the numbers of these say which are missing, as in `place_views`; then every second
+/// row is turned round if `is_snake` says so. Throws IoError that names such a folder if they do
+/// not.
+[[nodiscard]] PlacedViews place_rows(const std::filesystem::path& folder, const RowFolders& found,
+                                     bool is_snake);
 
 }  // namespace episcope::io

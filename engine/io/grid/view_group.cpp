@@ -6,6 +6,7 @@
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/index_fields.h"
 #include "engine/io/grid/joined_digits.h"
+#include "engine/io/grid/lettered_rows.h"
 #include "engine/io/grid/name_pattern.h"
 #include "engine/io/grid/name_words.h"
 
@@ -135,6 +136,7 @@ ViewNames names_of(const Candidate& candidate) {
 
 ViewNames find_view_names(const fs::path& folder, const std::vector<fs::path>& images) {
   std::vector<NameGroup> groups = group_by_name(images);
+  join_lettered_rows(groups);
   std::ranges::for_each(groups, separate_joined_digits);
   const std::vector<Candidate> candidates = candidates_of(groups);
   if (candidates.empty()) refuse(folder, groups, images.size());

@@ -10,6 +10,7 @@ namespace episcope::io {
 namespace {
 
 constexpr std::size_t kFewestCameras = 3;
+constexpr double kMostPlaces = 4;        ///< Of a grid with gaps, for each camera.
 constexpr double kOneLine_spans = 0.02;  ///< Of the larger extent: then it is a single row.
 
 /// A camera seen by the first one: to the right, below, ahead of it.
@@ -96,7 +97,8 @@ std::string problem_of(const PoseGrid& grid, const Steps& columns, const Steps& 
         "of their step along the line of sight",
         depth / grid.step);
   }
-  if (static_cast<std::size_t>(grid.grid.count()) != count) {
+  const double places = static_cast<double>(rows.count) * columns.count;
+  if (places > kMostPlaces * static_cast<double>(count)) {
     return fmt::format("{} cameras do not fill a grid of equal steps, which would have {}×{}",
                        count, grid.grid.v, grid.grid.u);
   }
@@ -111,15 +113,14 @@ std::string problem_of(const PoseGrid& grid, const Steps& columns, const Steps& 
   return {};
 }
 
-/// Of cameras that do not fill each place once.
+/// The cameras in their places; says so if two stand in one.
 std::string fill(PoseGrid& grid, const Steps& columns, const Steps& rows,
                  const std::vector<Place>& places) {
-  constexpr auto kNone = static_cast<std::size_t>(-1);
-  grid.order.assign(places.size(), kNone);
-  grid.positions.resize(places.size());
+  grid.order.assign(static_cast<std::size_t>(grid.grid.count()), kNoCamera);
+  grid.positions.resize(grid.order.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto at = static_cast<std::size_t>(rows.numbers[i] * grid.grid.u + columns.numbers[i]);
-    if (grid.order[at] != kNone) return "two cameras stand in the same place";
+    if (grid.order[at] != kNoCamera) return "two cameras stand in the same place";
     grid.order[at] = i;
     const auto rounded = [&](double length) {
       return std::round(length / grid.step * 1e6) / 1e6 * grid.step;

@@ -16,10 +16,13 @@ namespace episcope::io {
 inline constexpr double kMostTurn_deg = 0.5;
 inline constexpr double kMostOff_steps = 0.1;
 
+/// In `PoseGrid::order`: no camera stands in this place.
+inline constexpr auto kNoCamera = static_cast<std::size_t>(-1);
+
 /// Cameras as the grid of a light field, in canonical order.
 struct PoseGrid {
   GridShape grid{};
-  std::vector<std::size_t> order{};         ///< Of the poses, row by row.
+  std::vector<std::size_t> order{};         ///< Of the poses, row by row; `kNoCamera` in gaps.
   std::vector<CameraPosition> positions{};  ///< Row by row: right and down in the cameras' view.
   double step = 0;                          ///< Of neighbours, in units of the scene.
   double focal_widths = 0;                  ///< 0 = not stated.

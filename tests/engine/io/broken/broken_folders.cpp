@@ -16,6 +16,9 @@ namespace in_broken_folders {
 
 namespace fs = std::filesystem;
 
+/// Views of that grid without which no part of it is worth opening.
+constexpr std::array kTooMany{"0_0.png", "0_2.png", "1_1.png", "2_0.png"};
+
 fs::path image_grid(const fs::path& folder) {
   for (int i = 0; i < 9; ++i) {
     const Image<std::uint8_t> view(8, 9, 3, static_cast<std::uint8_t>(i));
@@ -70,27 +73,31 @@ std::vector<Broken> broken_folders() {
          return f / "scene.xyz";
        },
        "not a light field"},
-      {"grid with a view of another size",
+      {"grid with views of another size",
        [](const fs::path& f) {
          image_grid(f);
-         io::write_png(f / "2_1.png", Image<std::uint8_t>(8, 8, 3).view());
+         for (const char* name : kTooMany) {
+           io::write_png(f / name, Image<std::uint8_t>(8, 8, 3).view());
+         }
          return f;
        },
-       "8×8 px, RGB, 8 bit, but the centre view has 9×8 px"},
-      {"grid of other samples in a view",
+       "8×8 px, RGB, 8 bit, but 0_1.png has 9×8 px"},
+      {"grid of other samples in some views",
        [](const fs::path& f) {
          image_grid(f);
-         io::write_png(f / "2_1.png", Image<std::uint16_t>(8, 9, 3).view());
+         for (const char* name : kTooMany) {
+           io::write_png(f / name, Image<std::uint16_t>(8, 9, 3).view());
+         }
          return f;
        },
        "all views must match"},
-      {"grid with a damaged view",
+      {"grid with damaged views",
        [](const fs::path& f) {
          image_grid(f);
-         std::ofstream(f / "0_2.png") << "no picture";
+         for (const char* name : kTooMany) std::ofstream(f / name) << "no picture";
          return f;
        },
-       "0_2.png: the image cannot be decoded"},
+       "0_0.png: the image cannot be decoded"},
       {"list with a gap",
        [](const fs::path& f) {
          for (const int i : {0, 1, 2, 3, 4, 6, 7, 8}) {
@@ -102,7 +109,7 @@ std::vector<Broken> broken_folders() {
       {"grid with many missing views",
        [](const fs::path& f) {
          image_grid(f);
-         for (const char* name : {"0_0.png", "0_2.png", "1_1.png", "2_0.png"}) fs::remove(f / name);
+         for (const char* name : kTooMany) fs::remove(f / name);
          return f;
        },
        "4 views are missing: 0,0 0,2 1,1 2,0 (row,column as in the names; pattern {row}_{col}.png "
@@ -171,21 +178,26 @@ std::vector<Broken> broken_folders() {
          return scene;
        },
        "view 4 is missing"},
-      {"benchmark with a folder in place of a view",
+      {"benchmark with folders in place of views",
        [](const fs::path& f) {
          const fs::path scene = benchmark(f);
-         fs::remove(scene / "input_Cam004.png");
-         fs::create_directory(scene / "input_Cam004.png");
+         for (const int i : {0, 2, 4, 6}) {
+           const fs::path view = scene / fmt::format("input_Cam00{}.png", i);
+           fs::remove(view);
+           fs::create_directory(view);
+         }
          return scene;
        },
        "this is a folder where a file is needed"},
-      {"benchmark with an empty view",
+      {"benchmark with empty views",
        [](const fs::path& f) {
          const fs::path scene = benchmark(f);
-         fs::resize_file(scene / "input_Cam004.png", 0);
+         for (const int i : {0, 2, 4, 6}) {
+           fs::resize_file(scene / fmt::format("input_Cam00{}.png", i), 0);
+         }
          return scene;
        },
-       "input_Cam004.png: the image cannot be decoded"},
+       "input_Cam000.png: the image cannot be decoded"},
       {"benchmark of more views than there are numbers",
        [](const fs::path& f) {
          const fs::path scene = benchmark(f);
@@ -211,8 +223,7 @@ std::vector<Broken> broken_folders() {
       {"grid with a view that is a link to itself",
        [](const fs::path& f) {
          image_grid(f);
-         for (const char* name : {"0_0.png", "0_2.png", "1_1.png"}) fs::remove(f / name);
-         fs::remove(f / "2_0.png");
+         for (const char* name : kTooMany) fs::remove(f / name);
          fs::create_symlink("2_0.png", f / "2_0.png");
          return f;
        },

@@ -162,12 +162,6 @@ class IncompleteGridTest : public QObject {
     QVERIFY(has_views_from(scene, {0, 0}));
   }
 
-  void damagedView_isStillRefused() {
-    fs::resize_file(folder_->path("2_2.png"), 60);
-
-    QVERIFY_THROWS_EXCEPTION(IoError, (void)folder_->open());
-  }
-
   void largestPart_isTheSquarestNearTheCentre() {
     std::vector<bool> is_filled(49, true);
     is_filled[0] = false;  // rows 1 … 6 or columns 1 … 6

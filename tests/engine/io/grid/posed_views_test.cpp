@@ -193,6 +193,25 @@ class PosedViewsTest : public QObject {
     QVERIFY(std::abs(scene.light_field->info().positions.back().x - 4 * kStep) < 1e-5);
   }
 
+  void missingCamera_leavesOutItsColumn() {
+    write_views("images/");
+    write_nerf();
+    fs::remove(folder_->path("images/img00.png"));
+
+    const Scene scene = folder_->open();
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{3, 4}));
+    const auto& views = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
+    for (int i = 0; i < views.grid().count(); ++i) {
+      const auto found = views.view(views.grid().view_at(i));
+      const auto wanted = folder_->scene.views.view(views.grid().view_at(i, {0, 1}));
+      QCOMPARE(std::memcmp(found.data, wanted.data, found.size()), 0);
+    }
+    QVERIFY(warns_of(scene, "Of a grid of 3×5 view 0,0 is missing"));
+    QCOMPARE(scene.light_field->info().positions.size(), std::size_t{12});
+    QVERIFY(std::abs(scene.light_field->info().positions.front().x - kStep) < 1e-5);
+  }
+
   void trainingViewsOfAGrid_openAlone() {
     write_parts();
     const auto all_views = [](int i) { return fmt::format("train/r_{}", i); };

@@ -25,7 +25,8 @@ class RowFoldersTest : public QObject {
     const GridShape grid = scene.light_field->grid();
     for (int i = 0; i < grid.count(); ++i) {
       const ViewIndex view = grid.view_at(i);
-      const fs::path file = path() / fmt::format(fmt::runtime(form), view.v, view.u, i);
+      const fs::path file = path() / fmt::format(fmt::runtime(form), view.v, view.u, i,
+                                                 static_cast<char>('A' + view.v));
       fs::create_directory(file.parent_path());
       io::write_png(file, scene.light_field->view<std::uint8_t>(view));
     }
@@ -36,8 +37,9 @@ class RowFoldersTest : public QObject {
 
   void foldersOfRows_areAGrid_data() {
     QTest::addColumn<QString>("form");
-    for (const char* form : {"row_{0:02}/view_{1:03}.png", "{0}/{1}.png", "Row{0}/IMG_{2:04}.PNG",
-                             "u{1}/v{0}.png", "row {0}/view_{0}_{1}.png"}) {
+    for (const char* form :
+         {"row_{0:02}/view_{1:03}.png", "{0}/{1}.png", "Row{0}/IMG_{2:04}.PNG", "u{1}/v{0}.png",
+          "row {0}/view_{0}_{1}.png", "{3}/{1}.png", "{3}{1}.png", "cam_{3}_{1:02}.png"}) {
       QTest::newRow(form) << form;
     }
   }
@@ -80,6 +82,26 @@ class RowFoldersTest : public QObject {
     QCOMPARE(read.light_field->grid(), (GridShape{5, 6}));
     QVERIFY2(describe(read.convention).find("view 3,6 is missing") != std::string::npos,
              describe(read.convention).c_str());
+  }
+
+  void missingViewInSnakeOrder_isWhereItWasTaken() {
+    const Scene scene = plane_scene({.grid = {5, 7}});
+    for (int i = 0; i < 35; ++i) {
+      const ViewIndex view = scene.light_field->grid().view_at(i);
+      const int taken = view.v % 2 == 0 ? view.u : 6 - view.u;
+      const fs::path file = path() / fmt::format("row_{}/{}.png", view.v, taken);
+      fs::create_directory(file.parent_path());
+      if (i != 21) io::write_png(file, scene.light_field->view<std::uint8_t>(view));
+    }
+
+    const Scene read = io::open_scene(path(), {.snake = true}, Progress(1));
+
+    QCOMPARE(read.light_field->grid(), (GridShape{5, 6}));
+    QVERIFY2(describe(read.convention).find("view 3,0 is missing") != std::string::npos,
+             describe(read.convention).c_str());
+    const auto found = read.light_field->view<std::uint8_t>({3, 0});
+    const auto wanted = scene.light_field->view<std::uint8_t>({3, 1});
+    QVERIFY(std::equal(wanted.data, wanted.data + wanted.size(), found.data));
   }
 
   void missingView_namesItsFolderWhereImagesAreNumberedOn() {
