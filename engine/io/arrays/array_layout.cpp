@@ -56,8 +56,9 @@ void add_lists(const ArrayShape& lengths, std::vector<std::string>& out) {
   const ArrayShape& l = lengths;
   if (l.size() == 3) {
     if (!can_be_channels(l[2]) && can_be_list(l[0], l[1], l[2])) out.emplace_back("nyx");
-    if (!can_be_channels(l[0]) && can_be_list(l[2], l[0], l[1]) && l[2] < std::min(l[0], l[1]) &&
-        !can_be_channels(l[2]) && l[0] > l[2]) {
+    const bool is_deep = l[2] < std::min(l[0], l[1]) || l[0] == l[1];
+    if (!can_be_channels(l[0]) && can_be_list(l[2], l[0], l[1]) && is_deep &&
+        !can_be_channels(l[2])) {
       out.emplace_back("yxn");
     }
     return;

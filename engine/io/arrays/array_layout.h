@@ -50,7 +50,8 @@ struct ArrayLayout {
 /// the length 1 and stand first. Rows are taken to
 /// come before columns in the order of indices, but for arrays of pixels before views with channels
 /// first, as MATLAB's in other programs, in which columns come first. Arrays of 3 axes are lists of
-/// grey views; of 4, grey views or lists. In C order 1×N views, and N grey ones with one
+/// grey views, which come last only if they are fewer than rows and columns of pixels, or if these
+/// are a square; of 4, grey views or lists. In C order 1×N views, and N grey ones with one
 /// channel before rows of pixels, are a list, too ("1nyxc", "ncyx").
 [[nodiscard]] std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder order);
 

@@ -6,6 +6,7 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/arrays/array_parallax.h"
 #include "engine/io/arrays/joined_arrays.h"
+#include "engine/io/arrays/lists_by_motion.h"
 #include "engine/io/open/undecided.h"
 
 #include <fmt/format.h>
@@ -18,12 +19,6 @@
 
 namespace episcope::io {
 namespace {
-
-bool is_light_field_name(const std::string& name) {
-  constexpr const char* kNames[] = {"lf",    "lightfield", "light_field", "light-field", "lf_rgb",
-                                    "views", "lf_data",    "lfs",         "lightfields"};
-  return std::ranges::find(kNames, lower_case(last_name(name))) != std::end(kNames);
-}
 
 std::size_t letter_count(const std::string& axes) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -125,6 +120,12 @@ bool can_be_light_field(const ArrayEntry& entry) {
   return !layouts_of(entry).empty();
 }
 
+bool has_light_field_name(const ArrayEntry& entry) {
+  constexpr const char* kNames[] = {"lf",    "lightfield", "light_field", "light-field", "lf_rgb",
+                                    "views", "lf_data",    "lfs",         "lightfields"};
+  return std::ranges::find(kNames, lower_case(last_name(entry.name))) != std::end(kNames);
+}
+
 bool has_other_name(const ArrayEntry& entry) {
   const std::string name = lower_case(telling_name(entry));
   constexpr const char* kWords[] = {"disp", "depth", "label", "mask", "valid", "seg", "gt", "conf"};
@@ -150,7 +151,7 @@ std::vector<const ArrayEntry*> light_fields_of(const ArrayFile& file, const std:
   if (axes.empty() && possible.size() == 1 && is_beside_more(*possible.front(), file)) return {};
   if (possible.size() <= 1) return possible;
   using Claim = std::function<bool(const ArrayEntry*)>;
-  const Claim has_name = [](const ArrayEntry* entry) { return is_light_field_name(entry->name); };
+  const Claim has_name = [](const ArrayEntry* entry) { return has_light_field_name(*entry); };
   const Claim has_five = [](const ArrayEntry* entry) { return entry->shape.size() >= 5; };
   const Claim is_no_map = [](const ArrayEntry* entry) { return !has_other_name(*entry); };
   const Claim is_likely = [&](const ArrayEntry* entry) {
@@ -201,6 +202,9 @@ ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
   }
   if (auto layout = grid_or_list(file, entry, layouts)) {
     return {std::move(*layout), "by shape and motion between views, not between channels", {}};
+  }
+  if (auto layout = list_by_motion(file, entry, layouts)) {
+    return {std::move(*layout), "by shape and the likeness of views", {}};
   }
   std::vector<ReadingChoice> choices;
   for (const ArrayLayout& layout : layouts) {

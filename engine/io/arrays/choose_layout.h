@@ -21,6 +21,9 @@ struct ChosenLayout {
 /// Whether its shape, or what its file states, is that of a light field.
 [[nodiscard]] bool can_be_light_field(const ArrayEntry& entry);
 
+/// Whether it is called lf, light_field, views or the like.
+[[nodiscard]] bool has_light_field_name(const ArrayEntry& entry);
+
 /// Whether words of its name are those of maps, or of what describes a camera.
 [[nodiscard]] bool has_other_name(const ArrayEntry& entry);
 
@@ -38,7 +41,8 @@ struct ChosenLayout {
                                                  const std::string& axes);
 
 /// As `axes` states, else as the file states, else by shape; where that leaves several meanings,
-/// the only one in which views move along both axes of the grid. Throws IoError if that leaves no
+/// the only one in which views move along both axes of the grid, or whose pictures are as like each
+/// other as those of a list of views (lists_by_motion.h). Throws IoError if that leaves no
 /// meaning, Undecided if several.
 [[nodiscard]] ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
                                          const std::string& axes);

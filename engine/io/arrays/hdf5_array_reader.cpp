@@ -22,13 +22,25 @@ namespace fs = std::filesystem;
 
 constexpr const char* kHdf5Reader = "hdf5";
 
+/// Of three axes, with enough views to be no picture with channels.
+bool is_list_of_views(const ArrayEntry& entry) {
+  constexpr std::size_t kFewestViews = 4;
+  const ArrayShape& shape = entry.shape;
+  return shape.size() == 3 && std::min(shape.front(), shape.back()) >= kFewestViews;
+}
+
 /// `[v][h][y][x]` or `[v][h][y][x][c]`, whose reader also explains what is wrong with it.
 bool is_archive_form(const ArrayEntry& light_field) {
   if (can_be_stack(light_field)) return false;
-  if (light_field.shape.size() != 5 || !can_be_light_field(light_field)) return true;
+  if (!can_be_light_field(light_field)) return true;
+  const std::size_t axes = light_field.shape.size();
+  const std::string& stated = light_field.stated_axes;
+  if (axes == 4 && stated.empty()) {
+    return possible_layouts(light_field.shape, light_field.order).front().axes == "vuyx";
+  }
+  if (axes != 5) return !is_list_of_views(light_field);
   const std::size_t last = light_field.shape.back();
-  const std::string& axes = light_field.stated_axes;
-  return (last == 1 || last == 3 || last == 4) && (axes.empty() || axes.starts_with("v,u,y,x"));
+  return (last == 1 || last == 3 || last == 4) && (stated.empty() || stated.starts_with("v,u,y,x"));
 }
 
 /// Maps and results have fewer axes, too, but no colours, and names that tell what they are.
@@ -36,10 +48,12 @@ bool is_like_views(const ArrayEntry& entry) {
   if (can_be_stack(entry)) return !has_other_name(entry);
   if (entry.is_of_views()) return !map_kind(telling_name(entry));
   if (!can_be_light_field(entry)) return false;
+  if (entry.shape.size() >= 5) return true;
+  if (has_light_field_name(entry)) return entry.shape.size() == 4 || is_list_of_views(entry);
   const bool is_list = entry.shape.size() == 4 && entry.shape.back() == 3;
-  const bool is_grey =
-      entry.shape.size() == 4 && entry.type == NumberType::UInt8 && entry.name != "SCRIBBLES";
-  return entry.shape.size() >= 5 || ((is_list || is_grey) && !map_kind(telling_name(entry)));
+  const bool is_grey = (entry.shape.size() == 4 || is_list_of_views(entry)) &&
+                       entry.type == NumberType::UInt8 && entry.name != "SCRIBBLES";
+  return (is_list || is_grey) && !map_kind(telling_name(entry)) && !has_other_name(entry);
 }
 
 bool is_meant(const fs::path& path, const OpenOptions& options) {

@@ -2,6 +2,8 @@
 #include "engine/io/arrays/array_input.h"
 #include "engine/io/arrays/npy_file.h"
 #include "engine/io/arrays/write_arrays.h"
+#include "engine/io/durable/atomic_file.h"
+#include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/open/open.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/engine/io/order/layered_scene.h"
@@ -52,6 +54,73 @@ class AxesByMotionTest : public QObject {
     QVERIFY2(scene.convention.format.find("(" + letters + ")") != std::string::npos,
              scene.convention.format.c_str());
     QVERIFY(has_samples(scene, three));
+  }
+
+  // 48×64×25 could be 48 views of 64×25 px; 48×48×81 as well, though that would be odd.
+  void greyListThatComesLast_isToldBySlices_data() {
+    QTest::addColumn<int>("side");
+    QTest::addColumn<int>("height");
+    QTest::addColumn<int>("width");
+    QTest::newRow("fewer views than pixels") << 5 << 48 << 64;
+    QTest::newRow("more views than pixels") << 9 << 48 << 48;
+  }
+  void greyListThatComesLast_isToldBySlices() {
+    QFETCH(int, side);
+    QFETCH(int, height);
+    QFETCH(int, width);
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const ViewStack<std::uint8_t> grey =
+        layered_views({.grid = {side, side}, .height = height, .width = width});
+    io::write_npy<std::uint8_t>(file,
+                                {static_cast<std::size_t>(height), static_cast<std::size_t>(width),
+                                 static_cast<std::size_t>(side) * static_cast<std::size_t>(side)},
+                                in_axes(grey, "yxvu"));
+
+    const Scene scene = io::open_scene(file, {}, Progress(1));
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{side, side}));
+    QVERIFY(has_samples(scene, grey));
+  }
+
+  void greyViewsInHdf5_areFoundByShapeAndName_data() {
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<QString>("axes");
+    QTest::addColumn<bool>("is_list");
+    QTest::newRow("list") << "data"
+                          << "vuyx" << true;
+    QTest::newRow("list, LF") << "LF"
+                              << "vuyx" << true;
+    QTest::newRow("list that comes last") << "lf"
+                                          << "yxvu" << true;
+    QTest::newRow("grid that comes last") << "LF"
+                                          << "yxvu" << false;
+  }
+  void greyViewsInHdf5_areFoundByShapeAndName() {
+    QFETCH(QString, name);
+    QFETCH(QString, axes);
+    QFETCH(bool, is_list);
+    const QTemporaryDir folder;
+    const std::filesystem::path path = folder.filePath("views.h5").toStdString();
+    const ViewStack<std::uint8_t> grey = layered_views({.height = 48, .width = 64});
+    const std::string letters = axes.toStdString();
+    io::Hdf5Shape lengths = lengths_of(grey, letters);
+    if (is_list) {
+      const std::size_t at = letters.find('v');
+      lengths[at] *= lengths[at + 1];
+      lengths.erase(lengths.begin() + static_cast<std::ptrdiff_t>(at) + 1);
+    }
+    io::AtomicFile target(path);
+    io::Hdf5Output file(target);
+    file.add_dataset<std::uint8_t>(name.toStdString(), lengths, "", "");
+    file.write(name.toStdString(), {io::Hdf5Shape(lengths.size(), 0), lengths},
+               in_axes(grey, letters).data());
+    file.close();
+    target.commit();
+
+    const Scene scene = io::open_scene(path, {}, Progress(1));
+
+    QVERIFY2(has_samples(scene, grey), scene.convention.format.c_str());
   }
 
   void channelsOfAList_areNoRowsOfViews_data() {
