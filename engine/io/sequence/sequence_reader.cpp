@@ -2,9 +2,11 @@
 #include "engine/io/sequence/sequence_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/io/grid/image_list.h"
 #include "engine/io/grid/row_folders.h"
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
+#include "engine/io/sequence/camera_frames.h"
 #include "engine/io/sequence/frame_names.h"
 
 #include <fmt/format.h>
@@ -13,26 +15,62 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace episcope::io {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// A light field of a sequence: a folder or a file, or the images of a folder that fit a pattern.
+struct Frame {
+  fs::path path;
+  std::string pattern{};
+  long number = 0;
+
+  /// How to open it alone.
+  [[nodiscard]] OpenOptions options(const OpenOptions& of_sequence) const {
+    OpenOptions single = of_sequence;
+    single.frame = 0;
+    if (!pattern.empty()) single.pattern = pattern;
+    return single;
+  }
+  /// What it is called: that of the images of a folder exists as a name only.
+  [[nodiscard]] fs::path name() const {
+    return pattern.empty() ? path : path / fmt::format("frame_{}", number);
+  }
+};
+
+std::vector<Frame> frames_of(const fs::path& folder) {
+  std::vector<Frame> frames;
+  const NumberedFrames named = numbered_frames(folder);
+  for (std::size_t i = 0; i < named.paths.size(); ++i) {
+    frames.push_back({named.paths[i], {}, named.numbers[i]});
+  }
+  if (!frames.empty()) return frames;
+  const CameraFrames together = find_camera_frames(folder);
+  for (std::size_t i = 0; i < together.numbers.size(); ++i) {
+    frames.push_back({folder, together.patterns[i], together.numbers[i]});
+  }
+  return frames;
+}
+
 /// The reader of a frame, if it is a light field of its own.
-FoundReader reader_of_frame(const fs::path& frame, const OpenOptions& options) {
+FoundReader reader_of_frame(const Frame& frame, const OpenOptions& of_sequence) {
+  const OpenOptions options = frame.options(of_sequence);
   for (const Reader& reader : readers()) {
     if (reader.id == std::string_view(kSequenceReader)) continue;
-    fs::path found = reader.find(frame, options);
+    fs::path found = reader.find(frame.path, options);
     if (found.empty()) continue;
-    const bool is_own = found == frame || fs::is_directory(frame);
+    const bool is_own = found == frame.path || fs::is_directory(frame.path);
     return is_own ? FoundReader{&reader, std::move(found)} : FoundReader();
   }
   return {};
 }
 
-SceneProbe probe_of(const FoundReader& frame, const OpenOptions& options) {
-  return frame.reader->probe ? frame.reader->probe(frame.path, options) : SceneProbe();
+SceneProbe probe_of(const Frame& frame, const FoundReader& found, const OpenOptions& options) {
+  return found.reader->probe ? found.reader->probe(found.path, frame.options(options))
+                             : SceneProbe();
 }
 
 bool have_same_shape(const SceneProbe& a, const SceneProbe& b) {
@@ -42,14 +80,14 @@ bool have_same_shape(const SceneProbe& a, const SceneProbe& b) {
 
 /// Whether the first, the middle and the last frame are light fields of one form and shape: looking
 /// at all of them would make the search for a reader slow.
-bool are_frames(const NumberedFrames& frames, const OpenOptions& options) {
-  const FoundReader first = reader_of_frame(frames.paths.front(), options);
+bool are_frames(const std::vector<Frame>& frames, const OpenOptions& options) {
+  const FoundReader first = reader_of_frame(frames.front(), options);
   if (!first.reader) return false;
-  const SceneProbe probe = probe_of(first, options);
-  for (const std::size_t i : {frames.paths.size() / 2, frames.paths.size() - 1}) {
-    const FoundReader other = reader_of_frame(frames.paths[i], options);
+  const SceneProbe probe = probe_of(frames.front(), first, options);
+  for (const std::size_t i : {frames.size() / 2, frames.size() - 1}) {
+    const FoundReader other = reader_of_frame(frames[i], options);
     if (other.reader != first.reader) return false;
-    if (!have_same_shape(probe_of(other, options), probe)) return false;
+    if (!have_same_shape(probe_of(frames[i], other, options), probe)) return false;
   }
   return true;
 }
@@ -57,8 +95,9 @@ bool are_frames(const NumberedFrames& frames, const OpenOptions& options) {
 fs::path find_sequence(const fs::path& path, const OpenOptions& options) {
   std::error_code error;
   if (!fs::is_directory(path, error) || is_there(path / "lf.h5")) return {};
-  const NumberedFrames frames = numbered_frames(path);
-  if (frames.paths.empty() || find_row_folders(path, options)) return {};
+  if (!options.pattern.empty() && count_images(path) > 0) return {};
+  const std::vector<Frame> frames = frames_of(path);
+  if (frames.empty() || find_row_folders(path, options)) return {};
   try {
     return are_frames(frames, options) ? path : fs::path();
   } catch (const Error&) {
@@ -67,10 +106,10 @@ fs::path find_sequence(const fs::path& path, const OpenOptions& options) {
 }
 
 /// Throws InvalidInput if there is no such frame.
-const fs::path& chosen_frame(const NumberedFrames& frames, int frame, const fs::path& folder) {
-  const auto count = frames.paths.size();
+const Frame& chosen_frame(const std::vector<Frame>& frames, int frame, const fs::path& folder) {
+  const auto count = frames.size();
   if (frame >= 0 && static_cast<std::size_t>(frame) < count) {
-    return frames.paths[static_cast<std::size_t>(frame)];
+    return frames[static_cast<std::size_t>(frame)];
   }
   throw InvalidInput(
       fmt::format("{} has {} frames, but frame {} was asked for; name one from 0 to "
@@ -78,17 +117,17 @@ const fs::path& chosen_frame(const NumberedFrames& frames, int frame, const fs::
                   folder.string(), count, frame, count - 1));
 }
 
-void report_frames(const NumberedFrames& frames, const OpenOptions& options, Scene& scene) {
-  scene.sequence = {options.frame, static_cast<int>(frames.paths.size())};
-  const fs::path& path = frames.paths[static_cast<std::size_t>(options.frame)];
+void report_frames(const std::vector<Frame>& frames, const OpenOptions& options, Scene& scene) {
+  scene.sequence = {options.frame, static_cast<int>(frames.size())};
+  const fs::path name = frames[static_cast<std::size_t>(options.frame)].name();
   scene.convention.format =
-      fmt::format("sequence, {}: {}", path.filename().string(), scene.convention.format);
-  for (std::size_t i = 1; i < frames.numbers.size(); ++i) {
-    const long step = frames.numbers[1] - frames.numbers[0];
-    if (frames.numbers[i] - frames.numbers[i - 1] <= step) continue;
+      fmt::format("sequence, {}: {}", name.filename().string(), scene.convention.format);
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const long step = frames[1].number - frames[0].number;
+    if (frames[i].number - frames[i - 1].number <= step) continue;
     scene.convention.warnings.push_back(
         fmt::format("The frame number {} is missing; frames are counted without it.",
-                    frames.numbers[i - 1] + step));
+                    frames[i - 1].number + step));
     break;
   }
 }
@@ -104,14 +143,13 @@ LightFieldInfo info_in_sequence(LightFieldInfo info, const fs::path& folder,
 }
 
 Scene read_sequence(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
-  const NumberedFrames frames = numbered_frames(folder);
-  const FoundReader found = reader_of_frame(chosen_frame(frames, options.frame, folder), options);
+  const std::vector<Frame> frames = frames_of(folder);
+  const Frame& frame = chosen_frame(frames, options.frame, folder);
+  const FoundReader found = reader_of_frame(frame, options);
   if (!found.reader) {
-    throw IoError(frames.paths[static_cast<std::size_t>(options.frame)],
-                  "this frame is not a light field; restore or remove it");
+    throw IoError(frame.path, "this frame is not a light field; restore or remove it");
   }
-  OpenOptions single = options;
-  single.frame = 0;
+  OpenOptions single = frame.options(options);
   if (options.on_center_view) {
     single.on_center_view = [&](const Image<std::uint8_t>& center, const LightFieldInfo& info,
                                 GridShape grid) {
@@ -128,10 +166,10 @@ Scene read_sequence(const fs::path& folder, const OpenOptions& options, const Pr
 }
 
 SceneProbe probe_sequence(const fs::path& folder, const OpenOptions& options) {
-  const NumberedFrames frames = numbered_frames(folder);
-  const FoundReader first = reader_of_frame(frames.paths.front(), options);
-  SceneProbe probe = probe_of(first, options);
-  probe.frames = static_cast<int>(frames.paths.size());
+  const std::vector<Frame> frames = frames_of(folder);
+  const FoundReader first = reader_of_frame(frames.front(), options);
+  SceneProbe probe = probe_of(frames.front(), first, options);
+  probe.frames = static_cast<int>(frames.size());
   return probe;
 }
 
@@ -156,10 +194,10 @@ std::span<const char* const> all_options() {
 
 fs::path frame_path(const LightFieldInfo& info) {
   if (info.reading.reader != kSequenceReader || !fs::is_directory(info.source)) return {};
-  const NumberedFrames frames = numbered_frames(info.source);
+  const std::vector<Frame> frames = frames_of(info.source);
   const OpenOptions options = open_schema().parse(info.reading.options);
   const auto frame = static_cast<std::size_t>(options.frame);
-  return frame < frames.paths.size() ? frames.paths[frame] : fs::path();
+  return frame < frames.size() ? frames[frame].name() : fs::path();
 }
 
 Reader sequence_reader() {

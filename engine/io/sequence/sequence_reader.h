@@ -8,11 +8,12 @@ namespace episcope::io {
 inline constexpr const char* kSequenceReader = "sequence";
 
 /// Sequences of light fields: a folder of numbered folders or files (frame_names.h) that are light
-/// fields of the same form and shape. Opens the frame of `OpenOptions::frame` by the reader of its
-/// form.
+/// fields of the same form and shape, or of the images of all of them (camera_frames.h). Opens the
+/// frame of `OpenOptions::frame` by the reader of its form.
 [[nodiscard]] Reader sequence_reader();
 
-/// The folder or file of the frame that was read; empty for what is no sequence, or no longer one.
+/// The folder or file of the frame that was read, or `folder/frame_3`, which is not there, of
+/// images of one folder; empty for what is no sequence, or no longer one.
 [[nodiscard]] std::filesystem::path frame_path(const LightFieldInfo& info);
 
 }  // namespace episcope::io

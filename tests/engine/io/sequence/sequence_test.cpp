@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/io/archive/write_scene.h"
+#include "engine/io/grid/image_file.h"
 #include "engine/io/open/open.h"
 #include "engine/io/open/reader.h"
 #include "engine/io/sequence/sequence_reader.h"
@@ -8,6 +9,8 @@
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>
+
+#include <fmt/format.h>
 
 namespace episcope::in_sequence_test {
 
@@ -43,6 +46,36 @@ class SequenceTest : public QObject {
 
  private slots:
   void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+
+  void camerasAndFramesInOneFolder_areASequence_data() {
+    QTest::addColumn<QString>("form");
+    for (const char* form : {"cam{0}{1}_frame{2:03}.png", "frame_{2}_row_{0}_col_{1}.png"}) {
+      QTest::newRow(form) << form;
+    }
+  }
+  void camerasAndFramesInOneFolder_areASequence() {
+    QFETCH(QString, form);
+    fs::create_directories(root());
+    const auto scene_at = [](int frame) { return scene_of(0.3 + 0.4 * frame); };
+    for (int frame = 0; frame < 3; ++frame) {
+      const Scene scene = scene_at(frame);
+      for (int i = 0; i < 9; ++i) {
+        const fs::path file =
+            root() / fmt::format(fmt::runtime(form.toStdString()), i / 3, i % 3, 5 + frame);
+        io::write_png(file, scene.light_field->view<std::uint8_t>({i / 3, i % 3}));
+      }
+    }
+
+    const Scene scene = open(2);
+
+    QCOMPARE(reader(), std::string("sequence"));
+    QCOMPARE(scene.sequence.count, 3);
+    QVERIFY(scene.convention.warnings.empty());
+    QVERIFY2(has_same_samples(scene, scene_at(2)), describe(scene.convention).c_str());
+    QVERIFY(scene.convention.format.starts_with("sequence, frame_7: image grid ("));
+    QCOMPARE(io::frame_path(scene.light_field->info()), root() / "frame_7");
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)open(3));
+  }
 
   void numberedNames_areASequence_data() {
     QTest::addColumn<QStringList>("names");
