@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/durable/system_error.h"
+#include "engine/io/grid/file_bytes.h"
 #include "engine/io/open/view_memory.h"
 
 #include <fmt/format.h>
@@ -70,7 +71,7 @@ class Decoder {
     AVDictionary* options = nullptr;
     av_dict_set(&options, "protocol_whitelist", "file", 0);
     // Lists of other files are none of these.
-    av_dict_set(&options, "format_whitelist", "mov,matroska,avi,gif", 0);
+    av_dict_set(&options, "format_whitelist", "mov,matroska,avi,gif,apng", 0);
     AVFormatContext* opened = nullptr;
     const int code = avformat_open_input(&opened, path.c_str(), nullptr, &options);
     const Owned<AVDictionary> left(options);
@@ -120,6 +121,24 @@ bool is_film_name(const fs::path& path) {
   constexpr std::array<std::string_view, 7> suffixes{".mp4",  ".mov", ".m4v", ".mkv",
                                                      ".webm", ".avi", ".gif"};
   return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
+}
+
+bool is_animated_png(const fs::path& path) {
+  constexpr std::uint32_t kAnimation = 0x6163544c;  // "acTL"
+  constexpr std::uint32_t kSamples = 0x49444154;    // "IDAT"
+  constexpr std::uint32_t kFewestPictures = 3;
+  constexpr int kMostChunks = 1000;
+  if (suffix_of(path) != ".png" && suffix_of(path) != ".apng") return false;
+  FileBytes file(path);
+  if (!file.begins_with("\x89PNG\r\n\x1a\n")) return false;
+  std::streamoff at = 8;
+  for (int i = 0; i < kMostChunks && !file.is_short(); ++i) {
+    const std::uint32_t type = file.number(at + 4, 4, false);
+    if (type == kAnimation) return file.number(at + 8, 4, false) >= kFewestPictures;
+    if (type == kSamples) return false;
+    at += 12 + static_cast<std::streamoff>(file.number(at, 4, false));
+  }
+  return false;
 }
 
 Film read_film(const fs::path& path, int most, const Progress& progress) {

@@ -13,7 +13,10 @@ namespace episcope::io {
 /// Whether the suffix is one of films: .mp4, .mov, .m4v, .mkv, .webm, .avi, .gif.
 [[nodiscard]] bool is_film_name(const std::filesystem::path& path);
 
-/// The pictures of a film, RGB8.
+/// Whether a PNG file states that it holds three pictures or more (APNG).
+[[nodiscard]] bool is_animated_png(const std::filesystem::path& path);
+
+/// The pictures of a film, or of an animated PNG, RGB8.
 struct Film {
   std::vector<AnyImage> pictures;
   std::string codec;  ///< "h264".

@@ -34,11 +34,17 @@ bool has_pages(const fs::path& path) {
   return has_tiff_name(path) && count_tiff_pages(path, kMostPictures) >= kFewestPages;
 }
 
+bool is_film(const fs::path& path) {
+  return is_film_name(path) || is_animated_png(path);
+}
+
 fs::path find_frames(const fs::path& path, const OpenOptions& options) {
   if (options.mosaic != Mosaic::Auto || options.lenslet > 0) return {};
-  if (!fs::is_directory(path)) return has_pages(path) || is_film_name(path) ? path : fs::path();
+  if (!fs::is_directory(path)) return has_pages(path) || is_film(path) ? path : fs::path();
   const std::vector<fs::path> images = list_images(path);
-  return images.size() == 1 && has_pages(images.front()) ? images.front() : fs::path();
+  const bool is_one =
+      images.size() == 1 && (has_pages(images.front()) || is_animated_png(images.front()));
+  return is_one ? images.front() : fs::path();
 }
 
 /// The pictures of a file, and what it is.

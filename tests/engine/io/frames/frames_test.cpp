@@ -2,6 +2,7 @@
 #include "engine/io/frames/frames_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/io/durable/checksum.h"
 #include "engine/io/frames/film.h"
 #include "engine/io/frames/tiff_pages.h"
 #include "engine/io/movie/movie_file.h"
@@ -16,6 +17,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <string>
+#include <vector>
 
 namespace episcope::in_frames_test {
 
@@ -59,6 +62,77 @@ void write_film(const fs::path& path, const ViewStack<std::uint8_t>& views) {
   film.commit();
 }
 
+using Bytes = std::vector<std::uint8_t>;
+
+void put_number(Bytes& out, std::uint32_t number) {
+  for (int shift = 24; shift >= 0; shift -= 8)
+    out.push_back(static_cast<std::uint8_t>(number >> shift));
+}
+
+void put_chunk(Bytes& out, const std::string& type, const Bytes& content) {
+  put_number(out, static_cast<std::uint32_t>(content.size()));
+  Bytes summed(type.begin(), type.end());
+  summed.insert(summed.end(), content.begin(), content.end());
+  out.insert(out.end(), summed.begin(), summed.end());
+  put_number(out, io::checksum(summed));
+}
+
+/// The samples of a PNG file, as they are stored.
+Bytes samples_of_png(const Bytes& png) {
+  Bytes samples;
+  for (std::size_t at = 8; at + 12 <= png.size();) {
+    const auto length = static_cast<std::size_t>(png[at]) << 24 | png[at + 1] << 16 |
+                        png[at + 2] << 8 | png[at + 3];
+    const std::string type(png.begin() + static_cast<std::ptrdiff_t>(at) + 4,
+                           png.begin() + static_cast<std::ptrdiff_t>(at) + 8);
+    const auto begin = png.begin() + static_cast<std::ptrdiff_t>(at) + 8;
+    if (type == "IDAT") {
+      samples.insert(samples.end(), begin, begin + static_cast<std::ptrdiff_t>(length));
+    }
+    at += 12 + length;
+  }
+  return samples;
+}
+
+/// An animated PNG of grey views.
+void write_animated_png(const fs::path& path, ViewStack<std::uint8_t>& views) {
+  Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  const auto count = static_cast<std::uint32_t>(views.grid().count());
+  const auto size = [&](Bytes& to) {
+    put_number(to, static_cast<std::uint32_t>(views.width()));
+    put_number(to, static_cast<std::uint32_t>(views.height()));
+  };
+  Bytes header;
+  size(header);
+  header.insert(header.end(), {8, 0, 0, 0, 0});
+  put_chunk(out, "IHDR", header);
+  Bytes animation;
+  put_number(animation, count);
+  put_number(animation, 0);
+  put_chunk(out, "acTL", animation);
+  std::uint32_t number = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto view = views.view(views.view_at(static_cast<int>(i)));
+    Bytes png;
+    cv::imencode(".png", cv::Mat(view.height, view.width, CV_8UC1, view.data), png);
+    Bytes control;
+    put_number(control, number++);
+    size(control);
+    put_number(control, 0);
+    put_number(control, 0);
+    control.insert(control.end(), {0, 1, 0, 25, 0, 0});
+    put_chunk(out, "fcTL", control);
+    Bytes samples;
+    if (i > 0) put_number(samples, number++);
+    const Bytes stored = samples_of_png(png);
+    samples.insert(samples.end(), stored.begin(), stored.end());
+    put_chunk(out, i > 0 ? "fdAT" : "IDAT", samples);
+  }
+  put_chunk(out, "IEND", {});
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(out.data()), static_cast<std::streamsize>(out.size()));
+}
+
 double mean_error(const ViewStack<std::uint8_t>& wanted, const LightField& found) {
   const auto& views = std::get<ViewStack<std::uint8_t>>(found.samples());
   double sum = 0;
@@ -100,6 +174,32 @@ class FramesTest : public QObject {
     QCOMPARE(scene.light_field->grid(), (GridShape{4, 5}));
     QCOMPARE(mean_error(views, *scene.light_field), 0.0);
     QCOMPARE(open(path("")).light_field->grid(), (GridShape{4, 5}));
+  }
+
+  void picturesOfAnAnimatedPng_areViews() {
+    ViewStack<std::uint8_t> views = some_views();
+    write_animated_png(path("views.png"), views);
+
+    const Scene scene = open(path("views.png"));
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{4, 5}));
+    QCOMPARE(mean_error(views, *scene.light_field), 0.0);
+    QCOMPARE(open(path("")).light_field->grid(), (GridShape{4, 5}));
+  }
+
+  void animatedWebP_isRefusedByName() {
+    Bytes bytes{'R', 'I', 'F', 'F', 30,  0,  0, 0, 'W', 'E', 'B',
+                'P', 'V', 'P', '8', 'X', 10, 0, 0, 0,   2};
+    bytes.resize(64);
+    std::ofstream(path("views.webp"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), 64);
+
+    try {
+      (void)open(path("views.webp"));
+      QFAIL("it was read");
+    } catch (const IoError& error) {
+      QVERIFY2(std::string(error.what()).find("animated WebP") != std::string::npos, error.what());
+    }
   }
 
   void picturesOfAFilm_areViews_data() {
