@@ -37,8 +37,11 @@ std::optional<ArrayLayout> list_by_motion(const ArrayFile& file, const ArrayEntr
   for (const ArrayLayout& layout : layouts) {
     const ListLayout found = look_at(*array, layout);
     if (!found.is_decided) continue;
-    const bool is_grid = found.grid.v > 1 && found.grid.u > 1;
-    (is_grid ? grids : lines).push_back(layout);
+    if (found.grid.v > 1 && found.grid.u > 1) {
+      grids.push_back(layout);
+    } else if (layout.grid().count() < std::min(layout.height(), layout.width())) {
+      lines.push_back(layout);
+    }
   }
   const std::vector<ArrayLayout>& best = grids.empty() ? lines : grids;
   return best.size() == 1 ? std::optional(best.front()) : std::nullopt;

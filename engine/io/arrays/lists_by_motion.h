@@ -10,8 +10,9 @@
 namespace episcope::io {
 
 /// Of several lists of views that an array of three axes can be, the one whose pictures lie on a
-/// grid, or else along a line, as views do (find_list_layout): slices across views do not. Nothing
-/// if none of them does, or several. Throws IoError.
+/// grid, as views do (find_list_layout) and slices across views do not; or else along a line, of
+/// fewer views than they have rows and columns, since slices of any volume are much like a line.
+/// Nothing if none of them does, or several. Throws IoError.
 [[nodiscard]] std::optional<ArrayLayout> list_by_motion(const ArrayFile& file,
                                                         const ArrayEntry& entry,
                                                         const std::vector<ArrayLayout>& layouts);

@@ -44,7 +44,8 @@ std::optional<PlacedViews> part_without_gaps(const PoseGrid& grid,
   }
   const auto part = part_to_open(views);
   if (!part) return std::nullopt;
-  PlacedViews placed{.views = files_of_part(views, *part)};
+  PlacedViews placed;
+  placed.views = files_of_part(views, *part);
   for (int i = 0; i < part->grid.count(); ++i) {
     const ViewIndex view = part->in_whole(part->grid.view_at(i));
     placed.positions.push_back(

@@ -10,7 +10,8 @@ namespace episcope::io {
 namespace {
 
 constexpr std::size_t kFewestCameras = 3;
-constexpr double kMostPlaces = 4;        ///< Of a grid with gaps, for each camera.
+constexpr double kMostPlaces = 10;  ///< Of a grid with gaps, for each camera.
+constexpr double kMostSteps = 1e4;
 constexpr double kOneLine_spans = 0.02;  ///< Of the larger extent: then it is a single row.
 
 /// A camera seen by the first one: to the right, below, ahead of it.
@@ -57,8 +58,18 @@ Steps steps_along(const std::vector<Place>& places, double Place::*axis, double 
   std::ranges::sort(sorted);
   Steps steps;
   steps.first = sorted.front();
-  for (std::size_t i = 1; i < sorted.size(); ++i) steps.count += sorted[i] - sorted[i - 1] > gap;
-  if (steps.count > 1) steps.step = (sorted.back() - sorted.front()) / (steps.count - 1);
+  std::vector<double> distances;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i] - sorted[i - 1] > gap) distances.push_back(sorted[i] - sorted[i - 1]);
+  }
+  if (!distances.empty()) {
+    // Where cameras are missing some distances are larger.
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::ranges::nth_element(distances, middle);
+    const double extent = sorted.back() - sorted.front();
+    steps.count = 1 + static_cast<int>(std::lround(std::min(extent / *middle, kMostSteps)));
+    steps.step = extent / (steps.count - 1);
+  }
   for (const Place& place : places) {
     const double from_first = place.*axis - steps.first;
     const int number = steps.step > 0 ? static_cast<int>(std::lround(from_first / steps.step)) : 0;
@@ -74,7 +85,7 @@ double extent(const std::vector<Place>& places, double Place::*axis) {
 }
 
 /// The step of a full grid of so many cameras follows from its extents: rows and columns with
-/// about equal steps.
+/// about equal steps. Of a grid with gaps the step is smaller.
 double likely_step(const std::vector<Place>& places) {
   const double width = extent(places, &Place::x);
   const double height = extent(places, &Place::y);
@@ -144,7 +155,7 @@ PoseGrid find_pose_grid(const std::vector<CameraPose>& poses) {
                                    turn_deg)};
   }
   const std::vector<Place> places = places_of(poses);
-  const double gap = likely_step(places) / 2;
+  const double gap = likely_step(places) / 4;
   if (!(gap > 0)) return {.problem = "all cameras stand in one place"};
   const Steps columns = steps_along(places, &Place::x, gap);
   const Steps rows = steps_along(places, &Place::y, gap);

@@ -5,6 +5,7 @@
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/open/open.h"
+#include "engine/io/open/undecided.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/engine/io/order/layered_scene.h"
 #include "tests/test_main.h"
@@ -81,6 +82,17 @@ class AxesByMotionTest : public QObject {
 
     QCOMPARE(scene.light_field->grid(), (GridShape{side, side}));
     QVERIFY(has_samples(scene, grey));
+  }
+
+  // Slices of such a cube resemble a line of views whichever way it is cut.
+  void cubeOfViews_isAsked() {
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const ViewStack<std::uint8_t> line =
+        layered_views({.grid = {1, 48}, .height = 48, .width = 48});
+    io::write_npy<std::uint8_t>(file, {48, 48, 48}, in_axes(line, "yxvu"));
+
+    QVERIFY_THROWS_EXCEPTION(io::Undecided, (void)io::open_scene(file, {}, Progress(1)));
   }
 
   void greyViewsInHdf5_areFoundByShapeAndName_data() {

@@ -212,6 +212,25 @@ class PosedViewsTest : public QObject {
     QVERIFY(std::abs(scene.light_field->info().positions.front().x - kStep) < 1e-5);
   }
 
+  void missingCameraOfALine_leavesAGap() {
+    std::vector<io::CameraPose> poses;
+    for (const int u : {0, 1, 2, 3, 5, 6}) {
+      poses.push_back(
+          {.image = {},
+           .center = {kStep * u * kRight[0], kStep * u * kRight[1], kStep * u * kRight[2]},
+           .right = kRight,
+           .down = kDown,
+           .ahead = kAhead});
+    }
+
+    const io::PoseGrid found = io::find_pose_grid(poses);
+
+    QCOMPARE(found.problem, std::string());
+    QCOMPARE(found.grid, (GridShape{1, 7}));
+    QCOMPARE(found.order[4], io::kNoCamera);
+    QCOMPARE(found.order[5], std::size_t{4});
+  }
+
   void trainingViewsOfAGrid_openAlone() {
     write_parts();
     const auto all_views = [](int i) { return fmt::format("train/r_{}", i); };
