@@ -7,10 +7,13 @@
 
 namespace episcope {
 
+std::ptrdiff_t quantile_rank(std::size_t count, double share) {
+  assert(count > 0);
+  return std::lround(std::clamp(share, 0.0, 1.0) * static_cast<double>(count - 1));
+}
+
 float quantile(std::span<float> values, double share) {
-  assert(!values.empty());
-  const double last = static_cast<double>(values.size() - 1);
-  const auto place = values.begin() + std::lround(std::clamp(share, 0.0, 1.0) * last);
+  const auto place = values.begin() + quantile_rank(values.size(), share);
   std::nth_element(values.begin(), place, values.end());
   return *place;
 }

@@ -56,7 +56,9 @@ __device__ float cost_of(const MatchingTables& tables, const float (&reference)[
   return count > 0 ? sum / count : tables.worst;
 }
 
-__global__ void find_least(const __grid_constant__ MatchingTables tables, const int* rows, float most, float* least) {
+__global__ void find_least(const __grid_constant__ MatchingTables tables,
+                           const __grid_constant__ DeviceSamples samples, const int* rows,
+                           float most, float* least) {
   __shared__ float of_labels[kLabelsAtOnce][kColumns];
   const ViewPlanes& planes = tables.planes;
   const int lane = static_cast<int>(threadIdx.x), first = static_cast<int>(threadIdx.y);
@@ -76,19 +78,22 @@ __global__ void find_least(const __grid_constant__ MatchingTables tables, const 
   __syncthreads();
   if (first != 0 || x >= planes.width) return;
   for (int i = 1; i < kLabelsAtOnce; ++i) own = fminf(own, of_labels[i][lane]);
-  least[static_cast<long>(blockIdx.y) * planes.width + x] = own;
+  const ViewIndex view = planes.reference;
+  const bool is_valid =
+      samples.valid == nullptr || samples.valid[samples.pixel(view.v, view.u, y, x)] != 0;
+  least[static_cast<long>(blockIdx.y) * planes.width + x] = is_valid ? own : INFINITY;
 }
 
 }  // namespace
 
-void find_least_costs(const MatchingTables& tables, const int* rows, int row_count, float most,
-                      float* least, const DeviceStream& stream) {
+void find_least_costs(const MatchingTables& tables, const DeviceSamples& samples, const int* rows,
+                      int row_count, float most, float* least, const DeviceStream& stream) {
   const dim3 grid(blocks_for(tables.planes.width, kColumns), static_cast<unsigned>(row_count));
   const dim3 block(kColumns, kLabelsAtOnce);
   const double each = static_cast<double>(row_count) * tables.planes.width * tables.labels *
                       tables.view_count * tables.planes.channels;
   launch(stream, {"stereo: least costs", each / tables.labels, each * 11},
-         [&] { find_least<<<grid, block, 0, stream.get()>>>(tables, rows, most, least); });
+         [&] { find_least<<<grid, block, 0, stream.get()>>>(tables, samples, rows, most, least); });
 }
 
 }  // namespace episcope::cuda

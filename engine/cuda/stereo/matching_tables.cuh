@@ -84,8 +84,9 @@ __device__ inline float quick_root(float value) {
 void compute_costs(const MatchingTables& tables, int first, int rows, float* costs,
                    const DeviceStream& stream);
 
-/// The least cost of every pixel of some rows, at most `most`, `[row][x]`.
-void find_least_costs(const MatchingTables& tables, const int* rows, int row_count, float most,
-                      float* least, const DeviceStream& stream);
+/// The least cost of every pixel of some rows of the reference view, at most `most`, `[row][x]`;
+/// infinite where `samples` say that the pixel is not valid.
+void find_least_costs(const MatchingTables& tables, const DeviceSamples& samples, const int* rows,
+                      int row_count, float most, float* least, const DeviceStream& stream);
 
 }  // namespace episcope::cuda

@@ -7,6 +7,7 @@
 #include "engine/cuda/stereo/cost_winners.cuh"
 #include "engine/cuda/stereo/guided_costs.cuh"
 #include "engine/cuda/stereo/matching_tables.cuh"
+#include "engine/cuda/stereo/ranked_values.cuh"
 #include "engine/cuda/stereo/view_noise.cuh"
 #include "engine/cuda/stereo/view_planes.cuh"
 #include "engine/cuda/stereo/view_surfaces.cuh"
@@ -98,16 +99,16 @@ StereoMatcher::~StereoMatcher() = default;
 
 std::vector<float> StereoMatcher::least_costs(const StereoMatching& matching,
                                               const std::vector<int>& rows, float most,
+                                              const std::vector<int>& ranks,
                                               const Progress& progress) {
   State& s = *state_;
+  progress.check();
   const DeviceMatching tables = s.on_device(matching);
   const auto on_device = upload(rows.data(), rows.size(), s.stream, progress);
-  std::vector<float> least(rows.size() * s.samples().width);
-  DeviceArray<float> found(least.size(), s.stream);
-  find_least_costs(tables.tables(), on_device.data(), static_cast<int>(rows.size()), most,
-                   found.data(), s.stream);
-  download_bytes(least.data(), found.data(), found.byte_size(), s.stream, progress);
-  return least;
+  DeviceArray<float> found(rows.size() * s.samples().width, s.stream);
+  find_least_costs(tables.tables(), s.samples(), on_device.data(), static_cast<int>(rows.size()),
+                   most, found.data(), s.stream);
+  return ranked_on_device(found.data(), static_cast<int>(found.size()), ranks, s.stream);
 }
 
 void StereoMatcher::compensate_noise(float most, const Progress& progress) {

@@ -58,10 +58,12 @@ class StereoMatcher {
                 bool is_cross_hair, const Progress& progress);
   ~StereoMatcher();
 
-  /// The least cost over all labels of every pixel of some rows, `[row][x]`, at most `most`.
-  /// Without noise and aggregation. Throws DeviceFailure, Cancelled.
+  /// Of the least costs over all labels, at most `most`, of every valid pixel of some rows, those
+  /// of these ranks in ascending order, each less than the number of such pixels. Without noise and
+  /// aggregation. Throws DeviceFailure, Cancelled.
   [[nodiscard]] std::vector<float> least_costs(const StereoMatching& matching,
                                                const std::vector<int>& rows, float most,
+                                               const std::vector<int>& ranks,
                                                const Progress& progress);
 
   /// Later costs are compensated for the local noise variance of the view (local_noise.h), at most

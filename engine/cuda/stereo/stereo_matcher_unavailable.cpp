@@ -13,7 +13,7 @@ StereoMatcher::StereoMatcher(const LightField&, const LightField&, ViewIndex, bo
 StereoMatcher::~StereoMatcher() = default;
 
 std::vector<float> StereoMatcher::least_costs(const StereoMatching&, const std::vector<int>&, float,
-                                              const Progress&) {
+                                              const std::vector<int>&, const Progress&) {
   throw DeviceFailure(known_cuda_device().why_not);
 }
 

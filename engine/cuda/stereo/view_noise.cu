@@ -2,9 +2,6 @@
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/stereo/view_noise.cuh"
 
-#include <array>
-#include <bit>
-
 namespace episcope::cuda {
 namespace {
 
@@ -69,31 +66,6 @@ __global__ void take_least_means(const float* squares, int height, int width, fl
   least[static_cast<long>(y) * width + x] = result;
 }
 
-// The bits of a value ≥ 0 grow with it: the median is found digit by digit.
-constexpr int kDigitBits = 11;
-constexpr int kDigits = 1 << kDigitBits;
-using Counts = std::array<unsigned, kDigits>;
-
-// Of the values whose bits above the digit are `above`, how many have each digit.
-__global__ void count_digits(const float* values, int count, int shift, unsigned above,
-                             unsigned* counts) {
-  __shared__ unsigned own[kDigits];
-  for (int i = static_cast<int>(threadIdx.x); i < kDigits; i += static_cast<int>(blockDim.x)) {
-    own[i] = 0;
-  }
-  __syncthreads();
-  const int step = static_cast<int>(gridDim.x * blockDim.x);
-  for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < count; i += step) {
-    const unsigned bits = __float_as_uint(values[i]);
-    const unsigned digit = bits >> shift;
-    if (digit / kDigits == above) atomicAdd(&own[digit % kDigits], 1U);
-  }
-  __syncthreads();
-  for (int i = static_cast<int>(threadIdx.x); i < kDigits; i += static_cast<int>(blockDim.x)) {
-    if (own[i] != 0) atomicAdd(&counts[i], own[i]);
-  }
-}
-
 }  // namespace
 
 DeviceArray<float> local_noise_on_device(const DeviceSamples& samples, ViewIndex view, float most,
@@ -117,28 +89,6 @@ DeviceArray<float> local_noise_on_device(const DeviceSamples& samples, ViewIndex
                                                        least.data());
   });
   return least;
-}
-
-float median_on_device(const float* values, int count, const DeviceStream& stream) {
-  constexpr int kThreads = 512, kBlocks = 64;
-  DeviceArray<unsigned> counts(kDigits, stream);
-  auto rank = static_cast<unsigned>(count / 2);
-  unsigned above = 0;
-  for (int shift = 2 * kDigitBits; shift >= 0; shift -= kDigitBits) {
-    counts.clear();
-    launch(stream, {"stereo: median", 4.0 * count}, [&] {
-      count_digits<<<kBlocks, kThreads, 0, stream.get()>>>(values, count, shift, above,
-                                                           counts.data());
-    });
-    Counts found;
-    check(cudaMemcpyAsync(found.data(), counts.data(), counts.byte_size(), cudaMemcpyDeviceToHost,
-                          stream.get()));
-    stream.wait();
-    unsigned digit = 0;
-    while (digit + 1 < kDigits && found[digit] <= rank) rank -= found[digit++];
-    above = above * kDigits + digit;
-  }
-  return std::bit_cast<float>(above);
 }
 
 }  // namespace episcope::cuda

@@ -9,7 +9,4 @@ namespace episcope::cuda {
 [[nodiscard]] DeviceArray<float> local_noise_on_device(const DeviceSamples& samples, ViewIndex view,
                                                        float most, const DeviceStream& stream);
 
-/// The median as `quantile` has it, of `count` values ≥ 0, at least one.
-[[nodiscard]] float median_on_device(const float* values, int count, const DeviceStream& stream);
-
 }  // namespace episcope::cuda

@@ -41,18 +41,15 @@ constexpr int kSurroundings = 100;
 constexpr float kNothingSeen = -1;
 
 // The residuals of prepare_stereo: over all pixels, and of the tenth that matches best.
+constexpr double kMiddle = 0.5, kLowest = 0.1;
 struct Residuals {
   double median = 0, lowest_tenth = 0;
 };
 
-// The least cost of every pixel of some rows, `[row][x]`.
+// The least cost of every valid pixel of some rows, by the CPU.
 std::vector<float> least_costs(const LightField& lf, const StereoCosts& costs,
                                const MatchingCost& probe, const std::vector<float>& labels,
                                const std::vector<int>& rows, const Progress& progress) {
-  if (costs.matcher) {
-    return costs.matcher->least_costs(device_matching(lf, costs.view, probe, labels), rows,
-                                      static_cast<float>(kUncapped), progress);
-  }
   std::vector<float> least(rows.size() * lf.width());
   parallel_for_workers(static_cast<int>(rows.size()), progress, [&] {
     return [&, matching = MatchingCostRows(lf, costs.view, probe, labels),
@@ -64,9 +61,22 @@ std::vector<float> least_costs(const LightField& lf, const StereoCosts& costs,
         const float* cost = row.view().row(0, label);
         for (int x = 0; x < lf.width(); ++x) out[x] = std::min(out[x], cost[x]);
       }
+      for (int x = 0; x < lf.width(); ++x) {
+        if (!lf.is_valid(costs.view, rows[i], x)) out[x] = kNothingSeen;
+      }
     };
   });
+  std::erase(least, kNothingSeen);
   return least;
+}
+
+std::size_t count_valid(const LightField& lf, ViewIndex view, const std::vector<int>& rows) {
+  if (lf.valid().empty()) return rows.size() * static_cast<std::size_t>(lf.width());
+  std::size_t count = 0;
+  for (const int y : rows) {
+    for (int x = 0; x < lf.width(); ++x) count += lf.is_valid(view, y, x) ? 1 : 0;
+  }
+  return count;
 }
 
 // The cross-hair tells as much about noise as all views.
@@ -78,17 +88,19 @@ Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const P
   std::vector<int> rows(std::min(kProbedRows, lf.height()));
   const int count = static_cast<int>(rows.size());
   for (int i = 0; i < count; ++i) rows[i] = (2 * i + 1) * lf.height() / (2 * count);
-  std::vector<float> least = least_costs(lf, costs, probe, labels, rows, progress);
-  for (std::size_t i = 0; i < least.size(); ++i) {
-    const int y = rows[i / lf.width()], x = static_cast<int>(i % lf.width());
-    if (!lf.is_valid(costs.view, y, x)) least[i] = kNothingSeen;
+  if (costs.matcher) {
+    const std::size_t valid = count_valid(lf, costs.view, rows);
+    if (valid == 0) return {};
+    const std::vector<int> ranks{static_cast<int>(quantile_rank(valid, kMiddle)),
+                                 static_cast<int>(quantile_rank(valid, kLowest))};
+    const std::vector<float> found =
+        costs.matcher->least_costs(device_matching(lf, costs.view, probe, labels), rows,
+                                   static_cast<float>(kUncapped), ranks, progress);
+    return {found[0], found[1]};
   }
-  std::erase(least, kNothingSeen);
-  Residuals residuals;
-  if (least.empty()) return residuals;
-  residuals.median = quantile(least, 0.5);
-  residuals.lowest_tenth = quantile(least, 0.1);
-  return residuals;
+  std::vector<float> least = least_costs(lf, costs, probe, labels, rows, progress);
+  if (least.empty()) return {};
+  return {quantile(least, kMiddle), quantile(least, kLowest)};
 }
 
 std::string outlier_text(int outliers) {
