@@ -252,6 +252,23 @@ class SidePanelsTest : public QObject {
              QString("The order could not be checked."));
   }
 
+  void info_showsWarningsAboveAllElse() {
+    InfoPanel panel;
+    panel.resize(180, 120);
+    std::vector<InfoRow> rows;
+    for (int i = 0; i < 20; ++i)
+      rows.push_back({"row", "value of it", "", QString("row%1").arg(i)});
+    panel.setInfo("scene", rows, {"A view cannot be used."});
+    panel.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&panel));
+
+    const auto* warning = panel.findChild<QLabel*>("info.warning");
+    const auto* first = panel.findChild<QLabel*>("info.row0");
+    const auto top_of = [&](const QWidget* of) { return of->mapTo(&panel, QPoint(0, 0)).y(); };
+    QTRY_VERIFY(!warning->visibleRegion().isEmpty());
+    QVERIFY(top_of(warning) < top_of(first));
+  }
+
   void info_foldsChecks() {
     InfoPanel panel;
     panel.resize(180, 300);

@@ -9,6 +9,7 @@
 
 #include <QEvent>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QRegularExpression>
 #include <QScrollArea>
@@ -45,6 +46,21 @@ QLabel* make_check(const QString& text, QWidget* parent) {
   label->setObjectName("info.check");
   label->setPalette(theme::text_palette(theme::muted_text(parent->palette())));
   return label;
+}
+
+QWidget* make_warning(const QString& text, QWidget* parent) {
+  auto* warning = new QWidget(parent);
+  auto* icon = new QLabel(warning);
+  icon->setPixmap(themed_icon("warning").pixmap(14, 14));
+  icon->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  auto* label = make_value(text, warning);
+  label->setObjectName("info.warning");
+  label->setPalette(theme::text_palette(theme::warning_text(parent->palette())));
+  auto* layout = new QHBoxLayout(warning);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(icon);
+  layout->addWidget(label, 1);
+  return warning;
 }
 
 QToolButton* make_button(QAction* action, QWidget* parent) {
@@ -106,6 +122,10 @@ void InfoPanel::rebuild() {
   grid->setVerticalSpacing(3);
   grid->setColumnStretch(1, 1);
   int line = 0;
+  // First of all: below the rows they would be out of sight.
+  for (const auto& warning : warnings_) {
+    grid->addWidget(make_warning(warning, body), line++, 0, 1, 2);
+  }
   for (const auto& row : rows_) {
     auto* key = new QLabel(row.key, body);
     key->setAlignment(Qt::AlignLeft | Qt::AlignTop);
@@ -116,16 +136,6 @@ void InfoPanel::rebuild() {
     grid->addWidget(value, line++, 1);
     if (!row.check.isEmpty()) grid->addWidget(make_check(row.check, body), line++, 1);
     if (row.action) grid->addWidget(make_button(row.action, body), line++, 0, 1, 2);
-  }
-  for (const auto& warning : warnings_) {
-    auto* icon = new QLabel(body);
-    icon->setPixmap(themed_icon("warning").pixmap(14, 14));
-    icon->setAlignment(Qt::AlignRight | Qt::AlignTop);
-    auto* text = make_value(warning, body);
-    text->setObjectName("info.warning");
-    text->setPalette(theme::text_palette(theme::warning_text(palette())));
-    grid->addWidget(icon, line, 0);
-    grid->addWidget(text, line++, 1);
   }
   grid->setRowStretch(line, 1);
   scroll_->setWidget(body);  // Deletes the body before.
