@@ -198,7 +198,7 @@ std::vector<OddView> odd_views(const ViewFiles& views, const std::vector<Outcome
 std::vector<int> references_in(const UsableViews& usable, GridShape all,
                                const std::vector<Outcome>& outcomes) {
   std::vector<int> places = from_center(usable.views.grid);
-  std::ranges::stable_partition(places, [&](int place) {
+  std::stable_partition(places.begin(), places.end(), [&](int place) {
     ViewIndex view = usable.views.grid.view_at(place);
     if (usable.kept) view = usable.kept->in_whole(view);
     return !outcomes[static_cast<std::size_t>(view.v * all.u + view.u)].is_grey;
