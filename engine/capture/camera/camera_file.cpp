@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace episcope::capture {
@@ -54,6 +55,19 @@ StoredMatrix matrix_of(const cv::FileStorage& file, const char* name) {
 bool is_camera(const LensCamera& camera) {
   return camera.width > 0 && camera.height > 0 && camera.focal_x > 0 && camera.focal_y > 0 &&
          std::isfinite(camera.focal_x + camera.focal_y + camera.center_x + camera.center_y);
+}
+
+// A colon with nothing before it in its line or list, or an empty name: OpenCV's parser ends the
+// program there.
+bool has_empty_key(const std::string& text) {
+  for (std::size_t at = text.find(':'); at != std::string::npos; at = text.find(':', at + 1)) {
+    const std::size_t before = at == 0 ? std::string::npos : text.find_last_not_of(" \t\r", at - 1);
+    if (before == std::string::npos ||
+        std::string_view("\n{,[").find(text[before]) != std::string_view::npos)
+      return true;
+    if (before > 0 && text[before] == '"' && text[before - 1] == '"') return true;
+  }
+  return false;
 }
 
 LensCamera parse(const std::filesystem::path& path, const std::string& text) {
@@ -99,7 +113,7 @@ LensCamera read_camera(const std::filesystem::path& path) {
   const std::string text = text_of(path);
   LensCamera camera;
   try {
-    camera = parse(path, text);
+    if (!has_empty_key(text)) camera = parse(path, text);
   } catch (const cv::Exception&) {
     // As a file without a camera, below.
   }

@@ -124,6 +124,14 @@ class CalibrateTest : public QObject {
     QVERIFY_THROWS_EXCEPTION(IoError, (void)read_camera(path));
   }
 
+  // Found by a fuzzer: OpenCV ends the program.
+  void camerasWithAKeyWithoutName_areRefused() {
+    const QTemporaryDir folder;
+    const std::filesystem::path path = folder.filePath("camera.yml").toStdString();
+    std::ofstream(path) << "%YAML:1.0\ncamera_matrix: !!opencv-matrix\n   data: [1. ]\n   :";
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_camera(path));
+  }
+
   void camerasOfHugeMatrices_areRefused_data() {
     QTest::addColumn<QString>("sizes");
     QTest::newRow("claimed") << "rows: 60000\n   cols: 60000";
