@@ -61,11 +61,11 @@ bool is_camera(const LensCamera& camera) {
 // program there.
 bool has_empty_key(const std::string& text) {
   for (std::size_t at = text.find(':'); at != std::string::npos; at = text.find(':', at + 1)) {
-    const std::size_t before = at == 0 ? std::string::npos : text.find_last_not_of(" \t\r", at - 1);
-    if (before == std::string::npos ||
-        std::string_view("\n{,[").find(text[before]) != std::string_view::npos)
-      return true;
-    if (before > 0 && text[before] == '"' && text[before - 1] == '"') return true;
+    std::string_view before = std::string_view(text).substr(0, at);
+    before = before.substr(0, before.find_last_not_of(" \t\r") + 1);
+    const bool has_name =
+        !before.empty() && std::string_view("\n{,[").find(before.back()) == std::string_view::npos;
+    if (!has_name || before.ends_with("\"\"")) return true;
   }
   return false;
 }
