@@ -8,10 +8,12 @@
 #include "engine/labeling/features/pixel_features.h"
 #include "engine/labeling/features/training_samples.h"
 #include "engine/labeling/forest/device_forest.h"
+#include "engine/labeling/forest/grown_forest.h"
 #include "engine/labeling/forest/pixel_votes.h"
 #include "engine/labeling/judge_colors.h"
 #include "engine/labeling/predict_from_strokes.h"
 #include "engine/labeling/rays/edge_probability.h"
+#include "engine/labeling/rays/kept_solver.h"
 #include "engine/labeling/requested_views.h"
 
 #include <fmt/format.h>
@@ -56,13 +58,6 @@ bool covers(const ViewStack<float>& maps, ViewRectangle views) {
   return maps.contains(views.first) && maps.contains(views.grid.view_at(last, views.first));
 }
 
-/// A forest and what it was trained on.
-struct Grown {
-  ForestSamples samples;
-  ForestOptions options;
-  Forest forest;
-};
-
 /// What was learned from strokes; borrows it.
 struct Learned {
   const Scribbles& scribbles;
@@ -84,13 +79,21 @@ struct Labeler::State {
   Device used = Device::Cpu;  // In the call at hand.
   std::string note;
   std::deque<std::pair<ViewIndex, Features>> kept;  // The newest last.
-  Grown grown;
+  GrownForest grown;
+  bool is_painting = false;                 // In the call at hand.
+  KeptSolver reference_solver, own_solver;  // Of the view being painted: for `judge`, and after it.
 
   void use(PixelFeatureSet wanted) {
     if (wanted.with_disparity == set.with_disparity) return;
     set = wanted;
     kept.clear();
     if (has_own_edges) edges = nullptr;
+  }
+
+  void forget_views() {
+    kept.clear();
+    reference_solver.drop();
+    own_solver.drop();
   }
 
   void choose_device(int views) {
@@ -146,32 +149,6 @@ struct Labeler::State {
       append_samples(painted, of_view->view(), ids, samples);
     }
     return samples;
-  }
-
-  /// The forest for these strokes, trained only if it would differ from the last one: `enough`
-  /// trees of it at least.
-  [[nodiscard]] const Forest& train(const Scribbles& scribbles,
-                                    const std::vector<std::int32_t>& ids,
-                                    const LabelerParameters& parameters, int enough,
-                                    const Progress& progress) {
-    ForestSamples samples = samples_of(scribbles, ids, progress);
-    const ForestOptions options = forest_options(parameters);
-    if (samples != grown.samples || options != grown.options) {
-      progress.step(kTrainingStep);
-      ForestOptions first = options;
-      first.trees = std::min(enough, options.trees);
-      Forest forest = Forest::train(samples, first, progress);
-      grown = {std::move(samples), options, std::move(forest)};
-    }
-    return grown.forest;
-  }
-
-  /// All trees of the forest last trained. Whether any were missing.
-  bool complete_forest(const Progress& progress) {
-    if (grown.forest.tree_count() >= grown.options.trees) return false;
-    progress.step(kTrainingStep);
-    grown.forest.grow(grown.samples, grown.options, progress);
-    return true;
   }
 
   [[nodiscard]] ProbabilityMap predict_one(const Learned& learned, ViewIndex view,
@@ -245,7 +222,7 @@ struct Labeler::State {
     LabelProbabilities& own = labeling.probabilities;
     if (own.grid.count() > 1) {
       const ViewIndex middle{own.first.v + own.grid.v / 2, own.first.u + own.grid.u / 2};
-      judge(learned.parameters, middle, own, progress.part(0, 0.05));
+      judge(learned.parameters, middle, nullptr, own, progress.part(0, 0.05));
       regularise_together(learned.parameters, labeling, progress.part(0.05, 1));
     } else {
       regularise_alone(learned, labeling, progress);
@@ -253,12 +230,12 @@ struct Labeler::State {
   }
 
   /// Has the colours beside boundaries speak for labels, unless disparity that is right does.
-  void judge(const LabelerParameters& parameters, ViewIndex reference, LabelProbabilities& own,
-             const Progress& progress) {
+  void judge(const LabelerParameters& parameters, ViewIndex reference, KeptSolver* solver,
+             LabelProbabilities& own, const Progress& progress) {
     if (set.with_disparity && !confidence) return;
     progress.step("finding edges");
     find_edges({own.first, own.grid}, progress.part(0, 0.5));
-    const RayLabelingInput input{nullptr, disparity.get(), edges.get(), light_field.get()};
+    const RayLabelingInput input{nullptr, disparity.get(), edges.get(), light_field.get(), solver};
     judge_colors(input, reference, options_of(parameters), progress.part(0.5, 1), own);
   }
 
@@ -296,8 +273,10 @@ struct Labeler::State {
     around.view(own.first) = std::move(own.views[0]);
     progress.step("labeling neighbouring views");
     predict(learned, around, progress.part(0.05, 0.3));
-    judge(learned.parameters, own.first, around, progress.part(0.3, 0.5));
-    const RayLabelingInput input{&around, disparity.get(), edges.get(), light_field.get()};
+    judge(learned.parameters, own.first, is_painting ? &reference_solver : nullptr, around,
+          progress.part(0.3, 0.5));
+    const RayLabelingInput input{&around, disparity.get(), edges.get(), light_field.get(),
+                                 is_painting ? &own_solver : nullptr};
     progress.step("regularising");
     set_labels(label_view(input, own.first, regularizer, options, progress.part(0.5, 1)), labeling);
     own.views[0] = std::move(around.view(own.first));
@@ -339,20 +318,21 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   state_->use({uses_disparity(parameters)});
   state_->choose_device(views.grid.count());
 
-  const bool is_painting = on_draft && regularizer != Regularizer::None &&
-                           views.grid.count() <= static_cast<int>(kKeptViews);
-  const Learned learned{
-      scribbles, ids, parameters,
-      state_->train(scribbles, ids, parameters, is_painting ? kDraftTrees : parameters.trees,
-                    progress.part(0, 0.1))};
-  if (!is_painting) state_->complete_forest(progress.part(0.1, 0.1));
+  state_->is_painting = on_draft && regularizer != Regularizer::None &&
+                        views.grid.count() <= static_cast<int>(kKeptViews);
+  ForestSamples samples = state_->samples_of(scribbles, ids, progress.part(0, 0));
+  const Forest& forest = state_->grown.train(std::move(samples), forest_options(parameters),
+                                             state_->is_painting ? kDraftTrees : parameters.trees,
+                                             progress.part(0, 0.1));
+  const Learned learned{scribbles, ids, parameters, forest};
+  if (!state_->is_painting) state_->grown.complete(progress.part(0.1, 0.1));
   progress.step(kLabelingStep);
   Labeling labeling;
   labeling.probabilities = empty_probabilities(ids, views);
   state_->compute(
       [&] { state_->predict(learned, labeling.probabilities, progress.part(0.1, 0.5)); });
   // Not painting: the following steps need the memory.
-  if (labeling.probabilities.views.size() > kKeptViews) state_->kept.clear();
+  if (labeling.probabilities.views.size() > kKeptViews) state_->forget_views();
   if (regularizer == Regularizer::None || on_draft) {
     const RayLabelingInput input{&labeling.probabilities, nullptr, nullptr, nullptr};
     labeling.labels = label_rays(input, Regularizer::None, {}, progress.part(0.5, 0.5)).labels;
@@ -364,7 +344,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
       on_draft(labeling);
       labeling.is_draft = false;
     }
-    if (state_->complete_forest(progress.part(0.5, 0.5))) {
+    if (state_->grown.complete(progress.part(0.5, 0.5))) {
       labeling.probabilities = empty_probabilities(ids, views);
       state_->predict(learned, labeling.probabilities, progress.part(0.5, 0.5));
     }

@@ -7,6 +7,7 @@
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/device.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/labeling/forest/grown_forest.h"
 #include "engine/labeling/label_probabilities.h"
 #include "engine/labeling/labeler_parameters.h"
 
@@ -56,7 +57,7 @@ class Labeler {
   static constexpr std::size_t kKeptBytes = std::size_t{400} << 20;
   /// Stages as reported by `progress`; the first is skipped if the forest can be reused from the
   /// last call.
-  static constexpr const char* kTrainingStep = "training the forest";
+  static constexpr const char* kTrainingStep = GrownForest::kTrainingStep;
   static constexpr const char* kLabelingStep = "labeling pixels";
 
   /// `disparity` may be null, or cover some views only. It carries places along the rays, couples
@@ -77,7 +78,9 @@ class Labeler {
   /// Segments `views`. Labels are those painted anywhere; names and colours in `scribbles` are not
   /// needed. `on_draft`, if given, is called on the calling thread with the labels before
   /// regularisation, if there is any to come; of a few views, a third of the trees voted for them.
-  /// The result depends neither on the number of threads nor on earlier calls. Throws InvalidInput
+  /// The result depends neither on the number of threads nor on earlier calls, but for a single
+  /// view with `on_draft`, whose labels are smoothed from where the last call for it ended, to the
+  /// same gap. Throws InvalidInput
   /// if fewer than two labels are painted, if scribbles or `views` do not fit the light field, or
   /// if disparity is needed and a view lacks it; Unavailable if a GPU was demanded and fails;
   /// Cancelled, within 200 ms.

@@ -26,6 +26,8 @@ struct RayLabelingParameters {
   Device device = Device::Cpu;
 };
 
+class KeptSolver;
+
 /// What is known about the rays; borrowed for the call.
 struct RayLabelingInput {
   const LabelProbabilities* probabilities = nullptr;
@@ -38,6 +40,9 @@ struct RayLabelingInput {
   /// Samples of those views; used only where views are coupled, to tell which rays see the same
   /// point. Null = the disparities are trusted.
   const LightField* light_field = nullptr;
+  /// Of label_view with one problem a view: begins where the last call with it ended, so that
+  /// labels depend on that within the gap. Null = afresh.
+  KeptSolver* kept = nullptr;
 };
 
 struct RayLabeling {

@@ -12,8 +12,6 @@ ViewProblem::ViewProblem(const RayLabelingInput& input, const RayLabelingParamet
       parameters_(parameters),
       colors_(colors),
       table_(cost_table(parameters.floor)),
-      solver_(input.probabilities->views[0].height(), input.probabilities->views[0].layers(),
-              input.probabilities->views[0].width()),
       costs_(input.probabilities->views[0].height(), input.probabilities->views[0].layers(),
              input.probabilities->views[0].width()) {}
 
@@ -53,8 +51,19 @@ SimplexResult ViewProblem::solve(const Task& task, const Progress& progress,
   options.max_iterations = parameters_.max_iterations;
   options.check_every = kGapCheckEvery;
   options.racing_iterations = kRacingIterations;
+  const SimplexProblem problem{costs_.view(), g, parameters_.smoothness};
+  if (KeptSolver* const kept = input_.kept) {
+    options.goes_on = kept->prepare(*input_.probabilities, task.view);
+    if (options.goes_on) options.racing_iterations = kRacingWhenGoingOn;
+    return kept->solver().solve(problem, options, progress, labels);
+  }
   if (task.last) options.from_last = places_in(*task.last, task.view);
-  return solver_.solve({costs_.view(), g, parameters_.smoothness}, options, progress, labels);
+  return own_solver().solve(problem, options, progress, labels);
+}
+
+SimplexSolver& ViewProblem::own_solver() {
+  if (!solver_) solver_.emplace(costs_.height(), costs_.layers(), costs_.width());
+  return *solver_;
 }
 
 }  // namespace episcope

@@ -214,12 +214,14 @@ void SimplexSolver::State::take_over(const SimplexProblem& problem, const Simple
 void SimplexSolver::State::begin(const SimplexProblem& problem, const SimplexOptions& options,
                                  const Progress& progress) {
   racing.take_all();
-  if (options.from_last.empty() || !has_run) {
-    start(problem, progress);
-    climb(problem, progress);
-    choose_layers(problem, options, progress);
-  } else {
+  if (!options.from_last.empty() && has_run) {
     take_over(problem, options, progress);
+  } else {
+    if (!options.goes_on || !has_run) {
+      start(problem, progress);
+      climb(problem, progress);
+    }
+    choose_layers(problem, options, progress);
   }
   has_run = true;
   set_steps(problem.smoothness, sweep.shape());

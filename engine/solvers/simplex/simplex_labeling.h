@@ -33,6 +33,9 @@ struct SimplexOptions {
   /// the pixel y'·width + x' of the last image given here, where −1 from the one at its own place.
   /// Empty = start afresh. Ignored in the first call.
   ImageView<const std::int32_t> from_last;
+  /// Start where the last call ended, each pixel at its own place: for the same image when its
+  /// costs have changed a little. Ignored in the first call.
+  bool goes_on = false;
   /// So many iterations at first leave a label out where it costs at least `behind` more than the
   /// cheapest one at every pixel around (engine/solvers/simplex/racing_layers.h): for many labels
   /// they take a fraction of the time. The gap is not looked at before their end.
@@ -68,7 +71,8 @@ struct SimplexResult {
 /// For many images of one size: 8 floats per pixel and label stay allocated between calls, 13 once
 /// `from_last` is used, which saves iterations between neighbouring views of a light field. Rows
 /// are processed by `progress.threads()` threads; not thread-safe, one object per caller. The
-/// result depends on neither the number of threads nor (without `from_last`) earlier calls.
+/// result depends on neither the number of threads nor (without `from_last` and `goes_on`) earlier
+/// calls.
 class SimplexSolver {
  public:
   /// Throws InvalidInput unless all are positive and there are at most 256 labels. `isa` other than

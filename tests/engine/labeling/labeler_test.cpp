@@ -65,6 +65,7 @@ class LabelerTest : public QObject {
   void objects_areSegmentedInAllViews_data();
   void objects_areSegmentedInAllViews();
   void oneView_comesAsADraftFirst();
+  void nextStroke_goesOnFromTheLastLabels();
   void strokesOnAnotherView_count();
   void paintedPixels_keepTheirLabels();
   void result_dependsNeitherOnThreads_norOnEarlierCalls();
@@ -115,6 +116,27 @@ void LabelerTest::oneView_comesAsADraftFirst() {
   QVERIFY(!refined.is_draft);
   QVERIFY(refined.probabilities.contains({1, 1}));
   QVERIFY(accuracy(refined) > 0.95);
+}
+
+void LabelerTest::nextStroke_goesOnFromTheLastLabels() {
+  const LabelerParameters chosen = parameters(FeatureSet::ImageTruth, Regularizer::Rayspace);
+  const ViewRectangle center{{1, 1}, {1, 1}};
+  const auto no_drafts = [](const Labeling&) {};
+  Scribbles more = scene().scribbles;
+  for (int x = 10; x < 20; ++x)
+    more.views[0].labels.at(90, x) = scene().truth->labels.view({1, 1}).at(90, x);
+  Labeler painting = new_labeler();
+  (void)painting.label(scene().scribbles, chosen, center, Progress(), no_drafts);
+
+  const Labeling next = painting.label(more, chosen, center, Progress(), no_drafts);
+  const Labeling once = painting.label(more, chosen, center, Progress());
+  const Labeling anew = new_labeler().label(more, chosen, center, Progress());
+
+  QVERIFY(accuracy(next) > 0.95);
+  QVERIFY(next.gap < 1e-2);
+  // Asked for once, they do not depend on what came before.
+  QVERIFY(
+      std::equal(once.labels.data(), once.labels.data() + once.labels.size(), anew.labels.data()));
 }
 
 void LabelerTest::strokesOnAnotherView_count() {

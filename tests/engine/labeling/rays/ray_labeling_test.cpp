@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/labeling/consistency.h"
 #include "engine/labeling/rays/edge_probability.h"
+#include "engine/labeling/rays/kept_solver.h"
 #include "engine/labeling/rays/label_costs.h"
 #include "engine/labeling/rays/ray_colors.h"
 #include "engine/scenes/builtin.h"
@@ -55,6 +56,7 @@ class RayLabelingTest : public QObject {
   void rays_beatViews_whereDisparityIsWrongAtOutlines();
   void labelView_isNearlyThatOfAllViews();
   void labelView_takesWhatItsNeighboursKnow();
+  void labelView_goesOnWhereItEnded();
   void label_keepsIds();
   void label_certifiesItself();
   void trackCosts_areMeansOverVisibleRays();
@@ -183,6 +185,34 @@ void RayLabelingTest::labelView_isNearlyThatOfAllViews() {
   int equal = 0;
   for (std::size_t i = 0; i < found.size(); ++i) equal += found.data[i] == expected.data[i] ? 1 : 0;
   QVERIFY2(equal > 0.97 * 48 * 48, qPrintable(QString::number(equal)));
+}
+
+void RayLabelingTest::labelView_goesOnWhereItEnded() {
+  Case noisy("objects");
+  const ViewIndex center = kGrid.center();
+  KeptSolver kept;
+  RayLabelingInput input = noisy.input();
+  const auto label = [&] { return label_view(input, center, Regularizer::View, {}, Progress()); };
+  const RayLabeling cold = label();
+  input.kept = &kept;
+  const RayLabeling first = label();
+  // A square is painted.
+  ProbabilityMap& map = noisy.probabilities.view(center);
+  for (int y = 20; y < 30; ++y) {
+    for (int l = 0; l < map.layers(); ++l) {
+      std::fill_n(map.view().row(y, l) + 20, 10, static_cast<std::uint8_t>(l == 0 ? 255 : 0));
+    }
+  }
+
+  const RayLabeling next = label();
+  input.kept = nullptr;
+  const RayLabeling anew = label();
+
+  QVERIFY(same(first.labels, cold.labels));
+  QVERIFY2(next.iterations < anew.iterations,
+           qPrintable(QString("%1, anew %2").arg(next.iterations).arg(anew.iterations)));
+  QVERIFY(next.relative_gap() < 2e-2);
+  QCOMPARE(next.labels.view(center).at(25, 25), noisy.probabilities.ids[0]);
 }
 
 void RayLabelingTest::labelView_takesWhatItsNeighboursKnow() {

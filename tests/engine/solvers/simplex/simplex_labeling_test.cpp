@@ -239,6 +239,16 @@ void SimplexLabelingTest::solve_goesOnFromWhereItEnded() {
   QVERIFY(cold.converged && warm.converged);
   QVERIFY(cold.iterations > 5);
   QCOMPARE(warm.iterations, 5);
+
+  SimplexSolver kept(64, 8, 64);
+  SimplexOptions options{300, 1e-4, 5, {}};
+  options.goes_on = true;
+  const auto first = kept.solve(potts.problem(), options, Progress(1), labels.view());
+  const auto next = kept.solve(potts.problem(), options, Progress(1), labels.view());
+
+  QCOMPARE(first.iterations, cold.iterations);
+  QCOMPARE(next.iterations, 5);
+  QVERIFY(next.converged);
 }
 
 // The image has moved two pixels to the right since.
