@@ -47,7 +47,7 @@ std::uint64_t ByteReader::number(std::uint64_t max) {
 std::string ByteReader::text() {
   const auto size = static_cast<std::size_t>(number(rest_.size()));
   if (size > rest_.size()) refuse();
-  const std::string value(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(size));
+  std::string value(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(size));
   rest_ = rest_.subspan(size);
   return value;
 }

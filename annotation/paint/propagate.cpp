@@ -105,6 +105,7 @@ ScribbleLayer propagate(const ScribbleLayer& painted, const DisparityField& fiel
   if (sources.empty()) return derived;
 
   std::vector<ImageView<std::uint8_t>> targets;
+  targets.reserve(static_cast<std::size_t>(grid.count()));
   for (int i = 0; i < grid.count(); ++i) {
     targets.push_back(derived.writable_view(grid.view_at(i)));
   }

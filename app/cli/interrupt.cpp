@@ -24,7 +24,7 @@ sigset_t awaited_signals() {
   return signals;
 }
 
-void wait_for_signals(sigset_t signals, std::stop_source stop) {
+void wait_for_signals(sigset_t signals, const std::stop_source& stop) {
   int signal = 0;
   while (sigwait(&signals, &signal) == 0 && signal != kEndOfWaiting) stop.request_stop();
 }

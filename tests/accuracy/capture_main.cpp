@@ -69,9 +69,7 @@ void print_table(const Request& request) {
   print_worst(all);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Errors of the way from photographs of the synthesised gantry to ground truth");
   Request request;
   request.options.height = 300;
@@ -85,10 +83,16 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--detail", request.options.detail, "Of the mesh")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
+  print_table(request);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    print_table(request);
-    return 0;
-  } catch (const Error& error) {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;
   }

@@ -45,9 +45,11 @@ const BenchmarkRecord* RunRecords::last(const std::string& key, const std::strin
 
 std::vector<BenchmarkRecord> RunRecords::last_of_each() const {
   std::vector<std::size_t> order;
+  order.reserve(places_.size());
   for (const auto& [name, place] : places_) order.push_back(place);
   std::sort(order.begin(), order.end());
   std::vector<BenchmarkRecord> last;
+  last.reserve(order.size());
   for (const std::size_t place : order) last.push_back(records_[place]);
   return last;
 }

@@ -48,6 +48,7 @@ struct Extent {
 template <class T>
 [[nodiscard]] OptionValue<T> choice_of(const std::vector<Named<T>>& choices) {
   std::vector<std::string> names;
+  names.reserve(choices.size());
   for (const Named<T>& each : choices) names.emplace_back(each.name);
   const OptionValue<std::string> known = one_of(names);
   return {known.name,

@@ -47,6 +47,7 @@ pid_t start(const std::string& program, std::vector<std::string> words, const Pi
             const Pipe& err) {
   words.insert(words.begin(), program);
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   posix_spawn_file_actions_t actions;

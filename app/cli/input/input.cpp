@@ -7,6 +7,8 @@
 #include "app/session/scene/load_scene.h"
 #include "engine/io/open/reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace episcope::cli {
@@ -19,7 +21,8 @@ void warn_of_ignored(const ParameterSet& given, Scene& scene) {
   const std::string name = reader ? reader->name : "a built-in scene";
   for (const auto& [key, value] : given) {
     if (key == Reading::kFocus || (reader && reader->has_option(key))) continue;
-    scene.convention.warnings.push_back("--" + key + " is ignored, because this is " + name + ".");
+    scene.convention.warnings.push_back(
+        fmt::format("--{} is ignored, because this is {}.", key, name));
   }
 }
 

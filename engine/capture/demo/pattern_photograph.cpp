@@ -89,10 +89,8 @@ Image<std::uint8_t> pattern_photograph(const Pattern& pattern, const RigidPose& 
     for (int x = 0; x < camera.width; ++x) {
       float sum = 0;
       for (int i = 0; i < kFine * kFine; ++i) {
-        const PlanePoint pixel{x + (i % kFine + 0.5) / kFine - 0.5,
-                               y + (i / kFine + 0.5) / kFine - 0.5};
         PlanePoint place;
-        const bool hits = meets(pose, ray_of_pixel(camera, pixel), place);
+        const bool hits = meets(pose, ray_of_pixel(camera, sample_of_pixel(y, x, kFine, i)), place);
         sum += hits ? sample(picture, place.x * scale, place.y * scale) : 110;
       }
       light.at(y, x) = sum / (kFine * kFine);

@@ -104,6 +104,11 @@ Image<std::uint8_t> exposed(const Image<float>& light, const Exposure& exposure)
   return samples;
 }
 
+PlanePoint sample_of_pixel(int y, int x, int along, int i) {
+  const int row = i / along, column = i % along;
+  return {x + (column + 0.5) / along - 0.5, y + (row + 0.5) / along - 0.5};
+}
+
 Image<std::uint8_t> photograph(const PlacedScene& scene, const LensCamera& camera,
                                const Exposure& exposure, const Progress& progress) {
   const ViewCamera fine = fine_camera(camera, exposure);
@@ -114,9 +119,8 @@ Image<std::uint8_t> photograph(const PlacedScene& scene, const LensCamera& camer
   parallel_for(camera.height, progress.part(0.9, 1), [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
       for (int i = 0; i < kFine * kFine; ++i) {
-        const PlanePoint pixel{x + (i % kFine + 0.5) / kFine - 0.5,
-                               y + (i / kFine + 0.5) / kFine - 0.5};
-        const PlanePoint ray = turned(exposure.rotation, ray_of_pixel(camera, pixel));
+        const PlanePoint ray =
+            turned(exposure.rotation, ray_of_pixel(camera, sample_of_pixel(y, x, kFine, i)));
         add_sample(colors,
                    {ray.x * fine.pinhole.focal_px + fine.pinhole.center_x,
                     ray.y * fine.pinhole.focal_px + fine.pinhole.center_y},

@@ -31,6 +31,7 @@ std::vector<PlanePoint> corners_of(const Image<float>& picture) {
   cv::goodFeaturesToTrack(matrix_of(picture)(inside), corners, kMostPoints, 0.002, distance,
                           cv::noArray(), 5);
   std::vector<PlanePoint> points;
+  points.reserve(corners.size());
   for (const cv::Point2f& p : corners) {
     points.push_back({std::round(p.x) + margin, std::round(p.y) + margin});
   }

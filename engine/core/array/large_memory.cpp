@@ -85,7 +85,8 @@ void take_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t byte
   constexpr std::size_t kPage = 4096;
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t first = round_up(begin, kPage), end = round_up(begin + bytes, kPage);
-  if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_POPULATE_WRITE);
+  if (first < end)
+    madvise(static_cast<char*>(memory) + (first - begin), end - first, MADV_POPULATE_WRITE);
 #endif
 }
 

@@ -7,8 +7,11 @@
 
 #include <cstddef>
 #include <deque>
+#include <future>
 #include <initializer_list>
+#include <memory>
 #include <mutex>
+#include <utility>
 
 namespace episcope::cuda {
 
@@ -38,6 +41,17 @@ template <class T>
 void download(ViewStack<T>& host, const DeviceArray<T>& array, const DeviceStream& stream,
               const Progress& progress) {
   download_bytes(host.data(), array.data(), array.byte_size(), stream, progress);
+}
+
+/// Begins `copy(stream)` on a thread of its own, with a stream of its own that waits for what
+/// `computed` was told so far: what is ready comes over while the device goes on computing.
+template <class Copy>
+[[nodiscard]] auto begin_copies(const DeviceStream& computed, Copy copy) {
+  auto copies = std::make_unique<DeviceStream>();
+  copies->wait_for(computed);
+  return std::async(std::launch::async, [copies = std::move(copies), copy = std::move(copy)] {
+    return copy(*copies);
+  });
 }
 
 /// Copies from the device piece by piece, while it computes what follows. One at a time in the

@@ -216,11 +216,9 @@ std::vector<double> LayerSolver::solve(const Progress& progress) {
 
 std::future<std::size_t> LayerSolver::begin_download(const LayerResults& results,
                                                      const Progress& progress) const {
-  auto copies = std::make_unique<DeviceStream>();
-  copies->wait_for(stream_);
-  return std::async(std::launch::async, [this, results, progress, copies = std::move(copies)] {
-    download(results.confidence, single_.confidence, *copies, progress);
-    download(results.layers, layers_.confidence, *copies, progress);
+  return begin_copies(stream_, [this, results, progress](const DeviceStream& copies) {
+    download(results.confidence, single_.confidence, copies, progress);
+    download(results.layers, layers_.confidence, copies, progress);
     const std::uint8_t* const layers = results.layers.data();
     return static_cast<std::size_t>(std::count(layers, layers + results.layers.size(), 2));
   });

@@ -33,10 +33,8 @@ void DeviceMaps::clamp(float min, float max) {
 
 std::future<void> DeviceMaps::begin_confidence(ViewStack<float>& confidence,
                                                const Progress& progress) const {
-  auto copies = std::make_unique<DeviceStream>();
-  copies->wait_for(memory_->stream);
-  return std::async(std::launch::async, [this, &confidence, progress, copies = std::move(copies)] {
-    cuda::download(confidence, memory_->confidence, *copies, progress);
+  return begin_copies(memory_->stream, [this, &confidence, progress](const DeviceStream& copies) {
+    cuda::download(confidence, memory_->confidence, copies, progress);
   });
 }
 

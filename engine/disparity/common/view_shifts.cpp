@@ -47,6 +47,7 @@ std::vector<double> regular_ways(int places, int reference) {
 std::vector<double> stated_ways(const std::vector<ViewPlace>& places, std::size_t reference,
                                 double ViewPlace::*axis) {
   std::vector<double> ways;
+  ways.reserve(places.size());
   for (const ViewPlace& place : places) ways.push_back(place.*axis - places[reference].*axis);
   return ways;
 }

@@ -123,7 +123,7 @@ class Points {
   // The most that there are.
   [[nodiscard]] std::size_t count() const {
     const auto along = [this](int length) {
-      return static_cast<std::size_t>(length / stride_ + 1);
+      return static_cast<std::size_t>(length / stride_) + 1;
     };
     return along(lf_.height()) * along(lf_.width());
   }

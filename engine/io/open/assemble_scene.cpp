@@ -31,6 +31,7 @@ std::string place_text(const LightField::Samples& samples) {
 void crop_positions(std::vector<CameraPosition>& positions, const ViewCrop& crop) {
   if (positions.size() != static_cast<std::size_t>(crop.stored.count())) return;
   std::vector<CameraPosition> kept;
+  kept.reserve(static_cast<std::size_t>(crop.kept.count()));
   for (int i = 0; i < crop.kept.count(); ++i) {
     const ViewIndex stored = crop.kept.view_at(i, crop.first);
     kept.push_back(positions[static_cast<std::size_t>(stored.v * crop.stored.u + stored.u)]);
