@@ -30,9 +30,9 @@ class LocalColors {
 
   /// Multiplies the probabilities of a pixel at `y`, `x` by 1/(v + |c − m|²), m the mean colour of
   /// the label there, v the variance of its colours and a noise of 0.03, relative to the label for
-  /// which that is most but at least kLeastShare, and makes them sum to 1 again. Labels that are not
-  /// nearby keep kShareElsewhere. Before, 0.01 is added to each. Places outside count as those at
-  /// the border.
+  /// which that is most but at least kLeastShare, and makes them sum to 1 again. Labels that are
+  /// not nearby keep kShareElsewhere. Before, 0.01 is added to each. Places outside count as those
+  /// at the border.
   void weigh(std::array<float, 3> color, float y, float x, std::span<float> probabilities) const;
 
  private:

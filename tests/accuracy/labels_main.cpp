@@ -173,7 +173,8 @@ void run(const Request& request) {
 int main(int argc, char** argv) {
   CLI::App app("Labels from simulated strokes, with default parameters, against the true labels.");
   Request request;
-  app.add_option("--set", request.set, "Scenes: choosing, checking or reporting (label_scenes.json)")
+  app.add_option("--set", request.set,
+                 "Scenes: choosing, checking or reporting (label_scenes.json)")
       ->check(CLI::IsMember({"choosing", "checking", "reporting"}));
   app.add_option("--scenes", request.scenes, "Only scenes whose names contain one of these")
       ->delimiter(',');

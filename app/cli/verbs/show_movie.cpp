@@ -51,9 +51,11 @@ void declare_movie_options(Arguments& parser, MovieRequest& request) {
                                        {CameraPath::Snake, "snake"}}),
                 "How a parallax moves: around the centre, along the row of the centre, or through "
                 "all views (default circle)");
-  parser.option("--seconds", request.choice.seconds, real_value("S", render::kMovieSeconds.min, render::kMovieSeconds.max),
+  parser.option("--seconds", request.choice.seconds,
+                real_value("S", render::kMovieSeconds.min, render::kMovieSeconds.max),
                 "How long the movie lasts (default 3)");
-  parser.option("--width", request.choice.width_px, integer_value("PIXELS", 0, render::kWidestMovie_px),
+  parser.option("--width", request.choice.width_px,
+                integer_value("PIXELS", 0, render::kWidestMovie_px),
                 "Width of the movie; its height follows (default 0: as the picture)");
   parser.option("--focus-range", request.focus, interval_value(),
                 "Where the focus moves; by default over the disparities that are known");

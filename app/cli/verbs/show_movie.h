@@ -12,9 +12,10 @@ namespace episcope::cli {
 
 /// The options of a movie.
 struct MovieRequest {
-  std::optional<render::MovieKind> kind;  ///< Empty: a parallax if the output is named like a movie.
+  std::optional<render::MovieKind>
+      kind;                       ///< Empty: a parallax if the output is named like a movie.
   std::optional<Interval> focus;  ///< Empty = the disparities known of the light field.
-  render::MovieChoice choice;             ///< The rest.
+  render::MovieChoice choice;     ///< The rest.
 };
 
 void declare_movie_options(Arguments& parser, MovieRequest& request);

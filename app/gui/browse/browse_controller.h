@@ -77,7 +77,7 @@ class BrowseController : public QObject {
   std::pair<int, int> horizontal_row_{-1, -1};     // v and y of the EPI that is shown
   std::pair<int, int> vertical_row_{-1, -1};       // u and x
   std::shared_ptr<const render::ToneTable> tone_;  // null = samples as they are
-  LatestJob epi_job_;  // of light fields on disk
+  LatestJob epi_job_;                              // of light fields on disk
   LatestJob refocus_job_;
   LatestJob thumbnail_job_;
 };

@@ -70,15 +70,16 @@ void ask_for_map(const Workbench& bench) {
 
 void add_picture_export(const Workbench& bench) {
   const auto has_scene = [&session = bench.session] { return session.scene() != nullptr; };
-  bench.commands.add({.id = "file.save_picture",
-                      .menu = Menu::File,
-                      .text = Text::tr("Save picture…"),
-                      .tip = Text::tr("Saves the view as it is shown, with its brightness and overlay, as PNG"),
-                      .icon = "save",
-                      .keys = {Text::tr("Ctrl+Shift+E")},
-                      .run = [bench] { ask_for_picture(bench); },
-                      .section = section::kExport,
-                      .enabled = has_scene});
+  bench.commands.add(
+      {.id = "file.save_picture",
+       .menu = Menu::File,
+       .text = Text::tr("Save picture…"),
+       .tip = Text::tr("Saves the view as it is shown, with its brightness and overlay, as PNG"),
+       .icon = "save",
+       .keys = {Text::tr("Ctrl+Shift+E")},
+       .run = [bench] { ask_for_picture(bench); },
+       .section = section::kExport,
+       .enabled = has_scene});
   bench.commands.add({.id = "file.save_map",
                       .menu = Menu::File,
                       .text = Text::tr("Save map…"),

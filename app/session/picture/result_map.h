@@ -27,8 +27,8 @@ struct ResultMap {
   std::shared_ptr<QuantityMap> (*make)(const EstimatePtr& estimate, ViewIndex view);
 };
 
-/// The row of a quantity; quantities of other subjects (render::Subject) have that of the disparity,
-/// from which they are computed.
+/// The row of a quantity; quantities of other subjects (render::Subject) have that of the
+/// disparity, from which they are computed.
 [[nodiscard]] const ResultMap& result_map_of(render::Quantity quantity);
 
 /// A map that `owner` keeps alive.

@@ -49,9 +49,8 @@ template <class Copy>
 [[nodiscard]] auto begin_copies(const DeviceStream& computed, Copy copy) {
   auto copies = std::make_unique<DeviceStream>();
   copies->wait_for(computed);
-  return std::async(std::launch::async, [copies = std::move(copies), copy = std::move(copy)] {
-    return copy(*copies);
-  });
+  return std::async(std::launch::async,
+                    [copies = std::move(copies), copy = std::move(copy)] { return copy(*copies); });
 }
 
 /// Copies from the device piece by piece, while it computes what follows. One at a time in the

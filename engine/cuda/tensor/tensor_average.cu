@@ -154,8 +154,8 @@ __global__ __launch_bounds__(kTile* kRows) void average(DeviceSamples samples, A
 }  // namespace
 
 void average_tensors(const DeviceSamples& samples, const AveragedBand& band, WantedViews wanted,
-                     const float* best, const AverageSettings& settings,
-                     const MapPointers& maps, const DeviceStream& stream) {
+                     const float* best, const AverageSettings& settings, const MapPointers& maps,
+                     const DeviceStream& stream) {
   const bool is_vertical = band.band.is_vertical;
   const dim3 grid(blocks_for(band.band.length, kTile), blocks_for(band.count, kTile),
                   static_cast<unsigned>(wanted.count()));

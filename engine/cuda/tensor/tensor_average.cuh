@@ -35,7 +35,7 @@ struct AveragedBand {
 /// Averages tensors over neighbouring EPIs, reads disparity and coherence off them and writes both
 /// to the maps; see OrientationKernel::resolve and merge.
 void average_tensors(const DeviceSamples& samples, const AveragedBand& band, WantedViews wanted,
-                     const float* best, const AverageSettings& settings,
-                     const MapPointers& maps, const DeviceStream& stream);
+                     const float* best, const AverageSettings& settings, const MapPointers& maps,
+                     const DeviceStream& stream);
 
 }  // namespace episcope::cuda

@@ -77,8 +77,7 @@ class DirectionRun {
 };
 
 DirectionRun::DirectionRun(const DeviceSamples& samples, const TensorSettings& settings,
-                           bool is_vertical, const MapPointers& maps,
-                           const DeviceStream& stream)
+                           bool is_vertical, const MapPointers& maps, const DeviceStream& stream)
     : samples_(samples),
       settings_(settings),
       is_vertical_(is_vertical),

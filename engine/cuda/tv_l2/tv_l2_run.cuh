@@ -30,7 +30,8 @@ __global__ void run_step(Step step, TvL2Extent extent, const TvL2View* views) {
   step(view, y, i);
 }
 
-/// By the whole device. So many `floats` are read or written, and `operations` done, for each place.
+/// By the whole device. So many `floats` are read or written, and `operations` done, for each
+/// place.
 template <class Step>
 void run_on_grid(const DeviceStream& stream, const char* name, const Step& step, TvL2Extent extent,
                  int view_count, const TvL2View* views, double floats, double operations) {

@@ -42,7 +42,7 @@ struct TensorBlock {
   float* samples = nullptr;  ///< [c][row][lane]; NaN = invalid, if `has_invalid`.
   /// Whether samples may be NaN: gradients that one of them enters then count nothing.
   bool has_invalid = false;
-  float* line = nullptr;     ///< Two rows of scratch.
+  float* line = nullptr;  ///< Two rows of scratch.
   float* along[2] = {};   ///< [c][row][lane] d/dx of the samples; [1]: half a pixel to the right.
   float* across[2] = {};  ///< [c][row][lane] smoothed along x; [1] likewise.
   float* tensor[3] = {};  ///< [row][lane] Jxx, Jxs, Jss of one shear, integrated along the views.

@@ -76,12 +76,11 @@ double Backdrop::disparity_at(double x, double y) const {
 int Backdrop::build(Model& model, const Plan& plan, Draw draw) const {
   Primitive wall = surface(stage_, wall_, 1);
   const double far_pixel = pixel_units(stage_, wall_.center);
-  Texture texture =
-      plan.is_defocused
-          ? draw_defocused_texture(draw.part(0), far_pixel, plan.detail)
-          : draw_texture(draw.part(0),
-                         plan.is_furnished ? Finish::Periodic : draw_finish(plan, draw), far_pixel,
-                         plan.detail);
+  Texture texture = plan.is_defocused ? draw_defocused_texture(draw.part(0), far_pixel, plan.detail)
+                                      : draw_texture(draw.part(0),
+                                                     plan.is_furnished ? Finish::Periodic
+                                                                       : draw_finish(plan, draw),
+                                                     far_pixel, plan.detail);
   texture.is_solid = false;
   wall.texture = model.add(texture);
   model.primitives.push_back(wall);

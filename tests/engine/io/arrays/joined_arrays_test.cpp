@@ -196,8 +196,7 @@ class JoinedArraysTest : public QObject {
 
     const std::string why = refusal_of(path("lf.h5"));
 
-    QVERIFY2(why.find("which holds disp, x") != std::string::npos,
-             why.c_str());
+    QVERIFY2(why.find("which holds disp, x") != std::string::npos, why.c_str());
   }
 
   void planesAtTheTop_areOneLightField_data() {

@@ -104,8 +104,7 @@ class RacingLayersTest : public QObject {
     SimplexSolver solver(height, 7, width), other(height, 7, width);
     Image<int> labels(height, width), wanted(height, width);
 
-    const auto whole =
-        other.solve(potts.problem(), options, Progress(threads), wanted.view());
+    const auto whole = other.solve(potts.problem(), options, Progress(threads), wanted.view());
     options.racing_iterations = racing;
     const auto raced = solver.solve(potts.problem(), options, Progress(threads), labels.view());
 
