@@ -14,6 +14,7 @@
 #include "engine/labeling/predict_from_strokes.h"
 #include "engine/labeling/rays/edge_probability.h"
 #include "engine/labeling/rays/kept_solver.h"
+#include "engine/labeling/rays/no_smoothing.h"
 #include "engine/labeling/requested_views.h"
 
 #include <fmt/format.h>
@@ -35,6 +36,9 @@ constexpr std::size_t kKeptViews = 9;
 // So many trees vote for a draft while painting; the others are grown after it.
 constexpr int kDraftTrees = 32;
 
+// Solvers of the view that is painted are kept if they take no more.
+constexpr double kKeptSolverBytes = double{1 << 30};
+
 // For a single view: half the iterations give the same accuracy.
 constexpr double kLiveGap = 5e-3;
 
@@ -44,13 +48,6 @@ ForestOptions forest_options(const LabelerParameters& parameters) {
   options.depth = parameters.depth;
   options.seed = parameters.seed;
   return options;
-}
-
-void require_disparity(Regularizer regularizer, bool has_disparity) {
-  if (has_disparity || !info_of(regularizer).joins_views) return;
-  throw InvalidInput(
-      "labels that are consistent along rays need the disparity of all views; estimate it first, "
-      "or smooth each view alone");
 }
 
 bool covers(const ViewStack<float>& maps, ViewRectangle views) {
@@ -80,7 +77,7 @@ struct Labeler::State {
   std::string note;
   std::deque<std::pair<ViewIndex, Features>> kept;  // The newest last.
   GrownForest grown;
-  bool is_painting = false;                 // In the call at hand.
+  bool is_painting = false, keeps_solvers = false;  // In the call at hand.
   KeptSolver reference_solver, own_solver;  // Of the view being painted: for `judge`, and after it.
 
   void use(PixelFeatureSet wanted) {
@@ -90,10 +87,23 @@ struct Labeler::State {
     if (has_own_edges) edges = nullptr;
   }
 
-  void forget_views() {
-    kept.clear();
+  void drop_solvers() {
     reference_solver.drop();
     own_solver.drop();
+  }
+
+  void forget_views() {
+    kept.clear();
+    drop_solvers();
+  }
+
+  void begin(bool painting, const std::vector<std::int32_t>& ids) {
+    is_painting = painting;
+    const double pixels = static_cast<double>(light_field->height()) * light_field->width();
+    const bool fit =
+        2 * KeptSolver::bytes(pixels, static_cast<int>(ids.size())) <= kKeptSolverBytes;
+    keeps_solvers = is_painting && fit;
+    if (!fit) drop_solvers();
   }
 
   void choose_device(int views) {
@@ -151,6 +161,16 @@ struct Labeler::State {
     return samples;
   }
 
+  /// The forest of these strokes: for a draft, while they are painted, a part of it at least.
+  [[nodiscard]] Learned learn(const Scribbles& scribbles, const std::vector<std::int32_t>& ids,
+                              const LabelerParameters& parameters, const Progress& progress) {
+    const Forest& forest =
+        grown.train(samples_of(scribbles, ids, progress.part(0, 0)), forest_options(parameters),
+                    is_painting ? kDraftTrees : parameters.trees, progress);
+    if (!is_painting) grown.complete(progress.part(1, 1));
+    return {scribbles, ids, parameters, forest};
+  }
+
   [[nodiscard]] ProbabilityMap predict_one(const Learned& learned, ViewIndex view,
                                            const PixelFeatures& features, const PixelVotes& votes,
                                            const Progress& progress) const {
@@ -170,6 +190,13 @@ struct Labeler::State {
     } else {
       predict_many(learned, missing, into, progress);
     }
+  }
+
+  /// By all trees, where some were missing.
+  void complete(const Learned& learned, LabelProbabilities& own, const Progress& progress) {
+    if (!grown.complete(progress)) return;
+    own = empty_probabilities(own.ids, {own.first, own.grid});
+    predict(learned, own, progress);
   }
 
   void predict_few(const Learned& learned, const std::vector<ViewIndex>& views,
@@ -222,7 +249,7 @@ struct Labeler::State {
     LabelProbabilities& own = labeling.probabilities;
     if (own.grid.count() > 1) {
       const ViewIndex middle{own.first.v + own.grid.v / 2, own.first.u + own.grid.u / 2};
-      judge(learned.parameters, middle, nullptr, own, progress.part(0, 0.05));
+      judge(learned.parameters, middle, own, progress.part(0, 0.05));
       regularise_together(learned.parameters, labeling, progress.part(0.05, 1));
     } else {
       regularise_alone(learned, labeling, progress);
@@ -230,12 +257,13 @@ struct Labeler::State {
   }
 
   /// Has the colours beside boundaries speak for labels, unless disparity that is right does.
-  void judge(const LabelerParameters& parameters, ViewIndex reference, KeptSolver* solver,
-             LabelProbabilities& own, const Progress& progress) {
+  void judge(const LabelerParameters& parameters, ViewIndex reference, LabelProbabilities& own,
+             const Progress& progress) {
     if (set.with_disparity && !confidence) return;
     progress.step("finding edges");
     find_edges({own.first, own.grid}, progress.part(0, 0.5));
-    const RayLabelingInput input{nullptr, disparity.get(), edges.get(), light_field.get(), solver};
+    const RayLabelingInput input{nullptr, disparity.get(), edges.get(), light_field.get(),
+                                 keeps_solvers ? &reference_solver : nullptr};
     judge_colors(input, reference, options_of(parameters), progress.part(0.5, 1), own);
   }
 
@@ -273,13 +301,16 @@ struct Labeler::State {
     around.view(own.first) = std::move(own.views[0]);
     progress.step("labeling neighbouring views");
     predict(learned, around, progress.part(0.05, 0.3));
-    judge(learned.parameters, own.first, is_painting ? &reference_solver : nullptr, around,
-          progress.part(0.3, 0.5));
+    judge(learned.parameters, own.first, around, progress.part(0.3, 0.5));
     const RayLabelingInput input{&around, disparity.get(), edges.get(), light_field.get(),
-                                 is_painting ? &own_solver : nullptr};
+                                 keeps_solvers ? &own_solver : nullptr};
     progress.step("regularising");
     set_labels(label_view(input, own.first, regularizer, options, progress.part(0.5, 1)), labeling);
     own.views[0] = std::move(around.view(own.first));
+  }
+
+  static void take_most_probable(Labeling& labeling, const Progress& progress) {
+    labeling.labels = most_probable_labels_of_all({&labeling.probabilities}, {}, progress).labels;
   }
 
   static void set_labels(RayLabeling result, Labeling& labeling) {
@@ -318,14 +349,9 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   state_->use({uses_disparity(parameters)});
   state_->choose_device(views.grid.count());
 
-  state_->is_painting = on_draft && regularizer != Regularizer::None &&
-                        views.grid.count() <= static_cast<int>(kKeptViews);
-  ForestSamples samples = state_->samples_of(scribbles, ids, progress.part(0, 0));
-  const Forest& forest = state_->grown.train(std::move(samples), forest_options(parameters),
-                                             state_->is_painting ? kDraftTrees : parameters.trees,
-                                             progress.part(0, 0.1));
-  const Learned learned{scribbles, ids, parameters, forest};
-  if (!state_->is_painting) state_->grown.complete(progress.part(0.1, 0.1));
+  const bool are_few = views.grid.count() <= static_cast<int>(kKeptViews);
+  state_->begin(on_draft && regularizer != Regularizer::None && are_few, ids);
+  const Learned learned = state_->learn(scribbles, ids, parameters, progress.part(0, 0.1));
   progress.step(kLabelingStep);
   Labeling labeling;
   labeling.probabilities = empty_probabilities(ids, views);
@@ -334,8 +360,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   // Not painting: the following steps need the memory.
   if (labeling.probabilities.views.size() > kKeptViews) state_->forget_views();
   if (regularizer == Regularizer::None || on_draft) {
-    const RayLabelingInput input{&labeling.probabilities, nullptr, nullptr, nullptr};
-    labeling.labels = label_rays(input, Regularizer::None, {}, progress.part(0.5, 0.5)).labels;
+    state_->take_most_probable(labeling, progress.part(0.5, 0.5));
   }
   if (regularizer != Regularizer::None) {
     if (on_draft) {
@@ -344,10 +369,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
       on_draft(labeling);
       labeling.is_draft = false;
     }
-    if (state_->grown.complete(progress.part(0.5, 0.5))) {
-      labeling.probabilities = empty_probabilities(ids, views);
-      state_->predict(learned, labeling.probabilities, progress.part(0.5, 0.5));
-    }
+    state_->complete(learned, labeling.probabilities, progress.part(0.5, 0.5));
     state_->regularise(learned, labeling, progress.part(0.5, 1));
   }
   labeling.note = state_->note;

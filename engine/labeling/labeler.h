@@ -31,7 +31,8 @@ struct Labeling {
 /// Learns from scribbles which label each pixel of a light field has. One object serves many
 /// strokes: what does not depend on them, edges and the features of views, is kept between calls
 /// (features of as many views as fit into `kKeptBytes`, until many views are requested at once),
-/// and so is the forest while it would be the same.
+/// and so are the forest while it would be the same, and, up to 1 GiB, the solvers of the view that
+/// is painted.
 ///
 /// A random forest (engine/labeling/forest/forest.h) is trained on the painted pixels of all
 /// painted views, equally many per label, and votes on the pixels of the requested views by their

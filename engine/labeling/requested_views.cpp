@@ -19,6 +19,13 @@ void require_views(ViewRectangle views, GridShape grid) {
                   view_text(views.first), view_text(last), grid.v, grid.u));
 }
 
+void require_disparity(Regularizer regularizer, bool has_disparity) {
+  if (has_disparity || !info_of(regularizer).joins_views) return;
+  throw InvalidInput(
+      "labels that are consistent along rays need the disparity of all views; estimate it first, "
+      "or smooth each view alone");
+}
+
 ViewRectangle neighbours(ViewIndex view, GridShape grid) {
   const int down = grid.u > 1 ? 0 : 1;
   const int across = 1 - down;

@@ -3,6 +3,10 @@
 
 namespace episcope {
 
+double KeptSolver::bytes(double pixels, int labels) {
+  return (8 * 4.0 / 3 + 1.0 / 3) * sizeof(float) * pixels * labels;
+}
+
 bool KeptSolver::prepare(const LabelProbabilities& probabilities, ViewIndex view) {
   const ProbabilityMap& map = probabilities.view(view);
   if (solver_ && view == view_ && map.height() == height_ && map.width() == width_ &&

@@ -11,10 +11,12 @@
 namespace episcope {
 
 /// The solver of one view's problem, kept between calls while the user paints: a stroke changes
-/// little, so the next call takes a few iterations from where the last one ended. Takes 8 floats
-/// per pixel and label.
+/// little, so the next call takes a few iterations from where the last one ended.
 class KeptSolver {
  public:
+  /// What it takes: of its levels 8 floats a pixel and label, and the costs of all but the first.
+  [[nodiscard]] static double bytes(double pixels, int labels);
+
   /// For the problem of `view`. Whether the last one was of the same view, size and labels, and the
   /// solver goes on from there; else it begins afresh.
   bool prepare(const LabelProbabilities& probabilities, ViewIndex view);
