@@ -24,7 +24,7 @@ std::vector<E> all_values() {
 
 /// Estimators by their ids, each once.
 std::vector<Estimator> methods_named(const std::string& list) {
-  const std::vector<Estimator> all = registered_estimators();
+  const std::vector<Estimator>& all = registered_estimators();
   if (list == "all") return all;
   std::vector<std::string> ids;
   for (const Estimator& each : all) ids.push_back(each.info.id);

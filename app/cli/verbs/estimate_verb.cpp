@@ -233,8 +233,8 @@ class Runner {
                      " runs at once: what does not fit is put on disk, and an interrupted "
                      "run begins again");
     }
-    const Answer answer = in_blocks ? run_blocks(task, run, *light_field, progress.part(0.3, 1))
-                                    : run_at_once(task, run, *light_field, progress.part(0.3, 1));
+    Answer answer = in_blocks ? run_blocks(task, run, *light_field, progress.part(0.3, 1))
+                              : run_at_once(task, run, *light_field, progress.part(0.3, 1));
     for (const auto& sentence : answer.provenance.notes) note(task, sentence);
     return answer;
   }
@@ -383,7 +383,7 @@ bool wants_many(const Request& request, const Progress& progress) {
 }  // namespace
 
 void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
-  const std::vector<Estimator> estimators = registered_estimators();
+  const std::vector<Estimator>& estimators = registered_estimators();
   Request request;
   if (!parse(arguments, estimators, request)) return;
   Runner runner(request, std::move(stop));

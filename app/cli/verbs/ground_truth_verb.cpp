@@ -68,7 +68,7 @@ GroundTruth truth_of(const Request& request, Scene& scene, const Progress& progr
 }
 
 /// The light field with the step that was given.
-LightFieldPtr with_step(LightFieldPtr field, double step) {
+LightFieldPtr with_step(const LightFieldPtr& field, double step) {
   LightFieldInfo info = field->info();
   info.camera.baseline = step;
   auto samples = std::visit([](const auto& stack) -> LightField::Samples { return stack.clone(); },

@@ -88,10 +88,11 @@ void CompareController::connectWall() {
 }
 
 void CompareController::update(Parts parts) {
-  if (parts.has(Part::Scene) && session_.scene()) {
-    restore();
-  } else if (parts.has(Part::Display) && session_.place().comparison.mode != mode_ &&
-             !bench_.stage.isPreviewing()) {
+  const bool is_other_scene = parts.has(Part::Scene) && session_.scene();
+  const bool is_other_mode = parts.has(Part::Display) &&
+                             session_.place().comparison.mode != mode_ &&
+                             !bench_.stage.isPreviewing();
+  if (is_other_scene || is_other_mode) {
     restore();
   } else if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Live) &&
              !isAvailable(mode_)) {

@@ -88,10 +88,10 @@ void ErrorPlotController::update() {
     if (!entry) continue;
     if (auto result = judged(*entry)) results.push_back(std::move(*result));
   }
-  if (!results.empty()) start(std::move(results));  // else they tell when they are there
+  if (!results.empty()) start(results);  // else they tell when they are there
 }
 
-void ErrorPlotController::start(std::vector<Judged> results) {
+void ErrorPlotController::start(const std::vector<Judged>& results) {
   const double threshold_px = session_.bad_threshold_px();
   job_.start<std::vector<Profile>>(
       [results, scene = session_.scene(), region = region_.region(),

@@ -39,7 +39,7 @@ class ErrorPlotController : public QObject {
   [[nodiscard]] QString obstacle() const;
   /// Nothing while the evaluation is on its way.
   [[nodiscard]] std::optional<Judged> judged(const EstimateEntry& entry);
-  void start(std::vector<Judged> results);
+  void start(const std::vector<Judged>& results);
 
   Workbench bench_;
   Session& session_;

@@ -25,7 +25,7 @@ std::string missing_scribbles(const LabelingInput& input) {
 }  // namespace
 
 LiveLabeler::LiveLabeler(JobRunner::Post post, std::function<void()> on_changed)
-    : post_(post),
+    : post_(std::move(post)),
       on_changed_(std::move(on_changed)),
       alive_(std::make_shared<LiveLabeler*>(this)),
       runner_(post_) {}

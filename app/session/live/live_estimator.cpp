@@ -18,7 +18,7 @@ bool holds(const PixelRect& outer, const PixelRect& inner) {
 }  // namespace
 
 LiveEstimator::LiveEstimator(JobRunner::Post post, std::function<void()> on_changed)
-    : post_(post),
+    : post_(std::move(post)),
       on_changed_(std::move(on_changed)),
       alive_(std::make_shared<LiveEstimator*>(this)),
       runner_(post_) {}

@@ -44,7 +44,7 @@ class JobRunner {
   /// at most as often as the owner keeps up (states in between are dropped).
   template <class T>
   JobId start(std::function<T(const Progress&)> work, std::function<void(Outcome<T>)> done,
-              OnProgress on_progress = nullptr) {
+              OnProgress on_progress = nullptr) {  // NOLINT(performance-unnecessary-value-param)
     auto outcome = std::make_shared<Outcome<T>>();
     return enqueue(
         [work = std::move(work), outcome](const Progress& progress) {
