@@ -3,6 +3,7 @@
 
 #include "engine/core/array/transposed.h"
 #include "engine/io/order/both_axes.h"
+#include "engine/io/order/line_matches.h"
 #include "engine/io/order/warp_check.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ constexpr int kLargestArea = 512;
 constexpr int kStride = 4;
 constexpr int kRadius = 3;
 constexpr double kStep = 0.5;
+constexpr double kLargestRange = 64;
 
 /// Three views in a row along one axis, the middle one common to both axes; views of the vertical
 /// axis are transposed, so that disparity is always along x.
@@ -157,6 +159,16 @@ SlopeCorrelation correlate(const LightField::Samples& samples, ViewIndex center,
   return sums.correlation();
 }
 
+/// In px between neighbouring views.
+double search_range(const LightField::Samples& samples, const Progress& progress) {
+  const int smaller = std::visit(
+      [](const auto& stack) { return std::min(stack.width(), stack.height()); }, samples);
+  const auto [u, v] =
+      along_both_axes(progress, [&](bool is_v) { return largest_motion(samples, is_v, progress); });
+  const double usual = std::clamp(smaller / 48.0, 3.0, 16.0);
+  return std::clamp(std::max(u, v), usual, kLargestRange);
+}
+
 }  // namespace
 
 bool SlopeCorrelation::is_decided() const {
@@ -171,7 +183,7 @@ SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples,
         const int reach = std::min(
             {center.v, center.u, stack.grid().v - 1 - center.v, stack.grid().u - 1 - center.u});
         SlopeCorrelation found;
-        const double range = std::clamp(std::min(stack.width(), stack.height()) / 48.0, 3.0, 16.0);
+        const double range = search_range(samples, progress);
         // Farther views tell small disparities apart, where the next ones do not.
         for (int step = 1; step <= std::min(reach, 4); step *= 2) {
           const SlopeCorrelation next = correlate(samples, center, step, range, progress);

@@ -17,8 +17,8 @@ struct SlopeCorrelation {
 /// Matches small windows of the view at the centre of the grid against its neighbours along u and
 /// along v and correlates the two disparities. Where the scene has hardly any depth the correlation
 /// about zero takes the place of the one about the means. Linear in the image area and in the
-/// search range of width/48 px; at most 512×512 px in the middle of the view are looked at.
-/// Throws Cancelled.
+/// search range: a 48th of the width, or as far as points move, but not beyond 64 px; at most
+/// 512×512 px in the middle of the view are looked at. Throws Cancelled.
 [[nodiscard]] SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples,
                                                     const Progress& progress);
 

@@ -18,6 +18,9 @@ constexpr int kArea = 512;
 constexpr int kRadius = 2;
 constexpr double kStep = 0.5;
 constexpr double kLargestShift = 24;
+constexpr double kLargestRange = 48;  ///< In px of what is looked at: smaller views tell as much.
+constexpr int kCoarseSide = 128;      ///< Of views in which motion of any size is looked for,
+constexpr double kCoarseRange = 24;   ///< and so far.
 constexpr double kLeastBrightness = 0.6;  ///< Of a view, as a share of the middle one's.
 
 double mean_of(const Image<float>& picture) {
@@ -39,6 +42,14 @@ class Axis {
     mean_ = mean_of(as_stored(0));
   }
   [[nodiscard]] int reach() const { return reach_; }
+  /// Of the views as stored, in a px of what is looked at.
+  [[nodiscard]] int pixels() const {
+    return std::visit(
+        [&](const auto& stack) {
+          return reduction(std::max(stack.height(), stack.width()), side_);
+        },
+        samples_);
+  }
   [[nodiscard]] Image<float> view(int offset) const {
     Image<float> picture = as_stored(offset);
     const double mean = mean_of(picture);
@@ -62,7 +73,7 @@ class Axis {
     const ViewIndex at{center_.v + (is_v_ ? offset : 0), center_.u + (is_v_ ? 0 : offset)};
     const auto [height, width] = std::visit(
         [](const auto& stack) { return std::pair(stack.height(), stack.width()); }, samples_);
-    const int k = reduction(std::max(height, width), side_);
+    const int k = pixels();
     const auto middle = [k](int length) {
       const int all = std::max(length / k, 1), kept = std::min(all, kArea);
       const int first = (all - kept) / 2;
@@ -169,6 +180,9 @@ class Costs {
 struct Search {
   double first = 0;
   double last = 0;
+
+  [[nodiscard]] bool is_empty() const { return last <= first; }
+  [[nodiscard]] double most() const { return std::max(std::abs(first), std::abs(last)); }
 };
 
 Image<float> best_shifts(const LineOfViews& views, Search search, const Progress& progress) {
@@ -213,7 +227,24 @@ Search range_of(const Image<float>& shifts) {
   return {found[tail] - 1.0, found[found.size() - 1 - tail] + 1.0};
 }
 
+/// The middle view and those next to it.
+LineOfViews next_views(const Axis& axis) {
+  LineOfViews views;
+  views.middle = axis.view(0);
+  views.near = {axis.view(-1), axis.view(1)};
+  views.far = views.near;
+  views.far_step = 1;
+  return views;
+}
+
 }  // namespace
+
+double largest_motion(const LightField::Samples& samples, bool is_v, const Progress& progress) {
+  const Axis axis(samples, is_v, kCoarseSide);
+  if (axis.reach() < 1) return 0;
+  const Search coarse{-kCoarseRange, kCoarseRange};
+  return axis.pixels() * range_of(best_shifts(next_views(axis), coarse, progress)).most();
+}
 
 LineMatches match_line(const LightField::Samples& samples, bool is_v, int side,
                        const Progress& progress) {
@@ -221,17 +252,16 @@ LineMatches match_line(const LightField::Samples& samples, bool is_v, int side,
   LineMatches found;
   if (axis.reach() < 1) return found;
   LineOfViews& views = found.views;
-  views.middle = axis.view(0);
-  views.near = {axis.view(-1), axis.view(1)};
-  views.far = views.near;
-  views.far_step = 1;
-  const double range = std::clamp(views.middle.width() / 32.0, 4.0, 16.0);
+  views = next_views(axis);
+  const double usual = std::clamp(views.middle.width() / 32.0, 4.0, 16.0);
+  const double range = std::max(usual, largest_motion(samples, is_v, progress) / axis.pixels());
+  if (range > kLargestRange) return {};
   found.shift = best_shifts(views, {-range, range}, progress);
   const Search first = range_of(found.shift);
-  const double most = std::max(std::abs(first.first), std::abs(first.last));
-  if (first.last <= first.first) return {};
+  if (first.is_empty()) return {};
 
-  const int far = axis.farthest_bright(std::clamp(static_cast<int>(kLargestShift / most), 1, 8));
+  const int far =
+      axis.farthest_bright(std::clamp(static_cast<int>(kLargestShift / first.most()), 1, 8));
   if (far == 1) return found;
   const int near = (far + 1) / 2;
   if (near > 1) views.near = {axis.view(-near), axis.view(near)};

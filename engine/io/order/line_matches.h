@@ -26,10 +26,17 @@ struct LineMatches {
   Image<float> shift;
 };
 
+/// How far points move between neighbouring views along an axis, at most, in px; hardly any move
+/// farther. Found in views of at most 128 px, where up to 24 px are looked for.
+/// 0 if the axis has fewer than three views or the views have no texture. Throws Cancelled.
+[[nodiscard]] double largest_motion(const LightField::Samples& samples, bool is_v,
+                                    const Progress& progress);
+
 /// Matches windows of 5×5 px against the views before and those after, whichever fit better, so
 /// that what is hidden on one side is matched on the other. Shifts are multiples of 0.5 px. Views
 /// are reduced to at most `side` px (by whole factors), and their middle of 512×512 px is looked
-/// at. Empty if the axis has fewer than three views or the views have no texture. Throws Cancelled.
+/// at. Empty if the axis has fewer than three views, the views have no texture, or points move by
+/// more than 48 px of the reduced views. Throws Cancelled.
 [[nodiscard]] LineMatches match_line(const LightField::Samples& samples, bool is_v, int side,
                                      const Progress& progress);
 

@@ -90,6 +90,35 @@ class SignCheckTest : public QObject {
              told(scene).c_str());
   }
 
+  void wideMotion_isFollowed_data() {
+    QTest::addColumn<double>("background");
+    QTest::addColumn<double>("foreground");
+    QTest::addColumn<bool>("reversed");
+    for (const bool reversed : {false, true}) {
+      QTest::addRow("both ways, %d", reversed) << -20.0 << 12.0 << reversed;
+      QTest::addRow("one way, %d", reversed) << 14.0 << 26.0 << reversed;
+    }
+  }
+  /// Of a few cameras far apart.
+  void wideMotion_isFollowed() {
+    QFETCH(double, background);
+    QFETCH(double, foreground);
+    QFETCH(bool, reversed);
+    LayeredOptions options = options_of({3, 5});
+    options.height = 256;
+    options.width = 320;
+    options.background_px = background;
+    options.foreground_px = foreground;
+    ViewStack<std::uint8_t> views = layered_views(options);
+    ViewStack<std::uint8_t> stored = views.clone();
+    io::reverse_views(stored, options.grid, {reversed, false});
+
+    const Scene scene = assembled(std::move(stored));
+
+    QVERIFY2(has_views(scene, views), told(scene).c_str());
+    QCOMPARE(scene.convention.sign, std::string("checked"));
+  }
+
   void vignettedViews_doNotMislead_data() {
     QTest::addColumn<bool>("reversed");
     QTest::newRow("as stored") << false;
