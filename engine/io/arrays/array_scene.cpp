@@ -8,6 +8,7 @@
 #include "engine/io/arrays/array_samples.h"
 #include "engine/io/arrays/choose_layout.h"
 #include "engine/io/arrays/list_grid.h"
+#include "engine/io/arrays/luma_chroma.h"
 #include "engine/io/arrays/several_fields.h"
 #include "engine/io/arrays/stacked_channels.h"
 #include "engine/io/maps/sample_range.h"
@@ -101,6 +102,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   progress.step("reading views");
   ArraySamples read = read_samples(*array, chosen.layout, progress.part(0, 0.7));
   settle_range(read.samples, options.levels, scene.convention);
+  decode_luma_chroma(entry.name, read.samples, scene.convention);
   progress.step("reading maps");
   std::vector<const ArrayEntry*> others;
   for (const ArrayEntry& other : file.entries()) {

@@ -63,12 +63,14 @@ bool is_meant(const fs::path& path, const OpenOptions& options) {
   // Results, and what lies beside a light field of the archive.
   if (file->has("estimate")) return false;
   if (!archive_group(*file).empty()) return false;
-  if (path.filename() != "lf.h5" && is_there(path.parent_path() / "lf.h5")) return false;
+  const bool is_beside = path.filename() != "lf.h5" && is_there(path.parent_path() / "lf.h5");
   const Hdf5Arrays arrays(file);
   const auto& entries = arrays.entries();
   const auto light_field = std::ranges::find(entries, "LF", &ArrayEntry::name);
-  if (light_field != entries.end()) return !is_archive_form(*light_field);
-  return std::ranges::any_of(entries, is_like_views);
+  if (light_field != entries.end()) return !is_beside && !is_archive_form(*light_field);
+  return std::ranges::any_of(entries, [&](const ArrayEntry& entry) {
+    return is_like_views(entry) && (!is_beside || has_light_field_name(entry));
+  });
 }
 
 bool has_hdf5_name(const fs::path& path) {

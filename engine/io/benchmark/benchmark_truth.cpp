@@ -6,9 +6,11 @@
 #include "engine/io/benchmark/high_res_files.h"
 #include "engine/io/beside/map_scale.h"
 #include "engine/io/beside/near_side.h"
+#include "engine/io/beside/unknown_value.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/maps/pfm.h"
 #include "engine/io/open/scene_folder.h"
+#include "engine/io/order/turned_truth.h"
 
 #include <fmt/format.h>
 
@@ -197,12 +199,25 @@ DisparityField read_stored(const fs::path& folder, const BesideViews& views,
   return {};
 }
 
-/// Disparity whose sign is not that of the benchmark: views show what hides what.
-void correct_sign(const LightField::Samples& samples, DisparityField& field,
+/// Values that stand for unknown become invalid.
+void drop_unknown(const LightField::Samples& samples, ViewIndex at, DisparityField& field,
                   ConventionReport& report) {
+  for (const float value : possible_unknown_values(field.view(at))) {
+    const std::string text = drop_unknown_value(samples, at, {value, value}, field);
+    if (!text.empty()) report.warnings.push_back("The disparity" + text);
+  }
+}
+
+/// Disparity that other programs wrote: turned, with values that stand for unknown, or of another
+/// sign than that of the benchmark, which views show by what hides what.
+void correct_values(const LightField::Samples& samples, DisparityField& field,
+                    ConventionReport& report) {
   if (field.empty()) return;
   const GridShape grid = grid_of(samples);
   const ViewIndex at = field.contains(grid.center()) ? grid.center() : field.disparity.first();
+  const std::string undone = put_truth_upright(samples, field);
+  if (!undone.empty()) report.warnings.push_back(turned_back_text(undone));
+  drop_unknown(samples, at, field, report);
   const Explanation explanation = explain_views(samples, at, field.view(at), 1);
   if (!explanation.is_good()) return;
   const NearSide side = find_near_side(samples, at, field.view(at), 1, explanation);
@@ -267,7 +282,7 @@ void read_object_ids(const fs::path& folder, const BesideViews& views, const Bes
 DisparityField read_benchmark_disparity(const fs::path& folder, const BesideViews& views,
                                         const BesideNotes& notes, const Progress& progress) {
   DisparityField field = read_stored(folder, views, notes, progress);
-  correct_sign(views.samples, field, notes.report);
+  correct_values(views.samples, field, notes.report);
   return field;
 }
 

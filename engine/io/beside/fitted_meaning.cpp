@@ -90,6 +90,7 @@ std::optional<FittedMeaning> fit_meaning(const LightField::Samples& samples, Vie
   meaning.scale = best->slope;
   meaning.offset = best->offset;
   meaning.error = best->error;
+  meaning.unwarped = best->unwarped;
   meaning.text = formula(meaning);
   const double divisor = meaning.form == ValueForm::Linear ? round_divisor(*best) : 0;
   if (divisor > 0) {

@@ -73,9 +73,9 @@ DisparityField read_npy_values(const fs::path& path, GridShape grid) {
   return marked(std::move(maps));
 }
 
-/// The first channel: maps are written as grey, or with the same value in all channels.
+/// The channel of depth, else the first: maps are written as grey, or with the same value in all.
 DisparityField read_exr_values(const fs::path& path) {
-  const AnyImage decoded = decode_image(path);
+  const AnyImage decoded = decode_image(path, PicturePart::Depth);
   const auto* image = std::get_if<Image<float>>(&decoded);
   if (image == nullptr) {
     throw IoError(path, "this picture has " + describe_image(decoded) +

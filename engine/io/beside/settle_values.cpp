@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/beside/settle_values.h"
 
+#include "engine/io/beside/doubtful_map.h"
 #include "engine/io/beside/near_side.h"
-#include "engine/io/beside/unknown_zeros.h"
+#include "engine/io/beside/unknown_value.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace episcope::io {
 namespace {
@@ -13,11 +15,52 @@ namespace {
 constexpr double kPlain = 0.5;
 /// A fit must leave at most this share of the error.
 constexpr double kClearlyBetter = 0.85;
+/// Maps as they are stored may explain views not much worse than turned ones, which are wrong then.
+constexpr double kFarBetter = 0.6;
 
-void drop_zeros(const LightField::Samples& samples, ViewIndex at, float zero, NamedValues values,
-                ConventionReport& report) {
-  const std::string text = drop_unknown_zeros(samples, at, zero, values.field);
-  if (!text.empty()) report.warnings.push_back(values.name + text);
+/// How values of the file became those of the field.
+struct Becoming {
+  const FittedMeaning* meaning = nullptr;  ///< If they were turned into disparity,
+  double factor = 1;                       ///< else what is still to be done.
+};
+
+void drop_unknown(const LightField::Samples& samples, const std::vector<float>& possible,
+                  const Becoming& becoming, NamedValues values, ConventionReport& report) {
+  const ViewIndex at = values.at(grid_of(samples));
+  for (const float stored : possible) {
+    const float value = becoming.meaning ? becoming.meaning->disparity(stored) : stored;
+    const std::string text =
+        drop_unknown_value(samples, at, {stored, value, becoming.factor}, values.field);
+    if (!text.empty()) report.warnings.push_back(values.name + text);
+  }
+}
+
+bool is_plain(const Explanation& explanation) {
+  // Shifts out of the picture leave nothing to compare.
+  return explanation.unwarped > 0 && explanation.error <= kPlain * explanation.unwarped;
+}
+
+void turn_back(const MapTurn& turn, DisparityField& field, ConventionReport& report) {
+  field = turned_back(field, turn);
+  report.warnings.push_back(turned_back_text(turn.text));
+}
+
+/// Before near and far are judged, which mirrored maps would get wrong.
+void put_upright(const LightField::Samples& samples, const std::vector<MapUnit>& units,
+                 ViewIndex at, DisparityField& field, ConventionReport& report) {
+  const DisparityView map = field.view(at);
+  const Explanation stored = settle_unit(samples, at, map, units).explanation;
+  if (is_plain(stored)) return;
+  double least = kFarBetter * (stored.unwarped > 0 ? std::min(stored.error, stored.unwarped) : 0);
+  std::optional<MapTurn> found;
+  for (const MapTurn& turn : possible_turns(map.disparity.height, map.disparity.width)) {
+    const DisparityField turned = turned_back(map, turn);
+    const double error = settle_unit(samples, at, turned.view({}), units).explanation.error;
+    if (error >= least) continue;
+    least = error;
+    found = turn;
+  }
+  if (found) turn_back(*found, field, report);
 }
 
 /// Negates disparity of the other sign, and says whether it did.
@@ -44,24 +87,27 @@ void scale_values(DisparityField& field, double factor) {
 SettledUnit settle_values(const LightField::Samples& samples, const std::vector<MapUnit>& units,
                           NamedValues values, ConventionReport& report) {
   const ViewIndex at = values.at(grid_of(samples));
+  const std::vector<float> possible = possible_unknown_values(values.field.view(at));
+  put_upright(samples, units, at, values.field, report);
   SettledUnit settled = settle_unit(samples, at, values.field.view(at), units);
-  float zero = 0;
   const Explanation& as_stored = settled.explanation;
-  // Shifts out of the picture leave nothing to compare.
-  const bool is_plain = as_stored.unwarped > 0 && as_stored.error <= kPlain * as_stored.unwarped;
-  if (!is_plain) {
-    const auto meaning = fit_meaning(samples, at, values.field.view(at), {ValueForm::Linear});
+  std::optional<FittedMeaning> meaning;
+  if (!is_plain(as_stored)) {
+    meaning = fit_meaning(samples, at, values.field.view(at), {ValueForm::Linear});
     const bool is_compared = as_stored.unwarped > 0;
-    if (meaning && (!is_compared || meaning->error < kClearlyBetter * as_stored.error)) {
-      apply_meaning(*meaning, values.field);
-      zero = meaning->disparity(0);
-      const Explanation first = settled.first;
-      settled = settle_unit(samples, at, values.field.view(at), {{1, meaning->text}});
-      settled.first = first;
-      report.warnings.push_back(meaning->warning(values.name));
+    if (is_compared && meaning && meaning->error >= kClearlyBetter * as_stored.error) {
+      meaning = std::nullopt;
     }
   }
-  drop_zeros(samples, at, zero, values, report);
+  if (meaning) {
+    apply_meaning(*meaning, values.field);
+    const Explanation first = settled.first;
+    settled = settle_unit(samples, at, values.field.view(at), {{1, meaning->text}});
+    settled.first = first;
+    report.warnings.push_back(meaning->warning(values.name));
+  }
+  const Becoming becoming{meaning ? &*meaning : nullptr, settled.unit.factor};
+  drop_unknown(samples, possible, becoming, values, report);
   return settled;
 }
 
@@ -69,18 +115,19 @@ std::optional<FittedMeaning> settle_unknown_values(const LightField::Samples& sa
                                                    const std::vector<ValueForm>& forms,
                                                    NamedValues values, ConventionReport& report) {
   const ViewIndex at = values.at(grid_of(samples));
-  auto meaning = fit_meaning(samples, at, values.field.view(at), forms);
-  if (!meaning) return std::nullopt;
-  apply_meaning(*meaning, values.field);
-  if (meaning->form == ValueForm::Linear) {
-    drop_zeros(samples, at, meaning->disparity(0), values, report);
-  }
+  const std::vector<float> possible = possible_unknown_values(values.field.view(at));
+  const auto found = fit_doubtful_map(samples, at, values.field.view(at), forms);
+  if (!found) return std::nullopt;
+  if (found->turn) turn_back(*found->turn, values.field, report);
+  const FittedMeaning& meaning = found->meaning;
+  apply_meaning(meaning, values.field);
+  drop_unknown(samples, possible, {&meaning, 1}, values, report);
   const bool is_reversed =
-      meaning->form == ValueForm::Linear && correct_sign(samples, at, values.field);
-  report.units = "disparity from " + values.name + ": " + meaning->text +
+      meaning.form == ValueForm::Linear && correct_sign(samples, at, values.field);
+  report.units = "disparity from " + values.name + ": " + meaning.text +
                  (is_reversed ? ", negative = nearer" : "");
-  report.units_check = meaning->check;
-  report.warnings.push_back(meaning->warning(values.name));
+  report.units_check = meaning.check;
+  report.warnings.push_back(meaning.warning(values.name));
   return meaning;
 }
 

@@ -7,6 +7,7 @@
 #include "engine/io/grid/claimed_pixels.h"
 #include "engine/io/grid/decode_png.h"
 #include "engine/io/grid/decode_radiance.h"
+#include "engine/io/grid/exr_channels.h"
 #include "engine/io/grid/file_bytes.h"
 #include "engine/io/grid/jpeg_end.h"
 
@@ -61,12 +62,14 @@ void allow_openexr() {
   static_cast<void>(is_set);
 }
 
-cv::Mat read_mat(const std::filesystem::path& path) {
+cv::Mat read_mat(const std::filesystem::path& path, PicturePart part) {
   allow_openexr();
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::Mat decoded;
   try {
-    decoded = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+    const auto renamed = exr_with_known_channels(path, part);
+    decoded = renamed ? cv::imdecode(*renamed, cv::IMREAD_UNCHANGED)
+                      : cv::imread(path.string(), cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     decoded.release();
   }
@@ -85,13 +88,13 @@ AnyImage image_of(const std::filesystem::path& path, const cv::Mat& decoded) {
 
 }  // namespace
 
-AnyImage decode_image(const std::filesystem::path& path) {
+AnyImage decode_image(const std::filesystem::path& path, PicturePart part) {
   require_readable_file(path);
   if (has_png_signature(path)) return decode_png(path);
   require_plausible_picture(path);
   if (has_radiance_signature(path)) return decode_radiance(path);
   require_whole_jpeg(path);
-  return image_of(path, read_mat(path));
+  return image_of(path, read_mat(path, part));
 }
 
 std::vector<AnyImage> decode_pages(const std::filesystem::path& path, int count) {

@@ -15,10 +15,14 @@ namespace episcope::io {
 /// dropped.
 using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<float>>;
 
+/// What of an OpenEXR file is wanted, which may hold both (exr_channels.h).
+enum class PicturePart { Colours, Depth };
+
 /// Decodes PNG, JPEG, JPEG 2000, WebP, TIFF, BMP, PPM, OpenEXR and Radiance HDR; a palette is
 /// resolved. The samples of the last two are linear. TIFF files that state an orientation come
 /// upright; Exif orientation (exif_orientation.h) is ignored. Throws IoError.
-[[nodiscard]] AnyImage decode_image(const std::filesystem::path& path);
+[[nodiscard]] AnyImage decode_image(const std::filesystem::path& path,
+                                    PicturePart part = PicturePart::Colours);
 
 /// The first `count` pages of a TIFF file, likewise. Throws IoError, also if there are less.
 [[nodiscard]] std::vector<AnyImage> decode_pages(const std::filesystem::path& path, int count);

@@ -50,7 +50,7 @@ fs::path named_views_folder(const fs::path& folder) {
   for (const char* name : {"lf", "views"}) {
     if (images_inside(name) > 1) return folder / name;
   }
-  for (const char* name : {"images", "rectified"}) {
+  for (const char* name : {"images", "rectified", "image", "rgb", "color"}) {
     const int inside = images_inside(name);
     if (inside > 1 && inside > count_images(folder)) return folder / name;
   }

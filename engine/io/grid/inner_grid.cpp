@@ -5,6 +5,7 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/beside/map_name.h"
 #include "engine/io/grid/image_list.h"
+#include "engine/io/grid/name_words.h"
 #include "engine/io/grid/view_group.h"
 
 #include <algorithm>
@@ -55,7 +56,8 @@ fs::path only_grid_inside(const fs::path& folder) {
       if (is_array_name(entry.path())) return {};
       continue;
     }
-    if (is_map_folder(name) || count_images(entry.path()) == 0) continue;
+    const bool is_beside = is_map_folder(name) || names_companions(lower_case(name));
+    if (is_beside || count_images(entry.path()) == 0) continue;
     if (!found.empty()) return {};
     found = entry.path();
   }

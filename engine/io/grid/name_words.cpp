@@ -131,8 +131,9 @@ bool NameWords::is_other_count(std::size_t number) const {
 }
 
 bool names_companions(const std::string& skeleton) {
-  return has_word(skeleton, std::array{"label", "mask", "depth", "disp", "seg", "gt", "normal",
-                                       "thumb", "conf", "weight", "truth", "objectid"});
+  return has_word(
+      skeleton, std::array{"label", "mask", "depth", "disp", "seg", "gt", "normal", "thumb", "conf",
+                           "weight", "truth", "objectid", "albedo", "diffuse", "specular"});
 }
 
 bool names_mosaics(const std::string& skeleton) {

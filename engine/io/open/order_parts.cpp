@@ -31,9 +31,7 @@ std::string order_axes(SceneParts& parts, bool are_axes_known, ConventionReport&
 /// Undoes how a program wrote the truth of a single view, and says so.
 void turn_truth(SceneParts& parts, ConventionReport& report) {
   const std::string undone = put_truth_upright(parts.samples, parts.truth.field);
-  if (undone.empty()) return;
-  report.warnings.push_back("The truth was stored with " + undone +
-                            ", as comparing it with the views shows; it was put right.");
+  if (!undone.empty()) report.warnings.push_back(turned_back_text(undone));
 }
 
 /// Adds to what is known of order and sign: swapped axes, and where positions run.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace episcope::io {
@@ -16,22 +17,15 @@ constexpr double kFarBetter = 0.6;
 /// Share of the error without warping below which a map is right beyond doubt.
 constexpr double kEvident = 0.2;
 
-/// How a map may have been written.
-struct Turn {
-  bool is_transposed = false;
-  bool flips_y = false;
-  bool flips_x = false;
-  const char* text = "";
-};
-
-constexpr Turn kTurns[] = {{false, true, false, "rows from bottom to top"},
-                           {false, false, true, "columns from right to left"},
-                           {false, true, true, "both rows and columns in reverse order"},
-                           {true, false, false, "rows and columns exchanged"}};
+constexpr MapTurn kTurns[] = {{false, true, false, "rows from bottom to top"},
+                              {false, false, true, "columns from right to left"},
+                              {false, true, true, "both rows and columns in reverse order"},
+                              {true, false, false, "rows and columns exchanged"}};
 
 /// A single view of the stack, or all.
 template <class T>
-ViewStack<T> turned(const ViewStack<T>& stack, const Turn& turn, GridShape grid, ViewIndex first) {
+ViewStack<T> turned(const ViewStack<T>& stack, const MapTurn& turn, GridShape grid,
+                    ViewIndex first) {
   if (stack.empty()) return {};
   ViewStack<T> out(grid, stack.height(), stack.width(), 1, first);
   for (int i = 0; i < grid.count(); ++i) {
@@ -49,39 +43,58 @@ ViewStack<T> turned(const ViewStack<T>& stack, const Turn& turn, GridShape grid,
   return out;
 }
 
-double unwarped(const WarpErrors& errors) {
-  const auto pixels = static_cast<double>(errors.u.pixels + errors.v.pixels);
-  if (pixels == 0) return 0;
-  return (errors.u.unwarped * static_cast<double>(errors.u.pixels) +
-          errors.v.unwarped * static_cast<double>(errors.v.pixels)) /
-         pixels;
+}  // namespace
+
+std::vector<MapTurn> possible_turns(int height, int width) {
+  std::vector<MapTurn> turns;
+  for (const MapTurn& turn : kTurns) {
+    if (!turn.is_transposed || height == width) turns.push_back(turn);
+  }
+  return turns;
 }
 
-}  // namespace
+DisparityField turned_back(const DisparityField& field, const MapTurn& turn) {
+  const GridShape grid = field.disparity.grid();
+  const ViewIndex first = field.disparity.first();
+  return {turned(field.disparity, turn, grid, first), turned(field.valid, turn, grid, first)};
+}
+
+DisparityField turned_back(const DisparityView& map, const MapTurn& turn) {
+  const int height = map.disparity.height;
+  const int width = map.disparity.width;
+  DisparityField field{ViewStack<float>({1, 1}, height, width),
+                       ViewStack<std::uint8_t>({1, 1}, height, width)};
+  for (int y = 0; y < height; ++y) {
+    std::copy_n(map.disparity.row(y), width, field.disparity.view({}).row(y));
+    for (int x = 0; x < width; ++x) field.valid.view({}).at(y, x) = map.is_valid(y, x) ? 1 : 0;
+  }
+  return turned_back(field, turn);
+}
+
+std::string turned_back_text(const std::string& turn) {
+  return "The truth was stored with " + turn +
+         ", as comparing it with the views shows; it was put right.";
+}
 
 std::string put_truth_upright(const LightField::Samples& samples, DisparityField& field) {
   if (field.empty()) return {};
   const ViewIndex center = grid_of(samples).center();
   const ViewIndex at = field.contains(center) ? center : field.disparity.first();
   const WarpErrors stored = warp_errors(samples, at, field.view(at));
-  const double without = unwarped(stored);
+  const double without = stored.unwarped();
   if (stored.best() < kEvident * without) return {};
   double least = kFarBetter * std::min(stored.best(), without);
-  const Turn* undone = nullptr;
-  for (const Turn& turn : kTurns) {
-    if (turn.is_transposed && field.disparity.height() != field.disparity.width()) continue;
+  std::optional<MapTurn> undone;
+  for (const MapTurn& turn : possible_turns(field.disparity.height(), field.disparity.width())) {
     const DisparityField candidate{turned(field.disparity, turn, {1, 1}, at),
                                    turned(field.valid, turn, {1, 1}, at)};
     const double error = warp_errors(samples, at, candidate.view(at)).best();
     if (error >= least) continue;
     least = error;
-    undone = &turn;
+    undone = turn;
   }
-  if (undone == nullptr) return {};
-  const GridShape grid = field.disparity.grid();
-  const ViewIndex first = field.disparity.first();
-  field = {turned(field.disparity, *undone, grid, first),
-           turned(field.valid, *undone, grid, first)};
+  if (!undone) return {};
+  field = turned_back(field, *undone);
   return undone->text;
 }
 

@@ -5,8 +5,28 @@
 #include "engine/core/light_field/light_field.h"
 
 #include <string>
+#include <vector>
 
 namespace episcope::io {
+
+/// How a program may have written maps, if not by rows from top to bottom.
+struct MapTurn {
+  bool is_transposed = false;
+  bool flips_y = false;
+  bool flips_x = false;
+  const char* text = "";  ///< Such as "rows from bottom to top".
+};
+
+/// All of maps of this size: rows and columns are exchanged of square ones only.
+[[nodiscard]] std::vector<MapTurn> possible_turns(int height, int width);
+
+/// The maps as they are if they were written so.
+[[nodiscard]] DisparityField turned_back(const DisparityField& field, const MapTurn& turn);
+/// The same of one map, as a field of one view, (0, 0).
+[[nodiscard]] DisparityField turned_back(const DisparityView& map, const MapTurn& turn);
+
+/// What a warning says of `MapTurn::text`, or of what `put_truth_upright` returned.
+[[nodiscard]] std::string turned_back_text(const std::string& turn);
 
 /// Truth that was written with its rows from bottom to top (a PFM file by a program that forgets
 /// that PFM does so), mirrored, or of square views with rows and columns exchanged (an array by

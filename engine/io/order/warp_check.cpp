@@ -128,6 +128,13 @@ double WarpErrors::best() const {
   return sum / static_cast<double>(u.pixels + v.pixels);
 }
 
+double WarpErrors::unwarped() const {
+  const auto pixels = static_cast<double>(u.pixels + v.pixels);
+  if (pixels == 0) return 0;
+  return (u.unwarped * static_cast<double>(u.pixels) + v.unwarped * static_cast<double>(v.pixels)) /
+         pixels;
+}
+
 Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view) {
   const PixelRect all = std::visit(
       [](const auto& stack) {

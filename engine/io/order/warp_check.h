@@ -29,6 +29,8 @@ struct WarpErrors {
 
   /// Mean error of the better order of each axis.
   [[nodiscard]] double best() const;
+  /// And without warping.
+  [[nodiscard]] double unwarped() const;
 };
 
 /// A view as grey values in 0…255, of 16-bit samples by as many bits as are used; a sample that is

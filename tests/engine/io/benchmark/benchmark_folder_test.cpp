@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <functional>
 
 namespace episcope::in_benchmark_folder_test {
 
@@ -37,12 +38,21 @@ class BenchmarkFolderTest : public QObject {
           io::write_png(file, folder_->scene.views.view(view));
         });
   }
-  void write_truth(const char* name, float sign) const {
+  /// By what is to be written at (y, x), of the true map.
+  using Value = std::function<float(int y, int x, const Image<float>& map)>;
+  void write_truth(const char* name, const Value& value) const {
     const auto center = folder_->scene.disparity.view({1, 1});
     Image<float> map(center.height, center.width);
-    std::transform(center.data, center.data + center.size(), map.data(),
-                   [sign](float d) { return sign * d; });
-    io::write_pfm(folder_->path(name), map.view());
+    std::copy_n(center.data, center.size(), map.data());
+    Image<float> written(center.height, center.width);
+    for (int y = 0; y < map.height(); ++y) {
+      for (int x = 0; x < map.width(); ++x) written.at(y, x) = value(y, x, map);
+    }
+    io::write_pfm(folder_->path(name), written.view());
+  }
+  void write_truth(const char* name, float sign) const {
+    write_truth(name,
+                [sign](int y, int x, const Image<float>& map) { return sign * map.at(y, x); });
   }
   /// Of the truth of the centre view.
   double error(const Scene& scene) const {
@@ -82,6 +92,19 @@ class BenchmarkFolderTest : public QObject {
     QCOMPARE(error(scene), 0.0);
     QVERIFY2(scene.convention.units.find("negative = nearer") != std::string::npos,
              scene.convention.units.c_str());
+  }
+
+  void valueThatTheViewsContradict_isNotKnown() {
+    write_views("");
+    write_truth("gt_disp_lowres.pfm", [](int y, int x, const Image<float>& map) {
+      return x < 20 && y < 20 ? -999 : map.at(y, x);
+    });
+
+    const Scene scene = folder_->open();
+
+    const DisparityView found = scene.truth->field.view({1, 1});
+    QVERIFY2(!found.is_valid(10, 10), warnings_of(scene).c_str());
+    QVERIFY(found.is_valid(10, 30));
   }
 
   void missingView_leavesAPartWithTheTruthInItsPlace() {

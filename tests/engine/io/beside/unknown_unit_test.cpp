@@ -267,6 +267,91 @@ class UnknownUnitTest : public QObject {
     QVERIFY2(warns_of(scene, "which the views contradict"), describe(scene.convention).c_str());
   }
 
+  void valueOfUnknownDepth_isLeftOut_data() {
+    QTest::addColumn<float>("unknown");
+    QTest::newRow("the largest of 16 bits") << 65535.0F;
+    QTest::newRow("infinitely far") << 1e10F;
+    QTest::newRow("a negative number") << -1.0F;
+  }
+  void valueOfUnknownDepth_isLeftOut() {
+    QFETCH(float, unknown);
+    Image<float> depth(disparity().height, disparity().width);
+    std::transform(disparity().data, disparity().data + disparity().size(), depth.data(),
+                   [](float d) { return 60000 / (d + 5); });
+    for (int y = 20; y < 50; ++y) std::fill_n(depth.row(y) + 40, 40, unknown);
+    write_array("depth.npy", depth.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 0.03, describe(scene.convention).c_str());
+    QVERIFY(!scene.truth->field.view({2, 2}).is_valid(30, 60));
+    QVERIFY(scene.truth->field.view({2, 2}).is_valid(10, 10));
+  }
+
+  void valueOfUnknownDisparity_isLeftOut_data() {
+    QTest::addColumn<float>("unknown");
+    QTest::addColumn<float>("factor");
+    for (const float factor : {1.0F, 4.0F}) {
+      QTest::addRow("too far, %.0f", factor) << -999.0F << factor;
+      QTest::addRow("too near, %.0f", factor) << 1000.0F << factor;
+      QTest::addRow("-1, %.0f", factor) << -1.0F << factor;
+    }
+  }
+  /// Also where the values are those of the whole baseline of five views.
+  void valueOfUnknownDisparity_isLeftOut() {
+    QFETCH(float, unknown);
+    QFETCH(float, factor);
+    use_positive_disparities();
+    Image<float> map(disparity().height, disparity().width);
+    std::transform(disparity().data, disparity().data + disparity().size(), map.data(),
+                   [&](float d) { return factor * d; });
+    for (int y = 20; y < 40; ++y) std::fill_n(map.row(y) + 30, 20, unknown);
+    write_array("disparity.npy", map.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 1e-6, describe(scene.convention).c_str());
+    QVERIFY(!scene.truth->field.view({2, 2}).is_valid(30, 40));
+    QVERIFY2(warns_of(scene, "which the views contradict"), describe(scene.convention).c_str());
+  }
+
+  void mirroredDisparity_isPutRight_data() {
+    QTest::addColumn<float>("factor");
+    QTest::newRow("px per view step") << 1.0F;
+    QTest::newRow("of the whole baseline, nearer is smaller") << -4.0F;
+  }
+  void mirroredDisparity_isPutRight() {
+    QFETCH(float, factor);
+    Image<float> map(disparity().height, disparity().width);
+    for (int y = 0; y < map.height(); ++y) {
+      std::transform(disparity().row(y), disparity().row(y) + map.width(), map.row(y),
+                     [&](float d) { return factor * d; });
+      std::reverse(map.row(y), map.row(y) + map.width());
+    }
+    write_array("disparity.npy", map.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 1e-6, describe(scene.convention).c_str());
+    QVERIFY2(has_same_samples(scene, scene_), scene.convention.order.c_str());
+    QVERIFY2(warns_of(scene, "columns from right to left"), describe(scene.convention).c_str());
+  }
+
+  void depthUpsideDown_isPutRight() {
+    Image<float> depth(disparity().height, disparity().width);
+    for (int y = 0; y < depth.height(); ++y) {
+      const float* from = disparity().row(depth.height() - 1 - y);
+      std::transform(from, from + depth.width(), depth.row(y),
+                     [](float d) { return 60 / (d + 5); });
+    }
+    write_array("depth.npy", depth.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 0.03, describe(scene.convention).c_str());
+    QVERIFY2(warns_of(scene, "rows from bottom to top"), describe(scene.convention).c_str());
+  }
+
   void mapWithoutItsBorder_isPutIntoTheMiddle() {
     Image<float> map(disparity().height - 8, disparity().width - 8);
     for (int y = 0; y < map.height(); ++y) {

@@ -53,6 +53,28 @@ class InnerGridTest : public QObject {
     QVERIFY2(read.truth->has_disparity(), describe(read.convention).c_str());
   }
 
+  void otherPassesOfARender_areNoViews_data() {
+    QTest::addColumn<QString>("form");
+    QTest::newRow("a folder each") << "%1/{}_{}.png";
+    QTest::newRow("in one folder") << "{}_{}_%1.png";
+    QTest::newRow("a folder each, numbered") << "%1/{}{}.png";
+  }
+  void otherPassesOfARender_areNoViews() {
+    QFETCH(QString, form);
+    const LayeredFolder folder;
+    for (const char* pass : {"rgb", "normal", "albedo"}) {
+      folder.write_views(LayeredFolder::named(form.arg(pass).toStdString()));
+    }
+    folder.write_npy(LayeredFolder::named(form.arg("depth").replace("png", "npy").toStdString()),
+                     folder.scene.disparity);
+
+    const Scene read = folder.open();
+
+    QVERIFY(has_views_of(read, folder.scene));
+    QVERIFY2(read.convention.format.find("rgb") != std::string::npos,
+             read.convention.format.c_str());
+  }
+
   void twoFolders_areNotOneLightField() {
     const LayeredFolder folder;
     folder.write_views(LayeredFolder::named("left/{}_{}.png"));
