@@ -141,8 +141,7 @@ std::string drop_unknown_value(const LightField::Samples& samples, ViewIndex at,
           : "it leads out of the picture";
   return fmt::format(
       " is {:.7g} at {:.3g} % of its pixels, which the views contradict ({}): no disparity is "
-      "known "
-      "there.",
+      "known there.",
       unknown.stored, 100 * static_cast<double>(count) / all, evidence);
 }
 

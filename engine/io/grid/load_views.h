@@ -24,7 +24,7 @@ struct ViewFiles {
   int orientation = 1;  ///< In which all of them are to be shown (`common_orientation`).
 
   [[nodiscard]] const std::filesystem::path& file(ViewIndex view) const {
-    return files[static_cast<std::size_t>(view.v * grid.u + view.u)];
+    return files[static_cast<std::size_t>(view.v) * grid.u + view.u];
   }
   /// With the views that are missing or left out.
   [[nodiscard]] GridShape whole_grid() const { return part ? part->whole : grid; }
