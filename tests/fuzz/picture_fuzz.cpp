@@ -2,6 +2,7 @@
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_header.h"
 #include "engine/io/open/open.h"
+#include "tests/engine/io/grid/exr_file.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 
@@ -10,8 +11,19 @@
 namespace episcope::fuzz {
 namespace {
 
+/// As renderers name them; of colours, and of depth.
+void write_layers(const std::filesystem::path& path) {
+  const Image<float> values(4, 5);
+  const std::string layer = "View Layer.Combined.";
+  test::write_exr(path, {{layer + "R", values.view()},
+                         {layer + "G", values.view()},
+                         {layer + "B", values.view()},
+                         {"View Layer.Depth.Z", values.view()}});
+}
+
 void write_seeds(const std::filesystem::path& folder) {
   write_seed("eslf", folder / "lf_eslf.png");
+  write_layers(folder / "layers.exr");
   const cv::Mat picture(32, 40, CV_8UC3, cv::Scalar(10, 100, 200));
   for (const char* suffix : {".bmp", ".ppm", ".tif", ".jpg", ".png", ".jp2", ".webp", ".hdr"}) {
     cv::imwrite((folder / ("picture" + std::string(suffix))).string(), picture);
@@ -22,6 +34,7 @@ void write_seeds(const std::filesystem::path& folder) {
 void read(const std::filesystem::path& file) {
   tolerate([&] { (void)io::read_image_header(file); });
   tolerate([&] { (void)io::decode_image(file); });
+  tolerate([&] { (void)io::decode_image(file, io::PicturePart::Depth); });
   io::OpenOptions options;
   options.mosaic = io::Mosaic::Lenslets;
   options.grid = "3x3";

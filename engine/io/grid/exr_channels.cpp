@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/grid/exr_channels.h"
 
+#include "engine/core/text/suffix.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
@@ -90,14 +91,8 @@ std::string_view last_part(std::string_view name) {
   return dot == std::string_view::npos ? name : name.substr(dot + 1);
 }
 
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool is_depth(const std::string& name) {
-  return last_part(name) == "Z" || lower(name).find("depth") != std::string::npos;
+  return last_part(name) == "Z" || lower_case(name).find("depth") != std::string::npos;
 }
 
 /// New names of some channels, by their place in the list.
@@ -122,7 +117,7 @@ Names names_of_layer(const std::vector<Channel>& channels) {
   }
   std::erase_if(layers, [](const auto& layer) { return layer.second.size() != 3; });
   const auto combined = std::ranges::find_if(layers, [](const auto& layer) {
-    return lower(layer.first).find("combined") != std::string::npos;
+    return lower_case(layer.first).find("combined") != std::string::npos;
   });
   if (combined != layers.end()) return combined->second;
   return layers.empty() ? Names{} : layers.begin()->second;

@@ -11,7 +11,6 @@
 #include "engine/io/open/grid_option.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,15 +41,11 @@ bool look_alike(const ViewFiles& views) {
 /// are left.
 ViewFiles those_alike(const ViewFiles& views) {
   std::vector<std::optional<Size>> sizes;
-  std::map<Size, int> counts;
-  for (const auto& file : views.files) {
-    sizes.push_back(size_of(file));
-    if (sizes.back()) ++counts[*sizes.back()];
-  }
-  const auto usual = std::ranges::max_element(counts, {}, &std::pair<const Size, int>::second);
+  for (const auto& file : views.files) sizes.push_back(size_of(file));
+  const std::optional<Size> usual = majority(sizes);
   std::vector<OddView> odd;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    if (usual == counts.end() || sizes[i] != usual->first) odd.push_back({static_cast<int>(i), {}});
+    if (!usual || sizes[i] != usual) odd.push_back({static_cast<int>(i), {}});
   }
   auto left = without_views(views, odd);
   if (left) return std::move(left->views);

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <compare>
 #include <cstdlib>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -152,19 +151,11 @@ std::vector<int> from_center(GridShape grid) {
   return places;
 }
 
-/// The form of more than half of the views that could be decoded; nothing if there is none.
+/// The form of most views that could be decoded.
 std::optional<Form> usual_form(const std::vector<Outcome>& outcomes) {
-  std::map<Form, std::size_t> counts;
-  std::size_t decoded = 0;
-  for (const Outcome& each : outcomes) {
-    if (!each.form) continue;
-    ++counts[*each.form];
-    ++decoded;
-  }
-  for (const auto& [form, count] : counts) {
-    if (2 * count > decoded) return form;
-  }
-  return std::nullopt;
+  std::vector<std::optional<Form>> forms;
+  for (const Outcome& each : outcomes) forms.push_back(each.form);
+  return majority(forms);
 }
 
 /// Views that are not like most, or else not like the first that could be decoded.

@@ -3,6 +3,8 @@
 
 #include "engine/io/grid/load_views.h"
 
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +17,22 @@ struct OddView {
   std::string why;  ///< "the image cannot be decoded: …", "this view has 8×8 px, …".
   bool is_damaged = false;
 };
+
+/// What more than half of those have that are known; nothing if there is no such thing.
+template <class T>
+[[nodiscard]] std::optional<T> majority(const std::vector<std::optional<T>>& each) {
+  std::map<T, std::size_t> counts;
+  std::size_t known = 0;
+  for (const std::optional<T>& one : each) {
+    if (!one) continue;
+    ++counts[*one];
+    ++known;
+  }
+  for (const auto& [value, count] : counts) {
+    if (2 * count > known) return value;
+  }
+  return std::nullopt;
+}
 
 /// What is left of views without some of them.
 struct PartWithout {
