@@ -163,9 +163,9 @@ SlopeCorrelation correlate(const LightField::Samples& samples, ViewIndex center,
 double search_range(const LightField::Samples& samples, const Progress& progress) {
   const int smaller = std::visit(
       [](const auto& stack) { return std::min(stack.width(), stack.height()); }, samples);
-  const auto [u, v] =
-      along_both_axes(progress, [&](bool is_v) { return largest_motion(samples, is_v, progress); });
   const double usual = std::clamp(smaller / 48.0, 3.0, 16.0);
+  const auto [u, v] = along_both_axes(
+      progress, [&](bool is_v) { return largest_motion(samples, is_v, usual, progress); });
   return std::clamp(std::max(u, v), usual, kLargestRange);
 }
 

@@ -20,7 +20,8 @@ constexpr double kStep = 0.5;
 constexpr double kLargestShift = 24;
 constexpr double kLargestRange = 48;  ///< In px of what is looked at: smaller views tell as much.
 constexpr int kCoarseSide = 128;      ///< Of views in which motion of any size is looked for,
-constexpr double kCoarseRange = 24;   ///< and so far.
+constexpr double kCoarseRange = 24;   ///< and so far,
+constexpr float kFarBetter = 0.5F;    ///< beyond the usual with so much of the error within.
 constexpr double kLeastBrightness = 0.6;  ///< Of a view, as a share of the middle one's.
 
 double mean_of(const Image<float>& picture) {
@@ -180,15 +181,23 @@ class Costs {
 struct Search {
   double first = 0;
   double last = 0;
+  /// Beyond it, either way, points must match far better than within.
+  double usual = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool is_empty() const { return last <= first; }
   [[nodiscard]] double most() const { return std::max(std::abs(first), std::abs(last)); }
 };
 
+void lower(const Image<float>& values, Image<float>& least) {
+  std::transform(values.begin(), values.end(), least.begin(), least.begin(),
+                 [](float a, float b) { return std::min(a, b); });
+}
+
 Image<float> best_shifts(const LineOfViews& views, Search search, const Progress& progress) {
   const int height = views.middle.height();
   const int width = views.middle.width();
   Image<float> best(height, width, 1, std::numeric_limits<float>::max());
+  Image<float> usual = best;
   Image<float> sum(height, width);
   Image<float> shift(height, width);
   Costs costs(views);
@@ -197,6 +206,7 @@ Image<float> best_shifts(const LineOfViews& views, Search search, const Progress
     progress.check();
     const double tried = search.first + i * kStep;
     const Image<float>& cost = costs.at(tried);
+    if (std::abs(tried) <= search.usual) lower(cost, usual);
     for (std::size_t k = 0; k < cost.size(); ++k) {
       const float value = cost.data()[k];
       sum.data()[k] += value;
@@ -209,7 +219,9 @@ Image<float> best_shifts(const LineOfViews& views, Search search, const Progress
   for (std::size_t k = 0; k < shift.size(); ++k) {
     const float mean = sum.data()[k] / static_cast<float>(steps + 1);
     const bool is_inside = shift.data()[k] > search.first && shift.data()[k] < search.last;
-    const bool is_distinct = is_inside && best.data()[k] < 0.6F * mean;
+    const bool is_far = std::abs(shift.data()[k]) > search.usual;
+    const float most = is_far ? kFarBetter * usual.data()[k] : 0.6F * mean;
+    const bool is_distinct = is_inside && best.data()[k] < std::min(most, 0.6F * mean);
     if (!is_distinct) shift.data()[k] = std::numeric_limits<float>::quiet_NaN();
   }
   return shift;
@@ -239,10 +251,11 @@ LineOfViews next_views(const Axis& axis) {
 
 }  // namespace
 
-double largest_motion(const LightField::Samples& samples, bool is_v, const Progress& progress) {
+double largest_motion(const LightField::Samples& samples, bool is_v, double usual_px,
+                      const Progress& progress) {
   const Axis axis(samples, is_v, kCoarseSide);
   if (axis.reach() < 1) return 0;
-  const Search coarse{-kCoarseRange, kCoarseRange};
+  const Search coarse{-kCoarseRange, kCoarseRange, usual_px / axis.pixels()};
   return axis.pixels() * range_of(best_shifts(next_views(axis), coarse, progress)).most();
 }
 
@@ -254,7 +267,8 @@ LineMatches match_line(const LightField::Samples& samples, bool is_v, int side,
   LineOfViews& views = found.views;
   views = next_views(axis);
   const double usual = std::clamp(views.middle.width() / 32.0, 4.0, 16.0);
-  const double range = std::max(usual, largest_motion(samples, is_v, progress) / axis.pixels());
+  const double motion = largest_motion(samples, is_v, usual * axis.pixels(), progress);
+  const double range = std::max(usual, motion / axis.pixels());
   if (range > kLargestRange) return {};
   found.shift = best_shifts(views, {-range, range}, progress);
   const Search first = range_of(found.shift);

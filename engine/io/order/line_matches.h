@@ -27,9 +27,10 @@ struct LineMatches {
 };
 
 /// How far points move between neighbouring views along an axis, at most, in px; hardly any move
-/// farther. Found in views of at most 128 px, where up to 24 px are looked for.
+/// farther. Found in views of at most 128 px, where up to 24 px are looked for; motion of more than
+/// `usual_px` counts where views then agree twice as well.
 /// 0 if the axis has fewer than three views or the views have no texture. Throws Cancelled.
-[[nodiscard]] double largest_motion(const LightField::Samples& samples, bool is_v,
+[[nodiscard]] double largest_motion(const LightField::Samples& samples, bool is_v, double usual_px,
                                     const Progress& progress);
 
 /// Matches windows of 5×5 px against the views before and those after, whichever fit better, so

@@ -2,6 +2,7 @@
 #include "engine/io/arrays/npy_file.h"
 #include "engine/io/open/open.h"
 #include "tests/engine/io/arrays/array_files.h"
+#include "tests/engine/io/beside/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
