@@ -55,7 +55,7 @@ SimplexResult ViewProblem::solve(const Task& task, const Progress& progress,
   if (KeptSolver* const kept = input_.kept) {
     options.goes_on = kept->prepare(*input_.probabilities, task.view);
     if (options.goes_on) options.racing_iterations = kRacingWhenGoingOn;
-    return kept->solver().solve(problem, options, progress, labels);
+    return kept->solve(problem, options, progress, labels);
   }
   if (task.last) options.from_last = places_in(*task.last, task.view);
   return own_solver().solve(problem, options, progress, labels);
