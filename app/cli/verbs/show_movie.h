@@ -12,8 +12,8 @@ namespace episcope::cli {
 
 /// The options of a movie.
 struct MovieRequest {
-  std::optional<render::MovieKind>
-      kind;                       ///< Empty: a parallax if the output is named like a movie.
+  /// Empty: a parallax if the output is named like a movie.
+  std::optional<render::MovieKind> kind;
   std::optional<Interval> focus;  ///< Empty = the disparities known of the light field.
   render::MovieChoice choice;     ///< The rest.
 };

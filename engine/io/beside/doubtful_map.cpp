@@ -14,16 +14,6 @@ constexpr double kWell = 0.5;
 /// Share of the error of what was found before.
 constexpr double kFarBetter = 0.6;
 
-Image<std::uint8_t> valid_without(const DisparityView& map, float value) {
-  Image<std::uint8_t> valid(map.disparity.height, map.disparity.width);
-  for (int y = 0; y < valid.height(); ++y) {
-    for (int x = 0; x < valid.width(); ++x) {
-      valid.at(y, x) = map.is_valid(y, x) && map.disparity.at(y, x) != value ? 1 : 0;
-    }
-  }
-  return valid;
-}
-
 }  // namespace
 
 std::optional<DoubtfulMeaning> fit_doubtful_map(const LightField::Samples& samples, ViewIndex at,

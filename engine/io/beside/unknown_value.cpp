@@ -35,16 +35,6 @@ Image<std::uint8_t> pixels_of(const DisparityView& map, float value) {
   return pixels;
 }
 
-Image<std::uint8_t> others_of(const DisparityView& map, const Image<std::uint8_t>& pixels) {
-  Image<std::uint8_t> others(pixels.height(), pixels.width());
-  for (int y = 0; y < pixels.height(); ++y) {
-    for (int x = 0; x < pixels.width(); ++x) {
-      others.at(y, x) = map.is_valid(y, x) && pixels.at(y, x) == 0 ? 1 : 0;
-    }
-  }
-  return others;
-}
-
 /// Whether hardly any other value lies near the one that so many pixels have.
 bool stands_apart(const DisparityView& map, float value, std::ptrdiff_t pixels) {
   std::vector<float> distances;
@@ -119,6 +109,16 @@ std::vector<float> possible_unknown_values(const DisparityView& map) {
   return values;
 }
 
+Image<std::uint8_t> valid_without(const DisparityView& map, float value) {
+  Image<std::uint8_t> valid(map.disparity.height, map.disparity.width);
+  for (int y = 0; y < valid.height(); ++y) {
+    for (int x = 0; x < valid.width(); ++x) {
+      valid.at(y, x) = map.is_valid(y, x) && map.disparity.at(y, x) != value ? 1 : 0;
+    }
+  }
+  return valid;
+}
+
 std::string drop_unknown_value(const LightField::Samples& samples, ViewIndex at,
                                const UnknownValue& unknown, DisparityField& field) {
   const DisparityView map = field.view(at);
@@ -127,7 +127,7 @@ std::string drop_unknown_value(const LightField::Samples& samples, ViewIndex at,
   const auto all = static_cast<double>(pixels.size());
   if (count < kFewest || static_cast<double>(count) > kMostShare * all) return {};
   if (!stands_apart(map, unknown.value, count)) return {};
-  const Image<std::uint8_t> others = others_of(map, pixels);
+  const Image<std::uint8_t> others = valid_without(map, unknown.value);
   const Image<float> disparity = scaled(map.disparity, unknown.factor);
   const WarpErrors there = warp_errors(samples, at, {disparity.view(), pixels.view()});
   const WarpErrors elsewhere = warp_errors(samples, at, {disparity.view(), others.view()});

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/array/image.h"
 #include "engine/core/light_field/disparity_field.h"
 #include "engine/core/light_field/light_field.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,9 @@ namespace episcope::io {
 /// Values by which programs say that nothing is known: 0, −1, and the largest and the smallest one
 /// (65535, 1e10, −999); each only if many pixels have just that.
 [[nodiscard]] std::vector<float> possible_unknown_values(const DisparityView& map);
+
+/// 1 where the map is valid and has another value, `[y][x]`.
+[[nodiscard]] Image<std::uint8_t> valid_without(const DisparityView& map, float value);
 
 /// A value that may stand for unknown.
 struct UnknownValue {

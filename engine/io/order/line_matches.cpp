@@ -197,7 +197,9 @@ Image<float> best_shifts(const LineOfViews& views, Search search, const Progress
   const int height = views.middle.height();
   const int width = views.middle.width();
   Image<float> best(height, width, 1, std::numeric_limits<float>::max());
-  Image<float> usual = best;
+  const bool looks_far = std::isfinite(search.usual);
+  Image<float> usual;
+  if (looks_far) usual = best;
   Image<float> sum(height, width);
   Image<float> shift(height, width);
   Costs costs(views);
@@ -206,7 +208,7 @@ Image<float> best_shifts(const LineOfViews& views, Search search, const Progress
     progress.check();
     const double tried = search.first + i * kStep;
     const Image<float>& cost = costs.at(tried);
-    if (std::abs(tried) <= search.usual) lower(cost, usual);
+    if (looks_far && std::abs(tried) <= search.usual) lower(cost, usual);
     for (std::size_t k = 0; k < cost.size(); ++k) {
       const float value = cost.data()[k];
       sum.data()[k] += value;
@@ -219,9 +221,9 @@ Image<float> best_shifts(const LineOfViews& views, Search search, const Progress
   for (std::size_t k = 0; k < shift.size(); ++k) {
     const float mean = sum.data()[k] / static_cast<float>(steps + 1);
     const bool is_inside = shift.data()[k] > search.first && shift.data()[k] < search.last;
-    const bool is_far = std::abs(shift.data()[k]) > search.usual;
-    const float most = is_far ? kFarBetter * usual.data()[k] : 0.6F * mean;
-    const bool is_distinct = is_inside && best.data()[k] < std::min(most, 0.6F * mean);
+    const bool is_usual = !looks_far || std::abs(shift.data()[k]) <= search.usual ||
+                          best.data()[k] < kFarBetter * usual.data()[k];
+    const bool is_distinct = is_inside && is_usual && best.data()[k] < 0.6F * mean;
     if (!is_distinct) shift.data()[k] = std::numeric_limits<float>::quiet_NaN();
   }
   return shift;
