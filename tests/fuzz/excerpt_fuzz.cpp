@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/archive/excerpt_attributes.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 
@@ -17,6 +18,8 @@ void write_seeds(const std::filesystem::path& folder) {
 
 /// The attributes of an excerpt of the 2013 archive.
 void read(const std::filesystem::path& file) {
+  (void)io::read_excerpt_attributes(file);
+  if (!is_read_whole()) return;
   open_light_field(file.parent_path());
 }
 

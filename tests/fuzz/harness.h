@@ -23,13 +23,13 @@ struct Harness {
 };
 extern const Harness kHarness;
 
-/// Whether this input goes all the way, as one of 16, told by their hash, does: of text beside
-/// samples that stay the same, most inputs are only looked at.
+/// Whether this input goes all the way, as one of 64, told by their hash, does: where a light field
+/// is opened by files that stay the same, most inputs are only read.
 [[nodiscard]] bool is_read_whole();
 
 /// For reading a light field out of this input, on one thread. Of most inputs it stops when all
 /// samples are read: whether their order is right is asked of the pixels and takes ten times as
-/// long, in code that no byte of a header reaches. Those that are read whole go on.
+/// long, in code that no byte of a header reaches. One of 16 goes on.
 [[nodiscard]] Progress progress_of_reading();
 
 /// Calls `read`, which may refuse the input or be stopped.

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/grid/pattern_preview.h"
+#include "engine/io/grid/view_group.h"
 #include "engine/io/sequence/frame_names.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
+#include <string>
+#include <vector>
 
 namespace episcope::fuzz {
 namespace {
 
-constexpr int kMostNames = 40;
+constexpr std::size_t kMostNames = 40;
 constexpr std::size_t kLongestName = 100;
 
 void write_seeds(const std::filesystem::path& folder) {
@@ -50,21 +52,38 @@ void add_picture(const std::filesystem::path& folder, const std::string& name) {
   std::ofstream(file) << "P5 2 2 255 abcd";
 }
 
+/// What the names alone say.
+void place_names(const std::vector<std::string>& names, const std::string& pattern) {
+  const std::vector<std::filesystem::path> images(names.begin(), names.end());
+  tolerate([&] {
+    const io::ViewNames matches = io::match_view_names(images, pattern);
+    if (matches.views.size() > 1) (void)io::place_views({}, matches);
+  });
+  tolerate([&] { (void)io::place_views({}, io::find_view_names({}, images)); });
+}
+
+/// Files of these names.
+void read_folder(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                 const std::string& pattern) {
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directory(folder);
+  for (const std::string& name : names) add_picture(folder, name);
+  (void)io::numbered_frames(folder);
+  tolerate([&] { (void)io::preview_pattern(folder, pattern, true); });
+  open_light_field(folder);
+}
+
 /// Names of files, a line each; the first line is a pattern that a user writes.
 void read(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string pattern;
   std::getline(in, pattern);
-  const std::filesystem::path folder = file.parent_path() / "names";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directory(folder);
-  std::string name;
-  for (int i = 0; i < kMostNames && std::getline(in, name); ++i) {
-    if (name.size() <= kLongestName) add_picture(folder, name);
+  std::vector<std::string> names;
+  for (std::string name; names.size() < kMostNames && std::getline(in, name);) {
+    if (name.size() <= kLongestName) names.push_back(name);
   }
-  (void)io::numbered_frames(folder);
-  tolerate([&] { (void)io::preview_pattern(folder, pattern, true); });
-  is_read_whole() ? open_light_field(folder) : look_at_light_field(folder);
+  place_names(names, pattern);
+  if (is_read_whole()) read_folder(file.parent_path() / "names", names, pattern);
 }
 
 }  // namespace

@@ -30,11 +30,12 @@ void write_seeds(const std::filesystem::path& folder) {
   }
 }
 
-/// A picture of any form, also as a mosaic of lenslets.
+/// A picture of any form; one that is read whole also as a mosaic of lenslets.
 void read(const std::filesystem::path& file) {
   tolerate([&] { (void)io::read_image_header(file); });
   tolerate([&] { (void)io::decode_image(file); });
   tolerate([&] { (void)io::decode_image(file, io::PicturePart::Depth); });
+  if (!is_read_whole()) return;
   io::OpenOptions options;
   options.mosaic = io::Mosaic::Lenslets;
   options.grid = "3x3";

@@ -3,11 +3,11 @@
 
 #include "engine/core/error.h"
 #include "engine/io/archive/depth_maps.h"
+#include "engine/io/archive/excerpt_attributes.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_grid_probe.h"
 #include "engine/io/grid/image_grid_reader.h"
-#include "engine/io/maps/parse_number.h"
 #include "engine/io/open/scene_folder.h"
 
 #include <fmt/format.h>
@@ -15,31 +15,13 @@
 #include <algorithm>
 #include <bit>
 #include <fstream>
-#include <map>
-#include <sstream>
 
 namespace episcope::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Lines "value //name".
-std::map<std::string, double> read_attributes(const fs::path& path) {
-  require_readable_file(path);
-  std::ifstream in(path);
-  std::map<std::string, double> attributes;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    std::string value;
-    std::string name;
-    words >> value >> name;
-    const auto number = parse_number(value);
-    if (number && name.starts_with("//")) attributes[name.substr(2)] = *number;
-  }
-  return attributes;
-}
-
-CameraGrid camera_of(const std::map<std::string, double>& attributes) {
+CameraGrid camera_of(const ExcerptAttributes& attributes) {
   const auto number = [&](const char* name) {
     const auto found = attributes.find(name);
     return found == attributes.end() ? 0 : found->second;
@@ -91,7 +73,7 @@ bool is_excerpt_folder(const fs::path& folder) {
 }
 
 Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
-  const auto attributes = read_attributes(folder / "attributes.dat");
+  const auto attributes = read_excerpt_attributes(folder / "attributes.dat");
   ImageGridExtras extras;
   extras.reader = "excerpt";
   extras.format = "archive excerpt (lf, depth.bin)";

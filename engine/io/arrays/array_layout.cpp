@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 namespace episcope::io {
@@ -119,8 +120,12 @@ bool ArrayLayout::views_are_fastest() const {
 }
 
 GridShape ArrayLayout::grid() const {
-  if (has('n')) return {1, static_cast<int>(length('n'))};
-  return {static_cast<int>(length('v')), static_cast<int>(length('u'))};
+  return has('n') ? GridShape{1, count('n')} : GridShape{count('v'), count('u')};
+}
+
+int ArrayLayout::count(char letter) const {
+  constexpr std::size_t most = std::numeric_limits<int>::max();
+  return static_cast<int>(std::min(length(letter), most));
 }
 
 ArrayLayout ArrayLayout::crossed() const {

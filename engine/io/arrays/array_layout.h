@@ -36,12 +36,17 @@ struct ArrayLayout {
   [[nodiscard]] std::size_t stride(char letter) const;
   /// Whether all views of a pixel lie together, not all pixels of a view.
   [[nodiscard]] bool views_are_fastest() const;
-  [[nodiscard]] int height() const { return static_cast<int>(length('y')); }
-  [[nodiscard]] int width() const { return static_cast<int>(length('x')); }
-  /// Of a list: 1×N.
+  [[nodiscard]] int height() const { return count('y'); }
+  [[nodiscard]] int width() const { return count('x'); }
+  /// Of a list: 1×N. What a damaged file claims may have more views than an `int` counts.
   [[nodiscard]] GridShape grid() const;
+  [[nodiscard]] bool has_one_view() const { return grid() == GridShape{1, 1}; }
   /// With rows and columns of views exchanged.
   [[nodiscard]] ArrayLayout crossed() const;
+
+ private:
+  // The length as an `int`, or the largest one.
+  [[nodiscard]] int count(char letter) const;
 };
 
 /// Every meaning that an array of this shape can have as a light field: channels are 1, 3 or 4;

@@ -37,7 +37,7 @@ std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, GridShape grid) {
   if (rank != 2 && rank != 4) return std::nullopt;
   const std::string axes = rank == 2 ? "yx" : "vuyx";
   const ArrayLayout layout{entry.shape, in_index_order(axes, entry.order)};
-  const bool is_single = layout.grid().count() == 1;
+  const bool is_single = layout.has_one_view();
   const bool has_pixels = layout.height() > 1 && layout.width() > 1;
   if (!has_pixels || !(is_single || layout.grid() == grid)) return std::nullopt;
   return layout;

@@ -3,11 +3,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text/join.h"
-#include "engine/io/durable/system_error.h"
 #include "engine/io/hdf5/hdf5_block.h"
 #include "engine/io/hdf5/hdf5_claims.h"
 #include "engine/io/hdf5/hdf5_handle.h"
-#include "engine/io/hdf5/lzf_filter.h"
+#include "engine/io/hdf5/hdf5_listing.h"
+#include "engine/io/hdf5/hdf5_open_file.h"
 #include "engine/io/maps/parse_number.h"
 
 #include <fmt/format.h>
@@ -18,49 +18,13 @@
 namespace episcope::io {
 namespace {
 
-constexpr int kDeepestGroup = 3;
 constexpr std::size_t kChunkCacheLimit = std::size_t{256} << 20;
-
-Hdf5Type type_of(hid_t type) {
-  const H5T_class_t kind = H5Tget_class(type);
-  const std::size_t size = H5Tget_size(type);
-  if (kind == H5T_FLOAT) return Hdf5Type::Float;
-  if (kind == H5T_ENUM && size == 1) return Hdf5Type::UInt8;
-  if (kind != H5T_INTEGER) return Hdf5Type::Other;
-  if (H5Tget_sign(type) == H5T_SGN_NONE && size == 1) return Hdf5Type::UInt8;
-  if (H5Tget_sign(type) == H5T_SGN_NONE && size == 2) return Hdf5Type::UInt16;
-  return Hdf5Type::Integer;
-}
-
-Hdf5Shape shape_of(hid_t space) {
-  const int rank = H5Sget_simple_extent_ndims(space);
-  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(rank, 0)));
-  if (rank > 0) H5Sget_simple_extent_dims(space, extent.data(), nullptr);
-  return {extent.begin(), extent.end()};
-}
-
-Hdf5Shape chunk_of(hid_t dataset, std::size_t rank) {
-  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  if (rank == 0 || !creation.ok() || H5Pget_layout(creation) != H5D_CHUNKED) return {};
-  std::vector<hsize_t> chunk(rank);
-  if (H5Pget_chunk(creation, static_cast<int>(rank), chunk.data()) < 0) return {};
-  return {chunk.begin(), chunk.end()};
-}
-
-Hdf5Dataset describe(hid_t dataset, const std::string& name) {
-  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
-  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
-  const Hdf5Shape shape = shape_of(space);
-  return {name, shape, type_of(type), chunk_of(dataset, shape.size())};
-}
 
 /// Room for all chunks that the views of one row of chunks share: else a file whose chunks span
 /// several views would be decompressed once for every view.
 std::size_t chunk_cache_bytes(hid_t dataset) {
-  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
-  const Hdf5Shape shape = shape_of(space);
-  const Hdf5Shape chunk = chunk_of(dataset, shape.size());
+  const auto [name, shape, kind, chunk] = describe_dataset(dataset, {});
   if (chunk.size() < 4 || (chunk[0] == 1 && chunk[1] == 1)) return 0;
   std::size_t bytes = H5Tget_size(type) * chunk[0];
   for (std::size_t axis = 1; axis < shape.size(); ++axis) {
@@ -82,60 +46,6 @@ hid_t open_with_cache(const std::filesystem::path& path, hid_t file, const std::
   const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(access, 100003, bytes, 1.0);
   return H5Dopen2(file, name.c_str(), access);
-}
-
-/// A file must not name others that are read in its stead, wherever they are.
-void follow_no_external_links() {
-  static const H5L_class_t refused = [] {
-    H5L_class_t links{};
-    links.version = H5L_LINK_CLASS_T_VERS;
-    links.id = H5L_TYPE_EXTERNAL;
-    links.comment = "external, not followed";
-    links.trav_func = [](const char*, hid_t, const void*, std::size_t, hid_t, hid_t) -> hid_t {
-      return -1;
-    };
-    return links;
-  }();
-  static const herr_t is_set = H5Lregister(&refused);
-  static_cast<void>(is_set);
-}
-
-struct Listing {
-  std::vector<std::string> groups;
-  std::vector<std::string> datasets;
-};
-
-herr_t list_object(hid_t group, const char* name, const H5L_info_t*, void* listing) {
-  H5O_info_t info;
-  if (H5Oget_info_by_name2(group, name, &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0) return 0;
-  auto& found = *static_cast<Listing*>(listing);
-  if (info.type == H5O_TYPE_GROUP) found.groups.emplace_back(name);
-  if (info.type == H5O_TYPE_DATASET) found.datasets.emplace_back(name);
-  return 0;
-}
-
-Listing list_group(hid_t file, const std::string& name) {
-  Listing listing;
-  hsize_t next = 0;
-  const Hdf5Handle group(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
-  // In order of names the library makes a table of links first, which it releases unfilled where a
-  // damaged file ends it.
-  if (group.ok()) H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, &next, list_object, &listing);
-  std::ranges::sort(listing.groups);
-  std::ranges::sort(listing.datasets);
-  return listing;
-}
-
-/// Datasets of a group ("" for the root), then those of its groups.
-void add_datasets(hid_t file, const std::string& group, int depth,
-                  std::vector<std::string>& names) {
-  const Listing listing = list_group(file, group.empty() ? "." : group);
-  const std::string prefix = group.empty() ? "" : group + "/";
-  for (const std::string& name : listing.datasets) names.push_back(prefix + name);
-  if (depth == 0) return;
-  for (const std::string& name : listing.groups) {
-    add_datasets(file, prefix + name, depth - 1, names);
-  }
 }
 
 bool is_group(hid_t file, const std::string& name) {
@@ -194,22 +104,9 @@ bool has_hdf5_signature(const std::filesystem::path& path) {
 }
 
 Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
-  require_readable_file(path);
-  if (!has_hdf5_signature(path)) {
-    throw IoError(path, "this is not an HDF5 file, despite its name; choose another file");
-  }
   const Hdf5Lock session;
-  follow_no_external_links();
-  register_lzf_filter();
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_file_locking(access, false, true);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
-  if (file_ < 0) {
-    throw IoError(path, fmt::format("the HDF5 file is truncated or damaged ({} bytes are present); "
-                                    "copy or download it again",
-                                    std::filesystem::file_size(path)));
-  }
+  shared_ = Hdf5OpenFile::of(path);
+  file_ = shared_->id();
   root_ = file_;
 }
 
@@ -231,7 +128,7 @@ Hdf5Input::~Hdf5Input() {
   const Hdf5Lock session;
   for (const auto& [name, id] : datasets_) H5Dclose(id);
   if (root_ >= 0 && root_ != file_) H5Gclose(root_);
-  if (file_ >= 0) H5Fclose(file_);
+  shared_.reset();
 }
 
 bool Hdf5Input::has(const std::string& name) const {
@@ -241,14 +138,7 @@ bool Hdf5Input::has(const std::string& name) const {
 
 std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
   const Hdf5Lock session;
-  std::vector<std::string> names;
-  add_datasets(root_, "", kDeepestGroup, names);
-  std::vector<Hdf5Dataset> found;
-  for (const std::string& name : names) {
-    const Hdf5Handle dataset(H5Dopen2(root_, name.c_str(), H5P_DEFAULT), H5Dclose);
-    if (dataset.ok() && holds_own_samples(dataset)) found.push_back(describe(dataset, name));
-  }
-  return found;
+  return shared_->datasets(group_, root_);
 }
 
 Hdf5Dataset Hdf5Input::dataset(const std::string& name, const std::string& advice) const {
@@ -267,7 +157,7 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name, const std::string& advic
   }
   const hid_t id = open_dataset(name);
   require_sound_dataset(path_, name, id);
-  return describe(id, name);
+  return describe_dataset(id, name);
 }
 
 std::int64_t Hdf5Input::open_dataset(const std::string& name) const {

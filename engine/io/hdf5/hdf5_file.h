@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,7 +44,10 @@ struct Hdf5Block {
 /// Whether the file begins with the signature of HDF5; false also if it cannot be read.
 [[nodiscard]] bool has_hdf5_signature(const std::filesystem::path& path);
 
-/// An HDF5 file open for reading, without file locks. Objects are named by their path in the file;
+class Hdf5OpenFile;
+
+/// An HDF5 file open for reading, without file locks. All inputs of a file at a time share one
+/// opening of it and what was found in it. Objects are named by their path in the file;
 /// "/" is the root. Element types are converted by HDF5 (clipped, rounded towards zero). Links to
 /// other files and samples in them are not followed: `has` and `read` throw IoError.
 class Hdf5Input {
@@ -103,6 +107,7 @@ class Hdf5Input {
 
   std::filesystem::path path_;
   std::string group_;
+  std::shared_ptr<Hdf5OpenFile> shared_;
   std::int64_t file_ = -1;
   std::int64_t root_ = -1;  ///< The file or a group, by which names are looked up.
   mutable std::map<std::string, std::int64_t> datasets_;  ///< Open ones, with their chunk caches.

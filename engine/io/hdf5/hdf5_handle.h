@@ -6,8 +6,7 @@
 #include <mutex>
 #include <utility>
 
-/// For the sources that speak to HDF5 only: hdf5_file.cpp, hdf5_claims.cpp, hdf5_output.cpp,
-/// hdf5_copy.cpp and hdf5_references.cpp.
+/// For the sources of this folder only.
 namespace episcope::io {
 
 /// Holds the lock of the library for the whole process; it may be held several times by a thread.

@@ -103,7 +103,7 @@ DisparityField read_npy_field(const fs::path& path, GridShape grid) {
   const ArrayLayout layout{
       file.shape(), in_index_order(std::string("vuyx"),
                                    file.header().is_fortran ? IndexOrder::Fortran : IndexOrder::C)};
-  if (layout.grid().count() == 1) return center_field(path, read_npy_map(path), grid);
+  if (layout.has_one_view()) return center_field(path, read_npy_map(path), grid);
   if (!(layout.grid() == grid)) {
     throw IoError(path, fmt::format("the array has the shape {}, but the light field has {}×{} "
                                     "views; name the light field that it belongs to",

@@ -3,9 +3,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/light_field/shear.h"
+#include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/open/foreign_form.h"
 #include "engine/io/open/reader.h"
 
+#include <memory>
 #include <new>
 
 namespace episcope::io {
@@ -13,7 +15,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Readers ask an HDF5 file one after the other whether it is theirs: it stays open meanwhile.
+std::unique_ptr<const Hdf5Input> kept_open(const fs::path& path) {
+  std::error_code error;
+  const fs::path file = fs::is_directory(path, error) ? path / "lf.h5" : path;
+  if (!fs::is_regular_file(file, error) || !has_hdf5_signature(file)) return nullptr;
+  try {
+    return std::make_unique<const Hdf5Input>(file);
+  } catch (const IoError&) {
+    return nullptr;  // which readers will say
+  }
+}
+
 Scene read_scene(const fs::path& path, const OpenOptions& options, const Progress& progress) {
+  const auto kept = kept_open(path);
   const FoundReader found = find_reader(path, options);
   if (found.reader) return found.reader->read(found.path, options, progress);
   if (!fs::is_directory(path)) {

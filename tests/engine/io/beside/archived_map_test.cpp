@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/arrays/npy_file.h"
+#include "engine/io/arrays/npy_header.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -92,6 +93,25 @@ class ArchivedMapTest : public QObject {
 
     QVERIFY2(error.find("a (60×72), b (60×72)") != std::string::npos, error.c_str());
     QVERIFY2(error.find("several maps") != std::string::npos, error.c_str());
+  }
+
+  // Of damaged files: 9 × 954437177 is 1 more than 2³², and the length 2³² + 1 is not 1.
+  void moreViewsThanAnIntCounts_areNoMap_data() {
+    QTest::addColumn<qulonglong>("rows");
+    QTest::addColumn<qulonglong>("columns");
+    QTest::newRow("product") << qulonglong{9} << qulonglong{954437177};
+    QTest::newRow("length") << (qulonglong{1} << 32) + 1 << qulonglong{1};
+  }
+  void moreViewsThanAnIntCounts_areNoMap() {
+    QFETCH(qulonglong, rows);
+    QFETCH(qulonglong, columns);
+    const LayeredFolder folder;
+    const std::string header = io::npy_header({rows, columns, 6, 8}, io::NumberType::Float32);
+    write_deflated_zip(folder.path("maps.npz"), {{"a.npy", header}});
+
+    const std::string error = error_for(folder.path("maps.npz"));
+
+    QVERIFY2(error.find("no map") != std::string::npos, error.c_str());
   }
 
   void noMap_isSaid() {
