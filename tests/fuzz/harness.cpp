@@ -41,9 +41,7 @@ class Folder {
   fs::path path_;
 };
 
-constexpr std::uint64_t kCheckedOneOf = 16;
 constexpr std::uint64_t kWholeOneOf = 64;
-bool is_checked = true;
 bool is_whole = true;
 
 const Folder& folder() {
@@ -55,7 +53,6 @@ const Folder& folder() {
 void begin_input(std::string_view bytes) {
   Fnv1a hash;
   hash.add(bytes);
-  is_checked = hash.value() % kCheckedOneOf == 0;
   is_whole = hash.value() % kWholeOneOf == 0;
 }
 
@@ -71,7 +68,7 @@ bool is_read_whole() {
 }
 
 Progress progress_of_reading() {
-  if (is_checked) return Progress(1);
+  if (is_whole) return Progress(1);
   std::stop_source stop;
   const auto listen = [stop](const ProgressState& state) mutable {
     if (state.step == "checking the order of views") stop.request_stop();

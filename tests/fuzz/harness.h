@@ -29,7 +29,7 @@ extern const Harness kHarness;
 
 /// For reading a light field out of this input, on one thread. Of most inputs it stops when all
 /// samples are read: whether their order is right is asked of the pixels and takes ten times as
-/// long, in code that no byte of a header reaches. One of 16 goes on.
+/// long, in code that no byte of a header reaches. Those that are read whole go on.
 [[nodiscard]] Progress progress_of_reading();
 
 /// Calls `read`, which may refuse the input or be stopped.

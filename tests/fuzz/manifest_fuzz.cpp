@@ -32,7 +32,12 @@ void write_seeds(const std::filesystem::path& folder) {
 }
 
 void read(const std::filesystem::path& file) {
-  open_light_field(file.parent_path());
+  const std::filesystem::path folder = file.parent_path();
+  if (!io::has_render_manifest(folder)) return;
+  const io::RenderManifest manifest = io::read_render_manifest(folder);
+  if (manifest.has("views")) (void)manifest.file("views", manifest.grid.center());
+  if (!is_read_whole()) return;
+  open_light_field(folder);
 }
 
 }  // namespace
