@@ -34,6 +34,8 @@ void run(const std::vector<std::string>& arguments) {
   const std::string& first = arguments.front();
   if (first == "--version") {
     std::cout << version_text("episcope-cli", {});
+  } else if (first == "help" && arguments.size() > 1) {
+    run_verb(arguments[1], {"--help"}, {});
   } else if (first == "-h" || first == "--help" || first == "help") {
     std::cout << program_help();
   } else {

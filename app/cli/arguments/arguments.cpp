@@ -50,6 +50,14 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
+/// Each line by two spaces.
+std::string indented(const std::string& text) {
+  std::string all = "  ";
+  for (const char letter : text)
+    all += letter == '\n' ? std::string("\n  ") : std::string(1, letter);
+  return all;
+}
+
 constexpr const char* kHelpAsJson = "--help-json";
 
 }  // namespace
@@ -61,7 +69,7 @@ bool asks_for_help(const std::string& argument) {
 struct Arguments::State {
   State(const std::string& verb_name, const Text& text)
       : verb(verb_name), app(text.summary, "episcope-cli " + verb_name), example(text.example) {
-    app.footer("Example:\n  " + text.example);
+    app.footer("Example:\n" + indented(text.example));
     app.formatter(std::make_shared<HelpFormatter>());
     app.set_help_flag("-h,--help", "Print this help and exit");
     takes_value["-h"] = takes_value["--help"] = false;

@@ -4,11 +4,15 @@
 #include "app/session/scene/builtin_inputs.h"
 #include "app/session/scene/collections.h"
 #include "app/session/scene/load_scene.h"
+#include "engine/core/error.h"
 #include "engine/io/open/reader.h"
 #include "engine/io/open/scene_name.h"
 #include "engine/io/sequence/sequence_reader.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
 
 namespace episcope::cli {
 namespace {
@@ -44,19 +48,18 @@ void add_frames(const io::CollectionEntry& entry, const std::string& name,
   }
 }
 
-}  // namespace
-
-std::vector<SceneInput> scene_inputs(const std::vector<std::string>& inputs,
-                                     const ReadOptions& options, Frames frames,
-                                     const Progress& progress) {
-  const io::OpenOptions open = io::open_schema().parse(options.options.values());
-  std::vector<io::CollectionEntry> all;
-  for (const std::string& input : inputs) {
-    check_input(input);
-    std::vector<io::CollectionEntry> below = entries_at(input, options, progress);
-    if (below.empty()) below.push_back(single(input, open));
-    for (io::CollectionEntry& entry : below) all.push_back(std::move(entry));
+/// What an INPUT stands for.
+std::vector<io::CollectionEntry> entries_of(const std::string& input, const ReadOptions& options,
+                                            const Progress& progress) {
+  check_input(input);
+  std::vector<io::CollectionEntry> entries = entries_at(input, options, progress);
+  if (entries.empty()) {
+    entries.push_back(single(input, io::open_schema().parse(options.options.values())));
   }
+  return entries;
+}
+
+std::vector<SceneInput> named(const std::vector<io::CollectionEntry>& all, Frames frames) {
   const std::vector<std::string> names = unique_names(all);
   std::vector<SceneInput> scenes;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -67,6 +70,32 @@ std::vector<SceneInput> scene_inputs(const std::vector<std::string>& inputs,
     }
   }
   return scenes;
+}
+
+}  // namespace
+
+std::vector<SceneInput> scene_inputs(const std::vector<std::string>& inputs,
+                                     const ReadOptions& options, Frames frames,
+                                     const Progress& progress) {
+  std::vector<io::CollectionEntry> all;
+  for (const std::string& input : inputs) {
+    std::ranges::move(entries_of(input, options, progress), std::back_inserter(all));
+  }
+  return named(all, frames);
+}
+
+std::vector<SceneInput> scene_inputs_and_failed(const std::vector<std::string>& inputs,
+                                                const ReadOptions& options, Frames frames,
+                                                const Progress& progress) {
+  std::vector<io::CollectionEntry> all;
+  for (const std::string& input : inputs) {
+    try {
+      std::ranges::move(entries_of(input, options, progress), std::back_inserter(all));
+    } catch (const IoError&) {
+      all.push_back({.path = input, .name = io::scene_name(input), .reader = {}, .probe = {}});
+    }
+  }
+  return named(all, frames);
 }
 
 bool is_collection(const std::string& input, const ReadOptions& options, const Progress& progress) {

@@ -26,6 +26,12 @@ enum class Frames { One, All };
                                                    const ReadOptions& options, Frames frames,
                                                    const Progress& progress);
 
+/// The same, for runs of which one that fails does not stop the others: an INPUT that cannot be
+/// read stands for itself, so that opening it says why.
+[[nodiscard]] std::vector<SceneInput> scene_inputs_and_failed(
+    const std::vector<std::string>& inputs, const ReadOptions& options, Frames frames,
+    const Progress& progress);
+
 /// Whether an INPUT is a folder that is no light field itself but holds some.
 [[nodiscard]] bool is_collection(const std::string& input, const ReadOptions& options,
                                  const Progress& progress);

@@ -388,8 +388,8 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   if (!parse(arguments, estimators, request)) return;
   Runner runner(request, std::move(stop));
   if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner);
-  const std::vector<SceneInput> scenes = scene_inputs(request.inputs, request.read, request.frames,
-                                                      runner.job().progress().part(0, 0));
+  const std::vector<SceneInput> scenes = scene_inputs_and_failed(
+      request.inputs, request.read, request.frames, runner.job().progress().part(0, 0));
   estimate_many(request, scenes, runner);
 }
 

@@ -108,6 +108,7 @@ bool is_movie(const Request& request) {
 
 /// What follows from the options.
 void complete(Request& request) {
+  while (request.output.size() > 1 && request.output.ends_with('/')) request.output.pop_back();
   if (request.what.movie) request.movie.kind = request.what.movie;
   if (is_movie(request) && !request.movie.kind) request.movie.kind = MovieKind::Parallax;
   request.map.needs_light_field = request.opacity.has_value();
@@ -200,12 +201,19 @@ std::string write_movie_of(const Request& request, const LoadedMap& loaded, Job&
   return fmt::format("{}, {} pictures in {:.1f} s", what, movie.count, movie.count / movie.rate);
 }
 
+/// Pictures of a movie go into a folder, which may be there, empty.
+void check_output(const Request& request) {
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(request.output, ignored);
+  if (!request.movie.kind || !is_folder) check_output_file(request.output);
+}
+
 }  // namespace
 
 void run_show(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
-  check_output_file(request.output);
+  check_output(request);
   for (const std::string& input : {request.map.subject, request.map.truth, request.map.minus}) {
     if (!input.empty()) protect_input(request.output, input);
   }

@@ -4,6 +4,7 @@
 #include "app/cli/output/job.h"
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
+#include "app/session/scene/load_scene.h"
 #include "engine/capture/demo/demo_folder.h"
 #include "engine/io/archive/write_scene.h"
 #include "engine/scenes/request.h"
@@ -101,6 +102,7 @@ void synthesize_gantry(const Request& request, std::stop_token stop) {
 void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
+  if (const std::string id = builtin_scene_id(request.scene); !id.empty()) request.scene = id;
   if (request.scene == kGantry) return synthesize_gantry(request, std::move(stop));
   check_builtin_scene(request.scene);
   const auto [id, options] = scene_of(request);
@@ -111,6 +113,10 @@ void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   job.progress().step("rendering " + request.scene);
   const Scene scene = scenes::render_builtin(id, options, job.progress().part(0, 0.9));
   job.progress().step("writing " + request.output);
+  if (!scene.scribbles.empty() && io::puts_labels_inside(request.output, scene)) {
+    job.note("the labels and scribbles are in " + request.output +
+             " itself, because the labels.h5 beside it is of another light field");
+  }
   io::write_archive(request.output, scene, job.progress().part(0.9, 1));
   job.finish();
   std::cout << request.output << ": " << request.scene << ", " << options.grid.v << "×"

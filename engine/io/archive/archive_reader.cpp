@@ -162,7 +162,8 @@ bool holds_archive(const Hdf5Input& file) {
   return file.has(kArchiveLightField) || !archive_group(file).empty();
 }
 
-/// The HDF5 file of a folder that holds a light field; empty if there is none.
+/// The HDF5 file of a folder that holds a light field; empty if there is none, or several without
+/// an lf.h5.
 fs::path file_in(const fs::path& folder) {
   if (is_there(folder / "lf.h5")) return folder / "lf.h5";
   std::vector<fs::path> files;
@@ -173,11 +174,8 @@ fs::path file_in(const fs::path& folder) {
       files.push_back(entry.path());
     }
   }
-  std::sort(files.begin(), files.end());
-  const auto found = std::find_if(files.begin(), files.end(), [](const fs::path& path) {
-    return holds_archive(Hdf5Input(path));
-  });
-  return found == files.end() ? fs::path() : *found;
+  std::erase_if(files, [](const fs::path& path) { return !holds_archive(Hdf5Input(path)); });
+  return files.size() == 1 ? files.front() : fs::path();
 }
 
 fs::path find_archive(const fs::path& path, const OpenOptions&) {

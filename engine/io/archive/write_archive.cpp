@@ -204,6 +204,8 @@ bool has_labels(const Scene& scene) {
   return !scene.truth->labels.empty() || !scene.scribbles.empty();
 }
 
+constexpr const char* kLabelsFile = "labels.h5";
+
 /// Whether labels.h5 may be written: there is none, or it is ours of the same light field. Labels
 /// of other programs are never overwritten; ours then go into the light-field file itself.
 bool may_write_labels(const std::filesystem::path& labels, const std::filesystem::path& file) {
@@ -274,13 +276,18 @@ std::uintmax_t label_bytes(const Scene& scene) {
 
 }  // namespace
 
+bool puts_labels_inside(const std::filesystem::path& path, const Scene& scene) {
+  const std::filesystem::path beside = path.parent_path() / kLabelsFile;
+  return has_labels(scene) && (beside == path || !may_write_labels(beside, path));
+}
+
 void write_archive(const std::filesystem::path& path, const Scene& scene,
                    const Progress& progress) {
   progress.check();
   progress.step("writing " + path.filename().string());
-  const std::filesystem::path beside = path.parent_path() / "labels.h5";
-  const bool is_apart = has_labels(scene) && beside != path && may_write_labels(beside, path);
-  const bool is_inside = has_labels(scene) && !is_apart;
+  const std::filesystem::path beside = path.parent_path() / kLabelsFile;
+  const bool is_inside = puts_labels_inside(path, scene);
+  const bool is_apart = has_labels(scene) && !is_inside;
   const GroundTruth& truth = *scene.truth;
   const CameraGrid camera = camera_for(scene);
 

@@ -77,3 +77,25 @@ expect("benchmark of a collection" 1 ERR "broken" ARGS benchmark c --methods epi
 file(REMOVE "${WORK}/c/broken.h5")
 expect("benchmark of a collection" 0 OUT "bench" ARGS benchmark c/a c/b c/bench --methods epi_l -o
        tables -q)
+
+# Of several INPUTs, one that cannot be read stops no other.
+file(WRITE "${WORK}/damaged.h5" "not HDF5")
+foreach(bad gone.h5 damaged.h5)
+  run_cli(estimate epi_l ${bad} c/a -o with_${bad}.d --views center --json -q)
+  if(NOT exit_code EQUAL 1 OR NOT err MATCHES "^episcope-cli: 1 of 2 light fields failed, the first: ${bad}: [^\n]*\n$")
+    fail_case("one that cannot be read: ${exit_code} ${err}")
+  endif()
+  expect_files(with_${bad}.d a.h5)
+  json_is("${out}" ${bad} results 0 input)
+  json_is("${out}" epi_l results 1 method)
+endforeach()
+
+# Two light fields in one folder are a collection; none is chosen by its name.
+file(MAKE_DIRECTORY "${WORK}/pair")
+expect("make the first" 0 ARGS synthesize demo:fronto -o pair/a.h5 --views 3x3 --size 48x48)
+expect("what is alone in a folder" 0 OUT "3×3" ARGS info pair)
+expect("make the second, with labels inside" 0 ERR "scribbles are in pair/b.h5 itself"
+       ARGS synthesize objects -o pair/b.h5 --views 3x3 --size 48x48)
+expect("info of two in a folder" 1 ERR "pair: this folder .* holds 2" ARGS info pair)
+expect("estimate two in a folder" 0 ARGS estimate epi_l pair -o of_pair --views center -q)
+expect_files(of_pair a.h5 b.h5)

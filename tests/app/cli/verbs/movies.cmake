@@ -22,6 +22,12 @@ expect(images 0 OUT "frames: view, 48 pictures"
        ARGS show lf.h5 -o frames --movie parallax --path snake --quiet)
 expect_file(frames/frame_0000.png 89504e47)
 expect_file(frames/frame_0047.png 89504e47)
+file(MAKE_DIRECTORY "${WORK}/empty")
+foreach(folder empty/ named/)
+  expect("images into ${folder}" 0 ARGS show lf.h5 -o ${folder} --movie parallax --seconds 1 --quiet)
+  expect_file(${folder}frame_0000.png 89504e47)
+endforeach()
+expect("no images among others" 1 ERR "holds other files" ARGS show lf.h5 -o empty --movie parallax)
 
 expect(as_png 2 ERR "a movie cannot be written as PNG" ARGS show lf.h5 -o a.png --what parallax)
 expect(unknown_form 2 ERR "writes PNG and movies" ARGS show lf.h5 -o a.mkv --what parallax)

@@ -12,7 +12,7 @@ expect_files("${folder}" lf.h5 labels.h5)
 expect_file("${lf}" ${hdf5})
 expect("synthesize again, same seed" 0 ARGS synthesize objects -o again.h5 --views 5x5
        --size 64x48 --noise 1 --seed 7)
-expect("synthesize, other seed" 0 ARGS synthesize objects -o other.h5 --views 5x5 --size 64x48
+expect("synthesize, other seed" 0 ERR "scribbles are in other.h5 itself" ARGS synthesize objects -o other.h5 --views 5x5 --size 64x48
        --noise 1 --seed 8)
 
 expect(info 0 OUT "5×5 views of 64×48 px" ARGS info "${folder}")
