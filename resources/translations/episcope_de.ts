@@ -361,6 +361,10 @@
         <source>Reloading replaces the labels and strokes that are open here.</source>
         <translation>Neuladen ersetzt die hier geöffneten Labels und Striche.</translation>
     </message>
+    <message>
+        <source>%1 · in the project only</source>
+        <translation>%1 · nur im Projekt</translation>
+    </message>
 </context>
 <context>
     <name>episcope::Autosave</name>

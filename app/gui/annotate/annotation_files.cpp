@@ -89,12 +89,15 @@ void AnnotationFiles::addCommands() {
 }
 
 void AnnotationFiles::showState() {
-  const QString path = place();
-  const QString name = path.isEmpty() ? tr("no file yet") : QFileInfo(path).fileName();
+  const QFileInfo file(place());
+  const QString none = tr("no file yet");
+  const QString name = file.filePath().isEmpty() ? none : file.fileName();
   bar_->setFileState(!document_.document()           ? QString()
                      : saving_ > 0                   ? tr("saving …")
                      : document_.hasUnsavedChanges() ? tr("%1 · not saved").arg(name)
-                                                     : name);
+                     : document_.isInProjectOnly()   ? tr("%1 · in the project only").arg(name)
+                     : file.exists()                 ? name
+                                                     : none);
 }
 
 QString AnnotationFiles::place() const {

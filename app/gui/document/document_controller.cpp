@@ -48,6 +48,16 @@ bool DocumentController::Open::has_unsaved_changes() const {
          annotation->document().state() != discarded_state;
 }
 
+void DocumentController::Open::note_kept(std::uint64_t state) {
+  const AnnotationDocument& document = annotation->document();
+  if (document.state() == state && document.has_unsaved_changes()) project_state = state;
+}
+
+bool DocumentController::isInProjectOnly() const {
+  return isCurrent() && !hasUnsavedChanges() &&
+         now_.project_state == now_.annotation->document().state();
+}
+
 void DocumentController::update(Parts parts) {
   if (parts.has(Part::Scenes)) leaveClosed();
   if (!parts.has(Part::Scene) || generation_ == session_.generation()) return;
@@ -162,6 +172,7 @@ void DocumentController::replace(AnnotationDocument document, bool is_whole,
 void DocumentController::noteSaved(std::uint64_t state, const std::string& file) {
   if (!isCurrent()) return;
   run([&] { now_.annotation->set_file(file); });
+  now_.project_state.reset();
   markSaved(state);
 }
 
@@ -210,8 +221,10 @@ void DocumentController::noteKept(const std::vector<EditedDocument>& documents) 
   for (const EditedDocument& each : documents) {
     const auto found = aside_.find(each.scene);
     if (each.scene == generation_ && isCurrent()) {
+      now_.note_kept(each.state);
       stroke_ ? void(written_state_ = each.state) : markSaved(each.state);
     } else if (found != aside_.end()) {
+      found->second.note_kept(each.state);
       AnnotationDocument& document = found->second.annotation->document();
       if (document.state() == each.state) document.mark_saved();
     }
@@ -229,7 +242,10 @@ void DocumentController::bring(std::uint64_t scene, RecoveredAnnotation found, b
   } catch (const IoError& error) {
     emit problem(QString::fromUtf8(error.what()));
   }
-  if (is_saved) open.annotation->document().mark_saved();
+  if (is_saved) {
+    open.note_kept(open.annotation->document().state());
+    open.annotation->document().mark_saved();
+  }
   aside_[scene] = std::move(open);
 }
 

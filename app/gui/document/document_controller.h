@@ -46,6 +46,8 @@ class DocumentController : public QObject {
   /// overwritten.
   [[nodiscard]] bool isWhole() const { return now_.is_whole; }
   [[nodiscard]] bool hasUnsavedChanges() const;
+  /// Whether its last changes are in a project only, not in the file of scribbles.
+  [[nodiscard]] bool isInProjectOnly() const;
   /// The file that it was saved to last; empty if it was not.
   [[nodiscard]] std::string file() const;
   /// Puts another document in the place of the present one, whose journal ends. `is_whole` and
@@ -103,6 +105,8 @@ class DocumentController : public QObject {
     std::unique_ptr<Annotation> annotation;
     bool is_whole = true;
     std::optional<std::uint64_t> discarded_state{};
+    std::optional<std::uint64_t> project_state{};  ///< What a project holds and no other file.
+    void note_kept(std::uint64_t state);
     [[nodiscard]] bool has_unsaved_changes() const;
   };
 

@@ -5,6 +5,7 @@
 #include "tests/app/gui/project/working.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/elided_label.h"
 #include "widgets/controls/message_bar.h"
 
 #include <QComboBox>
@@ -106,6 +107,7 @@ class SavedProjectTest : public QObject {
 
  private slots:
   void savedProject_comesBackWhole();
+  void strokesInAProject_areNotInTheirFile();
   void savedProject_canBeMoved();
   void movedLightFields_areAskedForOnce();
   void anotherLightField_isRefused_whereAMovedOneIsAskedFor();
@@ -138,6 +140,29 @@ void SavedProjectTest::savedProject_comesBackWhole() {
   f.show(scenes[0]->id);
   QCOMPARE(f.session().shown()->name, std::string("with my defaults"));
   QCOMPARE(f.session().shown()->estimate->method, std::string("st_ch_l"));
+}
+
+void SavedProjectTest::strokesInAProject_areNotInTheirFile() {
+  const QTemporaryDir folder;
+  Working f;
+  f.openSmall("edge");
+  const auto state = [&] {
+    return f.window.findChild<ElidedLabel*>("annotation.file")->fullText();
+  };
+  f.trigger("annotate.mode");
+  f.drag({40, 20}, {40, 60});
+  QTRY_COMPARE(state(), QString("labels.h5 · not saved"));
+
+  f.saveAs(folder.filePath("work.episcope"));
+
+  QTRY_COMPARE(state(), QString("labels.h5 · in the project only"));
+  f.trigger("file.save_scribbles");
+  QTRY_COMPARE_WITH_TIMEOUT(state(), QString("labels.h5"), kPatience);
+  QVERIFY(QFile::remove(QFileInfo(QString::fromStdString(f.session().scenes()[0]->input)).path() +
+                        "/labels.h5"));
+  f.trigger("annotate.undo");
+  f.trigger("annotate.redo");
+  QTRY_COMPARE(state(), QString("no file yet"));
 }
 
 void SavedProjectTest::savedProject_canBeMoved() {
