@@ -195,23 +195,6 @@ class UnknownUnitTest : public QObject {
     QVERIFY2(error(scene) < 0.03, describe(scene.convention).c_str());
   }
 
-  // The square has one disparity alone, which would look like a value for unknown to views of other
-  // rows and columns.
-  void disparityBesideExchangedViews_isWhole() {
-    const LayeredFolder folder({5, 5});
-    const auto by_column = [](const std::string& form) {
-      return [=](int row, int column) { return fmt::format(fmt::runtime(form), column, row); };
-    };
-    folder.write_views(by_column("{}_{}.png"));
-    folder.write_npy(by_column("{}_{}_disparity.npy"), folder.scene.disparity);
-
-    const Scene scene = folder.open();
-
-    const ViewStack<float>& found = scene.truth->field.disparity;
-    QVERIFY(std::equal(found.data(), found.data() + found.size(), folder.scene.disparity.data()));
-    QVERIFY(!warns_of(scene, "which the views contradict"));
-  }
-
   void roundScale_isTakenExactly() {
     use_positive_disparities();
     write_picture<std::uint16_t>("disparity.png", [](double d) { return 256 * d; });
