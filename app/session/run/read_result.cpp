@@ -74,10 +74,10 @@ bool is_npy_result(const fs::path& path) {
 
 /// One page of floats in one channel; a picture of all views, or a page for each, is none.
 bool is_tiff_map(const fs::path& path) {
+  if (io::count_tiff_pages(path, 2) > 1) return false;
   const auto header = io::stated_image_header(path);
   if (!header) return true;  // told on reading
-  return header->sample_type == SampleType::Float32 && header->channels == 1 &&
-         io::count_tiff_pages(path, 2) <= 1;
+  return header->sample_type == SampleType::Float32 && header->channels == 1;
 }
 
 std::string size_text(int first, int second) {

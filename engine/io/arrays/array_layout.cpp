@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -49,6 +50,18 @@ void add_grids(const ArrayShape& lengths, std::size_t channel_axis, std::vector<
   }
 }
 
+/// Of mosaics whose sides were split: "vyux" of views side by side, "yvxu" of lenslets.
+void add_mosaics(const ArrayShape& l, std::vector<std::string>& out) {
+  const std::string channels = l.size() == 5 ? "c" : "";
+  if (can_be_views(l[0], l[2], l[1], l[3])) out.push_back("vyux" + channels);
+  if (can_be_views(l[1], l[3], l[0], l[2])) out.push_back("yvxu" + channels);
+}
+
+bool is_square(std::size_t n) {
+  const auto root = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(n))));
+  return root * root == n;
+}
+
 bool can_be_list(std::size_t n, std::size_t y, std::size_t x) {
   return n > 1 && n <= kMostViews && can_be_pixels(y, x) && (n < std::max(y, x) || n > 4);
 }
@@ -57,7 +70,8 @@ void add_lists(const ArrayShape& lengths, std::vector<std::string>& out) {
   const ArrayShape& l = lengths;
   if (l.size() == 3) {
     if (!can_be_channels(l[2]) && can_be_list(l[0], l[1], l[2])) out.emplace_back("nyx");
-    const bool is_deep = l[2] < std::min(l[0], l[1]) || l[0] == l[1];
+    const bool is_deep = l[2] < std::min(l[0], l[1]) || l[0] == l[1] ||
+                         (l[2] < std::max(l[0], l[1]) && is_square(l[2]));
     if (!can_be_channels(l[0]) && can_be_list(l[2], l[0], l[1]) && is_deep &&
         !can_be_channels(l[2])) {
       out.emplace_back("yxn");
@@ -79,7 +93,8 @@ void add_network_lists(const ArrayShape& lengths, std::vector<std::string>& out)
   if (rest.size() == 4 && rest[1] == 1 && can_be_list(rest[0], rest[2], rest[3])) {
     lists.emplace_back("ncyx");
   }
-  std::erase_if(lists, [](const std::string& axes) { return !axes.starts_with('n'); });
+  std::erase_if(lists,
+                [](const std::string& axes) { return !axes.starts_with('n') && axes != "yxn"; });
   if (!lists.empty()) {
     std::erase_if(out, [](const std::string& axes) { return axes.starts_with("vu"); });
   }
@@ -152,6 +167,8 @@ std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder o
   } else if (lengths.size() == 3) {
     add_lists(lengths, found);
   }
+  const bool has_channels_last = lengths.size() == 5 && can_be_channels(lengths[4]);
+  if (found.empty() && (lengths.size() == 4 || has_channels_last)) add_mosaics(lengths, found);
   const bool may_be_of_network = order == IndexOrder::C && singles.empty() && lengths.size() > 3;
   if (may_be_of_network) add_network_lists(lengths, found);
   std::vector<ArrayLayout> layouts;

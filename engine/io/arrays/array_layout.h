@@ -56,8 +56,10 @@ struct ArrayLayout {
 /// come before columns in the order of indices, but for arrays of pixels before views with channels
 /// first, as MATLAB's in other programs, in which columns come first. Arrays of 3 axes are lists of
 /// grey views, which come last only if they are fewer than rows and columns of pixels, or if these
-/// are a square; of 4, grey views or lists. In C order 1×N views, and N grey ones with one
-/// channel before rows of pixels, are a list, too ("1nyxc", "ncyx").
+/// are a square, or if they are a square number less than one of the two; of 4, grey views or
+/// lists. Where nothing else fits, rows of views may stand beside those of pixels ("vyuxc",
+/// "yvxuc"). In C order 1×N views, and N grey ones with one channel before rows of pixels, are a
+/// list, too ("1nyxc", "ncyx").
 [[nodiscard]] std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder order);
 
 /// The layout that `axes` states, in the order of indices ("vuyxc", "v,u,y,x"; s and t as in

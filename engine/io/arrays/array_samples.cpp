@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -73,6 +76,32 @@ void for_each_block(const ArrayInput& array, const ArrayLayout& layout, const Pr
   }
 }
 
+/// What a value of a fourth channel can be.
+enum Fourth : std::uint8_t { Nothing = 0, Weight = 1, NoWeight = 2, NegativeWeight = 3 };
+
+/// Weights are fractions, or integers.
+template <class T>
+std::uint8_t fourth_of(T value) {
+  if (value == 0) return Nothing;
+  if constexpr (std::is_floating_point_v<T>) {
+    if (!(value > 0)) return NegativeWeight;
+    if (value > 1 && value != std::floor(value)) return NoWeight;
+  }
+  return Weight;
+}
+
+/// Turns what values can be into a mask, or says why they are none.
+std::string settle_fourth(ViewStack<std::uint8_t>& valid) {
+  const std::uint8_t* begin = valid.data();
+  const std::uint8_t* end = begin + valid.size();
+  if (begin == end) return {};
+  const std::uint8_t largest = *std::max_element(begin, end);
+  const bool has_zeros = std::find(begin, end, std::uint8_t{Nothing}) != end;
+  if (largest > Weight || !has_zeros) valid = {};
+  if (largest == NegativeWeight) return "it holds values below 0, or that are not finite";
+  return largest == NoWeight ? "it holds fractions above 1" : std::string();
+}
+
 template <class T>
 ArraySamples read_as(const ArrayInput& array, const ArrayLayout& layout, const Progress& progress) {
   const std::size_t stored = layout.length('c');
@@ -99,12 +128,10 @@ ArraySamples read_as(const ArrayInput& array, const ArrayLayout& layout, const P
     if (stored < 4 || first + axes.count[4] < 4) return;
     count[4] = 1;
     move_block<T, std::uint8_t>({samples + (3 - first) * axes.stride[4], axes.stride},
-                                place_of(valid, axes), count, views_are_fastest,
-                                [](T weight) { return static_cast<std::uint8_t>(weight > 0); });
+                                place_of(valid, axes), count, views_are_fastest, fourth_of<T>);
   });
-  const std::uint8_t* end = valid.data() + valid.size();
-  if (std::find(valid.data(), const_cast<std::uint8_t*>(end), 0) == end) valid = {};
-  return {std::move(stack), std::move(valid)};
+  std::string left_out = settle_fourth(valid);
+  return {std::move(stack), std::move(valid), std::move(left_out)};
 }
 
 template <class To, class From>

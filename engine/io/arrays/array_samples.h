@@ -6,6 +6,8 @@
 #include "engine/io/arrays/array_input.h"
 #include "engine/io/arrays/array_layout.h"
 
+#include <string>
+
 namespace episcope::io {
 
 /// Samples of views, and which of their pixels hold something.
@@ -14,6 +16,8 @@ struct ArraySamples {
   /// From a fourth channel, a weight or alpha: 0 = nothing was seen. Empty if there is none, or no
   /// zero in it.
   ViewStack<std::uint8_t> valid;
+  /// Of a fourth channel that is no weight, such as depth, and left out: why it is none.
+  std::string left_out{};
 };
 
 /// Reads a whole light field once, in blocks of at most 64 MB in the order of the file (whole

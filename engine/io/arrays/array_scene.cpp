@@ -21,7 +21,7 @@
 namespace episcope::io {
 namespace {
 
-constexpr const char* kOptions[] = {"flip", "grid", "dataset", "axes", "frame", "levels"};
+constexpr const char* kOptions[] = {"flip", "grid", "crop", "dataset", "axes", "frame", "levels"};
 
 /// As the light field itself says which pixels hold something, or a mask beside it.
 void combine(ViewStack<std::uint8_t>& valid, ViewStack<std::uint8_t> mask) {
@@ -102,6 +102,12 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   progress.step("reading views");
   ArraySamples read = read_samples(*array, chosen.layout, progress.part(0, 0.7));
   settle_range(read.samples, options.levels, scene.convention);
+  if (!read.left_out.empty()) {
+    scene.convention.warnings.push_back(fmt::format(
+        "The fourth channel of {} is left out: it is no weight of pixels, for {}. If it is depth "
+        "or disparity, store it as an array of its own, as disparity or depth.",
+        entry.name, read.left_out));
+  }
   decode_luma_chroma(entry.name, read.samples, scene.convention);
   progress.step("reading maps");
   std::vector<const ArrayEntry*> others;

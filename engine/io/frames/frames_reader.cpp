@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/arrays/list_grid.h"
+#include "engine/io/frames/channel_pages.h"
 #include "engine/io/frames/film.h"
 #include "engine/io/frames/tiff_pages.h"
 #include "engine/io/grid/image_header.h"
@@ -106,6 +107,7 @@ Scene read_light_field(const fs::path& path, const OpenOptions& options, const P
   frames.pictures.clear();
   settle_range(parts.samples, options.levels, scene.convention);
   std::string reason = fmt::format("{} {}", count, frames.what);
+  if (join_channel_pages(parts.samples)) reason += ", each three of them the channels of a view";
   arrange_list(path, options, parts, reason, progress.part(0.6, 0.8));
   scene.convention.format = reason;
   scene.convention.units = "no depth in such a file";
@@ -134,7 +136,7 @@ SceneProbe probe_frames(const fs::path& path, const OpenOptions& options) {
           .list = count_tiff_pages(path, kMostPictures)};
 }
 
-constexpr const char* kOptions[] = {"flip", "grid", "levels"};
+constexpr const char* kOptions[] = {"flip", "grid", "crop", "levels"};
 
 }  // namespace
 

@@ -294,9 +294,8 @@ NamedGrid by_names(const fs::path& folder, const OpenOptions& options) {
     return grid;
   }
   const std::string& pattern = options.pattern;
-  if (pattern.empty()) {
-    if (const auto views = find_view_folders(folder))
-      return by_view_folders(folder, *views, options);
+  if (const auto views = find_view_folders(folder, pattern)) {
+    return by_view_folders(folder, *views, options);
   }
   const std::vector<fs::path> images = list_images(folder);
   const ViewNames names =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/grid/image_grid_reader.h"
 
+#include "engine/core/text/join.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/beside/beside.h"
 #include "engine/io/grid/grid_names.h"
@@ -15,8 +16,10 @@
 #include "engine/io/maps/sample_range.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/folder_account.h"
+#include "engine/io/open/order_parts.h"
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
+#include "engine/io/order/view_axes.h"
 
 #include <fmt/format.h>
 
@@ -30,7 +33,8 @@ fs::path find_grid(const fs::path& path, const OpenOptions& options) {
   if (folder.empty()) return {};
   const fs::path inside = views_folder(folder);
   const bool is_found = count_images(inside) > 0 || has_parts_with_poses(inside) ||
-                        find_row_folders(inside, options) || find_view_folders(inside);
+                        find_row_folders(inside, options) ||
+                        find_view_folders(inside, options.pattern);
   return is_found ? folder : fs::path();
 }
 
@@ -75,6 +79,28 @@ void add_camera(const PosedViews& poses, const LightField::Samples& samples, Cam
   camera.focal_length = poses.focal_widths * width;
 }
 
+/// Exchanges rows and columns of views where the motion between them says so without doubt, before
+/// maps are judged by the views beside them. Returns why, or nothing; null where that cannot be
+/// done yet.
+std::optional<std::string> settle_axes(ViewFiles& views, LightField::Samples& samples,
+                                       std::vector<CameraPosition>& positions,
+                                       const OpenOptions& options, const Progress& progress) {
+  if (views.part || are_axes_stated(options)) return std::nullopt;
+  const ViewAxes axes = find_view_axes(samples, progress);
+  if (!axes.are_swapped()) return std::string();
+  const GridShape stored = views.grid;
+  swap_view_axes(samples);
+  swap_view_axes(positions, stored);
+  const std::vector<fs::path> files = views.files;
+  views.grid = {stored.u, stored.v};
+  for (int i = 0; i < stored.count(); ++i) {
+    const ViewIndex view = views.grid.view_at(i);
+    views.files[static_cast<std::size_t>(i)] =
+        files[static_cast<std::size_t>(view.u * stored.u + view.v)];
+  }
+  return axes.evidence();
+}
+
 /// "image grid (out_{row}_{col}.png, snake order)", with the folder inside of what was opened.
 std::string format_of(const NamedGrid& grid, const fs::path& folder, const fs::path& source,
                       const OpenOptions& options) {
@@ -117,6 +143,10 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   if (is_linear) report.format += ", linear float samples";
   report.units = "no depth in an image grid";
   report.warnings = grid.placed.warnings;
+  if (const auto others = other_picture_folders(source, folder); !others.empty()) {
+    report.warnings.push_back(fmt::format("The views are those of {}; pictures in {} are left out.",
+                                          folder.filename().string(), joined(others, ", ")));
+  }
   LightFieldInfo info{scene_name(source),
                       source.string(),
                       extras.camera,
@@ -143,6 +173,8 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   if (extras.read_truth) {
     parts.truth.field = extras.read_truth(samples, info.camera, report);
   } else {
+    progress.step("checking the order of views");
+    parts.swapped_axes = settle_axes(views, samples, info.positions, options, progress);
     FoundBeside beside = read_beside({views, folder, samples, info.camera, options.map_views(),
                                       options.needs_truth, grid.poses.are_used()},
                                      {account, report}, progress.part(0.9, 1));

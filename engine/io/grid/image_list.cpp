@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/grid/image_list.h"
 
+#include "engine/core/text/suffix.h"
+#include "engine/io/beside/map_name.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/inner_grid.h"
+#include "engine/io/grid/name_words.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -20,6 +25,20 @@ void for_each_image(const fs::path& folder, const Visit& visit) {
       visit(entry.path());
     }
   }
+}
+
+/// The only folder inside that is named "viewpoints…", as PlenoptiCam names it beside refocused
+/// pictures; else the folder itself.
+fs::path viewpoints_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::path found;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const bool is_named = entry.path().filename().string().starts_with("viewpoints");
+    if (!is_named || count_images(entry.path()) < 2) continue;
+    if (!found.empty()) return folder;
+    found = entry.path();
+  }
+  return found.empty() ? folder : found;
 }
 
 }  // namespace
@@ -54,7 +73,7 @@ fs::path named_views_folder(const fs::path& folder) {
     const int inside = images_inside(name);
     if (inside > 1 && inside > count_images(folder)) return folder / name;
   }
-  return folder;
+  return viewpoints_folder(folder);
 }
 
 fs::path views_folder(const fs::path& folder) {
@@ -62,6 +81,19 @@ fs::path views_folder(const fs::path& folder) {
   if (named != folder) return named;
   fs::path only = only_grid_inside(folder);
   return only.empty() ? folder : only;
+}
+
+std::vector<std::string> other_picture_folders(const fs::path& source, const fs::path& views) {
+  std::vector<std::string> names;
+  if (source == views) return names;
+  for (const auto& entry : fs::directory_iterator(source)) {
+    std::string name = entry.path().filename().string();
+    const bool is_map = is_map_folder(name) || names_companions(lower_case(name));
+    if (name.starts_with('.') || is_map || entry.path() == views) continue;
+    if (count_images(entry.path()) > 1) names.push_back(std::move(name));
+  }
+  std::ranges::sort(names);
+  return names;
 }
 
 }  // namespace episcope::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace episcope::io {
@@ -13,11 +14,17 @@ namespace episcope::io {
 /// Number of images directly in a folder; 0 if there is no such folder.
 [[nodiscard]] int count_images(const std::filesystem::path& folder);
 
-/// The folder of views inside that is named lf, views, images or rectified; else the folder itself.
+/// The folder of views inside that is named lf, views, images, rectified or viewpoints…; else the
+/// folder itself.
 [[nodiscard]] std::filesystem::path named_views_folder(const std::filesystem::path& folder);
 
-/// The folder of views that a scene's folder has inside, named lf, views, images or rectified, or
-/// the only one with a grid (`only_grid_inside`); else the folder itself.
+/// The folder of views that a scene's folder has inside, named as above, or the only one with a
+/// grid (`only_grid_inside`); else the folder itself.
 [[nodiscard]] std::filesystem::path views_folder(const std::filesystem::path& folder);
+
+/// The names of the folders in `source` beside that of the views that hold several pictures, but
+/// for maps; by name.
+[[nodiscard]] std::vector<std::string> other_picture_folders(const std::filesystem::path& source,
+                                                             const std::filesystem::path& views);
 
 }  // namespace episcope::io

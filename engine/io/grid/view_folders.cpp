@@ -12,6 +12,7 @@
 #include <array>
 #include <map>
 #include <string_view>
+#include <vector>
 
 namespace episcope::io {
 namespace {
@@ -40,47 +41,94 @@ bool speaks_of_views(const std::string& name) {
   });
 }
 
-/// By what their names would be if the folders were files; nothing if they are not alike.
-std::map<fs::path, fs::path> pictures_by_folder(const fs::path& folder) {
-  std::map<fs::path, fs::path> pictures;
+/// Pictures by what the names of their folders would be if these were files.
+using Pictures = std::map<fs::path, fs::path>;
+
+std::vector<fs::path> folders_in(const fs::path& folder) {
+  std::vector<fs::path> folders;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const fs::path& inside = entry.path();
-    const bool is_hidden = inside.filename().string().starts_with('.');
-    if (is_hidden || !entry.is_directory(error)) continue;
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (!is_hidden && entry.is_directory(error)) folders.push_back(entry.path());
+  }
+  return folders.size() > kMostFolders ? std::vector<fs::path>() : folders;
+}
+
+/// Nothing if they are not alike.
+Pictures only_pictures(const fs::path& folder) {
+  Pictures pictures;
+  for (const fs::path& inside : folders_in(folder)) {
     const fs::path picture = picture_in(inside);
     const bool is_alike =
         pictures.empty() || pictures.begin()->second.filename() == picture.filename();
-    if (picture.empty() || !is_alike || pictures.size() == kMostFolders) return {};
+    if (picture.empty() || !is_alike) return {};
     pictures[inside.string() + picture.extension().string()] = picture;
   }
   return pictures;
 }
 
-}  // namespace
+/// Those of one name.
+Pictures pictures_called(const fs::path& folder, const fs::path& name) {
+  Pictures pictures;
+  std::error_code error;
+  for (const fs::path& inside : folders_in(folder)) {
+    if (!fs::is_regular_file(inside / name, error)) continue;
+    pictures[inside.string() + name.extension().string()] = inside / name;
+  }
+  return pictures;
+}
 
-std::optional<ViewNames> find_view_folders(const fs::path& folder) {
-  if (count_images(folder) > 0) return std::nullopt;
-  const std::map<fs::path, fs::path> pictures = pictures_by_folder(folder);
+std::vector<fs::path> as_files(const Pictures& pictures) {
+  std::vector<fs::path> files;
+  files.reserve(pictures.size());
+  for (const auto& [file, picture] : pictures) files.push_back(file);
+  return files;
+}
+
+/// "cam_{index}.png" becomes "cam_{index}/0001.png".
+void name_pictures(ViewNames& names, const Pictures& pictures) {
+  const fs::path name = pictures.begin()->second.filename();
+  names.pattern.resize(names.pattern.size() - name.extension().string().size());
+  names.pattern += '/';
+  names.pattern += name.string();
+  for (NamedView& view : names.views) view.path = pictures.at(view.path);
+}
+
+std::optional<ViewNames> names_of_folders(const fs::path& folder, const Pictures& pictures) {
   if (pictures.size() < kFewestFolders) return std::nullopt;
-  std::vector<fs::path> as_files;
-  as_files.reserve(pictures.size());
-  for (const auto& [file, picture] : pictures) as_files.push_back(file);
   try {
-    ViewNames names = find_view_names(folder, as_files);
+    ViewNames names = find_view_names(folder, as_files(pictures));
     const bool has_both = names.views.front().row && names.views.front().column;
     const bool is_counted = !has_both || names.pattern.find("}{") != std::string::npos;
     if (names.views.size() != pictures.size()) return std::nullopt;
     if (is_counted && !speaks_of_views(names.pattern)) return std::nullopt;
-    const fs::path name = pictures.begin()->second.filename();
-    names.pattern.resize(names.pattern.size() - name.extension().string().size());
-    names.pattern += '/';
-    names.pattern += name.string();
-    for (NamedView& view : names.views) view.path = pictures.at(view.path);
+    name_pictures(names, pictures);
     return names;
   } catch (const IoError&) {
     return std::nullopt;
   }
+}
+
+}  // namespace
+
+std::optional<ViewNames> find_view_folders(const fs::path& folder, const std::string& pattern) {
+  if (count_images(folder) > 0) return std::nullopt;
+  if (pattern.empty()) return names_of_folders(folder, only_pictures(folder));
+  const std::size_t slash = pattern.rfind('/');
+  if (slash == pattern.npos || pattern.find_first_of("{*?", slash) != pattern.npos) {
+    return std::nullopt;
+  }
+  const fs::path name = pattern.substr(slash + 1);
+  const Pictures pictures = pictures_called(folder, name);
+  ViewNames names =
+      match_view_names(as_files(pictures), pattern.substr(0, slash) + name.extension().string());
+  if (names.views.empty()) return std::nullopt;
+  name_pictures(names, pictures);
+  return names;
+}
+
+std::optional<ViewNames> find_folders_with(const fs::path& folder, const std::string& picture) {
+  return names_of_folders(folder, pictures_called(folder, picture));
 }
 
 }  // namespace episcope::io

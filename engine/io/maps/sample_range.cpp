@@ -21,7 +21,7 @@ namespace {
 constexpr int kOfBytes = 255;
 constexpr int kOfWords = 65535;
 constexpr int kOf14Bits = 16383;
-constexpr std::ptrdiff_t kFewestSaturated = 10;
+constexpr int kMostOf13Bits = 9000;  ///< A little above: rather a bright picture of 14 bits.
 
 int bits_of(int white) {
   return static_cast<int>(std::bit_width(static_cast<unsigned>(white)));
@@ -68,9 +68,8 @@ std::optional<int> white_of(const ViewStack<std::uint16_t>& stack) {
   if (largest == 0) return std::nullopt;
   const int white = full_scale(largest);
   if (white < kOfWords) return white;
-  const bool is_saturated =
-      largest == kOf14Bits && std::count(begin, end, std::uint16_t{kOf14Bits}) >= kFewestSaturated;
-  return is_saturated ? std::optional(kOf14Bits) : std::nullopt;
+  const bool is_of_14_bits = largest > kMostOf13Bits && largest <= kOf14Bits;
+  return is_of_14_bits ? std::optional(kOf14Bits) : std::nullopt;
 }
 
 ViewStack<std::uint8_t> as_bytes(const ViewStack<std::uint16_t>& stack) {

@@ -13,8 +13,9 @@ namespace episcope::io {
 /// white as stored, "0,1023"; empty = found:
 /// - float: `scale_float_samples`;
 /// - uint16 of which none exceeds 255: samples of 8 bits, which become uint8; none exceeds 1023, or
-///   4095: samples of 10 or 12 bits, as cameras write them; of 14 bits, if several are exactly
-///   16383 and none is larger. Views that are read from their file stay as they are.
+///   4095: samples of 10 or 12 bits, as cameras write them; of 14 bits, if the largest is
+///   above 9000 (well above what 13 bits hold) and none exceeds 16383. Views that are read from
+///   their file stay as they are.
 ///
 /// Integers stay integers, rounded to the nearest. Throws InvalidInput for other `levels`.
 void settle_range(LightField::Samples& samples, const std::string& levels,

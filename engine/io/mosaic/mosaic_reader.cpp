@@ -10,6 +10,7 @@
 #include "engine/io/mosaic/mosaic_name.h"
 #include "engine/io/mosaic/own_files.h"
 #include "engine/io/mosaic/split_mosaic.h"
+#include "engine/io/mosaic/tile_gaps.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/center_preview.h"
 #include "engine/io/open/folder_account.h"
@@ -85,9 +86,33 @@ struct MosaicPicture {
   std::vector<FileUse> files;
 };
 
+bool may_have_gaps(const fs::path& path, const OpenOptions& options) {
+  const MosaicName name = mosaic_name(path);
+  return options.mosaic != Mosaic::Lenslets && options.lenslet == 0 &&
+         (name == MosaicName::Plain || name == MosaicName::Mosaic);
+}
+
+/// Of views side by side, gaps between them are cut out of the picture.
+MosaicLayout find_layout(AnyImage& picture, const fs::path& path, const OpenOptions& options) {
+  if (may_have_gaps(path, options)) {
+    const auto sheet = find_contact_sheet(picture);
+    const auto given = given_grid(options);
+    if (sheet && (!given || *given == sheet->grid())) {
+      AnyImage tiles = without_gaps(picture, *sheet);
+      MosaicLayout layout = find_mosaic_layout(tiles, path, options);
+      if (layout.grid == sheet->grid() && layout.kind == Mosaic::Views) {
+        picture = std::move(tiles);
+        layout.evidence += "; " + sheet->text();
+        return layout;
+      }
+    }
+  }
+  return find_mosaic_layout(picture, path, options);
+}
+
 MosaicPicture read_from_image(const fs::path& path, const OpenOptions& options) {
   AnyImage picture = decode_image(path);
-  MosaicLayout layout = find_mosaic_layout(picture, path, options);
+  MosaicLayout layout = find_layout(picture, path, options);
   return {std::move(picture), std::move(layout), {}, account_of(path)};
 }
 

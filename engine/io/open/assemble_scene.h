@@ -3,6 +3,10 @@
 
 #include "engine/io/order/order_check.h"
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace episcope::io {
 
 /// What a reader has gathered, in the order of views as stored.
@@ -14,6 +18,8 @@ struct SceneParts {
   /// 0 = a pixel that holds nothing that was seen, in the order of views as stored; empty = none.
   ViewStack<std::uint8_t> valid{};
   std::vector<FileUse> files{};  ///< What became of the files of the folder (FolderAccount).
+  /// If rows and columns of views were compared already: why they were swapped, or nothing.
+  std::optional<std::string> swapped_axes{};
 };
 
 /// The last step of reading a light field: brings the parts into canonical order, sets samples that

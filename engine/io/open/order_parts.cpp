@@ -2,9 +2,11 @@
 #include "engine/io/open/order_parts.h"
 
 #include "engine/io/order/camera_positions.h"
+#include "engine/io/order/line_motion.h"
 #include "engine/io/order/turned_truth.h"
 #include "engine/io/order/view_axes.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace episcope::io {
@@ -26,6 +28,14 @@ std::string order_axes(SceneParts& parts, bool are_axes_known, ConventionReport&
   swap_view_axes(parts.valid);
   swap_view_axes(parts.info.positions, stored);
   return axes.evidence();
+}
+
+/// A camera that zooms or turns makes no light field, but a list that looks like a line of views.
+void check_line(const SceneParts& parts, ConventionReport& report, const Progress& progress) {
+  const GridShape grid = grid_of(parts.samples);
+  if (grid.count() < 2 || std::min(grid.v, grid.u) > 1) return;
+  const LineMotion motion = measure_line_motion(parts.samples, progress);
+  if (motion.is_askew()) report.warnings.push_back(motion.warning());
 }
 
 /// Undoes how a program wrote the truth of a single view, and says so.
@@ -50,12 +60,18 @@ void complete_order(SceneParts& parts, const std::string& swapped, ConventionRep
 
 }  // namespace
 
+bool are_axes_stated(const OpenOptions& options) {
+  return !options.axes.empty() || !options.pattern.empty() || !options.grid.empty();
+}
+
 void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
                     const Progress& progress) {
   progress.step("checking the order of views");
-  const bool are_axes_known = parts.expected.are_axes_known || !options.axes.empty() ||
-                              !options.pattern.empty() || !options.grid.empty();
-  const std::string swapped = order_axes(parts, are_axes_known, report, progress);
+  const bool are_axes_known = parts.expected.are_axes_known || are_axes_stated(options);
+  const std::string swapped = parts.swapped_axes
+                                  ? *parts.swapped_axes
+                                  : order_axes(parts, are_axes_known, report, progress);
+  check_line(parts, report, progress);
   turn_truth(parts, report);
   put_in_order(parts.samples, parts.truth, parts.expected, options.flip, report, progress);
   reverse_views(parts.valid, grid_of(parts.samples), flip_of(report));

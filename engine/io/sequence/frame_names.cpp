@@ -2,6 +2,7 @@
 #include "engine/io/sequence/frame_names.h"
 
 #include "engine/core/text/suffix.h"
+#include "engine/io/grid/image_list.h"
 
 #include <algorithm>
 #include <array>
@@ -102,6 +103,10 @@ NumberedFrames numbered_frames(const fs::path& folder) {
   const std::vector<fs::path> folders = listed(folder, true);
   if (!folders.empty()) return frames_among(folders, Others::Refused);
   return frames_among(listed(folder, false), Others::LeftOut);
+}
+
+NumberedFrames numbered_images(const fs::path& folder) {
+  return frames_among(list_images(folder), Others::LeftOut);
 }
 
 }  // namespace episcope::io

@@ -18,4 +18,7 @@ struct NumberedFrames {
 /// are beside them, or, with digits alone, any other folder. Looks at names only.
 [[nodiscard]] NumberedFrames numbered_frames(const std::filesystem::path& folder);
 
+/// Likewise the images of `folder`.
+[[nodiscard]] NumberedFrames numbered_images(const std::filesystem::path& folder);
+
 }  // namespace episcope::io

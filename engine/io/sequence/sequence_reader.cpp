@@ -4,8 +4,10 @@
 #include "engine/core/error.h"
 #include "engine/io/grid/image_list.h"
 #include "engine/io/grid/row_folders.h"
+#include "engine/io/grid/view_folders.h"
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
+#include "engine/io/sequence/camera_folders.h"
 #include "engine/io/sequence/camera_frames.h"
 #include "engine/io/sequence/frame_names.h"
 
@@ -48,9 +50,11 @@ std::vector<Frame> frames_of(const fs::path& folder) {
     frames.push_back({named.paths[i], {}, named.numbers[i]});
   }
   if (!frames.empty()) return frames;
-  const CameraFrames together = find_camera_frames(folder);
-  for (std::size_t i = 0; i < together.numbers.size(); ++i) {
-    frames.push_back({folder, together.patterns[i], together.numbers[i]});
+  for (const CameraFrames& cameras : {find_camera_frames(folder), find_camera_folders(folder)}) {
+    for (std::size_t i = 0; i < cameras.numbers.size(); ++i) {
+      frames.push_back({folder, cameras.patterns[i], cameras.numbers[i]});
+    }
+    if (!frames.empty()) break;
   }
   return frames;
 }
@@ -96,6 +100,7 @@ fs::path find_sequence(const fs::path& path, const OpenOptions& options) {
   std::error_code error;
   if (!fs::is_directory(path, error) || is_there(path / "lf.h5")) return {};
   if (!options.pattern.empty() && count_images(path) > 0) return {};
+  if (!options.pattern.empty() && find_view_folders(path, options.pattern)) return {};
   const std::vector<Frame> frames = frames_of(path);
   if (frames.empty() || find_row_folders(path, options)) return {};
   try {

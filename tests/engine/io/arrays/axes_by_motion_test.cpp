@@ -64,6 +64,7 @@ class AxesByMotionTest : public QObject {
     QTest::addColumn<int>("width");
     QTest::newRow("fewer views than pixels") << 5 << 48 << 64;
     QTest::newRow("more views than pixels") << 9 << 48 << 48;
+    QTest::newRow("more views than rows") << 7 << 48 << 64;
   }
   void greyListThatComesLast_isToldBySlices() {
     QFETCH(int, side);
@@ -184,6 +185,19 @@ class AxesByMotionTest : public QObject {
     QVERIFY(has_samples(scene, views));
   }
 
+  // As networks for one direction of views take them.
+  void greyViewsThatComeLast_areAListAfterABatchOfOne() {
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const ViewStack<std::uint8_t> line = layered_views({.grid = {1, 7}, .height = 48, .width = 64});
+    io::write_npy<std::uint8_t>(file, {1, 48, 64, 7}, in_axes(line, "yxvu"));
+
+    const Scene scene = io::open_scene(file, {}, Progress(1));
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{1, 7}));
+    QVERIFY(has_samples(scene, line));
+  }
+
   void greyViewsWithAChannel_areAList_data() {
     QTest::addColumn<bool>("is_batch");
     QTest::newRow("N×1×H×W") << false;
@@ -229,6 +243,45 @@ class AxesByMotionTest : public QObject {
     io::write_npy<std::uint8_t>(file, {45, height, width}, in_axes(views, "vuyx"));
 
     QCOMPARE(io::open_scene(file, {}, Progress(1)).light_field->grid(), (GridShape{5, 9}));
+  }
+
+  // What a mosaic becomes when its sides are split.
+  void rowsOfViewsBesideThoseOfPixels_areUnderstood_data() {
+    QTest::addColumn<QString>("axes");
+    for (const char* axes : {"vyuxc", "yvxuc", "yuxvc"}) QTest::newRow(axes) << axes;
+  }
+  void rowsOfViewsBesideThoseOfPixels_areUnderstood() {
+    QFETCH(QString, axes);
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const std::string letters = axes.toStdString();
+    const ViewStack<std::uint8_t> views = coloured_views({5, 5});
+    io::write_npy<std::uint8_t>(file, lengths_of(views, letters), in_axes(views, letters));
+
+    const Scene scene = io::open_scene(file, {}, Progress(1));
+
+    QVERIFY2(scene.convention.format.find("(" + letters + ")") != std::string::npos,
+             scene.convention.format.c_str());
+    QVERIFY(has_samples(scene, views));
+  }
+
+  void fourthChannelOfDisparity_isNoMask() {
+    const QTemporaryDir folder;
+    const std::filesystem::path file = folder.filePath("lf.npy").toStdString();
+    const ViewStack<std::uint8_t> views = coloured_views({5, 5});
+    std::vector<float> samples;
+    for (std::size_t n = 0; n < views.size(); ++n) {
+      samples.push_back(static_cast<float>(views.data()[n]) / 255);
+      if (n % 3 == 2) samples.push_back(0.25F * static_cast<float>(n % 5) - 0.5F);
+    }
+    io::Hdf5Shape lengths = lengths_of(views, "vuyxc");
+    lengths.back() = 4;
+    io::write_npy<float>(file, lengths, samples);
+
+    const Scene scene = io::open_scene(file, {}, Progress(1));
+
+    QVERIFY(scene.light_field->is_valid({0, 0}, 0, 0));
+    QVERIFY(scene.convention.warnings.front().starts_with("The fourth channel of lf is left out"));
   }
 
   void onlyRow_staysOne() {

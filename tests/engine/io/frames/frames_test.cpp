@@ -62,6 +62,40 @@ void write_film(const fs::path& path, const ViewStack<std::uint8_t>& views) {
   film.commit();
 }
 
+/// A page for each channel of a view, as ImageJ stores colours of more than 8 bits, or all views in
+/// a channel first.
+void write_channel_pages(const fs::path& path, const ViewStack<std::uint8_t>& views,
+                         bool is_channel_first) {
+  const int count = views.grid().count();
+  std::vector<cv::Mat> pages;
+  for (int i = 0; i < 3 * count; ++i) {
+    const int channel = is_channel_first ? i / count : i % 3;
+    const auto view = views.view(views.view_at(is_channel_first ? i % count : i / 3));
+    cv::Mat page(view.height, view.width, CV_8UC1);
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) {
+        page.at<std::uint8_t>(y, x) =
+            static_cast<std::uint8_t>(view.at(y, x, 0) * (2 + channel) / 4);
+      }
+    }
+    pages.push_back(page);
+  }
+  QVERIFY(cv::imwrite(path.string(), pages));
+}
+
+/// A BigTIFF file of so many pages without samples.
+void write_big_tiff(const fs::path& path, std::uint8_t pages) {
+  std::vector<char> bytes{'I', 'I', '+', 0, 8, 0, 0, 0, 16, 0, 0, 0, 0, 0, 0, 0};
+  for (int i = 1; i <= pages; ++i) {
+    std::vector<char> directory(36, 0);
+    directory[0] = 1;  // entry
+    if (i < pages) directory[28] = static_cast<char>(16 + 36 * i);
+    bytes.insert(bytes.end(), directory.begin(), directory.end());
+  }
+  std::ofstream(path, std::ios::binary)
+      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
 using Bytes = std::vector<std::uint8_t>;
 
 void put_number(Bytes& out, std::uint32_t number) {
@@ -174,6 +208,42 @@ class FramesTest : public QObject {
     QCOMPARE(scene.light_field->grid(), (GridShape{4, 5}));
     QCOMPARE(mean_error(views, *scene.light_field), 0.0);
     QCOMPARE(open(path("")).light_field->grid(), (GridShape{4, 5}));
+  }
+
+  void pagesThatAreChannels_makeColouredViews_data() {
+    QTest::addColumn<bool>("is_channel_first");
+    QTest::newRow("one after the other") << false;
+    QTest::newRow("all views of one first") << true;
+  }
+  void pagesThatAreChannels_makeColouredViews() {
+    QFETCH(bool, is_channel_first);
+    const ViewStack<std::uint8_t> views = some_views();
+    write_channel_pages(path("stack.tif"), views, is_channel_first);
+
+    const Scene scene = open(path("stack.tif"));
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{4, 5}));
+    const auto& read = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
+    QCOMPARE(read.channels(), 3);
+    for (const int channel : {0, 1, 2}) {
+      QCOMPARE(int{read.view({2, 3}).at(17, 40, channel)},
+               views.view({2, 3}).at(17, 40, 0) * (2 + channel) / 4);
+    }
+  }
+
+  // A third of the pages are as many rows of views apart as motion cannot be followed.
+  void greyPagesOfManyRows_stayViews() {
+    const ViewStack<std::uint8_t> views =
+        layered_views({.grid = {9, 5}, .background_px = -2.5, .foreground_px = 3.5});
+    write_pages(path("stack.tif"), views);
+
+    QCOMPARE(open(path("stack.tif")).light_field->grid(), (GridShape{9, 5}));
+  }
+
+  void pagesOfBigTiff_areCounted() {
+    write_big_tiff(path("big.tif"), 3);
+
+    QCOMPARE(io::count_tiff_pages(path("big.tif"), 1000), 3);
   }
 
   void picturesOfAnAnimatedPng_areViews() {

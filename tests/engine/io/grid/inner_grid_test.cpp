@@ -42,6 +42,18 @@ class InnerGridTest : public QObject {
     QCOMPARE(count_used(read, "views"), 9);
   }
 
+  // As PlenoptiCam leaves them.
+  void viewpointsBesideOtherPictures_areOpened() {
+    const LayeredFolder folder;
+    folder.write_views(LayeredFolder::named("viewpoints_3px/{}_{}.png"));
+    folder.write_views(LayeredFolder::named("refocus/photo_{}{}.png"));
+
+    const Scene read = folder.open();
+
+    QVERIFY(has_views_of(read, folder.scene));
+    QVERIFY(warns_of(read, "those of viewpoints_3px; pictures in refocus are left out"));
+  }
+
   void mapsBesideTheFolder_areTruth() {
     const LayeredFolder folder;
     folder.write_views(LayeredFolder::named("rendered/{}_{}.png"));

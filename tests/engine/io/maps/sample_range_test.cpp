@@ -80,6 +80,7 @@ class SampleRangeTest : public QObject {
     QTest::newRow("8") << 1 << "8 bits";
     QTest::newRow("10") << 4 << "10 bits";
     QTest::newRow("12") << 16 << "12 bits";
+    QTest::newRow("14") << 64 << "14 bits";
   }
   void wordsOfFewerBits_fillTheirRange() {
     QFETCH(int, factor);

@@ -55,6 +55,24 @@ Image<std::uint8_t> tiled(const Scene& scene) {
   return picture;
 }
 
+/// Views side by side with white lines between and around them.
+Image<std::uint8_t> with_gaps(const Scene& scene, int gap, int margin) {
+  const ViewStack<std::uint8_t>& views = bytes_of(scene);
+  const GridShape grid = views.grid();
+  Image<std::uint8_t> picture(grid.v * (views.height() + gap) - gap + 2 * margin,
+                              grid.u * (views.width() + gap) - gap + 2 * margin, views.channels(),
+                              255);
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i);
+    for (int y = 0; y < views.height(); ++y) {
+      std::copy_n(views.view(view).row(y), views.width() * views.channels(),
+                  &picture.at(margin + view.v * (views.height() + gap) + y,
+                              margin + view.u * (views.width() + gap)));
+    }
+  }
+  return picture;
+}
+
 /// A view in blocks of 8 px with levels of their own, as strong compression leaves them.
 Image<std::uint8_t> blocky_photograph() {
   PlaneOptions options;
@@ -227,6 +245,31 @@ class MosaicTest : public QObject {
 
     QCOMPARE(read.light_field->grid(), (GridShape{3, 4}));
     QVERIFY2(has_same_samples(scene, read), describe(read.convention).c_str());
+  }
+
+  void gapsBetweenViews_areLeftOut_data() {
+    QTest::addColumn<int>("gap");
+    QTest::addColumn<int>("margin");
+    QTest::addColumn<QString>("grid");
+    QTest::newRow("lines") << 1 << 0 << "";
+    QTest::newRow("frames") << 4 << 4 << "";
+    QTest::newRow("stated grid") << 3 << 0 << "5x7";
+  }
+  void gapsBetweenViews_areLeftOut() {
+    QFETCH(int, gap);
+    QFETCH(int, margin);
+    QFETCH(QString, grid);
+    const Scene scene = plane({5, 7});
+    io::write_png(path("sheet.png"), with_gaps(scene, gap, margin).view());
+    io::OpenOptions options;
+    options.grid = grid.toStdString();
+    if (!grid.isEmpty()) options.mosaic = io::Mosaic::Views;
+
+    const Scene read = open("sheet.png", options);
+
+    QCOMPARE(read.light_field->grid(), (GridShape{5, 7}));
+    QVERIFY2(has_same_samples(read, scene), read.convention.format.c_str());
+    QVERIFY(read.convention.warnings.empty());
   }
 
   void viewsSideBySide_followTheOption() {

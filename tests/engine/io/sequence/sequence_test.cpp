@@ -77,6 +77,42 @@ class SequenceTest : public QObject {
     QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)open(3));
   }
 
+  void folderOfEachCamera_isASequenceOfItsFrames_data() {
+    QTest::addColumn<QString>("form");
+    QTest::addColumn<QString>("pattern");
+    QTest::newRow("rows and columns") << "{0:02}_{1:02}/{2:04}.png"
+                                      << "{row}_{col}/0007.png";
+    QTest::newRow("counted cameras") << "cam_{3:02}/frame_{2}.png"
+                                     << "cam_{index}/frame_7.png";
+  }
+  void folderOfEachCamera_isASequenceOfItsFrames() {
+    QFETCH(QString, form);
+    QFETCH(QString, pattern);
+    const auto scene_at = [](int frame) { return scene_of(0.3 + 0.4 * frame); };
+    for (int frame = 0; frame < 3; ++frame) {
+      const Scene scene = scene_at(frame);
+      for (int i = 0; i < 9; ++i) {
+        const fs::path file =
+            root() / fmt::format(fmt::runtime(form.toStdString()), i / 3, i % 3, 5 + frame, i);
+        fs::create_directories(file.parent_path());
+        io::write_png(file, scene.light_field->view<std::uint8_t>({i / 3, i % 3}));
+      }
+    }
+    io::OpenOptions options;
+    options.grid = "3x3";
+    options.frame = 2;
+    io::OpenOptions named;
+    named.grid = "3x3";
+    named.pattern = pattern.toStdString();
+
+    const Scene scene = io::open_scene(root(), options, Progress(1));
+    const Scene alone = io::open_scene(root(), named, Progress(1));
+
+    QCOMPARE(scene.sequence.count, 3);
+    QVERIFY2(has_same_samples(scene, scene_at(2)), describe(scene.convention).c_str());
+    QVERIFY2(has_same_samples(alone, scene_at(2)), describe(alone.convention).c_str());
+  }
+
   void numberedNames_areASequence_data() {
     QTest::addColumn<QStringList>("names");
     QTest::addColumn<bool>("is_sequence");
