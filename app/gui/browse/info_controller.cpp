@@ -94,15 +94,14 @@ void InfoController::show() {
 }
 
 bool InfoController::canReverseSign() const {
-  return bench_.session.scene() && !bench_.opener.hasFailed() &&
-         !bench_.opener.reopenable().isEmpty();
+  return bench_.session.scene() && !is_builtin(QString::fromStdString(bench_.session.input()));
 }
 
 void InfoController::reverseSign() {
   const ConventionReport& report = bench_.session.scene()->convention;
   io::OpenOptions options = io::open_schema().parse(bench_.session.reading_options());
   options.flip = io::flip_choice({!report.reversed_u, !report.reversed_v});
-  bench_.opener.reopenWith(io::given_options(options));
+  bench_.opener.reopenShownWith(io::given_options(options));
 }
 
 void InfoController::askForConventions() {

@@ -157,8 +157,18 @@ void SceneOpener::reopen() {
 
 void SceneOpener::reopenWith(const ParameterSet& given) {
   const QString input = reopenable();
-  if (input.isEmpty()) return;
-  load({input, given, false, [input, given] { remember_conventions(input, given); }});
+  if (!input.isEmpty()) readAs(input, given, hasFailed());
+}
+
+void SceneOpener::reopenShownWith(const ParameterSet& given) {
+  if (session_.scene()) readAs(QString::fromStdString(session_.input()), given, false);
+}
+
+void SceneOpener::readAs(const QString& input, const ParameterSet& given, bool is_added) {
+  load({.input = input,
+        .given = given,
+        .then = [input, given] { remember_conventions(input, given); },
+        .is_added = is_added});
 }
 
 void SceneOpener::reopenAt(double focus_px, std::function<void()> then) {

@@ -38,6 +38,8 @@ class SceneOpener : public QObject {
   /// Reads what is open, or what failed to open, again as the user chose. The choice is remembered
   /// for that file if it could be read.
   void reopenWith(const ParameterSet& given);
+  /// The same of what is open, also after something else failed to open.
+  void reopenShownWith(const ParameterSet& given);
   /// Reads what is open again at another focus plane (0: that of the files). `then` is called after
   /// success.
   void reopenAt(double focus_px, std::function<void()> then);
@@ -77,6 +79,7 @@ class SceneOpener : public QObject {
     bool is_added = false;       ///< Beside what is open, not in its place.
   };
 
+  void readAs(const QString& input, const ParameterSet& given, bool is_added);
   void load(const Load& load);
   void leave(const Load& load, const std::function<void()>& go_on);
   void start(const Load& load);

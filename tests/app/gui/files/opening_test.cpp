@@ -37,6 +37,7 @@ class OpeningTest : public QObject {
   void builtinScenes_areChosenFromAList();
   void randomScene_hasTheSeedAndKindThatWereTyped();
   void brokenFile_isToldAndKeepsTheScene();
+  void brokenFile_leavesWhatIsOpenReversible();
   void brokenFile_isForgottenOnceAnotherIsOpen();
   void brokenFile_withoutScene_isDrawnAsError();
   void brokenFile_ofTheDialog_isTold();
@@ -179,6 +180,24 @@ void OpeningTest::brokenFile_isForgottenOnceAnotherIsOpen() {
 
   QTRY_VERIFY(!bench.opener.hasFailed());
   QVERIFY(messages->isVisible());
+}
+
+void OpeningTest::brokenFile_leavesWhatIsOpenReversible() {
+  WindowFixture f;
+  const Workbench& bench = f.window.bench();
+  f.openSmall();
+  const std::string input = bench.session.input();
+  const bool was_reversed = bench.session.scene()->convention.reversed_u;
+  bench.opener.open("/no/such/place");
+  QTRY_VERIFY_WITH_TIMEOUT(bench.opener.hasFailed(), kPatience);
+
+  QVERIFY(bench.commands.find("file.reverse_sign")->isEnabled());
+  f.click("info.action");
+
+  QTRY_VERIFY_WITH_TIMEOUT(bench.session.scene()->convention.reversed_u != was_reversed,
+                           kScenePatience);
+  QCOMPARE(bench.session.input(), input);
+  QCOMPARE(bench.session.scenes().size(), std::size_t{1});
 }
 
 void OpeningTest::brokenFile_withoutScene_isDrawnAsError() {
