@@ -121,6 +121,7 @@ void BrowseController::update(Parts parts) {
 void BrowseController::showScene() {
   const LightFieldPtr light_field = session_.light_field();
   grid_->setGrid(light_field ? light_field->grid() : GridShape{});
+  markPainted();
   refocus_job_.drop();
   if (!light_field) {
     thumbnail_job_.drop();

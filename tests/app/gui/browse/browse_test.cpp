@@ -4,7 +4,9 @@
 #include "tests/window_test_main.h"
 #include "widgets/browse/epi_pane.h"
 #include "widgets/browse/value_bar.h"
+#include "widgets/browse/view_grid_cells.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/style/theme.h"
 
 #include <QLabel>
 #include <QWheelEvent>
@@ -33,9 +35,24 @@ class BrowseTest : public QObject {
   void valuesAtTheCursor_areRead();
   void gpu_isAskedForOnAWorker();
   void measuredLine_belongsToItsRow();
+  void viewsWithStrokesOfTheFile_areMarked();
   void wheelWithAltOrCtrl_movesTheFocusPlane_data();
   void wheelWithAltOrCtrl_movesTheFocusPlane();
 };
+
+void BrowseTest::viewsWithStrokesOfTheFile_areMarked() {
+  WindowFixture f;
+  f.openSmall("objects");
+  const ViewIndex painted = f.document().scribbles().painted_views().at(0);
+  auto& cells = find<ViewGridCells>(f.window);
+  const auto corner_of = [&cells](ViewIndex view) {
+    const QPoint corner = cells.cellRect(view).topRight().toPoint() + QPoint(-4, 2);
+    return cells.grab().toImage().pixelColor(corner);
+  };
+
+  QCOMPARE(corner_of(painted), theme::kPainted);
+  QVERIFY(corner_of({painted.v, painted.u - 1}) != theme::kPainted);
+}
 
 // The question may take a second: the window is there meanwhile, and fills the row in later.
 void BrowseTest::gpu_isAskedForOnAWorker() {
