@@ -16,7 +16,7 @@ void add_project(const Workbench& bench) {
   new ProjectGuard(bench, *project);
   new SessionRecovery(bench, *autosave);
   new SceneChooser(bench);
-  new WindowTitle(bench, *autosave);
+  new WindowTitle(bench, *autosave, *project);
 }
 
 }  // namespace episcope

@@ -93,7 +93,7 @@ std::string ProjectController::content() const {
     for (const EstimateEntry& entry : scene->estimates) {
       text += std::to_string(entry.id) + ' ' + entry.name + ' ' + entry.note + '\n';
     }
-    if (scene->labels.covers_many()) text += std::to_string(scene->labels.strokes) + '\n';
+    if (!scene->labels.empty()) text += std::to_string(scene->labels.strokes) + '\n';
     text += done_text(scene->place.capture);
   }
   for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
@@ -126,8 +126,8 @@ void ProjectController::read(const QString& path) {
       },
       [this, path](const Read& read) {
         show_project(bench_, std::move(*read), ProjectOrigin::File);
-        setFile(path);
         saved_content_ = content();
+        setFile(path);
       });
 }
 

@@ -8,20 +8,23 @@
 namespace episcope {
 
 class Autosave;
+class ProjectController;
 
 /// Names the window after the light field and the project that are open; a star says that scribbles
-/// are not saved.
+/// or changes of the project are not saved.
 class WindowTitle : public QObject {
   Q_OBJECT
 
  public:
-  WindowTitle(const Workbench& bench, const Autosave& autosave);
+  WindowTitle(const Workbench& bench, const Autosave& autosave, const ProjectController& project);
 
  private:
   void show();
+  void mark();
 
   Workbench bench_;
   const Autosave& autosave_;
+  const ProjectController& project_;
 };
 
 }  // namespace episcope

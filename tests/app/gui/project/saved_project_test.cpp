@@ -118,6 +118,7 @@ class SavedProjectTest : public QObject {
   void damagedProject_isToldAndKeepsWhatIsOpen();
   void damagedLightField_leavesTheOthersToChoose();
   void secondSave_keepsOnlyWhatIsNamed();
+  void closedLightField_marksTheProject();
 };
 
 void SavedProjectTest::savedProject_comesBackWhole() {
@@ -355,6 +356,21 @@ void SavedProjectTest::secondSave_keepsOnlyWhatIsNamed() {
   f.trigger("estimate.restore");  // its file is gone, but not the result
   f.saveAs(f.path("work.episcope"));
   QCOMPARE(files.entryList({"*.h5"}).size(), 2);
+}
+
+void SavedProjectTest::closedLightField_marksTheProject() {
+  const QTemporaryDir folder;
+  Working f;
+  for (const char* id : {"edge", "slant"}) f.openSmall(id);
+  f.saveAs(folder.filePath("work.episcope"));
+  QVERIFY(!f.window.isWindowModified());
+
+  f.trigger("file.close");
+  QTRY_COMPARE(f.session().scenes().size(), 1U);
+
+  QTRY_VERIFY(f.window.isWindowModified());
+  f.key(Qt::Key_S, Qt::ControlModifier);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.isWindowModified(), kScenePatience);
 }
 
 }  // namespace episcope::in_saved_project_test
