@@ -18,6 +18,14 @@ QString percent(double share) {
   return QString::number(100 * share, 'f', 1) + " %";
 }
 
+// Labels that a project kept have no probabilities.
+bool has_map_in(const Labeling& labeling, render::Quantity quantity, ViewIndex view) {
+  const bool is_of_probabilities =
+      quantity == render::Quantity::Probability || quantity == render::Quantity::Uncertainty;
+  return is_of_probabilities ? labeling.probabilities.contains(view)
+                             : labeling.labels.contains(view);
+}
+
 }  // namespace
 
 SegmentController::SegmentController(const Workbench& bench, SegmentPanel* panel)
@@ -85,13 +93,26 @@ bool SegmentController::has_map(render::Quantity quantity) const {
   if (!live_.has_input()) return false;
   if (quantity == render::Quantity::Edges) return true;
   if (quantity == render::Quantity::WrongLabels && !session_.true_labels()) return false;
-  return live_.labeling(session_.view()) != nullptr;
+  const LabelingPtr labeling = live_.labeling(session_.view());
+  return labeling && has_map_in(*labeling, quantity, session_.view());
 }
 
 bool SegmentController::awaits_map(render::Quantity quantity) const {
-  // Kept labels come once there is a document.
-  return (live_.has_input() || !session_.labels().empty()) &&
-         (quantity != render::Quantity::WrongLabels || session_.true_labels());
+  if (quantity == render::Quantity::WrongLabels && !session_.true_labels()) return false;
+  if (isComing()) return true;
+  // Kept labels come once there is a document; in another view there may be labels already.
+  const bool is_restored = restored_ == session_.generation();
+  const LabelingPtr here =
+      is_restored ? live_.labeling(session_.view()) : session_.labels().labeling;
+  return here ? has_map_in(*here, quantity, session_.view()) : is_restored && live_.has_labels();
+}
+
+// Whether labels are on their way, from strokes or a file.
+bool SegmentController::isComing() const {
+  const bool lacks_strokes = live_.state() == LiveState::Hint || live_.state() == LiveState::Failed;
+  const KeptLabels& kept = session_.labels();
+  return live_.is_running() || is_wanted_ || (is_live_ && !lacks_strokes) || isSegmentingAll() ||
+         (!kept.labeling && !kept.file.empty());
 }
 
 QString SegmentController::title(render::Quantity quantity) const {
@@ -262,7 +283,10 @@ void SegmentController::followLabeler() {
 // Tells the overlay of what is there now.
 void SegmentController::publish() {
   shown_labeling_ = live_.labeling(session_.view());
+  const bool showed_labels = showsLabels();
   bench_.overlay.updateProvided();
+  // Where nothing is painted yet, live labels are shown once there are some.
+  if (is_live_ && showed_labels && !showsLabels()) wants_to_show_ = true;
   if (shown_labeling_ && std::exchange(wants_to_show_, false)) showLabels();
   score();
   showState();
@@ -270,10 +294,11 @@ void SegmentController::publish() {
 
 // Requested labels are shown.
 void SegmentController::showLabels() {
-  const render::Quantity quantity = bench_.overlay.quantity();
-  if (render::info_of(quantity).subject != render::Subject::Segmentation) {
-    bench_.overlay.setQuantity(render::Quantity::Segmentation);
-  }
+  if (!showsLabels()) bench_.overlay.setQuantity(render::Quantity::Segmentation);
+}
+
+bool SegmentController::showsLabels() const {
+  return render::info_of(bench_.overlay.quantity()).subject == render::Subject::Segmentation;
 }
 
 QString SegmentController::missing() const {

@@ -72,6 +72,7 @@ class SegmentController : public QObject, public MapProvider {
     ChipMood mood;
   };
 
+  [[nodiscard]] bool isComing() const;
   void update(Parts parts);
   void noteInput();
   void begin();
@@ -86,6 +87,7 @@ class SegmentController : public QObject, public MapProvider {
   void showState();
   void score();
   void showLabels();
+  [[nodiscard]] bool showsLabels() const;
   void showScores(const LabelingScores& scores);
   [[nodiscard]] LabelerParameters parameters() const;
   [[nodiscard]] LabelFinish finish() const;

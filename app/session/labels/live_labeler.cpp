@@ -50,7 +50,7 @@ void LiveLabeler::set_input(LabelingInput input) {
     all_ = {};
   }
   input_ = std::make_shared<const LabelingInput>(std::move(input));
-  state_ = has_known() ? LiveState::OutOfDate : LiveState::Idle;
+  state_ = has_labels() ? LiveState::OutOfDate : LiveState::Idle;
   sentence_.clear();
 }
 

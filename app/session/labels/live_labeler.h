@@ -57,6 +57,8 @@ class LiveLabeler {
   [[nodiscard]] bool is_running() const;
   /// Of Hint and Failed.
   [[nodiscard]] const std::string& sentence() const { return sentence_; }
+  /// Whether there are labels of any view, maybe out of date.
+  [[nodiscard]] bool has_labels() const { return !views_.empty() || all_.labeling; }
   /// The newest labels that cover a view, maybe out of date; null if there are none.
   [[nodiscard]] LabelingPtr labeling(ViewIndex view) const;
   /// Whether those are of the present input.
@@ -72,7 +74,6 @@ class LiveLabeler {
   void keep(Known known);
   void finish(const Outcome<std::string>& outcome);
   void change(LiveState state, std::string sentence = {});
-  [[nodiscard]] bool has_known() const { return !views_.empty() || all_.labeling; }
 
   JobRunner::Post post_;
   std::function<void()> on_changed_;

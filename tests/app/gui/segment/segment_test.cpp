@@ -8,12 +8,14 @@
 #include "app/gui/compare/picture_export.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/opening/scene_opener.h"
+#include "app/gui/project/project_controller.h"
 #include "app/gui/stage/overlay.h"
 #include "engine/io/archive/write_scene.h"
 #include "engine/io/labels/segmentation_file.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/window_test_main.h"
 #include "widgets/annotate/segment_panel.h"
+#include "widgets/compare/color_bar.h"
 
 #include <QAction>
 #include <QSignalSpy>
@@ -49,6 +51,8 @@ class SegmentTest : public QObject {
   void allViews_areExportedAndReadAgain();
   void otherScene_dropsEverything();
   void escape_endsALabeling();
+  void mapOfLabels_isNotShownOverAnotherLightField();
+  void labelsOfAProject_haveNoProbabilities();
 };
 
 void SegmentTest::live_labelsTheViewAndShowsIt() {
@@ -264,6 +268,46 @@ void SegmentTest::escape_endsALabeling() {
   f.window.bench().cancels.cancel();
 
   QVERIFY(!f.segment().labeler().is_running());
+}
+
+void SegmentTest::mapOfLabels_isNotShownOverAnotherLightField() {
+  Segmenting f;
+  f.key(Qt::Key_U);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  f.key(Qt::Key_P);
+  QCOMPARE(f.window.bench().overlay.quantity(), Quantity::Probability);
+
+  f.openSmall("edge");
+
+  QTRY_COMPARE(f.window.bench().overlay.quantity(), Quantity::View);
+  QVERIFY(f.window.bench().stage.colorBar()->isHidden());
+}
+
+void SegmentTest::labelsOfAProject_haveNoProbabilities() {
+  Segmenting f;
+  const Workbench& bench = f.window.bench();
+  f.key(Qt::Key_U);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  f.key(Qt::Key_P);
+  f.openSmall("edge");
+  auto& project = find<ProjectController>(f.window);
+  bool is_saved = false;
+  project.saveTo(f.path("work.episcope"), [&is_saved] { is_saved = true; });
+  QTRY_VERIFY_WITH_TIMEOUT(is_saved, kScenePatience);
+  const auto before = bench.session.generation();
+  bench.opener.open(f.path("work.episcope"));
+  QTRY_VERIFY_WITH_TIMEOUT(bench.session.scene() && bench.session.generation() > before,
+                           kScenePatience);
+
+  f.key(Qt::Key_PageUp, Qt::ControlModifier | Qt::AltModifier);
+  QTRY_VERIFY_WITH_TIMEOUT(f.segment().labeler().labeling(f.view()), kScenePatience);
+
+  QTRY_VERIFY(bench.commands.find("segment.show")->isEnabled());
+  QVERIFY(!bench.commands.find("segment.probability")->isEnabled());
+  QVERIFY(!bench.commands.find("segment.uncertainty")->isEnabled());
+  QCOMPARE(bench.overlay.quantity(), Quantity::View);
+  QVERIFY(!project.hasChanged());
+  QVERIFY(!f.window.isWindowModified());
 }
 
 }  // namespace episcope::in_segment_test
