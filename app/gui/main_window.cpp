@@ -7,6 +7,7 @@
 #include "app/gui/frame/cancels.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/frame.h"
+#include "app/gui/frame/job_cancel.h"
 #include "app/gui/frame/job_view.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/keyboard_home.h"
@@ -89,7 +90,8 @@ MainWindow::MainWindow(QWidget* parent)
   show_jobs(bench.jobs, bench.frame, bench.messages);
   connect(&bench.document, &DocumentController::problem, &bench.messages, &Messages::warn);
   connect(&bench.opener, &SceneOpener::failureIsOver, &bench.messages, &Messages::retract);
-  bench.cancels.add(CancelRank::Job, [&jobs = bench.jobs] { return jobs.cancelNewest(); });
+  auto* job_cancel = new JobCancel(bench.session, bench.jobs, bench.messages, this);
+  bench.cancels.add(CancelRank::Job, [job_cancel] { return job_cancel->cancel(); });
   bench.cancels.add(CancelRank::Message, [&messages = bench.messages] {
     messages.dismiss();
     return true;

@@ -2387,6 +2387,21 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
 </context>
 <context>
+    <name>episcope::JobCancel</name>
+    <message>
+        <source>%1 is at %2 %. Cancel again to end it.</source>
+        <translation>%1 ist bei %2 %. Zum Beenden noch einmal abbrechen.</translation>
+    </message>
+    <message>
+        <source>Cancel it</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>%1 was cancelled at %2 %.</source>
+        <translation>%1 wurde bei %2 % abgebrochen.</translation>
+    </message>
+</context>
+<context>
     <name>episcope::JobPanel</name>
     <message>
         <source>less than 1 s left</source>

@@ -39,7 +39,7 @@ std::vector<PosedMesh> MeshResults::posedMeshes() const {
 void MeshResults::showOverView() {
   const std::vector<PosedMesh> meshes = posedMeshes();
   if (meshes.empty()) return;
-  bench_.jobs.start<EstimatePtr>(
+  const quint64 job = bench_.jobs.start<EstimatePtr>(
       Lane::Estimate, tr("Depth of the mesh"),
       [meshes, scene = bench_.session.scene()](const Progress& progress) {
         return std::make_shared<const Estimate>(mesh_estimate(meshes, *scene, progress));
@@ -49,6 +49,7 @@ void MeshResults::showOverView() {
         if (scene == bench_.session.generation()) bench_.session.remove_estimate(result);
         result = bench_.session.add_estimate(estimate, display_range(*estimate), scene);
       });
+  bench_.jobs.setScene(job, bench_.session.generation());
 }
 
 void MeshResults::writeTruth(const QString& path) {

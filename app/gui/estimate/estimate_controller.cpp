@@ -163,13 +163,13 @@ void EstimateController::run(const EstimateRequest& request) {
 }
 
 void EstimateController::showRunning() {
-  const bool is_running = bench_.jobs.count(Lane::Estimate) > 0;
+  const bool is_running = runs_.isRunning(session_.generation());
   method_->setRunning(is_running);
   results_->setExpecting(is_running);
 }
 
 void EstimateController::cancel() {
-  bench_.jobs.cancelLane(Lane::Estimate);
+  runs_.cancel(session_.generation());
 }
 
 void EstimateController::removeShown() {
@@ -217,6 +217,7 @@ void EstimateController::update(Parts parts) {
   }
   if (parts.has(Part::Scene)) {
     method_->setRunBlocked(session_.scene() ? QString() : tr("Open a light field first."));
+    showRunning();
   }
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations | Part::View)) listResults();
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) showChoice();

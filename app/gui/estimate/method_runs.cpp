@@ -43,15 +43,16 @@ MethodRuns::MethodRuns(const Workbench& bench) : bench_(bench) {
   bench.session.on_changed([this](Parts parts) {
     if (parts.has(Part::Scenes)) cancelClosed();
   });
+  connect(&bench.jobs, &Jobs::removed, this, [this](quint64 job) {
+    if (runs_.erase(job) > 0) emit changed();
+  });
 }
 
 void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
   const EstimatorInfo info = find_estimator(request.method).info;
   const QString method = QString::fromStdString(info.name);
-  const bool is_shown = scene.id == bench_.session.generation();
   const quint64 job = bench_.jobs.start<RunResult>(
-      Lane::Estimate,
-      is_shown ? method : tr("%1 · %2").arg(method, QString::fromStdString(scene.name)),
+      Lane::Estimate, tr("%1 · %2").arg(method, QString::fromStdString(scene.name)),
       [request,
        source = scene_source(scene, bench_.opener.cacheFolder(), false)](const Progress& progress) {
         const LightFieldPtr light_field = source(progress)->light_field;
@@ -62,19 +63,26 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
       [this, id = scene.id](const RunResult& result) {
         bench_.session.add_estimate(result.finished.estimate, result.finished.display_range, id);
         if (!result.warning.isEmpty()) bench_.messages.warn(result.warning);
-      },
-      [this] { emit changed(); });
+      });
   runs_[job] = scene.id;
+  bench_.jobs.setScene(job, scene.id);
   if (info.iterative) bench_.jobs.setIterative(job);
   emit changed();
 }
 
+bool MethodRuns::isRunning(std::uint64_t scene) const {
+  return std::ranges::any_of(runs_, [scene](const auto& run) { return run.second == scene; });
+}
+
+void MethodRuns::cancel(std::uint64_t scene) {
+  for (const auto& [job, of] : runs_) {
+    if (of == scene) bench_.jobs.cancel(job);
+  }
+}
+
 void MethodRuns::cancelClosed() {
-  for (auto run = runs_.begin(); run != runs_.end();) {
-    const auto [job, scene] = *run++;
-    if (bench_.session.find_scene(scene)) continue;
-    runs_.erase(job);
-    bench_.jobs.cancel(job);
+  for (const auto& [job, scene] : runs_) {
+    if (!bench_.session.find_scene(scene)) bench_.jobs.cancel(job);
   }
 }
 

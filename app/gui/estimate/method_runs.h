@@ -28,6 +28,10 @@ class MethodRuns : public QObject {
 
   /// A scene that is on disk only is read for it.
   void run(const EstimateRequest& request, const OpenScene& scene);
+  /// Whether a method runs, or waits, on the open scene of this id.
+  [[nodiscard]] bool isRunning(std::uint64_t scene) const;
+  /// Ends all runs on it.
+  void cancel(std::uint64_t scene);
 
  signals:
   /// A run began or ended.

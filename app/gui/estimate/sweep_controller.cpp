@@ -279,7 +279,7 @@ void SweepController::runAgain(SweepPlace place) {
   const SweepPoint& point = *bench_.scenes.sweeps().find(current_, place);
   const EstimateRequest request{sweep.base.method, values_at(sweep.base.parameters, point.point),
                                 sweep.base.options};
-  bench_.jobs.start<FinishedEstimate>(
+  const quint64 job = bench_.jobs.start<FinishedEstimate>(
       Lane::Estimate, QString::fromStdString(name_of(sweep, point)),
       [light_field = bench_.session.light_field(), request](const Progress& progress) {
         return run_estimator(*light_field, request, progress);
@@ -293,6 +293,7 @@ void SweepController::runAgain(SweepPlace place) {
         showMap(place, finished.estimate);
         describe();
       });
+  bench_.jobs.setScene(job, bench_.session.generation());
 }
 
 // What the user named, annotated or saved stays.

@@ -91,6 +91,7 @@ std::uint64_t SweepRuns::run(Sweep sweep, const std::vector<ParameterSet>& point
     work.scenes.push_back(
         {each.scene, each.name, scene_source(open, bench_.opener.cacheFolder(), true)});
   }
+  const std::uint64_t only = work.scenes.size() == 1 ? work.scenes.front().scene : 0;
   const QString method = QString::fromStdString(find_estimator(sweep.base.method).info.name);
   const std::uint64_t id = bench_.scenes.sweeps().add(std::move(sweep));
   work.tell = [post = queued_post(&bench_.jobs), self = QPointer(this), id](
@@ -108,6 +109,7 @@ std::uint64_t SweepRuns::run(Sweep sweep, const std::vector<ParameterSet>& point
         job_ = 0;
         emit ended(id);
       });
+  bench_.jobs.setScene(job_, only);
   return id;
 }
 

@@ -37,7 +37,7 @@ Jobs::Jobs(QObject* parent) : QObject(parent) {
 Jobs::~Jobs() = default;
 
 quint64 Jobs::add(const QString& title, Lane lane) {
-  jobs_[++last_id_] = {lane, 0, title, std::nullopt};
+  jobs_[++last_id_] = {.lane = lane, .title = title};
   emit added(last_id_, title);
   return last_id_;
 }
@@ -49,7 +49,10 @@ void Jobs::attach(quint64 id, JobId runner_id) {
 void Jobs::report(quint64 id, const ProgressState& state) {
   const auto found = jobs_.find(id);
   if (found == jobs_.end()) return;
-  found->second.news = state;
+  Job& job = found->second;
+  if (!job.clock.isValid()) job.clock.start();
+  job.fraction = state.fraction;
+  job.news = state;
   if (!progress_.isActive()) tellProgress();
 }
 
@@ -75,6 +78,7 @@ void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
 void Jobs::cancel(quint64 id) {
   const auto found = jobs_.find(id);
   if (found == jobs_.end()) return;
+  found->second.is_cancelling = true;
   runner(found->second.lane).cancel(found->second.runner_id);
   emit cancelling(id);
 }
@@ -92,10 +96,19 @@ void Jobs::cancelLane(Lane lane) {
   }
 }
 
-bool Jobs::cancelNewest() {
-  if (jobs_.empty()) return false;
-  cancel(jobs_.rbegin()->first);
-  return true;
+std::optional<Jobs::Running> Jobs::find(quint64 id) const {
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return std::nullopt;
+  const Job& job = found->second;
+  const double seconds = job.clock.isValid() ? static_cast<double>(job.clock.elapsed()) / 1000 : 0;
+  return Running{id, job.title, seconds, job.fraction, job.is_cancelling};
+}
+
+std::optional<Jobs::Running> Jobs::newest(std::uint64_t scene) const {
+  const auto found = std::find_if(jobs_.rbegin(), jobs_.rend(), [scene](const auto& each) {
+    return each.second.scene == scene || each.second.scene == 0;
+  });
+  return found == jobs_.rend() ? std::nullopt : find(found->first);
 }
 
 int Jobs::count(Lane lane) const {

@@ -4,11 +4,13 @@
 #include "app/session/run/thread_priority.h"
 #include "engine/core/parallel/job_runner.h"
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QString>
 #include <QTimer>
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -49,15 +51,28 @@ class Jobs : public QObject {
     return id;
   }
 
+  /// A job that waits or runs.
+  struct Running {
+    quint64 id = 0;
+    QString title;
+    double seconds = 0;   ///< Since it told of progress first.
+    double fraction = 0;  ///< Of it that is done.
+    bool is_cancelling = false;
+  };
+
   /// Notes that a job can end early with what it has.
   void setIterative(quint64 id) { emit endsEarly(id); }
+  /// Notes which light field a job is of (OpenScene::id); until then it is of none.
+  void setScene(quint64 id, std::uint64_t scene) { jobs_[id].scene = scene; }
   /// Ignored for an unknown id.
   void cancel(quint64 id);
   void cancelLane(Lane lane);
   /// Asks a job for the best result so far (Progress::finish_requested); not all jobs have one.
   void finishEarly(quint64 id);
-  /// Cancels the job begun last. Returns whether there was one.
-  bool cancelNewest();
+  /// Nothing for an unknown id.
+  [[nodiscard]] std::optional<Running> find(quint64 id) const;
+  /// The job begun last among those of a light field and of none.
+  [[nodiscard]] std::optional<Running> newest(std::uint64_t scene) const;
   [[nodiscard]] int count() const { return static_cast<int>(jobs_.size()); }
   [[nodiscard]] int count(Lane lane) const;
 
@@ -76,7 +91,11 @@ class Jobs : public QObject {
     Lane lane;
     JobId runner_id = 0;
     QString title;
-    std::optional<ProgressState> news;  // not yet told
+    std::optional<ProgressState> news{};  // not yet told
+    std::uint64_t scene = 0;
+    QElapsedTimer clock{};
+    double fraction = 0;
+    bool is_cancelling = false;
   };
   [[nodiscard]] JobRunner& runner(Lane lane) { return *runners_[static_cast<std::size_t>(lane)]; }
   quint64 add(const QString& title, Lane lane);

@@ -38,8 +38,12 @@ void Messages::dismiss() {
   bar_->dismiss();
 }
 
+bool Messages::isShown(const QString& sentence) const {
+  return !bar_->isHidden() && bar_->text() == sentence;
+}
+
 void Messages::retract(const QString& sentence) {
-  if (bar_->text() == sentence) bar_->dismiss();
+  if (isShown(sentence)) bar_->dismiss();
 }
 
 }  // namespace episcope

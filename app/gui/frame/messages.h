@@ -28,6 +28,7 @@ class Messages : public QObject {
   /// What was done, with a button that does something about it.
   void offer(const QString& sentence, const QString& button, std::function<void()> run);
   void dismiss();
+  [[nodiscard]] bool isShown(const QString& sentence) const;
   /// Takes a sentence back that no longer holds, if it is still what is shown.
   void retract(const QString& sentence);
 

@@ -91,7 +91,7 @@ void LabelingSource::provide() {
   }
   tried_ = generation;
   is_running_ = true;
-  jobs_.start<FinishedEstimate>(
+  const quint64 job = jobs_.start<FinishedEstimate>(
       Lane::Estimate, tr("Disparity for labels"),
       [light_field](const Progress& progress) {
         return run_estimator(*light_field, {kQuickEstimator, {}, {}}, progress);
@@ -104,6 +104,7 @@ void LabelingSource::provide() {
         is_running_ = false;
         emit changed();
       });
+  jobs_.setScene(job, generation);
 }
 
 }  // namespace episcope

@@ -252,10 +252,11 @@ void SegmentController::segmentAllViews() {
   tried_all_ = input;
   wants_to_show_ = true;
   jobs_.cancelLane(Lane::Label);
-  jobs_.start<LabelingPtr>(
+  const quint64 job = jobs_.start<LabelingPtr>(
       Lane::Label, tr("Segment all views"),
       [input](const Progress& progress) { return label_all_views(*input, progress); },
       [this, input](const LabelingPtr& labeling) { finishAll(labeling, input); });
+  jobs_.setScene(job, session_.generation());
 }
 
 void SegmentController::finishAll(const LabelingPtr& labeling,

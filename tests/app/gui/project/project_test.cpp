@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several light fields are open at once, and none loses what was done on it.
+#include "app/gui/frame/job_cancel.h"
 #include "tests/app/gui/project/working.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/elided_label.h"
+#include "widgets/controls/job_panel.h"
+#include "widgets/controls/message_bar.h"
 
 #include <QComboBox>
 #include <QDialog>
 #include <QElapsedTimer>
+#include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
 
@@ -17,6 +22,29 @@ namespace {
 QComboBox* list_of(const WindowFixture& f) {
   return f.window.findChild<QComboBox*>("scenes.open");
 }
+
+// A run that stays, as another one never ends before it.
+class Waiting : public Working {
+ public:
+  void begin() {
+    Jobs& jobs = window.bench().jobs;
+    const quint64 endless = jobs.start<int>(
+        Lane::Estimate, "endless",
+        [](const Progress& progress) -> int {
+          while (true) progress.check();
+        },
+        [](int) {});
+    jobs.setScene(endless, session().generation());
+    trigger("estimate.run");
+  }
+  [[nodiscard]] QStringList titles() const {
+    QStringList titles;
+    for (const auto* each : window.findChild<JobPanel*>()->findChildren<ElidedLabel*>()) {
+      titles << each->fullText();
+    }
+    return titles;
+  }
+};
 
 }  // namespace
 
@@ -31,6 +59,8 @@ class ProjectTest : public QObject {
   void openInput_isShownAndNotOpenedAgain();
   void closedScene_makesRoomForTheOthers();
   void runningMethod_givesItsResultToItsOwnScene();
+  void run_isSaidOfItsOwnLightField();
+  void cancelKey_leavesOtherLightFieldsAlone();
   void memoryBudget_keepsResultsOnDisk();
   void batch_runsMethodsOnAllScenes();
   void list_saysWhatIsBeingOpened();
@@ -156,6 +186,49 @@ void ProjectTest::runningMethod_givesItsResultToItsOwnScene() {
   QCOMPARE(f.session().estimates().size(), 0U);
   f.show(first);
   QCOMPARE(f.session().shown()->name, std::string("EPI_G"));
+}
+
+void ProjectTest::run_isSaidOfItsOwnLightField() {
+  Waiting f;
+  f.openSmall("edge");
+  const auto first = f.session().generation();
+  f.begin();
+  const auto* hint = f.window.findChild<QLabel*>("results.hint");
+  const auto* cancel = f.window.findChild<QPushButton*>("method.cancel");
+  QVERIFY2(hint->text().contains("appears here"), qPrintable(hint->text()));
+  QVERIFY2(f.titles().contains("EPI_L · edge"), qPrintable(f.titles().join(", ")));
+
+  f.openSmall("slant");
+
+  QTRY_VERIFY2(!hint->text().contains("appears here"), qPrintable(hint->text()));
+  QVERIFY(!cancel->isEnabled());
+  f.show(first);
+  QVERIFY2(hint->text().contains("appears here"), qPrintable(hint->text()));
+  QVERIFY(cancel->isEnabled());
+}
+
+void ProjectTest::cancelKey_leavesOtherLightFieldsAlone() {
+  Waiting f;
+  Jobs& jobs = f.window.bench().jobs;
+  f.openSmall("edge");
+  const auto first = f.session().generation();
+  f.begin();
+  QTRY_COMPARE_WITH_TIMEOUT(jobs.count(), 2, kPatience);
+  f.openSmall("slant");
+  QTRY_COMPARE_WITH_TIMEOUT(jobs.count(), 2, kPatience);
+
+  f.key(Qt::Key_Escape);
+  QVERIFY(!jobs.newest(first)->is_cancelling);
+
+  f.show(first);
+  find<JobCancel>(f.window).setWorthAsking(0);
+  const auto* messages = f.window.findChild<MessageBar*>("messageBar");
+  f.key(Qt::Key_Escape);  // asks, as it took long
+  QVERIFY2(messages->text().startsWith("EPI_L · edge is at 0 %"), qPrintable(messages->text()));
+  QVERIFY(!jobs.newest(first)->is_cancelling);
+  f.key(Qt::Key_Escape);
+  QTRY_COMPARE_WITH_TIMEOUT(jobs.count(), 1, kPatience);
+  QCOMPARE(messages->text(), QString("EPI_L · edge was cancelled at 0 %."));
 }
 
 void ProjectTest::memoryBudget_keepsResultsOnDisk() {
