@@ -15,6 +15,7 @@
 #include <QStackedLayout>
 #include <QVBoxLayout>
 
+#include <functional>
 #include <utility>
 
 namespace episcope {
@@ -25,6 +26,27 @@ constexpr int kCanvasWidth = 600;
 constexpr int kCanvasHeight = 500;
 constexpr int kEpiWidth = 145;  // and of the legend under it
 constexpr int kEpiHeight = 92;
+
+/// Tells of each new size once its parts are in their places.
+class ToldSplitter : public QSplitter {
+ public:
+  explicit ToldSplitter(std::function<void()> resized)
+      : QSplitter(Qt::Horizontal), resized_(std::move(resized)) {}
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QSplitter::resizeEvent(event);
+    resized_();
+  }
+
+ private:
+  std::function<void()> resized_;
+};
+
+// The legend is as wide as the vertical EPI above it.
+void align(QSplitter& lower, const QSplitter& upper, const QWidget& vertical_epi) {
+  if (vertical_epi.isVisible()) lower.setSizes(upper.sizes());
+}
 
 /// Holds the place of a pane, also while that is elsewhere.
 QWidget* make_place(QWidget* pane) {
@@ -61,7 +83,8 @@ Stage::Stage(QWidget* parent)
       overlay_bar_(new OverlayBar(this)),
       rows_(new QSplitter(Qt::Vertical, this)),
       upper_(new QSplitter(Qt::Horizontal)),
-      lower_(new QSplitter(Qt::Horizontal)),
+      // At once, so that no frame shows them out of line: the upper row has its size by then.
+      lower_(new ToldSplitter([this] { align(*lower_, *upper_, *vertical_place_); })),
       vertical_place_(make_place(vertical_epi_)),
       horizontal_place_(make_place(horizontal_epi_)),
       legend_(make_legend(color_bar_, this)) {
@@ -106,10 +129,8 @@ void Stage::alignColumns() {
 bool Stage::eventFilter(QObject* watched, QEvent* event) {
   const bool is_sized = event->type() == QEvent::Resize || event->type() == QEvent::Show;
   if (watched == vertical_place_ && is_sized) {
-    const auto align = [this] {
-      if (vertical_place_->isVisible()) lower_->setSizes(upper_->sizes());
-    };
-    QMetaObject::invokeMethod(this, align, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this, [this] { align(*lower_, *upper_, *vertical_place_); }, Qt::QueuedConnection);
   }
   return QWidget::eventFilter(watched, event);
 }

@@ -33,6 +33,13 @@ void drag_handle(QSplitter& splitter, QPoint by) {
   QTest::mouseRelease(handle, Qt::LeftButton, {}, from + by);
 }
 
+/// Whether the horizontal EPI is as wide as the view, and right below it.
+bool is_epi_aligned(const WindowFixture& f) {
+  const EpiPane& epi = *f.window.bench().stage.horizontalEpi();
+  return f.canvas()->mapTo(&f.window, QPoint()).x() == epi.mapTo(&f.window, QPoint()).x() &&
+         f.canvas()->width() == epi.width();
+}
+
 }  // namespace
 
 class PanesTest : public QObject {
@@ -41,6 +48,7 @@ class PanesTest : public QObject {
  private slots:
   void epis_canBeOfAnyHeight();
   void view_andItsEpiStayAligned();
+  void view_andItsEpiStayAligned_inEverySize();
   void epis_canBeTornOff_andComeBack();
   void tabs_canBeTornOff_andComeBackAtTheirPlace();
   void tornOffTab_makesWayForTheOneBefore();
@@ -70,11 +78,7 @@ void PanesTest::view_andItsEpiStayAligned() {
   WindowFixture f;
   f.openSmall();
   auto& stage = f.window.bench().stage;
-  const auto is_aligned = [&] {
-    return f.canvas()->mapTo(&f.window, QPoint()).x() ==
-               stage.horizontalEpi()->mapTo(&f.window, QPoint()).x() &&
-           f.canvas()->width() == stage.horizontalEpi()->width();
-  };
+  const auto is_aligned = [&f] { return is_epi_aligned(f); };
   QVERIFY(is_aligned());
   const int width = stage.verticalEpi()->width();
 
@@ -89,6 +93,19 @@ void PanesTest::view_andItsEpiStayAligned() {
   QTRY_VERIFY(is_aligned());  // the legend makes way
   f.trigger("panes.epi.vertical");
   QTRY_VERIFY(is_aligned());
+}
+
+void PanesTest::view_andItsEpiStayAligned_inEverySize() {
+  WindowFixture f;
+  f.openSmall();
+
+  // Also before anything else happens: the next frame shows them as they are now.
+  for (const QSize size : {QSize(700, 450), QSize(1000, 600), QSize(1280, 800)}) {
+    f.window.resize(size);
+    QVERIFY2(is_epi_aligned(f), qPrintable(QString::number(size.width())));
+    QCoreApplication::processEvents();
+    QVERIFY2(is_epi_aligned(f), qPrintable(QString::number(size.width())));
+  }
 }
 
 void PanesTest::epis_canBeTornOff_andComeBack() {
