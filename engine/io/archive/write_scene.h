@@ -10,7 +10,7 @@ namespace episcope::io {
 
 /// Writes a scene in the form of the 2013 archive: the light field and its depth to
 /// `path`, labels and scribbles to `labels.h5` beside it if the scene has them; where a `labels.h5`
-/// of something else is there, into `path` as well. Rows are in canonical order, which the
+/// of something else is there, they go into `path`. Rows are in canonical order, which the
 /// attribute `convention` states. Atomic for each file. Throws IoError, Cancelled.
 void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
 
