@@ -58,6 +58,19 @@ std::string indented(const std::string& text) {
   return all;
 }
 
+/// In our words, where the library speaks of types and counts.
+std::string sentence_of(const CLI::ParseError& error) {
+  const std::string text = one_line(error.what());
+  const std::size_t colon = text.find(": ");
+  if (colon == std::string::npos) return text;
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    return text.substr(0, colon) + " needs a value";
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error))
+    return "too many arguments" + text.substr(colon);
+  return text;
+}
+
 constexpr const char* kHelpAsJson = "--help-json";
 
 }  // namespace
@@ -237,7 +250,7 @@ bool Arguments::parse(const std::vector<std::string>& arguments) {
     std::cout << state_->app.help();
     return false;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(state_->verb + ": " + one_line(error.what()) + "; see episcope-cli " +
+    throw UsageError(state_->verb + ": " + sentence_of(error) + "; see episcope-cli " +
                      state_->verb + " --help");
   }
   state_->assign_values();
