@@ -2,10 +2,14 @@
 #include "engine/core/error.h"
 #include "engine/io/grid/name_matcher.h"
 
+#include <algorithm>
 #include <regex>
 
 namespace episcope::io {
 namespace {
+
+constexpr const char* kRefersBack = "refers back to a group, which is not possible here";
+constexpr const char* kTooLarge = "is too large; shorten it";
 
 /// Fields by the number of their group, from 1 on.
 struct Groups {
@@ -26,7 +30,7 @@ class GroupNames {
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '\\') {
-        copy(2);
+        copy_escape();
       } else if (is_in_class_) {
         is_in_class_ = c != ']';
         copy(1);
@@ -35,6 +39,8 @@ class GroupNames {
         copy(1);
       } else if (c == '(') {
         open_group();
+      } else if (c == '{') {
+        copy_count();
       } else {
         copy(1);
       }
@@ -46,6 +52,24 @@ class GroupNames {
   void copy(std::size_t count) {
     groups_.expression += text_.substr(at_, count);
     at_ += count;
+  }
+
+  // The library's numbers of groups and counts overflow unseen.
+  void copy_escape() {
+    const char next = at_ + 1 < text_.size() ? text_[at_ + 1] : '\0';
+    if (next > '0' && next <= '9') refuse(text_, kRefersBack);
+    copy(2);
+  }
+  void copy_count() {
+    constexpr std::size_t most_digits = 4;
+    const std::size_t begin = at_ + 1;
+    const std::size_t end = std::min(text_.find_first_not_of("0123456789,", begin), text_.size());
+    std::size_t digits = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      digits = text_[i] == ',' ? 0 : digits + 1;
+      if (digits > most_digits) refuse(text_, kTooLarge);
+    }
+    copy(1);
   }
 
   void open_group() {
@@ -99,10 +123,10 @@ std::regex compile(const std::string& expression, const std::string& as_given) {
         refuse(as_given, "has a wrong range in […]");
       case std::regex_constants::error_complexity:
       case std::regex_constants::error_backref:
-        refuse(as_given, "refers back to a group, which is not possible here");
+        refuse(as_given, kRefersBack);
       case std::regex_constants::error_space:
       case std::regex_constants::error_stack:
-        refuse(as_given, "is too large; shorten it");
+        refuse(as_given, kTooLarge);
       default:
         refuse(as_given, "is not valid; see a description of ECMAScript's expressions");
     }

@@ -125,6 +125,8 @@ void NamePatternTest::wrongPattern_isExplained_data() {
   row("re:*(?<index>.)", "repeats nothing");
   row("re:(?<line>.)", "unknown group 'line'; there are row, col, index, y and x");
   row("re:(?<index>.)\\1", "refers back");
+  row("re:(?<index>.)\\99999999999999999999", "refers back");
+  row("re:(?<index>.){1,99999999999999999999}", "too large");
   QTest::newRow("long") << QString("{index}") + QString(300, 'a') << "longer than 250";
 }
 
