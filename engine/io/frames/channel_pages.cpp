@@ -21,15 +21,6 @@ struct PageOrder {
   }
 };
 
-/// Of band-passed pictures at the same places.
-double correlation(const MotionPictures& a, const MotionPictures& b) {
-  const Image<float>& one = a.scales[1];
-  const Image<float>& other = b.scales[1];
-  double sum = 0;
-  for (std::size_t i = 0; i < one.size(); ++i) sum += one.data()[i] * other.data()[i];
-  return sum / static_cast<double>(one.size());
-}
-
 /// Whether pages in the middle of the list differ by colour, not by motion: motion that is too far
 /// to be followed leaves pictures that are not alike.
 bool are_channels(const LightField::Samples& samples, const PageOrder& order, int views) {
@@ -43,7 +34,7 @@ bool are_channels(const LightField::Samples& samples, const PageOrder& order, in
   AxisEvidence of_views;
   for (const int side : {-1, 1}) {
     const MotionPictures other = picture(middle, 1 + side);
-    if (correlation(center, other) < kAlike) return false;
+    if (correlation(center.scales[1], other.scales[1]) < kAlike) return false;
     of_channels.add(center, other);
     if (middle + side < views) of_views.add(center, picture(middle + side, 1));
   }

@@ -52,6 +52,16 @@ std::vector<fs::path> list_images(const fs::path& folder) {
   return images;
 }
 
+std::vector<fs::path> list_folders(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (!is_hidden && entry.is_directory(error)) folders.push_back(entry.path());
+  }
+  return folders;
+}
+
 int count_images(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) return 0;

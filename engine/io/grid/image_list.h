@@ -11,6 +11,9 @@ namespace episcope::io {
 /// themselves, are left out. Throws filesystem_error if the folder cannot be read.
 [[nodiscard]] std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
 
+/// Folders directly in a folder, in any order, without hidden ones; none if it cannot be opened.
+[[nodiscard]] std::vector<std::filesystem::path> list_folders(const std::filesystem::path& folder);
+
 /// Number of images directly in a folder; 0 if there is no such folder.
 [[nodiscard]] int count_images(const std::filesystem::path& folder);
 

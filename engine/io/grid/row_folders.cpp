@@ -85,19 +85,9 @@ bool is_one_of(const std::string& word, const std::array<std::string_view, N>& w
   return std::ranges::find(words, std::string_view(word)) != words.end();
 }
 
-std::vector<fs::path> folders_in(const fs::path& folder) {
-  std::vector<fs::path> folders;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (!is_hidden && entry.is_directory(error)) folders.push_back(entry.path());
-  }
-  return folders;
-}
-
 /// By their numbers, or by letters instead; then there are no numbers.
 std::optional<Numbered> folders_of_rows(const fs::path& folder) {
-  const std::vector<fs::path> folders = folders_in(folder);
+  const std::vector<fs::path> folders = list_folders(folder);
   if (auto numbered = by_number(folders)) return numbered;
   const auto lettered = by_letter(folders);
   if (!lettered) return std::nullopt;

@@ -44,13 +44,9 @@ bool speaks_of_views(const std::string& name) {
 /// Pictures by what the names of their folders would be if these were files.
 using Pictures = std::map<fs::path, fs::path>;
 
+/// Nothing if there are too many to be views.
 std::vector<fs::path> folders_in(const fs::path& folder) {
-  std::vector<fs::path> folders;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (!is_hidden && entry.is_directory(error)) folders.push_back(entry.path());
-  }
+  std::vector<fs::path> folders = list_folders(folder);
   return folders.size() > kMostFolders ? std::vector<fs::path>() : folders;
 }
 

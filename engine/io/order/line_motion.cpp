@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/order/line_motion.h"
 
+#include "engine/core/array/quantile.h"
+#include "engine/core/array/transposed.h"
 #include "engine/io/order/grey_picture.h"
 #include "engine/io/order/warp_check.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -79,14 +80,6 @@ std::optional<Motion> motion_of(const Image<float>& a, const Image<float>& b, in
                 (best.xx * best.yd - best.xy * best.xd) / determinant};
 }
 
-Image<float> transposed(const Image<float>& picture) {
-  Image<float> out(picture.width(), picture.height());
-  for (int y = 0; y < out.height(); ++y) {
-    for (int x = 0; x < out.width(); ++x) out.at(y, x) = picture.at(x, y);
-  }
-  return out;
-}
-
 /// With the line along x.
 Image<float> picture_of(const LightField::Samples& samples, int place) {
   const bool is_column = grid_of(samples).u == 1;
@@ -95,27 +88,21 @@ Image<float> picture_of(const LightField::Samples& samples, int place) {
   return is_column ? transposed(picture) : picture;
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 LineMotion motion_between(const Image<float>& a, const Image<float>& b, int step) {
-  std::vector<double> along;
-  std::vector<double> across;
+  std::vector<float> along;
+  std::vector<float> across;
   constexpr int kMargin = kRange + 1;
   for (int y = 1; y + kSquare < a.height(); y += kSquare) {
     for (int x = kMargin; x + kSquare + kMargin <= a.width(); x += kSquare) {
       const auto motion = motion_of(a, b, y, x);
       if (!motion) continue;
-      along.push_back(std::abs(motion->x));
-      across.push_back(std::abs(motion->y));
+      along.push_back(static_cast<float>(std::abs(motion->x)));
+      across.push_back(static_cast<float>(std::abs(motion->y)));
     }
   }
   const auto squares = static_cast<int>(along.size());
   if (squares < kFewestSquares) return {0, 0, step, squares};
-  return {median(along), median(across), step, squares};
+  return {quantile(along, 0.5), quantile(across, 0.5), step, squares};
 }
 
 }  // namespace

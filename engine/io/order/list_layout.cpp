@@ -5,6 +5,7 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/core/text/text_table.h"
 #include "engine/io/order/arrangement.h"
+#include "engine/io/order/motion_pictures.h"
 #include "engine/io/order/parallax_axis.h"
 #include "engine/io/order/warp_check.h"
 
@@ -75,16 +76,6 @@ Pictures load(int count, const GreyViewOfList& view, const Progress& progress) {
     if (loaded[i].contrast > least) pictures.emplace(wanted[i], std::move(loaded[i]));
   }
   return pictures;
-}
-
-double correlation(const Image<float>& a, const Image<float>& b) {
-  double sum = 0;
-  for (int y = 0; y < a.height(); ++y) {
-    float row = 0;
-    for (int x = 0; x < a.width(); ++x) row += a.at(y, x) * b.at(y, x);
-    sum += row;
-  }
-  return sum / static_cast<double>(a.size());
 }
 
 /// Roots of 1 − correlation, which grow about linearly as long as views are alike.

@@ -28,4 +28,14 @@ MotionPictures::MotionPictures(const Image<float>& grey) {
   scales = {band_passed(middle_of(grey, 256)), band_passed(small), band_passed(reduced(grey, 40))};
 }
 
+double correlation(const Image<float>& a, const Image<float>& b) {
+  double sum = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    float row = 0;
+    for (int x = 0; x < a.width(); ++x) row += a.at(y, x) * b.at(y, x);
+    sum += row;
+  }
+  return sum / static_cast<double>(a.size());
+}
+
 }  // namespace episcope::io

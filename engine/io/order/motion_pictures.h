@@ -19,4 +19,7 @@ struct MotionPictures {
   double contrast = 0;  ///< Standard deviation of the reduced view, in its grey levels.
 };
 
+/// Of two pictures of one scale, at the same places: 1 for the same picture.
+[[nodiscard]] double correlation(const Image<float>& a, const Image<float>& b);
+
 }  // namespace episcope::io

@@ -10,16 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> folders_in(const fs::path& folder) {
-  std::vector<fs::path> folders;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (!is_hidden && entry.is_directory(error)) folders.push_back(entry.path());
-  }
-  return folders;
-}
-
 std::vector<fs::path> names_of(const std::vector<fs::path>& images) {
   std::vector<fs::path> names;
   for (const fs::path& image : images) names.push_back(image.filename());
@@ -30,7 +20,7 @@ std::vector<fs::path> names_of(const std::vector<fs::path>& images) {
 
 CameraFrames find_camera_folders(const fs::path& folder) {
   constexpr std::size_t kFewestFolders = 4;
-  const std::vector<fs::path> folders = folders_in(folder);
+  const std::vector<fs::path> folders = list_folders(folder);
   if (folders.size() < kFewestFolders || count_images(folder) > 0) return {};
   const NumberedFrames frames = numbered_images(folders.front());
   const std::vector<fs::path> images = list_images(folders.front());

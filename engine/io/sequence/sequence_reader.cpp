@@ -50,11 +50,10 @@ std::vector<Frame> frames_of(const fs::path& folder) {
     frames.push_back({named.paths[i], {}, named.numbers[i]});
   }
   if (!frames.empty()) return frames;
-  for (const CameraFrames& cameras : {find_camera_frames(folder), find_camera_folders(folder)}) {
-    for (std::size_t i = 0; i < cameras.numbers.size(); ++i) {
-      frames.push_back({folder, cameras.patterns[i], cameras.numbers[i]});
-    }
-    if (!frames.empty()) break;
+  CameraFrames cameras = find_camera_frames(folder);
+  if (cameras.numbers.empty()) cameras = find_camera_folders(folder);
+  for (std::size_t i = 0; i < cameras.numbers.size(); ++i) {
+    frames.push_back({folder, cameras.patterns[i], cameras.numbers[i]});
   }
   return frames;
 }
