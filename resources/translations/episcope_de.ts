@@ -3230,13 +3230,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
 </context>
 <context>
-    <name>episcope::MethodRuns</name>
-    <message>
-        <source>%1 · %2</source>
-        <translation>%1 · %2</translation>
-    </message>
-</context>
-<context>
     <name>episcope::MetricController</name>
     <message>
         <source>Copied the numbers of one result as %1</source>

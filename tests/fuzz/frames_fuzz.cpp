@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/frames/stated_pages.h"
 #include "engine/io/frames/tiff_pages.h"
 #include "engine/io/movie/movie_file.h"
+#include "tests/engine/io/frames/described_tiff.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 
+#include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include <vector>
@@ -37,6 +40,14 @@ void write_film(const std::filesystem::path& path) {
 void write_seeds(const std::filesystem::path& folder) {
   write_pages(folder / "pages.tif", CV_8UC3);
   write_pages(folder / "deep.tif", CV_16UC1);
+  int number = 0;
+  for (const char* text :
+       {"ImageJ=1.53t\nimages=9\nchannels=3\nslices=3\n", R"({"shape": [3, 3, 16, 24]})",
+        "<OME><Pixels DimensionOrder=\"XYCZT\" SizeC=\"3\" SizeZ=\"3\"/></OME>"}) {
+    const std::filesystem::path file = folder / fmt::format("stated{}.tif", number++);
+    write_pages(file, CV_8UC1);
+    test::describe_tiff(file, text);
+  }
   for (const char* name : {"film.mp4", "film.webm", "film.gif"}) write_film(folder / name);
 }
 
@@ -49,7 +60,9 @@ std::string name_of(std::string_view bytes) {
 
 /// Pages of a TIFF file, or a film.
 void read(const std::filesystem::path& file) {
-  tolerate([&] { (void)io::count_tiff_pages(file, 1000); });
+  tolerate([&] {
+    (void)io::stated_pages(io::tiff_description(file), io::count_tiff_pages(file, 1000));
+  });
   open_light_field(file);
 }
 

@@ -71,7 +71,9 @@ Progress progress_of_reading() {
   if (is_whole) return Progress(1);
   std::stop_source stop;
   const auto listen = [stop](const ProgressState& state) mutable {
-    if (state.step == "checking the order of views") stop.request_stop();
+    const bool is_looking = state.step == "checking the order of views" ||
+                            state.step == "arranging the views of the list";
+    if (is_looking) stop.request_stop();
   };
   return {stop.get_token(), listen, 1};
 }

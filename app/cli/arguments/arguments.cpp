@@ -59,15 +59,16 @@ std::string indented(const std::string& text) {
 }
 
 /// In our words, where the library speaks of types and counts.
-std::string sentence_of(const CLI::ParseError& error) {
+std::string sentence_of(const CLI::ParseError& error, const CLI::App& app) {
   const std::string text = one_line(error.what());
   const std::size_t colon = text.find(": ");
   if (colon == std::string::npos) return text;
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
     return text.substr(0, colon) + " needs a value";
   }
-  if (dynamic_cast<const CLI::ExtrasError*>(&error))
-    return "too many arguments" + text.substr(colon);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    return "too many arguments: " + joined(app.remaining(), " ");
+  }
   return text;
 }
 
@@ -250,7 +251,7 @@ bool Arguments::parse(const std::vector<std::string>& arguments) {
     std::cout << state_->app.help();
     return false;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(state_->verb + ": " + sentence_of(error) + "; see episcope-cli " +
+    throw UsageError(state_->verb + ": " + sentence_of(error, state_->app) + "; see episcope-cli " +
                      state_->verb + " --help");
   }
   state_->assign_values();

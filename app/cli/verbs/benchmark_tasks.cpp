@@ -47,11 +47,12 @@ void print_plan(const BenchmarkPlan& plan, const BenchmarkRequest& request) {
     return;
   }
   std::cout << fmt::format(
-      "{}: {} tasks with {} runs, about {:.0f} s of one processor\n"
+      "{}: {} task{} with {} run{}, about {:.0f} s of one processor\n"
       "each:   episcope-cli benchmark -o {} --point I     (I = 0 … {})\n"
       "tables: episcope-cli benchmark -o {} --collect\n",
-      file, plan.tasks.size(), plan.point_count(), plan.seconds(), request.output,
-      plan.tasks.size() - 1, request.output);
+      file, plan.tasks.size(), plan.tasks.size() == 1 ? "" : "s", plan.point_count(),
+      plan.point_count() == 1 ? "" : "s", plan.seconds(), request.output, plan.tasks.size() - 1,
+      request.output);
 }
 
 void submit_unfinished(const BenchmarkPlan& plan, const BenchmarkRequest& request, Job& job) {

@@ -5,6 +5,7 @@
 #include "app/gui/capture/capture_files.h"
 #include "app/gui/capture/mesh_shelf.h"
 #include "app/gui/frame/dialogs.h"
+#include "app/gui/frame/job_title.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/messages.h"
 #include "app/session/scene/scene_range.h"
@@ -40,7 +41,7 @@ void MeshResults::showOverView() {
   const std::vector<PosedMesh> meshes = posedMeshes();
   if (meshes.empty()) return;
   const quint64 job = bench_.jobs.start<EstimatePtr>(
-      Lane::Estimate, tr("Depth of the mesh"),
+      Lane::Estimate, job_title(tr("Depth of the mesh"), bench_.session),
       [meshes, scene = bench_.session.scene()](const Progress& progress) {
         return std::make_shared<const Estimate>(mesh_estimate(meshes, *scene, progress));
       },

@@ -2,6 +2,7 @@
 #include "app/gui/estimate/method_runs.h"
 
 #include "app/gui/estimate/scene_source.h"
+#include "app/gui/frame/job_title.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/opening/scene_opener.h"
@@ -52,7 +53,7 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
   const EstimatorInfo info = find_estimator(request.method).info;
   const QString method = QString::fromStdString(info.name);
   const quint64 job = bench_.jobs.start<RunResult>(
-      Lane::Estimate, tr("%1 · %2").arg(method, QString::fromStdString(scene.name)),
+      Lane::Estimate, job_title(method, scene),
       [request,
        source = scene_source(scene, bench_.opener.cacheFolder(), false)](const Progress& progress) {
         const LightFieldPtr light_field = source(progress)->light_field;

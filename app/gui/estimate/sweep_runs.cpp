@@ -2,6 +2,7 @@
 #include "app/gui/estimate/sweep_runs.h"
 
 #include "app/gui/estimate/scene_source.h"
+#include "app/gui/frame/job_title.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/queued_post.h"
 #include "app/gui/opening/scene_opener.h"
@@ -92,7 +93,9 @@ std::uint64_t SweepRuns::run(Sweep sweep, const std::vector<ParameterSet>& point
         {each.scene, each.name, scene_source(open, bench_.opener.cacheFolder(), true)});
   }
   const std::uint64_t only = work.scenes.size() == 1 ? work.scenes.front().scene : 0;
-  const QString method = QString::fromStdString(find_estimator(sweep.base.method).info.name);
+  QString title =
+      tr("Sweep of %1").arg(QString::fromStdString(find_estimator(sweep.base.method).info.name));
+  if (only != 0) title = job_title(title, *bench_.session.find_scene(only));
   const std::uint64_t id = bench_.scenes.sweeps().add(std::move(sweep));
   work.tell = [post = queued_post(&bench_.jobs), self = QPointer(this), id](
                   std::uint64_t scene, const SweepPoint& point) {
@@ -102,7 +105,7 @@ std::uint64_t SweepRuns::run(Sweep sweep, const std::vector<ParameterSet>& point
   };
   sweep_ = id;
   job_ = bench_.jobs.start<bool>(
-      Lane::Estimate, tr("Sweep of %1").arg(method),
+      Lane::Estimate, title,
       [work = std::move(work)](const Progress& progress) { return run_all(work, progress); },
       [](bool) {},
       [this, id] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/segment/labeling_source.h"
 
+#include "app/gui/frame/job_title.h"
 #include "app/session/run/run_estimator.h"
 
 #include <algorithm>
@@ -92,7 +93,7 @@ void LabelingSource::provide() {
   tried_ = generation;
   is_running_ = true;
   const quint64 job = jobs_.start<FinishedEstimate>(
-      Lane::Estimate, tr("Disparity for labels"),
+      Lane::Estimate, job_title(tr("Disparity for labels"), session_),
       [light_field](const Progress& progress) {
         return run_estimator(*light_field, {kQuickEstimator, {}, {}}, progress);
       },

@@ -4,6 +4,7 @@
 #include "app/gui/document/label_choice.h"
 #include "app/gui/frame/cancels.h"
 #include "app/gui/frame/commands.h"
+#include "app/gui/frame/job_title.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/frame/queued_post.h"
 #include "app/gui/stage/overlay.h"
@@ -253,7 +254,7 @@ void SegmentController::segmentAllViews() {
   wants_to_show_ = true;
   jobs_.cancelLane(Lane::Label);
   const quint64 job = jobs_.start<LabelingPtr>(
-      Lane::Label, tr("Segment all views"),
+      Lane::Label, job_title(tr("Segment all views"), session_),
       [input](const Progress& progress) { return label_all_views(*input, progress); },
       [this, input](const LabelingPtr& labeling) { finishAll(labeling, input); });
   jobs_.setScene(job, session_.generation());

@@ -123,8 +123,8 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   parts.truth = std::move(maps.truth);
   if (chosen.layout.has('n')) {
     const bool is_row = chosen.layout.has(kSingle) && options.axes.empty();
-    arrange_list(file.path(), options, parts, chosen.reason, progress,
-                 is_row ? StoredAs::Row : StoredAs::List);
+    const auto stored = is_row ? std::optional(chosen.layout.grid()) : std::nullopt;
+    arrange_list(file.path(), options, parts, chosen.reason, progress, stored);
   }
   settle_disparity(parts.samples, maps, parts.truth.field, parts.info.camera, scene.convention);
   report_form(file, entry, chosen, scene.convention);

@@ -47,7 +47,7 @@ std::vector<ReadingChoice> grid_choices(int count) {
 }  // namespace
 
 void arrange_list(const std::filesystem::path& path, const OpenOptions& options, SceneParts& parts,
-                  std::string& reason, const Progress& progress, StoredAs stored) {
+                  std::string& reason, const Progress& progress, std::optional<GridShape> stored) {
   const int count =
       std::visit([](const auto& stack) { return stack.grid().count(); }, parts.samples);
   ListLayout layout;
@@ -63,8 +63,8 @@ void arrange_list(const std::filesystem::path& path, const OpenOptions& options,
   } else {
     progress.step("arranging the views of the list");
     layout = find_list_layout(parts.samples, progress);
-    if (!layout.is_decided && stored == StoredAs::Row) {
-      layout.grid = {1, count};
+    if (!layout.is_decided && stored && stored->count() == count) {
+      layout.grid = *stored;
       layout.order = ListOrder::Rows;
       layout.evidence = "as stored, for the views do not tell: " + layout.evidence;
     } else if (!layout.is_decided) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/arrays/unlike_planes.h"
 
+#include "engine/core/array/quantile.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -49,12 +50,6 @@ std::optional<double> correlation(const Image<float>& a, const Image<float>& b, 
   return std::abs(ab - sum_a * sum_b / count) / std::sqrt(variance_a * variance_b);
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Calls `use(top, left)` for the squares of a picture that may move by `margin` within it.
 template <class Use>
 void for_squares(const Image<float>& picture, int margin, const Use& use) {
@@ -65,16 +60,18 @@ void for_squares(const Image<float>& picture, int margin, const Use& use) {
 
 /// Of the squares in which both vary; 0 if there are none.
 double median_correlation(const Image<float>& a, const Image<float>& b) {
-  std::vector<double> all;
+  std::vector<float> all;
   for_squares(a, 0, [&](int y, int x) {
-    if (const auto one = correlation(a, b, y, x, kSquare_px, kSquare_px)) all.push_back(*one);
+    if (const auto one = correlation(a, b, y, x, kSquare_px, kSquare_px)) {
+      all.push_back(static_cast<float>(*one));
+    }
   });
-  return all.empty() ? 0 : median(std::move(all));
+  return all.empty() ? 0 : quantile(all, 0.5);
 }
 
 /// How far each square has moved in the neighbouring view, to a fraction of a pixel.
-std::vector<double> motion_of(const PlaneViews& plane) {
-  std::vector<double> all;
+std::vector<float> motion_of(const PlaneViews& plane) {
+  std::vector<float> all;
   for_squares(plane.center, kFurthest_px, [&](int top, int left) {
     std::array<double, 2 * kFurthest_px + 1> costs{};
     for (std::size_t i = 0; i < costs.size(); ++i) {
@@ -95,17 +92,17 @@ std::vector<double> motion_of(const PlaneViews& plane) {
       const double bend = costs[at - 1] - 2 * costs[at] + costs[at + 1];
       if (bend > 0) part = (costs[at - 1] - costs[at + 1]) / (2 * bend);
     }
-    all.push_back(static_cast<double>(best) + part);
+    all.push_back(static_cast<float>(static_cast<double>(best) + part));
   });
   return all;
 }
 
-bool move_differently(const std::vector<double>& a, const std::vector<double>& b) {
+bool move_differently(const std::vector<float>& a, const std::vector<float>& b) {
   if (a.empty()) return false;
-  std::vector<double> differences;
+  std::vector<float> differences;
   for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(std::abs(a[i] - b[i]));
   constexpr double kHalved = 2;
-  return kHalved * median(std::move(differences)) > kUnlike_px;
+  return kHalved * quantile(differences, 0.5) > kUnlike_px;
 }
 
 bool are_correlated(const Image<float>& a, const Image<float>& b) {
@@ -117,7 +114,7 @@ bool are_correlated(const Image<float>& a, const Image<float>& b) {
 
 bool are_unlike(const std::vector<PlaneViews>& planes) {
   std::vector<PlaneViews> halves;
-  std::vector<std::vector<double>> motions;
+  std::vector<std::vector<float>> motions;
   for (const PlaneViews& plane : planes) {
     halves.push_back({halved(plane.center), halved(plane.neighbour), plane.is_above});
     motions.push_back(motion_of(halves.back()));

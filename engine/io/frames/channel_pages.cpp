@@ -4,6 +4,7 @@
 #include "engine/io/arrays/array_parallax.h"
 #include "engine/io/order/warp_check.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace episcope::io {
@@ -11,15 +12,6 @@ namespace {
 
 constexpr int kChannels = 3;
 constexpr int kFewestViews = 4;
-
-/// How far apart the pages of the channels of a view, and those of a channel, are.
-struct PageOrder {
-  int channel_step = 0;
-  int view_step = 0;
-  [[nodiscard]] int page(int view, int channel) const {
-    return view * view_step + channel * channel_step;
-  }
-};
 
 /// Whether pages in the middle of the list differ by colour, not by motion: motion that is too far
 /// to be followed leaves pictures that are not alike.
@@ -42,10 +34,12 @@ bool are_channels(const LightField::Samples& samples, const PageOrder& order, in
 }
 
 template <class T>
-ViewStack<T> joined(const ViewStack<T>& pages, const PageOrder& order, int views) {
-  ViewStack<T> coloured({1, views}, pages.height(), pages.width(), kChannels);
+ViewStack<T> joined(const ViewStack<T>& pages, const PageOrder& order) {
+  const int views = pages.grid().count() / order.channels;
+  ViewStack<T> coloured({1, views}, pages.height(), pages.width(), kChannels, {},
+                        allocate_large_zeros);
   for (int view = 0; view < views; ++view) {
-    for (int channel = 0; channel < kChannels; ++channel) {
+    for (int channel = 0; channel < std::min(order.channels, kChannels); ++channel) {
       const T* from = pages.view({0, order.page(view, channel)}).data;
       T* to = coloured.view({0, view}).data + channel;
       for (std::size_t n = 0; n < pages.view_size(); ++n) to[n * kChannels] = from[n];
@@ -56,20 +50,23 @@ ViewStack<T> joined(const ViewStack<T>& pages, const PageOrder& order, int views
 
 }  // namespace
 
-bool join_channel_pages(LightField::Samples& samples) {
+std::optional<PageOrder> find_channel_pages(const LightField::Samples& samples) {
   return std::visit(
-      [&](auto& stack) {
+      [&](const auto& stack) -> std::optional<PageOrder> {
         const int pages = stack.grid().count();
         const int views = pages / kChannels;
-        if (stack.channels() != 1 || pages % kChannels != 0 || views < kFewestViews) return false;
-        for (const PageOrder& order : {PageOrder{1, kChannels}, PageOrder{views, 1}}) {
-          if (!are_channels(samples, order, views)) continue;
-          stack = joined(stack, order, views);
-          return true;
+        const bool may_be = stack.channels() == 1 && pages % kChannels == 0;
+        if (!may_be || views < kFewestViews) return std::nullopt;
+        for (const PageOrder& order : {PageOrder{kChannels, 1}, PageOrder{kChannels, views}}) {
+          if (are_channels(samples, order, views)) return order;
         }
-        return false;
+        return std::nullopt;
       },
       samples);
+}
+
+void join_channel_pages(LightField::Samples& samples, const PageOrder& order) {
+  std::visit([&](auto& stack) { stack = joined(stack, order); }, samples);
 }
 
 }  // namespace episcope::io

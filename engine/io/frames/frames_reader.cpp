@@ -6,6 +6,7 @@
 #include "engine/io/arrays/list_grid.h"
 #include "engine/io/frames/channel_pages.h"
 #include "engine/io/frames/film.h"
+#include "engine/io/frames/stated_pages.h"
 #include "engine/io/frames/tiff_pages.h"
 #include "engine/io/grid/image_header.h"
 #include "engine/io/grid/image_list.h"
@@ -95,6 +96,28 @@ LightField::Samples samples_of(const fs::path& path, const std::vector<AnyImage>
       pictures.front());
 }
 
+/// Pages that are channels of a view, as the file says or as they look.
+void join_channels(LightField::Samples& samples, const std::optional<StatedPages>& stated,
+                   std::string& reason, std::vector<std::string>& warnings) {
+  const bool is_grey = std::visit([](const auto& stack) { return stack.channels() == 1; }, samples);
+  if (is_grey && stated && stated->order.channels > 1) {
+    const int channels = stated->order.channels;
+    join_channel_pages(samples, stated->order);
+    reason += fmt::format(", each {} of them the channels of a view, as {} wrote", channels,
+                          stated->program);
+    if (channels == 2) reason += ", shown as red and green";
+    if (channels > 3) {
+      warnings.push_back(
+          fmt::format("Of {} channels of a view the first three are read, as red, "
+                      "green and blue.",
+                      channels));
+    }
+  } else if (const auto found = find_channel_pages(samples)) {
+    join_channel_pages(samples, *found);
+    reason += ", each three of them the channels of a view";
+  }
+}
+
 Scene read_light_field(const fs::path& path, const OpenOptions& options, const Progress& progress) {
   progress.step("reading the pictures");
   Frames frames = read_frames(path, progress.part(0, 0.6));
@@ -107,8 +130,12 @@ Scene read_light_field(const fs::path& path, const OpenOptions& options, const P
   frames.pictures.clear();
   settle_range(parts.samples, options.levels, scene.convention);
   std::string reason = fmt::format("{} {}", count, frames.what);
-  if (join_channel_pages(parts.samples)) reason += ", each three of them the channels of a view";
-  arrange_list(path, options, parts, reason, progress.part(0.6, 0.8));
+  const auto stated = has_tiff_name(path)
+                          ? stated_pages(tiff_description(path), static_cast<int>(count))
+                          : std::nullopt;
+  join_channels(parts.samples, stated, reason, scene.convention.warnings);
+  arrange_list(path, options, parts, reason, progress.part(0.6, 0.8),
+               stated ? stated->grid : std::nullopt);
   scene.convention.format = reason;
   scene.convention.units = "no depth in such a file";
   if (options.on_center_view) {

@@ -2,6 +2,7 @@
 #include "engine/io/grid/exr_channels.h"
 
 #include "engine/core/text/suffix.h"
+#include "engine/io/grid/exr_header.h"
 
 #include <fmt/format.h>
 
@@ -17,74 +18,7 @@ namespace episcope::io {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-
-constexpr std::size_t kAfterVersion = 8;
-constexpr std::uint64_t kPartsOrDeep = 0x1800;  ///< Flags of the version.
-constexpr std::uint64_t kDwa = 8;               ///< The first compression that goes by names.
-constexpr std::size_t kOfChannel = 16;          ///< Bytes behind the name of a channel.
-
-std::uint64_t number(const Bytes& bytes, std::size_t at, std::size_t count) {
-  std::uint64_t value = 0;
-  for (std::size_t i = count; i-- > 0;) {
-    value = value << 8 | (at + i < bytes.size() ? bytes[at + i] : 0);
-  }
-  return value;
-}
-
-/// Up to the next 0, which `at` is moved behind.
-std::string take_text(const Bytes& bytes, std::size_t& at) {
-  std::string text;
-  while (at < bytes.size() && bytes[at] != 0) text += static_cast<char>(bytes[at++]);
-  ++at;
-  return text;
-}
-
-struct Channel {
-  std::string name;
-  std::size_t rest = 0;  ///< Where the bytes behind the name are.
-};
-
-struct Header {
-  std::size_t list = 0;  ///< Where the list of channels is, and how long,
-  std::size_t list_size = 0;
-  std::size_t end = 0;  ///< where the header ends and the places of the rows begin.
-  std::uint64_t compression = 0;
-  std::vector<Channel> channels;
-};
-
-std::vector<Channel> channels_of(const Bytes& bytes, std::size_t at, std::size_t end) {
-  std::vector<Channel> channels;
-  while (at < end && bytes[at] != 0) {
-    Channel channel{take_text(bytes, at), at};
-    at += kOfChannel;
-    if (at < end) channels.push_back(std::move(channel));
-  }
-  return channels;
-}
-
-/// Without channels if the header is damaged, or of a kind that is not renamed.
-Header header_of(const Bytes& bytes) {
-  Header header;
-  if ((number(bytes, 4, 4) & kPartsOrDeep) != 0) return {};
-  std::size_t at = kAfterVersion;
-  while (at < bytes.size() && bytes[at] != 0) {
-    const std::string name = take_text(bytes, at);
-    const std::string type = take_text(bytes, at);
-    const auto size = static_cast<std::size_t>(number(bytes, at, 4));
-    at += 4;
-    if (at > bytes.size() || size > bytes.size() - at) return {};
-    if (name == "compression") header.compression = number(bytes, at, 1);
-    if (type == "chlist") {
-      header.list = at;
-      header.list_size = size;
-      header.channels = channels_of(bytes, at, at + size);
-    }
-    at += size;
-  }
-  header.end = at + 1;
-  if (header.end >= bytes.size() || header.compression >= kDwa) return {};
-  return header;
-}
+using Channel = ExrHeader::Channel;
 
 std::string_view last_part(std::string_view name) {
   const auto dot = name.rfind('.');
@@ -150,7 +84,7 @@ Bytes list_with(const Bytes& bytes, const std::vector<Channel>& channels, const 
     list.insert(list.end(), name.begin(), name.end());
     list.push_back(0);
     const auto rest = bytes.begin() + static_cast<std::ptrdiff_t>(channels[i].rest);
-    list.insert(list.end(), rest, rest + kOfChannel);
+    list.insert(list.end(), rest, rest + ExrHeader::kBytesOfChannel);
   }
   list.push_back(0);
   return list;
@@ -163,11 +97,11 @@ void set_number(Bytes& bytes, std::size_t at, std::size_t count, std::uint64_t v
 }
 
 /// Replaces the list, and moves the places of the rows: the first of them follow right behind.
-void replace_list(Bytes& bytes, const Header& header, const Bytes& list) {
+void replace_list(Bytes& bytes, const ExrHeader& header, const Bytes& list) {
   const std::uint64_t moved = std::uint64_t{list.size()} - std::uint64_t{header.list_size};
   std::uint64_t rows = bytes.size();
   for (std::size_t at = header.end; at < rows; at += 8) {
-    const std::uint64_t place = number(bytes, at, 8);
+    const std::uint64_t place = little_number(bytes, at, 8);
     rows = std::min(rows, place);
     set_number(bytes, at, 8, place + moved);
   }
@@ -194,7 +128,7 @@ Bytes bytes_of(const std::filesystem::path& path) {
 std::optional<Bytes> exr_with_known_channels(const std::filesystem::path& path, PicturePart part) {
   Bytes bytes = bytes_of(path);
   if (bytes.empty()) return std::nullopt;
-  const Header header = header_of(bytes);
+  const ExrHeader header = exr_header(path, bytes);
   const Names names = names_of(header.channels, part);
   if (names.empty()) return std::nullopt;
   replace_list(bytes, header, list_with(bytes, header.channels, names));

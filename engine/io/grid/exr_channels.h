@@ -16,6 +16,7 @@ namespace episcope::io {
 /// red, green and blue; of a file without colours the depth, or the only channel. `Depth` is that
 /// channel also beside colours. Nothing if the file can be decoded as it is, is no OpenEXR file, or
 /// is one in several parts or packed by DWA, which goes by the names. Linear in the bytes.
+/// Throws IoError if a header claims more than the file holds.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> exr_with_known_channels(
     const std::filesystem::path& path, PicturePart part);
 

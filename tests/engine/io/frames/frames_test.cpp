@@ -7,6 +7,7 @@
 #include "engine/io/frames/tiff_pages.h"
 #include "engine/io/movie/movie_file.h"
 #include "engine/io/open/open.h"
+#include "tests/engine/io/frames/described_tiff.h"
 #include "tests/engine/io/order/layered_scene.h"
 #include "tests/test_main.h"
 
@@ -65,12 +66,12 @@ void write_film(const fs::path& path, const ViewStack<std::uint8_t>& views) {
 /// A page for each channel of a view, as ImageJ stores colours of more than 8 bits, or all views in
 /// a channel first.
 void write_channel_pages(const fs::path& path, const ViewStack<std::uint8_t>& views,
-                         bool is_channel_first) {
+                         bool is_channel_first, int channels = 3) {
   const int count = views.grid().count();
   std::vector<cv::Mat> pages;
-  for (int i = 0; i < 3 * count; ++i) {
-    const int channel = is_channel_first ? i / count : i % 3;
-    const auto view = views.view(views.view_at(is_channel_first ? i % count : i / 3));
+  for (int i = 0; i < channels * count; ++i) {
+    const int channel = is_channel_first ? i / count : i % channels;
+    const auto view = views.view(views.view_at(is_channel_first ? i % count : i / channels));
     cv::Mat page(view.height, view.width, CV_8UC1);
     for (int y = 0; y < view.height; ++y) {
       for (int x = 0; x < view.width; ++x) {
@@ -229,6 +230,51 @@ class FramesTest : public QObject {
       QCOMPARE(int{read.view({2, 3}).at(17, 40, channel)},
                views.view({2, 3}).at(17, 40, 0) * (2 + channel) / 4);
     }
+  }
+
+  void channelsThatTheFileStates_makeColouredViews_data() {
+    QTest::addColumn<int>("channels");
+    QTest::addColumn<bool>("is_channel_first");
+    QTest::addColumn<QByteArray>("description");
+    QTest::newRow("ImageJ") << 2 << false
+                            << QByteArray("ImageJ=1.53t\nimages=40\nchannels=2\nslices=20\n");
+    QTest::newRow("ImageJ, four")
+        << 4 << false << QByteArray("ImageJ=1.53t\nimages=80\nchannels=4\nslices=5\nframes=4\n");
+    QTest::newRow("OME")
+        << 2 << true
+        << QByteArray(
+               "<?xml version=\"1.0\"?><OME><Pixels DimensionOrder=\"XYZCT\" SizeX=\"128\""
+               " SizeY=\"96\" SizeC=\"2\" SizeZ=\"20\" SizeT=\"1\"></Pixels></OME>");
+    QTest::newRow("tifffile") << 2 << true << QByteArray(R"({"shape": [2, 4, 5, 96, 128]})");
+  }
+  void channelsThatTheFileStates_makeColouredViews() {
+    QFETCH(int, channels);
+    QFETCH(bool, is_channel_first);
+    QFETCH(QByteArray, description);
+    const ViewStack<std::uint8_t> views = some_views();
+    write_channel_pages(path("stack.tif"), views, is_channel_first, channels);
+    describe_tiff(path("stack.tif"), description.toStdString());
+
+    const Scene scene = open(path("stack.tif"));
+
+    QCOMPARE(io::tiff_description(path("stack.tif")), description.toStdString());
+    QCOMPARE(scene.light_field->grid(), (GridShape{4, 5}));
+    const auto& read = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
+    for (const int channel : {0, 1, 2}) {
+      const int wanted =
+          channel < channels ? views.view({2, 3}).at(17, 40, 0) * (2 + channel) / 4 : 0;
+      QCOMPARE(int{read.view({2, 3}).at(17, 40, channel)}, std::min(wanted, 255));
+    }
+    QCOMPARE(scene.convention.warnings.size(), channels > 3 ? 1U : 0U);
+  }
+
+  // All alike: the views do not tell.
+  void gridThatTheFileStates_isTakenIfViewsDoNotTell() {
+    write_pages(path("stack.tif"),
+                ViewStack<std::uint8_t>({2, 6}, 40, 50, 1, {}, allocate_large_zeros));
+    describe_tiff(path("stack.tif"), R"({"shape": [2, 6, 40, 50]})");
+
+    QCOMPARE(open(path("stack.tif")).light_field->grid(), (GridShape{2, 6}));
   }
 
   // A third of the pages are as many rows of views apart as motion cannot be followed.

@@ -97,6 +97,38 @@ class HostilePicturesTest : public QObject {
     }
   }
 
+  // OpenEXR takes memory for what it claims, and fills it.
+  void wrongExrAttribute_isRefused_data() {
+    QTest::addColumn<QByteArray>("version");
+    QTest::addColumn<QByteArray>("attribute");
+    const QByteArray one = QByteArray::fromHex("02000000");
+    const QByteArray many = QByteArray::fromHex("02100000");
+    const QByteArray text("note\0string\0", 12);
+    const QByteArray whole = text + QByteArray::fromHex("01000000") + "a";
+    const QByteArray long_text = text + QByteArray::fromHex("ffffff3f");
+    QTest::newRow("long") << one << long_text;
+    QTest::newRow("long, second part") << many << whole + QByteArray(1, 0) + long_text;
+    QTest::newRow("another size") << one
+                                  << QByteArray("a\0box2i\0", 8) + QByteArray::fromHex("08000000");
+    QTest::newRow("large preview")
+        << one << QByteArray("a\0preview\0", 10) + QByteArray::fromHex("080000000010000000100000");
+    QTest::newRow("channels without end")
+        << one << QByteArray("channels\0chlist\0", 16) + QByteArray::fromHex("02000000") + "RG";
+  }
+  void wrongExrAttribute_isRefused() {
+    QFETCH(QByteArray, version);
+    QFETCH(QByteArray, attribute);
+    const QByteArray bytes =
+        QByteArray::fromHex("762f3101") + version + attribute + QByteArray(200, 'a');
+    const auto path = file("wrong.exr", bytes.toStdString());
+    try {
+      (void)io::decode_image(path);
+      QFAIL("it was decoded");
+    } catch (const IoError& error) {
+      QVERIFY2(QString(error.what()).contains("header is damaged"), error.what());
+    }
+  }
+
   // With pixels as they are (narrow), in runs, and in both.
   void radiancePictures_areThoseOfOpenCv_data() {
     QTest::addColumn<int>("width");
