@@ -39,7 +39,7 @@ length_of() {
 
 # count LOG NAME: adds the inputs of a run to those of the fuzzer, and prints both.
 count() {
-  inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$1")
+  inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$1" | tail -n 1)
   # A run that failed says only how far it had come.
   [ -n "$inputs" ] || inputs=$(sed -n 's/^#\([0-9]*\)[^0-9].*/\1/p' "$1" | tail -n 1)
   total=$(($(cat "$folder/executions/$2" 2>/dev/null || echo 0) + ${inputs:-0}))

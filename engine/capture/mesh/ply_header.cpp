@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace episcope::capture {
@@ -56,6 +57,7 @@ struct Property {
 };
 
 struct Element {
+  std::string name;
   std::uint64_t count = 0;
   std::vector<Property> properties;
   std::uint64_t fixed_size = 0;  // of one without lists
@@ -103,7 +105,7 @@ class Reader {
       words >> word;
       if (i == 0 && word != "ply") throw damaged("it does not begin with \"ply\"");
       if (word == "format") header.format = read_format(words);
-      if (word == "element") header.elements.push_back(read_element(words));
+      if (word == "element") add_element(words, header);
       if (word == "property") read_property(words, header);
       if (!is_known(word)) throw damaged("its header has the line \"" + line.substr(0, 40) + "\"");
       if (word != "end_header") continue;
@@ -122,9 +124,26 @@ class Reader {
     throw damaged("its format is unknown");
   }
 
+  // Of a second list of vertices or faces assimp writes beyond the memory that it took for the
+  // first.
+  void add_element(std::istringstream& words, Header& header) const {
+    Element element = read_element(words);
+    const auto is_of_mesh = [&](const Element& other) {
+      const auto is_face = [](const std::string& name) {
+        return name == "face" || name == "tristrips";
+      };
+      return (other.name == "vertex" && element.name == "vertex") ||
+             (is_face(other.name) && is_face(element.name));
+    };
+    if (std::ranges::any_of(header.elements, is_of_mesh)) {
+      throw damaged("it has more than one list \"" + element.name + "\"");
+    }
+    header.elements.push_back(std::move(element));
+  }
+
   Element read_element(std::istringstream& words) const {
     Element element;
-    std::string name;
+    std::string& name = element.name;
     std::int64_t count = -1;
     words >> name >> count;
     // Less than one bit an element cannot be: what is announced is not there.

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/durable/system_error.h"
+#include "engine/io/grid/claimed_pixels.h"
 #include "engine/io/grid/file_bytes.h"
 #include "engine/io/open/view_memory.h"
 
@@ -11,8 +12,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -63,6 +67,43 @@ Image<std::uint8_t> picture_of(const fs::path& path, const AVFrame& frame) {
   return picture;
 }
 
+std::uint64_t pixels_of(int height, int width) {
+  return static_cast<std::uint64_t>(std::max(0, height)) *
+         static_cast<std::uint64_t>(std::max(0, width));
+}
+
+/// Of one picture, for which decoders take memory as soon as it is claimed; they pad rows.
+std::int64_t most_pixels(const fs::path& path) {
+  constexpr std::uint64_t kMost = std::numeric_limits<int>::max();  // as an option of FFmpeg
+  return static_cast<std::int64_t>(std::min(kMost, 2 * most_plausible_pixels(fs::file_size(path))));
+}
+
+void require_plausible_sizes(const fs::path& path, const AVFormatContext& file) {
+  for (unsigned i = 0; i < file.nb_streams; ++i) {
+    const AVCodecParameters& stream = *file.streams[i]->codecpar;
+    require_plausible_pixels(path, pixels_of(stream.height, stream.width));
+  }
+}
+
+bool find_streams(AVFormatContext& file, std::int64_t most_pixels) {
+  std::vector<AVDictionary*> options(file.nb_streams, nullptr);
+  for (AVDictionary*& each : options) av_dict_set_int(&each, "max_pixels", most_pixels, 0);
+  const int code = avformat_find_stream_info(&file, options.data());
+  for (AVDictionary*& each : options) av_dict_free(&each);
+  return code >= 0;
+}
+
+/// Pictures that hardly change take few bytes, but some.
+void require_plausible_film(const fs::path& path, std::uint64_t pixels) {
+  constexpr std::uint64_t kFew = 64'000'000;
+  constexpr std::uint64_t kMostOfByte = 20'000;
+  const std::uintmax_t bytes = fs::file_size(path);
+  if (pixels <= kFew || pixels / kMostOfByte <= bytes) return;
+  throw IoError(path, fmt::format("the film cannot be decoded: it claims more than {} million "
+                                  "pixels, which its {} bytes cannot hold; copy or export it again",
+                                  pixels / 1'000'000, bytes));
+}
+
 /// The container, its first video and the decoder of that.
 class Decoder {
  public:
@@ -77,16 +118,17 @@ class Decoder {
     const Owned<AVDictionary> left(options);
     if (code < 0) refuse(path);
     file_.reset(opened);
-    if (avformat_find_stream_info(opened, nullptr) < 0) refuse(path);
+    require_plausible_sizes(path, *opened);
+    const std::int64_t most = most_pixels(path);
+    if (!find_streams(*opened, most)) refuse(path);
     const AVCodec* codec = nullptr;
     stream_ = av_find_best_stream(opened, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
     if (stream_ < 0 || codec == nullptr) refuse(path);
     codec_.reset(avcodec_alloc_context3(codec));
     const AVCodecParameters* const parameters = opened->streams[stream_]->codecpar;
-    if (!codec_ || avcodec_parameters_to_context(codec_.get(), parameters) < 0 ||
-        avcodec_open2(codec_.get(), codec, nullptr) < 0) {
-      refuse(path);
-    }
+    if (!codec_ || avcodec_parameters_to_context(codec_.get(), parameters) < 0) refuse(path);
+    codec_->max_pixels = most;
+    if (avcodec_open2(codec_.get(), codec, nullptr) < 0) refuse(path);
   }
 
   [[nodiscard]] std::string codec_name() const { return avcodec_get_name(codec_->codec_id); }
@@ -153,7 +195,9 @@ Film read_film(const fs::path& path, int most, const Progress& progress) {
                                       "views; cut the part that shows the light field",
                                       most));
     }
-    require_view_memory(path, 2.0 * 3 * frame.width * frame.height * (count + 1));
+    const std::uint64_t pixels = pixels_of(frame.height, frame.width) * (film.pictures.size() + 1);
+    require_plausible_film(path, pixels);
+    require_view_memory(path, 2.0 * 3 * static_cast<double>(pixels));
     film.pictures.emplace_back(picture_of(path, frame));
     progress.report((count + 1.0) / most);
   });

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -108,13 +110,21 @@ std::optional<std::uint64_t> claimed_pixels(const fs::path& path) {
 }
 
 void require_plausible_picture(const fs::path& path) {
-  const auto claimed = claimed_pixels(path);
-  if (!claimed || *claimed <= kFewPixels) return;
+  if (const auto claimed = claimed_pixels(path)) require_plausible_pixels(path, *claimed);
+}
+
+void require_plausible_pixels(const fs::path& path, std::uint64_t claimed) {
+  if (claimed <= kFewPixels) return;
   const std::uintmax_t bytes = fs::file_size(path);
-  if (*claimed / kMostPixels <= bytes) return;
+  if (claimed <= most_plausible_pixels(bytes)) return;
   throw IoError(path, fmt::format("the image cannot be decoded: it claims {:.3g} million "
                                   "pixels, which its {} bytes cannot hold; copy or export it again",
-                                  static_cast<double>(*claimed) / 1e6, bytes));
+                                  static_cast<double>(claimed) / 1e6, bytes));
+}
+
+std::uint64_t most_plausible_pixels(std::uintmax_t bytes) {
+  const std::uint64_t dense = std::numeric_limits<std::uint32_t>::max();
+  return std::max(kFewPixels, std::min<std::uint64_t>(bytes, dense) * kMostPixels);
 }
 
 }  // namespace episcope::io

@@ -15,4 +15,10 @@ namespace episcope::io {
 /// can be, unless they are few (16 million).
 void require_plausible_picture(const std::filesystem::path& path);
 
+/// The same for so many pixels that are claimed.
+void require_plausible_pixels(const std::filesystem::path& path, std::uint64_t claimed);
+
+/// Pixels that a picture of a file of so many bytes may claim.
+[[nodiscard]] std::uint64_t most_plausible_pixels(std::uintmax_t bytes);
+
 }  // namespace episcope::io

@@ -100,6 +100,33 @@ class MeshFileTest : public QObject {
     QVERIFY_THROWS_EXCEPTION(IoError, (void)read_mesh("/nowhere/a.ply", Progress(1)));
   }
 
+  // assimp wrote beyond the memory that it took for the first list.
+  void listsThatComeTwice_getASentence_data() {
+    QTest::addColumn<QString>("first");
+    QTest::addColumn<QString>("second");
+    QTest::newRow("vertices") << "vertex"
+                              << "vertex";
+    QTest::newRow("faces") << "face"
+                           << "face";
+    QTest::newRow("faces and strips") << "face"
+                                      << "tristrips";
+    QTest::newRow("strips and faces") << "tristrips"
+                                      << "face";
+  }
+  void listsThatComeTwice_getASentence() {
+    QFETCH(QString, first);
+    QFETCH(QString, second);
+    const auto list = [](const QString& name, int count) {
+      const QString properties = name == "vertex"
+                                     ? "property float x\nproperty float y\nproperty float z\n"
+                                     : "property list uchar int vertex_indices\n";
+      return QString("element %1 %2\n").arg(name).arg(count) + properties;
+    };
+    const QString ply = "ply\nformat ascii 1.0\n" + list(first, 1) + list(second, 9) +
+                        "end_header\n" + QString("3 0 0 0\n").repeated(10);
+    QVERIFY(problem("twice.ply", ply.toStdString()).contains("more than one list"));
+  }
+
   void cutBinaryPly_getsASentenceWhereverItIsCut() {
     TriangleMesh mesh;
     mesh.vertices = {{0, 0, 1}, {1, 0, 2}, {0, 1, 3.5F}, {1, 1, -4}};

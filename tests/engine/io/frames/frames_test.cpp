@@ -359,6 +359,29 @@ class FramesTest : public QObject {
     }
   }
 
+  // Of 1.2 kB, FFmpeg and we took 2.9 GB: of one picture, or of all.
+  void filmThatClaimsManyPixels_isRefused_data() {
+    QTest::addColumn<QByteArray>("size");
+    QTest::newRow("14872×12079") << QByteArray::fromHex("183a2f2f");
+    QTest::newRow("4000×4000") << QByteArray::fromHex("a00fa00f");
+  }
+  void filmThatClaimsManyPixels_isRefused() {
+    QFETCH(QByteArray, size);
+    const fs::path film = path("views.gif");
+    write_film(film, ViewStack<std::uint8_t>({2, 6}, 40, 50, 1, {}, allocate_large_zeros));
+    std::fstream file(film, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(6).write(size.constData(), size.size());
+    file.close();
+
+    QVERIFY(fs::file_size(film) < 3200);
+    try {
+      (void)open(film);
+      QFAIL("it was read");
+    } catch (const IoError& error) {
+      QVERIFY2(QString(error.what()).contains("million pixels"), error.what());
+    }
+  }
+
   void tiffOfLoops_endsCounting() {
     // A directory without entries that count, and one that leads to itself.
     const std::string loop("II*\0\x08\0\0\0\x01\0\0\x01\x04\0\x01\0\0\0\x01\0\0\0\x08\0\0\0", 26);
