@@ -93,6 +93,14 @@ void require_own_samples(const std::filesystem::path& path, const std::string& n
                           "example by h5repack");
 }
 
+bool is_short_in_header(hid_t dataset) {
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  if (H5Pget_layout(creation) != H5D_COMPACT) return false;
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const bool is_empty = H5Sget_simple_extent_npoints(space) == 0;
+  return !is_empty && claimed_bytes(dataset) > static_cast<double>(H5Dget_storage_size(dataset));
+}
+
 void require_sound_dataset(const std::filesystem::path& path, const std::string& name,
                            hid_t dataset) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);

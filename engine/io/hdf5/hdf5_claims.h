@@ -16,6 +16,10 @@ namespace episcope::io {
 void require_sound_dataset(const std::filesystem::path& path, const std::string& name,
                            hid_t dataset);
 
+/// Whether a dataset whose samples are in its header claims more than are there: HDF5 1.10 reads
+/// beyond them.
+[[nodiscard]] bool is_short_in_header(hid_t dataset);
+
 /// Whether the samples of a dataset are in its file: not in raw files that it names, nor in
 /// datasets of other files that it is made of. Such a file could name any file of the user's.
 [[nodiscard]] bool holds_own_samples(hid_t dataset);

@@ -164,7 +164,9 @@ std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
   const auto known = datasets_.find(name);
   if (known != datasets_.end()) return known->second;
   const hid_t id = open_with_cache(path_, root_, name);
-  if (id < 0) {
+  const bool is_short = id >= 0 && is_short_in_header(id);
+  if (is_short) H5Dclose(id);
+  if (id < 0 || is_short) {
     throw IoError(path_, "the dataset " + name +
                              " cannot be opened: the file is damaged; copy or download it again");
   }

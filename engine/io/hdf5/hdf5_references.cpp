@@ -24,7 +24,7 @@ std::string name_of(hid_t file, const hobj_ref_t& reference) {
 std::vector<std::string> Hdf5Input::referenced(const std::string& name) const {
   const Hdf5Lock session;
   const Hdf5Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!dataset.ok() || !holds_own_samples(dataset)) return {};
+  if (!dataset.ok() || !holds_own_samples(dataset) || is_short_in_header(dataset)) return {};
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
