@@ -34,13 +34,17 @@ InflateStream::~InflateStream() {
 std::size_t InflateStream::read(std::size_t bytes, std::uint8_t* out) {
   std::size_t done = 0;
   while (done < bytes) {
-    if (state_.avail_in == 0 && !refill()) break;
+    // Without input the last bytes may still be to come.
+    const bool has_input = state_.avail_in > 0 || refill();
     const std::size_t wanted = std::min(bytes - done, kMostAtOnce);
     state_.next_out = out + done;
     state_.avail_out = static_cast<uInt>(wanted);
     const int result = inflate(&state_, Z_NO_FLUSH);
-    done += wanted - state_.avail_out;
-    if (result != Z_OK && result != Z_BUF_ERROR) break;
+    const std::size_t got = wanted - state_.avail_out;
+    done += got;
+    is_damaged_ = is_damaged_ || result == Z_DATA_ERROR;
+    const bool is_over = result != Z_OK && result != Z_BUF_ERROR;
+    if (is_over || (!has_input && got == 0)) break;
   }
   position_ += done;
   return done;
@@ -53,6 +57,12 @@ bool InflateStream::skip_to(std::uint64_t position) {
     if (read(step, skipped.data()) != step) return false;
   }
   return true;
+}
+
+bool InflateStream::ends_well() {
+  std::vector<std::uint8_t> rest(kPiece);
+  read(rest.size(), rest.data());
+  return !is_damaged_;
 }
 
 bool InflateStream::refill() {

@@ -29,6 +29,8 @@ class InflateStream {
   std::size_t read(std::size_t bytes, std::uint8_t* out);
   /// Whether `position` was reached, which must not be behind.
   [[nodiscard]] bool skip_to(std::uint64_t position);
+  /// Reads a little more, with the checksum if that is all; whether nothing was damaged so far.
+  [[nodiscard]] bool ends_well();
 
  private:
   InflateStream(const std::filesystem::path& path, std::uint64_t begin, std::uint64_t bytes,
@@ -38,6 +40,7 @@ class InflateStream {
   std::ifstream in_;
   std::uint64_t left_ = 0;
   std::uint64_t position_ = 0;
+  bool is_damaged_ = false;
   std::vector<std::uint8_t> piece_;
   z_stream state_{};
 };

@@ -19,7 +19,9 @@ constexpr std::uint32_t kMatrix = 14;
 constexpr std::uint32_t kCompressed = 15;
 constexpr int kHeadOfMatrix = 3;      ///< Elements: flags, dimensions, name.
 constexpr std::uint32_t kStruct = 3;  ///< Kinds of matrices up to this hold others.
-constexpr int kDeepest = 32;          ///< The library calls itself for each.
+constexpr std::uint32_t kFirstNumeric = 6, kLastNumeric = 15;
+constexpr std::uint64_t kWhollyChecked = 64 << 20;  ///< Bytes of a variable, unpacked.
+constexpr int kDeepest = 32;                        ///< The library calls itself for each.
 
 std::uint32_t number_at(const std::string& bytes, std::size_t at, bool is_little) {
   std::uint32_t number = 0;
@@ -81,7 +83,7 @@ class Elements {
 };
 
 /// The dimensions and the name of a compressed variable must be there as a whole; of one that holds
-/// others, all of them.
+/// others, all of it; of samples that are not large, they too.
 void check_compressed(const fs::path& path, bool is_little, const Element& packed) {
   InflateStream stream(path, packed.begin, packed.end - packed.begin);
   const auto read = [&stream](std::uint64_t at, std::uint64_t count) {
@@ -97,11 +99,15 @@ void check_compressed(const fs::path& path, bool is_little, const Element& packe
   const Element flags = elements.at(kTag, end);
   const std::string kind = read(flags.begin, 4);
   if (kind.size() != 4) throw elements.damaged();
-  if ((number_at(kind, 0, is_little) & 0xFF) <= kStruct) {
-    return elements.check(flags.next, end, 1);
-  }
+  const std::uint32_t kind_number = number_at(kind, 0, is_little) & 0xFF;
+  if (kind_number <= kStruct) return elements.check(flags.next, end, 1);
   std::uint64_t place = flags.next;
   for (int i = 1; i < kHeadOfMatrix; ++i) place = elements.at(place, end).next;
+  const bool is_numeric = kind_number >= kFirstNumeric && kind_number <= kLastNumeric;
+  if (!is_numeric || end > kWhollyChecked || place == end) return;
+  // `end` may be too far: matio adds to it.
+  const bool is_there = stream.skip_to(elements.at(place, end).end);
+  if (!is_there || !stream.ends_well()) throw elements.damaged();
 }
 
 }  // namespace

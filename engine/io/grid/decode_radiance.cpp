@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 constexpr int kPlanes = 4;  // red, green, blue, exponent
 constexpr int kShortestRuns = 8, kLongestRuns = 0x7fff;
 constexpr int kLongestLiteral = 128;
+constexpr std::uint64_t kMostPixelsOfByte = 16;  ///< A run of 127 takes 2 bytes a plane.
 constexpr int kExponentOffset = 128 + 8;
 
 // What is left of a file.
@@ -35,6 +37,8 @@ class Bytes {
     throw IoError(path_, std::string("the image cannot be decoded: ") + why);
   }
   [[noreturn]] void refuse_damaged() const { refuse("it is damaged; copy or export it again"); }
+
+  [[nodiscard]] std::size_t size() const { return bytes_.size(); }
 
   /// Without its end of line.
   std::string_view line() {
@@ -87,6 +91,9 @@ Size read_header(Bytes& bytes) {
   number("-Y ", size.height);
   number("+X ", size.width);
   if (size.height < 1 || size.width < 1) bytes.refuse_damaged();
+  const auto pixels =
+      static_cast<std::uint64_t>(size.height) * static_cast<std::uint64_t>(size.width);
+  if (pixels > kMostPixelsOfByte * bytes.size()) bytes.refuse_damaged();
   return size;
 }
 

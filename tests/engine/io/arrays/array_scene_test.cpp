@@ -217,6 +217,17 @@ class ArraySceneTest : public QObject {
     QCOMPARE(unused, (other ? 2 : 0) + (structure.isEmpty() ? 0 : 1));
   }
 
+  // What could not be unpacked was what lay in memory.
+  void mat5DamagedInItsSamples_isRefused() {
+    write_mat5(path("whole.mat"), views(), {true, false, "", false});
+    std::string bytes = bytes_of_file(path("whole.mat"));
+    bytes.replace(bytes.size() / 2, 100, std::string(100, '\xff'));
+    std::ofstream(path("damaged.mat"), std::ios::binary) << bytes;
+
+    QCOMPARE(open(path("whole.mat")).light_field->grid(), views().grid());
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)open(path("damaged.mat")));
+  }
+
   void damagedMat5_isRefused() {
     write_mat5(path("whole.mat"), views(), {true, false, "", true});
     const std::string whole = bytes_of_file(path("whole.mat"));

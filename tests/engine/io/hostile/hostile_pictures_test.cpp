@@ -167,6 +167,8 @@ class HostilePicturesTest : public QObject {
     QTest::newRow("other pixels") << QByteArray(
         "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd");
     QTest::newRow("other rows") << QByteArray("#?RADIANCE\n\n+Y 1 +X 1\nabcd");
+    QTest::newRow("a small size in a comment")
+        << QByteArray("#?RADIANCE\n# Y 2 X 9\n\n-Y 100000 +X 100000\nabcd");
     QTest::newRow("no size") << QByteArray("#?RADIANCE\n\n-Y 0 +X 1\nabcd");
   }
   // They left their files open.
