@@ -7,7 +7,7 @@
 
 #include <zlib.h>
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -40,21 +40,25 @@ class InflateStreamTest : public QObject {
     return bytes;
   }
 
+  static Bytes read_in_steps(io::InflateStream& stream, std::size_t step) {
+    Bytes all;
+    Bytes some(step);
+    while (const std::size_t got = stream.read(step, some.data())) {
+      all.insert(all.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(got));
+    }
+    return all;
+  }
+
  private slots:
-  // zlib holds the last bytes back when it has taken all that is stored.
+  // zlib holds bytes back when it has taken all that is stored. In zip archives, which lack the
+  // head of two bytes and the checksum of four, nothing follows them.
   void bytesInSteps_areAllThere() {
     for (std::size_t count = 1; count < 400; ++count) {
       const Bytes whole = some_bytes(count);
       const uLong packed = write_packed(whole);
       for (const std::size_t step : {1, 3, 8, 64}) {
-        io::InflateStream stream(path(), 0, packed);
-        Bytes read(count + step);
-        std::size_t done = 0;
-        while (const std::size_t got =
-                   stream.read(std::min(step, count + step - done), &read[done]))
-          done += got;
-        read.resize(done);
-        QCOMPARE(read, whole);
+        io::InflateStream stream(path(), {.begin = 2, .stored = packed - 6, .is_deflated = true});
+        QCOMPARE(read_in_steps(stream, step), whole);
       }
     }
   }
