@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/join.h"
 #include "engine/io/hdf5/hdf5_block.h"
+#include "engine/io/hdf5/hdf5_chunks.h"
 #include "engine/io/hdf5/hdf5_claims.h"
 #include "engine/io/hdf5/hdf5_handle.h"
 #include "engine/io/hdf5/hdf5_listing.h"
@@ -164,9 +165,9 @@ std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
   const auto known = datasets_.find(name);
   if (known != datasets_.end()) return known->second;
   const hid_t id = open_with_cache(path_, root_, name);
-  const bool is_short = id >= 0 && is_short_in_header(id);
-  if (is_short) H5Dclose(id);
-  if (id < 0 || is_short) {
+  const bool is_sound = id >= 0 && !is_short_in_header(id) && has_sound_chunks(id);
+  if (id >= 0 && !is_sound) H5Dclose(id);
+  if (!is_sound) {
     throw IoError(path_, "the dataset " + name +
                              " cannot be opened: the file is damaged; copy or download it again");
   }
@@ -183,7 +184,8 @@ void Hdf5Input::read(const std::string& name, const Hdf5Block& block, T* out) co
   // A boolean of other programs is an enumeration, which HDF5 does not convert.
   const bool is_flag = H5Tget_class(stored) == H5T_ENUM && H5Tget_size(stored) == sizeof(T);
   const hid_t type = is_flag ? static_cast<hid_t>(stored) : native_type<T>();
-  if (!select_block(space, block) || H5Dread(id, type, memory, space, H5P_DEFAULT, out) < 0) {
+  const bool can_be_read = select_block(space, block) && !has_short_chunk(id, block);
+  if (!can_be_read || H5Dread(id, type, memory, space, H5P_DEFAULT, out) < 0) {
     throw IoError(
         path_, "the dataset " + name +
                    " cannot be read: the file is truncated or damaged; copy or download it again");

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Chunks that are stored shorter than they are, by damage: the library reads what lies behind them
+// in memory.
+#include "engine/core/error.h"
+#include "engine/io/hdf5/hdf5_file.h"
+#include "tests/test_main.h"
+
+#include <QTemporaryDir>
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace episcope::in_short_chunk_test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr hsize_t kLength = 4000;
+constexpr hsize_t kChunk = 1000;  // 0x3e8
+
+void write_chunks(const fs::path& path, bool is_compressed) {
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t space = H5Screate_simple(1, &kLength, nullptr);
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_chunk(creation, 1, &kChunk);
+  if (is_compressed) H5Pset_deflate(creation, 4);
+  const hid_t dataset =
+      H5Dcreate2(file, "lf", H5T_STD_U8LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+  const std::vector<std::uint8_t> samples(kLength, 170);
+  H5Dwrite(dataset, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, samples.data());
+  H5Dclose(dataset);
+  H5Pclose(creation);
+  H5Sclose(space);
+  H5Fclose(file);
+}
+
+/// Of the third chunk, as the tree of chunks tells.
+void shorten(const fs::path& path) {
+  std::stringstream read;
+  read << std::ifstream(path, std::ios::binary).rdbuf();
+  std::string bytes = read.str();
+  // Its length, no filter skipped, where it begins.
+  const std::string key("\xe8\x03\0\0\0\0\0\0\xd0\x07\0\0\0\0\0\0", 16);
+  const std::size_t at = bytes.find(key);
+  QVERIFY(at != std::string::npos);
+  bytes[at + 1] = 0;
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// To 1500 samples each: in the layout, behind the number of axes and the place of the tree.
+void enlarge(const fs::path& path) {
+  std::stringstream read;
+  read << std::ifstream(path, std::ios::binary).rdbuf();
+  std::string bytes = read.str();
+  const std::string sides("\xe8\x03\0\0\x01\0\0\0", 8);  // and the size of a sample
+  const std::size_t at = bytes.find(sides);
+  QVERIFY(at != std::string::npos);
+  bytes.replace(at, 2, "\xdc\x05");
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::vector<std::uint8_t> read(const fs::path& path, std::size_t start, std::size_t count) {
+  std::vector<std::uint8_t> samples(count);
+  io::Hdf5Input(path).read<std::uint8_t>("lf", {{start}, {count}}, samples.data());
+  return samples;
+}
+
+}  // namespace
+
+class ShortChunkTest : public QObject {
+  Q_OBJECT
+
+ private:
+  QTemporaryDir folder_;
+
+ private slots:
+  void wholeChunks_areRead_data() {
+    QTest::addColumn<bool>("is_compressed");
+    QTest::newRow("plain") << false;
+    QTest::newRow("compressed") << true;
+  }
+  void wholeChunks_areRead() {
+    QFETCH(bool, is_compressed);
+    const fs::path path = folder_.filePath("whole.h5").toStdString();
+    write_chunks(path, is_compressed);
+
+    QCOMPARE(read(path, 0, kLength), std::vector<std::uint8_t>(kLength, 170));
+    QCOMPARE(read(path, 900, 200), std::vector<std::uint8_t>(200, 170));
+  }
+
+  // Compressed ones hold fewer samples than are then asked of them.
+  void largerChunks_areRefused() {
+    const fs::path path = folder_.filePath("larger.h5").toStdString();
+    write_chunks(path, true);
+    enlarge(path);
+
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read(path, 0, 100));
+  }
+
+  void shortChunk_isRefused() {
+    const fs::path path = folder_.filePath("short.h5").toStdString();
+    write_chunks(path, false);
+    shorten(path);
+
+    QCOMPARE(read(path, 0, 2000), std::vector<std::uint8_t>(2000, 170));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read(path, 1900, 101));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read(path, 0, kLength));
+  }
+};
+
+}  // namespace episcope::in_short_chunk_test
+
+EPISCOPE_TEST(short_chunk_test, ShortChunkTest)
+#include "short_chunk_test.moc"
