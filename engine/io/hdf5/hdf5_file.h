@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/io/durable/atomic_file.h"
-#include "engine/io/hdf5/hdf5_write_driver.h"
+#include "engine/io/hdf5/hdf5_drivers.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/durable/system_error.h"
+#include "engine/io/hdf5/hdf5_drivers.h"
 #include "engine/io/hdf5/hdf5_handle.h"
 #include "engine/io/hdf5/hdf5_listing.h"
 #include "engine/io/hdf5/lzf_filter.h"
@@ -53,6 +54,7 @@ Hdf5OpenFile::Hdf5OpenFile(const std::filesystem::path& path) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access, false, true);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  use_read_driver(access);
   id_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
   if (id_ < 0) {
     throw IoError(path, fmt::format("the HDF5 file is truncated or damaged ({} bytes are present); "

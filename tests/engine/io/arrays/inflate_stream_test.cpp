@@ -57,7 +57,7 @@ class InflateStreamTest : public QObject {
       const Bytes whole = some_bytes(count);
       const uLong packed = write_packed(whole);
       for (const std::size_t step : {1, 3, 8, 64}) {
-        io::InflateStream stream(path(), {.begin = 2, .stored = packed - 6, .is_deflated = true});
+        io::InflateStream stream(path(), {"", 2, packed - 6, count, true});
         QCOMPARE(read_in_steps(stream, step), whole);
       }
     }

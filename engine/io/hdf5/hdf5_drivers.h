@@ -5,6 +5,11 @@
 
 namespace episcope::io {
 
+/// Makes files opened with the access property list `access`, for reading, be read without the
+/// memory that HDF5 keeps of metadata: 1.10 crashes on some damaged files with it. Two openings of
+/// a file have nothing in common. The caller must hold the lock of the library.
+void use_read_driver(std::int64_t access);
+
 /// What went wrong on the way to the disk.
 struct Hdf5WriteLog {
   int first_error = 0;  ///< `errno` of the first failed system call; 0 = none.
