@@ -101,6 +101,13 @@ bool is_short_in_header(hid_t dataset) {
   return !is_empty && claimed_bytes(dataset) > static_cast<double>(H5Dget_storage_size(dataset));
 }
 
+bool has_sound_numbers(hid_t dataset) {
+  constexpr std::size_t kMostBytes = 16;
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  const H5T_class_t kind = H5Tget_class(type);
+  return (kind != H5T_INTEGER && kind != H5T_FLOAT) || H5Tget_size(type) <= kMostBytes;
+}
+
 void require_sound_dataset(const std::filesystem::path& path, const std::string& name,
                            hid_t dataset) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);

@@ -20,6 +20,10 @@ void require_sound_dataset(const std::filesystem::path& path, const std::string&
 /// beyond them.
 [[nodiscard]] bool is_short_in_header(hid_t dataset);
 
+/// Whether numbers of a dataset have no more bytes than any machine's: what the library does with
+/// larger ones, which only damage makes, reads beyond its memory.
+[[nodiscard]] bool has_sound_numbers(hid_t dataset);
+
 /// Whether the samples of a dataset are in its file: not in raw files that it names, nor in
 /// datasets of other files that it is made of. Such a file could name any file of the user's.
 [[nodiscard]] bool holds_own_samples(hid_t dataset);

@@ -165,7 +165,8 @@ std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
   const auto known = datasets_.find(name);
   if (known != datasets_.end()) return known->second;
   const hid_t id = open_with_cache(path_, root_, name);
-  const bool is_sound = id >= 0 && !is_short_in_header(id) && has_sound_chunks(id);
+  const bool is_sound =
+      id >= 0 && has_sound_numbers(id) && !is_short_in_header(id) && has_sound_chunks(id);
   if (id >= 0 && !is_sound) H5Dclose(id);
   if (!is_sound) {
     throw IoError(path_, "the dataset " + name +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples may be stored in the header of a dataset. If its shape is damaged, the library reads what
-// lies behind them in memory.
+// lies behind them in memory; if its type is, too.
 #include "engine/core/error.h"
 #include "engine/io/hdf5/hdf5_file.h"
 #include "tests/test_main.h"
@@ -93,6 +93,21 @@ class CompactDatasetTest : public QObject {
     lengthen(path);
 
     QVERIFY_THROWS_EXCEPTION(IoError, (void)read(path, 9 * kLength));
+  }
+
+  // Which the library cannot convert without reading beyond its memory.
+  void numbersOfManyBytes_areRefused() {
+    const fs::path path = folder_.filePath("wide.h5").toStdString();
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(1, &kLength, nullptr);
+    const hid_t type = H5Tcopy(H5T_STD_U8LE);
+    H5Tset_size(type, 100);
+    H5Dclose(H5Dcreate2(file, "lf", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    H5Tclose(type);
+    H5Sclose(space);
+    H5Fclose(file);
+
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read(path, 10));
   }
 };
 
