@@ -101,6 +101,9 @@ bool is_first_whole(hid_t dataset, hsize_t bytes) {
       place == HADDR_UNDEF || skipped != 0) {
     return true;
   }
+  const Hdf5Handle file(H5Iget_file_id(dataset), H5Fclose);
+  hsize_t size = 0;
+  if (H5Fget_filesize(file, &size) < 0 || stored > size) return false;
   std::vector<std::uint8_t> packed(stored);
   if (H5Dread_chunk(dataset, H5P_DEFAULT, offset.data(), &skipped, packed.data()) < 0) return true;
   return inflated_size(packed, bytes) >= bytes;
