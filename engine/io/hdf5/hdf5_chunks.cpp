@@ -2,10 +2,12 @@
 #include "engine/io/hdf5/hdf5_chunks.h"
 
 #include "engine/io/hdf5/hdf5_handle.h"
+#include "engine/io/hdf5/lzf_filter.h"
 
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -70,6 +72,15 @@ bool is_deflated(hid_t creation) {
   return is_found;
 }
 
+bool states_packed_size(hid_t creation, hsize_t bytes) {
+  unsigned flags = 0, config = 0;
+  std::array<unsigned, kLzfSizeAt + 1> values{};
+  std::size_t count = values.size();
+  const bool is_lzf = H5Pget_filter_by_id2(creation, kLzfFilter, &flags, &count, values.data(), 0,
+                                           nullptr, &config) >= 0;
+  return !is_lzf || (count > kLzfSizeAt && values[kLzfSizeAt] == bytes);
+}
+
 /// Up to `most`.
 hsize_t inflated_size(std::vector<std::uint8_t>& packed, hsize_t most) {
   constexpr std::size_t kPiece = std::size_t{1} << 16;
@@ -118,10 +129,11 @@ bool has_sound_chunks(hid_t dataset) {
   const int rank = H5Sget_simple_extent_ndims(space);
   const Places sides = sides_of(creation, static_cast<std::size_t>(std::max(0, rank)));
   if (sides.empty() || !fit_dataset(dataset, sides)) return false;
+  const hsize_t bytes = bytes_of_chunk(dataset, sides);
+  if (!states_packed_size(creation, bytes)) return false;
   hsize_t count = 0;
   const bool has_any = H5Dget_num_chunks(dataset, space, &count) >= 0 && count > 0;
-  return !has_any || !is_deflated(creation) ||
-         is_first_whole(dataset, bytes_of_chunk(dataset, sides));
+  return !has_any || !is_deflated(creation) || is_first_whole(dataset, bytes);
 }
 
 bool has_short_chunk(hid_t dataset, const Hdf5Block& block) {

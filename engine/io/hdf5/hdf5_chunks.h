@@ -13,7 +13,8 @@ namespace episcope::io {
 [[nodiscard]] bool has_short_chunk(hid_t dataset, const Hdf5Block& block);
 
 /// Whether chunks are no larger than the dataset may become, and the first of them, if it is
-/// deflated, holds as many samples as chunks do: the library would read beyond it. True for
+/// deflated, holds as many samples as chunks do: the library would read beyond it. If they are
+/// packed by LZF, their size must be stated with the filter, which makes room for it. True for
 /// datasets without chunks.
 [[nodiscard]] bool has_sound_chunks(hid_t dataset);
 

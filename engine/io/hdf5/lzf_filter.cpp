@@ -4,7 +4,6 @@
 #include <hdf5.h>
 #include <lzf.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 
@@ -13,25 +12,25 @@ namespace {
 
 /// Three bytes stand for at most 264.
 constexpr std::size_t kDensest = 88;
-/// Place of the size of a chunk, in bytes, among the values that h5py stores with the filter.
-constexpr std::size_t kSizeAt = 2;
+/// What a filter before this one may add to a chunk.
+constexpr std::size_t kHeader = 256;
 constexpr std::size_t kLargest = std::numeric_limits<unsigned>::max();
 
-/// How large what `bytes` are turned into may be; 0 for what LZF cannot hold.
+/// How large what `bytes` are turned into may be; 0 for what LZF cannot hold. Of a chunk that says
+/// its size no less, since the library reads all of it, whatever came out.
 std::size_t room_for(unsigned flags, std::size_t count, const unsigned values[],
                      std::size_t bytes) {
   if (bytes < 2 || bytes > kLargest / kDensest) return 0;
   if ((flags & H5Z_FLAG_REVERSE) == 0) return bytes - 1;  // else it had better be left as it is
-  const std::size_t most = bytes * kDensest;
-  return count > kSizeAt && values[kSizeAt] > 0 ? std::min<std::size_t>(most, values[kSizeAt])
-                                                : most;
+  const bool is_stated = count > kLzfSizeAt && values[kLzfSizeAt] < kLargest - kHeader;
+  return is_stated ? values[kLzfSizeAt] + kHeader : bytes * kDensest;
 }
 
 /// As H5Z_func_t: 0 is a failure.
 std::size_t convert(unsigned flags, std::size_t count, const unsigned values[], std::size_t bytes,
                     std::size_t* room, void** buffer) {
   const std::size_t size = room_for(flags, count, values, bytes);
-  void* out = size > 0 ? H5allocate_memory(size, false) : nullptr;
+  void* out = size > 0 ? H5allocate_memory(size, true) : nullptr;
   if (out == nullptr) return 0;
   const auto run = (flags & H5Z_FLAG_REVERSE) != 0 ? lzf_decompress : lzf_compress;
   const unsigned written =
