@@ -2,7 +2,7 @@
 // Chunks that are stored shorter than they are, by damage: the library reads what lies behind them
 // in memory.
 #include "engine/core/error.h"
-#include "engine/io/hdf5/hdf5_file.h"
+#include "tests/engine/io/hdf5/one_dataset.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>
@@ -14,12 +14,12 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace episcope::in_short_chunk_test {
+
+using namespace episcope::test;
 
 namespace {
 
@@ -29,74 +29,42 @@ constexpr hsize_t kLength = 4000;
 constexpr hsize_t kChunk = 1000;  // 0x3e8
 
 void write_chunks(const fs::path& path, bool is_compressed) {
-  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  const hid_t space = H5Screate_simple(1, &kLength, nullptr);
-  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
-  H5Pset_chunk(creation, 1, &kChunk);
-  if (is_compressed) H5Pset_deflate(creation, 4);
-  const hid_t dataset =
-      H5Dcreate2(file, "lf", H5T_STD_U8LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
-  const std::vector<std::uint8_t> samples(kLength, 170);
-  H5Dwrite(dataset, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, samples.data());
-  H5Dclose(dataset);
-  H5Pclose(creation);
-  H5Sclose(space);
-  H5Fclose(file);
+  const auto store = [&](hid_t creation) {
+    H5Pset_chunk(creation, 1, &kChunk);
+    if (is_compressed) H5Pset_deflate(creation, 4);
+  };
+  write_row(path, kLength, store, [](hid_t dataset) { fill_row(dataset, kLength); });
 }
 
-/// Four chunks packed by LZF, the second of fewer samples. `stated`: the size of a chunk as h5py
-/// states it.
+/// Packed by LZF, the second chunk of fewer samples. `stated`: the size of a chunk as h5py states
+/// it.
 void write_packed(const fs::path& path, unsigned stated) {
-  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  const hid_t space = H5Screate_simple(1, &kLength, nullptr);
-  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
-  H5Pset_chunk(creation, 1, &kChunk);
-  const std::array<unsigned, 3> values{4, 0x0105, stated};
-  H5Pset_filter(creation, 32000, H5Z_FLAG_OPTIONAL, values.size(), values.data());
-  const hid_t dataset =
-      H5Dcreate2(file, "lf", H5T_STD_U8LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
-  const std::vector<std::uint8_t> samples(kChunk, 170);
-  std::vector<std::uint8_t> packed(kChunk);
-  for (hsize_t start = 0; start < kLength; start += kChunk) {
-    const auto held = static_cast<unsigned>(start == kChunk ? 100 : kChunk);
-    const unsigned size = lzf_compress(samples.data(), held, packed.data(), held - 1);
-    H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, &start, size, packed.data());
-  }
-  H5Dclose(dataset);
-  H5Pclose(creation);
-  H5Sclose(space);
-  H5Fclose(file);
+  const auto store = [&](hid_t creation) {
+    const std::array<unsigned, 3> values{4, 0x0105, stated};
+    H5Pset_chunk(creation, 1, &kChunk);
+    H5Pset_filter(creation, 32000, H5Z_FLAG_OPTIONAL, values.size(), values.data());
+  };
+  write_row(path, kLength, store, [](hid_t dataset) {
+    const std::vector<std::uint8_t> samples(kChunk, 170);
+    std::vector<std::uint8_t> packed(kChunk);
+    for (hsize_t start = 0; start < kLength; start += kChunk) {
+      const auto held = static_cast<unsigned>(start == kChunk ? 100 : kChunk);
+      const unsigned size = lzf_compress(samples.data(), held, packed.data(), held - 1);
+      H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, &start, size, packed.data());
+    }
+  });
 }
 
-/// Of the third chunk, as the tree of chunks tells.
+/// The third chunk, as the tree of chunks tells: its length, no filter skipped, where it begins.
 void shorten(const fs::path& path) {
-  std::stringstream read;
-  read << std::ifstream(path, std::ios::binary).rdbuf();
-  std::string bytes = read.str();
-  // Its length, no filter skipped, where it begins.
-  const std::string key("\xe8\x03\0\0\0\0\0\0\xd0\x07\0\0\0\0\0\0", 16);
-  const std::size_t at = bytes.find(key);
-  QVERIFY(at != std::string::npos);
-  bytes[at + 1] = 0;
-  std::ofstream(path, std::ios::binary) << bytes;
+  const std::string behind("\0\0\0\0\0\0\xd0\x07\0\0\0\0\0\0", 14);
+  replace_bytes(path, "\xe8\x03" + behind, std::string("\xe8\0", 2) + behind);
 }
 
 /// To 1500 samples each: in the layout, behind the number of axes and the place of the tree.
 void enlarge(const fs::path& path) {
-  std::stringstream read;
-  read << std::ifstream(path, std::ios::binary).rdbuf();
-  std::string bytes = read.str();
-  const std::string sides("\xe8\x03\0\0\x01\0\0\0", 8);  // and the size of a sample
-  const std::size_t at = bytes.find(sides);
-  QVERIFY(at != std::string::npos);
-  bytes.replace(at, 2, "\xdc\x05");
-  std::ofstream(path, std::ios::binary) << bytes;
-}
-
-std::vector<std::uint8_t> read(const fs::path& path, std::size_t start, std::size_t count) {
-  std::vector<std::uint8_t> samples(count);
-  io::Hdf5Input(path).read<std::uint8_t>("lf", {{start}, {count}}, samples.data());
-  return samples;
+  const std::string behind("\0\0\x01\0\0\0", 6);  // and the size of a sample
+  replace_bytes(path, "\xe8\x03" + behind, "\xdc\x05" + behind);
 }
 
 }  // namespace
@@ -118,8 +86,8 @@ class ShortChunkTest : public QObject {
     const fs::path path = folder_.filePath("whole.h5").toStdString();
     write_chunks(path, is_compressed);
 
-    QCOMPARE(read(path, 0, kLength), std::vector<std::uint8_t>(kLength, 170));
-    QCOMPARE(read(path, 900, 200), std::vector<std::uint8_t>(200, 170));
+    QCOMPARE(read_row(path, 0, kLength), std::vector<std::uint8_t>(kLength, 170));
+    QCOMPARE(read_row(path, 900, 200), std::vector<std::uint8_t>(200, 170));
   }
 
   // Compressed ones hold fewer samples than are then asked of them.
@@ -128,7 +96,7 @@ class ShortChunkTest : public QObject {
     write_chunks(path, true);
     enlarge(path);
 
-    QVERIFY_THROWS_EXCEPTION(IoError, (void)read(path, 0, 100));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_row(path, 0, 100));
   }
 
   void shortChunk_isRefused() {
@@ -136,9 +104,9 @@ class ShortChunkTest : public QObject {
     write_chunks(path, false);
     shorten(path);
 
-    QCOMPARE(read(path, 0, 2000), std::vector<std::uint8_t>(2000, 170));
-    QVERIFY_THROWS_EXCEPTION(IoError, (void)read(path, 1900, 101));
-    QVERIFY_THROWS_EXCEPTION(IoError, (void)read(path, 0, kLength));
+    QCOMPARE(read_row(path, 0, 2000), std::vector<std::uint8_t>(2000, 170));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_row(path, 1900, 101));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_row(path, 0, kLength));
   }
 
   // LZF has no checksum: what is lost cannot be told from samples, but must not come from memory.
@@ -148,14 +116,14 @@ class ShortChunkTest : public QObject {
 
     std::vector<std::uint8_t> expected(kLength, 170);
     std::fill(expected.begin() + kChunk + 100, expected.begin() + 2 * kChunk, 0);
-    QCOMPARE(read(path, 0, kLength), expected);
+    QCOMPARE(read_row(path, 0, kLength), expected);
   }
 
   void packedChunksOfAnotherSize_areRefused() {
     const fs::path path = folder_.filePath("other_size.h5").toStdString();
     write_packed(path, kChunk / 2);
 
-    QVERIFY_THROWS_EXCEPTION(IoError, (void)read(path, 0, 100));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_row(path, 0, 100));
   }
 };
 
