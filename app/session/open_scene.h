@@ -87,6 +87,10 @@ struct OpenScene {
   int shown = 0;
   int compared = 0;
   bool is_compared_chosen = false;
+  /// Results of its project that could not be read or do not fit: they stay in it, unchanged.
+  std::vector<EstimateEntry> unread{};
+  /// The strokes of its project, likewise; empty = they were taken over, or there are none.
+  std::filesystem::path unread_strokes{};
   TrueLabelsPtr true_labels;
   KeptLabels labels;
   ScenePlace place;

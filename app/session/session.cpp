@@ -106,17 +106,28 @@ EstimateEntry* Session::entry_of(int id) {
   return found == now_->estimates.end() ? nullptr : &*found;
 }
 
+OpenScene* Session::scene_with(int estimate) const {
+  const auto found = std::ranges::find_if(scenes_, [&](const auto& scene) {
+    return std::ranges::count(scene->estimates, estimate, &EstimateEntry::id) > 0;
+  });
+  return found == scenes_.end() ? nullptr : found->get();
+}
+
 void Session::rename_estimate(int id, const std::string& name) {
-  EstimateEntry* entry = entry_of(id);
-  if (!entry || name.empty() || name == entry->name) return;
-  entry->name = unique_name(now_->estimates, name);
+  OpenScene* scene = scene_with(id);
+  if (!scene || name.empty()) return;
+  EstimateEntry& entry = *std::ranges::find(scene->estimates, id, &EstimateEntry::id);
+  if (name == entry.name) return;
+  entry.name = unique_name(scene->estimates, name);
   changed(Part::Estimates);
 }
 
 void Session::set_note(int id, const std::string& note) {
-  EstimateEntry* entry = entry_of(id);
-  if (!entry || note == entry->note) return;
-  entry->note = note;
+  OpenScene* scene = scene_with(id);
+  if (!scene) return;
+  EstimateEntry& entry = *std::ranges::find(scene->estimates, id, &EstimateEntry::id);
+  if (note == entry.note) return;
+  entry.note = note;
   changed(Part::Estimates);
 }
 

@@ -51,8 +51,8 @@ class Session {
   /// Lets go of the memory of a scene that is set aside. Precondition: files keep its estimates.
   void unload(std::uint64_t id);
   /// What `unload` let go of, or what `add_aside` came without: the scene, and estimates by id.
-  /// Entries whose estimate is not among them are dropped, and a place that the scene does not have
-  /// moves into it. Ignored for an unknown scene.
+  /// Entries whose estimate is not among them are no longer in the list but `OpenScene::unread`,
+  /// and a place that the scene does not have moves into it. Ignored for an unknown scene.
   void load(std::uint64_t id, std::shared_ptr<const Scene> scene,
             const std::map<int, EstimatePtr>& estimates);
   /// Closes a scene that is set aside.
@@ -60,6 +60,8 @@ class Session {
   void set_sample_hash(std::uint64_t id, std::uint64_t hash);
   /// The light field of a scene that is on disk only has moved.
   void set_input(std::uint64_t id, std::string input);
+  /// What its project holds of strokes cannot be taken over and stays where it is.
+  void set_unread_strokes(std::uint64_t id, std::filesystem::path file);
   /// A file keeps an estimate of any open scene for the project. Unknown ids are ignored.
   void set_kept(int estimate, const std::filesystem::path& file);
 
@@ -80,9 +82,10 @@ class Session {
   /// Brings back a removed entry, with its id, at its former place in the list, and shows it. Its
   /// name gets a number if it was given away meanwhile.
   void restore_estimate(EstimateEntry entry, std::size_t place);
-  /// Unknown ids and empty names are ignored; a name that is taken gets a number.
+  /// Of any open scene. Unknown ids and empty names are ignored; a name that is taken there gets a
+  /// number.
   void rename_estimate(int id, const std::string& name);
-  /// What the user writes about an estimate. Unknown ids are ignored.
+  /// What the user writes about an estimate of any open scene. Unknown ids are ignored.
   void set_note(int id, const std::string& note);
   /// Notes that a file of the user's holds an estimate of any open scene. Unknown ids are ignored.
   void mark_saved(int id);
@@ -181,6 +184,7 @@ class Session {
   void show_nothing();
   [[nodiscard]] OpenScene* open_scene(std::uint64_t id) const;
   [[nodiscard]] EstimateEntry* entry_of(int id);
+  [[nodiscard]] OpenScene* scene_with(int estimate) const;
 
   JobRunner::Post post_;
   std::vector<Listener> listeners_;

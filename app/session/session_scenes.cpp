@@ -4,6 +4,7 @@
 #include "app/session/scene/scene_range.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace episcope {
@@ -140,7 +141,12 @@ void Session::load(std::uint64_t id, std::shared_ptr<const Scene> scene,
     if (!entry.estimate && found != estimates.end()) entry.estimate = found->second;
   }
   auto& entries = loaded->estimates;
-  std::erase_if(entries, [](const EstimateEntry& entry) { return !entry.estimate; });
+  const auto unread =
+      std::stable_partition(entries.begin(), entries.end(),
+                            [](const EstimateEntry& entry) { return entry.estimate != nullptr; });
+  loaded->unread.insert(loaded->unread.end(), std::move_iterator(unread),
+                        std::move_iterator(entries.end()));
+  entries.erase(unread, entries.end());
   if (std::ranges::count(entries, loaded->shown, &EstimateEntry::id) == 0) {
     loaded->shown = entries.empty() ? 0 : entries.front().id;
   }
@@ -166,12 +172,20 @@ void Session::set_input(std::uint64_t id, std::string input) {
   changed(Part::Scenes);
 }
 
+void Session::set_unread_strokes(std::uint64_t id, std::filesystem::path file) {
+  if (OpenScene* scene = open_scene(id)) scene->unread_strokes = std::move(file);
+}
+
 void Session::set_kept(int estimate, const std::filesystem::path& file) {
-  for (const auto& scene : scenes_) {
-    const auto found = std::ranges::find(scene->estimates, estimate, &EstimateEntry::id);
-    if (found == scene->estimates.end() || found->kept == file) continue;
+  const auto keep = [&](std::vector<EstimateEntry>& entries) {
+    const auto found = std::ranges::find(entries, estimate, &EstimateEntry::id);
+    if (found == entries.end() || found->kept == file) return;
     found->kept = file;
     changed(Part::Scenes);
+  };
+  for (const auto& scene : scenes_) {
+    keep(scene->estimates);
+    keep(scene->unread);
   }
 }
 

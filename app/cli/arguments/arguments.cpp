@@ -4,6 +4,7 @@
 #include "app/cli/arguments/usage_error.h"
 #include "app/cli/output/json.h"
 #include "engine/core/parameter/parameter.h"
+#include "engine/core/text/character.h"
 #include "engine/core/text/join.h"
 
 #include <CLI/CLI.hpp>
@@ -39,8 +40,7 @@ class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
     const std::string name = make_option_name(option, is_positional) + make_option_opts(option);
-    const std::size_t more_bytes = std::ranges::count_if(
-        name, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; });
+    const std::size_t more_bytes = std::ranges::count_if(name, continues_character);
     const std::size_t column = get_column_width();
     const bool fits = name.size() - more_bytes < column;
     std::ostringstream line;

@@ -210,9 +210,7 @@ void AnnotationFiles::write(const QString& path, std::function<void()> then) {
       [this, path, generation, state = document_.document()->state(),
        then = std::move(then)](const FileStamp& stamp) {
         known_.note(path_of(path), stamp);
-        if (generation == session_.generation()) {
-          document_.noteSaved(state, path.toStdString());
-        }
+        document_.noteSaved(generation, state, path.toStdString());
         bench_.messages.written(path);
         if (then) then();
       },

@@ -137,8 +137,9 @@ void RecoveryController::takeOver(const LeftJournal& journal, RecoveredAnnotatio
                .arg(name_of(journal), QString::fromStdString(journal.path.string())));
     return;
   }
-  document_.replace(std::move(found.document), document_.isWhole(), found.owner.file);
-  discard_journal(journal.path);
+  const bool is_kept =
+      document_.replace(std::move(found.document), document_.isWhole(), found.owner.file);
+  if (is_kept) discard_journal(journal.path);  // else it is the only one
   bench_.frame.showTab("annotate");
   bench_.messages.success(tr("Recovered the annotation of “%1”.").arg(name_of(journal)));
   offerNext();

@@ -5,10 +5,10 @@
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/messages.h"
+#include "app/gui/frame/queued_post.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/stage/overlay.h"
 #include "app/gui/stage/stage.h"
-#include "app/session/run/run_estimator.h"
 #include "app/session/scene/scene_range.h"
 #include "app/session/session.h"
 #include "engine/core/light_field/shear.h"
@@ -17,7 +17,7 @@
 namespace episcope {
 
 FocusController::FocusController(const Workbench& bench)
-    : QObject(&bench.owner), bench_(bench), session_(bench.session) {
+    : QObject(&bench.owner), bench_(bench), session_(bench.session), mover_(queued_post(this)) {
   addCommands();
 }
 
@@ -63,6 +63,10 @@ void FocusController::bake(double focus_px) {
   if (bench_.jobs.count(Lane::Estimate) > 0) {
     bench_.messages.hint(
         tr("A method is still running on this light field: wait for it to finish, or cancel it."));
+    return;
+  }
+  if (is_moving_) {
+    bench_.messages.hint(tr("Results are still being moved to the focus plane: wait a moment."));
     return;
   }
   if (bench_.document.hasUnsavedChanges()) {
@@ -111,33 +115,45 @@ void FocusController::showAsBefore(const Kept& kept) {
 
 void FocusController::moveResults(const Kept& kept, double moved_px) {
   using Moved = std::vector<FinishedEstimate>;
-  bench_.jobs.start<Moved>(
-      Lane::Load, tr("Moving results to the focus plane"),
-      [light_field = session_.light_field(), results = kept.results,
-       moved_px](const Progress& progress) {
+  is_moving_ = true;
+  mover_.start<Moved>(
+      [light_field = session_.light_field(), results = kept.results, moved_px](const Progress&) {
         const ShearedInto into{light_field->center(), light_field->sample_hash()};
         Moved moved;
         for (const EstimateEntry& each : results) {
-          progress.check();
-          auto estimate =
-              std::make_shared<const Estimate>(sheared(*each.estimate, into, moved_px, progress));
+          EstimatePtr estimate = each.estimate;
+          if (moved_px != 0) {
+            estimate = std::make_shared<const Estimate>(
+                sheared(*each.estimate, into, moved_px, Progress()));
+          }
           const Interval range = display_range(*estimate);
           moved.push_back({std::move(estimate), range});
         }
         return moved;
       },
-      [this, kept, generation = session_.generation()](const Moved& moved) {
-        std::vector<int> ids;
-        for (const FinishedEstimate& each : moved) {
-          ids.push_back(session_.add_estimate(each.estimate, each.display_range, generation));
-          const EstimateEntry& former = kept.results[ids.size() - 1];
-          session_.rename_estimate(ids.back(), former.name);
-          session_.set_note(ids.back(), former.note);
-        }
-        if (kept.shown < ids.size()) session_.show_estimate(ids[kept.shown]);
-        if (kept.compared < ids.size()) session_.compare_with(ids[kept.compared]);
-        showAsBefore(kept);
+      [this, kept, moved_px, scene = session_.generation()](const Outcome<Moved>& outcome) {
+        is_moving_ = false;
+        if (outcome.value) return addMoved(kept, *outcome.value, scene);
+        bench_.messages.fail(failure_sentence(outcome.failure));
+        if (moved_px == 0 || scene != session_.generation()) return;
+        const double former_px = session_.scene()->convention.focus_px - moved_px;
+        bench_.opener.reopenAt(former_px, [this, kept] { bringBack(kept, 0); });
       });
+}
+
+void FocusController::addMoved(const Kept& kept, const std::vector<FinishedEstimate>& moved,
+                               std::uint64_t scene) {
+  std::vector<int> ids;
+  for (const FinishedEstimate& each : moved) {
+    ids.push_back(session_.add_estimate(each.estimate, each.display_range, scene));
+    const EstimateEntry& former = kept.results[ids.size() - 1];
+    session_.rename_estimate(ids.back(), former.name);
+    session_.set_note(ids.back(), former.note);
+  }
+  if (scene != session_.generation()) return;
+  if (kept.shown < ids.size()) session_.show_estimate(ids[kept.shown]);
+  if (kept.compared < ids.size()) session_.compare_with(ids[kept.compared]);
+  showAsBefore(kept);
 }
 
 }  // namespace episcope

@@ -3,6 +3,8 @@
 
 #include "app/gui/bench/workbench.h"
 #include "app/session/open_scene.h"
+#include "app/session/run/run_estimator.h"
+#include "engine/core/parallel/job_runner.h"
 
 #include <QObject>
 
@@ -38,11 +40,16 @@ class FocusController : public QObject {
   void bake(double focus_px);
   [[nodiscard]] Kept kept() const;
   void bringBack(const Kept& kept, double moved_px);
+  /// Not among the jobs that the user can cancel, nor those that opening ends: the results would be
+  /// lost with it.
   void moveResults(const Kept& kept, double moved_px);
+  void addMoved(const Kept& kept, const std::vector<FinishedEstimate>& moved, std::uint64_t scene);
   void showAsBefore(const Kept& kept);
 
   Workbench bench_;
   Session& session_;
+  bool is_moving_ = false;
+  JobRunner mover_;
 };
 
 }  // namespace episcope

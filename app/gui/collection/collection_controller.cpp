@@ -9,6 +9,8 @@
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/queued_post.h"
 #include "app/gui/opening/scene_opener.h"
+#include "app/gui/opening/scene_switcher.h"
+#include "app/session/project/scene_work.h"
 #include "app/session/scene/collections.h"
 #include "app/session/session.h"
 #include "widgets/collection/scene_list.h"
@@ -204,19 +206,27 @@ void CollectionController::open(const QString& path) {
   wanted_ = path;
   std::function<void()> then;
   if (entries_.contains(openPath())) {
-    then = [this, former = bench_.session.generation()] { leaveUntouched(former); };
+    then = [this, former = bench_.session.generation()] { closeIfUntouched(former); };
   }
   bench_.opener.open(path, std::move(then));
 }
 
-// Who goes through a collection does not want all of it open.
-void CollectionController::leaveUntouched(std::uint64_t id) {
-  const OpenScene* scene = bench_.session.find_scene(id);
+bool CollectionController::isTouched(const OpenScene& scene) const {
   const auto edited = bench_.document.editedDocuments();
-  const bool is_touched = !scene || !scene->estimates.empty() ||
-                          bench_.jobs.count(Lane::Estimate) > 0 ||
-                          std::ranges::count(edited, id, &EditedDocument::scene) > 0;
-  if (!is_touched) bench_.session.remove(id);
+  const auto& sweeps = bench_.scenes.sweeps().all();
+  return !scene.estimates.empty() || !scene.unread.empty() || !scene.unread_strokes.empty() ||
+         scene.labels.covers_many() || has_work(scene.place) ||
+         bench_.jobs.count(Lane::Estimate) > 0 ||
+         std::ranges::count(edited, scene.id, &EditedDocument::scene) > 0 ||
+         std::ranges::any_of(sweeps, [&](const Sweep& sweep) {
+           return std::ranges::count(sweep.scenes, scene.id, &SweepScene::scene) > 0;
+         });
+}
+
+// Who goes through a collection does not want all of it open.
+void CollectionController::closeIfUntouched(std::uint64_t id) {
+  const OpenScene* scene = bench_.session.find_scene(id);
+  if (scene && !isTouched(*scene)) bench_.session.remove(id);
 }
 
 }  // namespace episcope

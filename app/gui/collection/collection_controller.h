@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
+#include "app/session/open_scene.h"
 #include "engine/io/collection/collection_entry.h"
 
 #include <QHash>
@@ -32,7 +33,8 @@ class CollectionController : public QObject {
   void step(int step);
   void open(const QString& path);
   /// Closes a light field that was set aside, unless something was done on it.
-  void leaveUntouched(std::uint64_t id);
+  [[nodiscard]] bool isTouched(const OpenScene& scene) const;
+  void closeIfUntouched(std::uint64_t id);
   [[nodiscard]] QString openPath() const;
   void markOpen();
 

@@ -5,6 +5,7 @@
 #include "app/session/scene/user_folders.h"
 #include "engine/core/error.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace episcope {
@@ -48,9 +49,10 @@ bool DocumentController::Open::has_unsaved_changes() const {
          annotation->document().state() != discarded_state;
 }
 
-void DocumentController::Open::note_kept(std::uint64_t state) {
+void DocumentController::Open::note_kept(const EditedDocument& kept) {
   const AnnotationDocument& document = annotation->document();
-  if (document.state() == state && document.has_unsaved_changes()) project_state = state;
+  stored = kept.stored;
+  if (document.state() == kept.state && document.has_unsaved_changes()) project_state = kept.state;
 }
 
 bool DocumentController::isInProjectOnly() const {
@@ -88,11 +90,16 @@ bool DocumentController::takeAside() {
       layer.width() == light_field.width()) {
     return true;
   }
+  const QString name = QString::fromStdString(light_field.info().name);
+  const bool is_stored = !now_.stored.empty();
+  session_.set_unread_strokes(generation_, now_.stored);
   finish(now_);
   now_ = {};
-  emit problem(tr("What was painted on “%1” belongs to a light field of another size; it is kept "
-                  "in the project.")
-                   .arg(QString::fromStdString(light_field.info().name)));
+  emit problem((is_stored ? tr("What was painted on “%1” belongs to a light field of another size; "
+                               "it is kept in the project.")
+                          : tr("What was painted on “%1” belongs to a light field of another size; "
+                               "it is offered again at the next start."))
+                   .arg(name));
   return false;
 }
 
@@ -158,29 +165,38 @@ std::string DocumentController::file() const {
   return isCurrent() ? now_.annotation->file() : std::string();
 }
 
-void DocumentController::replace(AnnotationDocument document, bool is_whole,
+bool DocumentController::replace(AnnotationDocument document, bool is_whole,
                                  const std::string& file) {
-  if (!isCurrent()) return;
+  if (!isCurrent()) return false;
   stroke_.reset();
   now_.annotation->finish();
   setDocument(std::move(document), is_whole, file);
-  keepJournal();
+  const bool is_kept = keepJournal();
   emit replaced();
   tellUnsaved();
+  return is_kept;
 }
 
-void DocumentController::noteSaved(std::uint64_t state, const std::string& file) {
-  if (!isCurrent()) return;
-  run([&] { now_.annotation->set_file(file); });
-  now_.project_state.reset();
-  markSaved(state);
+DocumentController::Open* DocumentController::findAside(std::uint64_t scene) {
+  const auto found = aside_.find(scene);
+  return found == aside_.end() ? nullptr : &found->second;
 }
 
-void DocumentController::markSaved(std::uint64_t state) {
-  if (stroke_) {
+void DocumentController::noteSaved(std::uint64_t scene, std::uint64_t state,
+                                   const std::string& file) {
+  const bool is_shown = scene == generation_ && isCurrent();
+  Open* open = is_shown ? &now_ : findAside(scene);
+  if (!open) return;
+  run(*open, [&] { open->annotation->set_file(file); });
+  open->project_state.reset();
+  markSaved(*open, state);
+}
+
+void DocumentController::markSaved(Open& open, std::uint64_t state) {
+  if (&open == &now_ && stroke_) {
     written_state_ = state;
-  } else if (now_.annotation->document().state() == state) {
-    run([this] { now_.annotation->document().mark_saved(); });
+  } else if (open.annotation->document().state() == state) {
+    run(open, [&] { open.annotation->document().mark_saved(); });
   }
   tellUnsaved();
 }
@@ -219,50 +235,58 @@ std::vector<EditedDocument> DocumentController::editedDocuments() const {
 
 void DocumentController::noteKept(const std::vector<EditedDocument>& documents) {
   for (const EditedDocument& each : documents) {
-    const auto found = aside_.find(each.scene);
-    if (each.scene == generation_ && isCurrent()) {
-      now_.note_kept(each.state);
-      stroke_ ? void(written_state_ = each.state) : markSaved(each.state);
-    } else if (found != aside_.end()) {
-      found->second.note_kept(each.state);
-      AnnotationDocument& document = found->second.annotation->document();
-      if (document.state() == each.state) document.mark_saved();
-    }
+    const bool is_shown = each.scene == generation_ && isCurrent();
+    Open* open = is_shown ? &now_ : findAside(each.scene);
+    if (!open) continue;
+    open->note_kept(each);
+    markSaved(*open, each.state);
   }
-  tellUnsaved();
 }
 
-void DocumentController::bring(std::uint64_t scene, RecoveredAnnotation found, bool is_saved) {
+bool DocumentController::bring(std::uint64_t scene, RecoveredAnnotation found,
+                               std::filesystem::path stored) {
+  const bool is_saved = !stored.empty();
   if (!is_saved) found.document.forget_saved();
-  Open open;
+  Open& open = aside_[scene];
+  open = {};
   open.annotation = std::make_unique<Annotation>(std::move(found.document), std::move(found.owner),
                                                  journal_folder_);
+  open.stored = std::move(stored);
+  const bool is_kept = keepJournal(open);
+  if (is_saved) {
+    const std::uint64_t state = open.annotation->document().state();
+    open.note_kept({scene, {}, state, open.stored});
+    markSaved(open, state);
+  }
+  return is_kept;
+}
+
+bool DocumentController::keepJournal() {
+  return isCurrent() && keepJournal(now_);
+}
+
+bool DocumentController::keepJournal(Open& open) {
   try {
     open.annotation->keep_journal();
   } catch (const IoError& error) {
+    session_.set_unread_strokes(sceneOf(open), open.stored);
     emit problem(QString::fromUtf8(error.what()));
   }
-  if (is_saved) {
-    open.note_kept(open.annotation->document().state());
-    open.annotation->document().mark_saved();
-  }
-  aside_[scene] = std::move(open);
+  return open.annotation->has_journal();
 }
 
-void DocumentController::keepJournal() {
-  if (!isCurrent()) return;
-  try {
-    now_.annotation->keep_journal();
-  } catch (const IoError& error) {
-    emit problem(QString::fromUtf8(error.what()));
-  }
+std::uint64_t DocumentController::sceneOf(const Open& open) const {
+  const auto found =
+      std::ranges::find_if(aside_, [&](const auto& each) { return &each.second == &open; });
+  return found == aside_.end() ? generation_ : found->first;
 }
 
-void DocumentController::run(const std::function<void()>& change) {
+void DocumentController::run(Open& open, const std::function<void()>& change) {
   try {
     change();
   } catch (const IoError& error) {
-    now_.annotation->drop_journal();
+    open.annotation->drop_journal();
+    session_.set_unread_strokes(sceneOf(open), open.stored);
     emit problem(tr("What you paint can no longer be recovered after a crash, so save it soon: %1")
                      .arg(QString::fromUtf8(error.what())));
   } catch (const Error& error) {
@@ -338,14 +362,14 @@ void DocumentController::endStroke() {
   run([this] { stroke_->commit(); });
   stroke_.reset();
   if (document.state() != before) tell({{{stroke_view_, stroke_rect_}}, false});
-  if (const auto written = std::exchange(written_state_, {})) markSaved(*written);
+  if (const auto written = std::exchange(written_state_, {})) markSaved(now_, *written);
 }
 
 void DocumentController::cancelStroke() {
   if (!stroke_) return;
   stroke_.reset();
   if (!stroke_rect_.empty()) emit painted(stroke_view_, stroke_rect_);
-  if (const auto written = std::exchange(written_state_, {})) markSaved(*written);
+  if (const auto written = std::exchange(written_state_, {})) markSaved(now_, *written);
 }
 
 DocumentChange DocumentController::everything() const {

@@ -22,7 +22,8 @@ namespace episcope {
 struct EditedDocument {
   std::uint64_t scene = 0;  ///< OpenScene::id.
   std::filesystem::path journal;
-  std::uint64_t state = 0;  ///< AnnotationDocument::state.
+  std::uint64_t state = 0;         ///< AnnotationDocument::state.
+  std::filesystem::path stored{};  ///< The file of a project that holds it now.
 };
 
 /// The annotation documents of the open light fields, of which one is shown: creates it, changes
@@ -52,10 +53,11 @@ class DocumentController : public QObject {
   [[nodiscard]] std::string file() const;
   /// Puts another document in the place of the present one, whose journal ends. `is_whole` and
   /// `file` as above.
-  void replace(AnnotationDocument document, bool is_whole, const std::string& file);
-  /// Notes that the state was written to a file; if painting went on meanwhile, there are unsaved
-  /// changes still.
-  void noteSaved(std::uint64_t state, const std::string& file);
+  /// Returns whether it is kept in a journal.
+  bool replace(AnnotationDocument document, bool is_whole, const std::string& file);
+  /// Notes that the state of a scene's document was written to a file; if painting went on
+  /// meanwhile, there are unsaved changes still.
+  void noteSaved(std::uint64_t scene, std::uint64_t state, const std::string& file);
   /// The user discards the present changes: they may be dropped with the document.
   void discardChanges();
   /// The same of all open scenes.
@@ -66,10 +68,11 @@ class DocumentController : public QObject {
   [[nodiscard]] std::vector<EditedDocument> editedDocuments() const;
   /// Notes that these states are in a project.
   void noteKept(const std::vector<EditedDocument>& documents);
-  /// What was painted before on a scene that is set aside; it is kept in a journal anew.
-  void bring(std::uint64_t scene, RecoveredAnnotation found, bool is_saved);
-  /// Ensures that what is painted next survives a crash.
-  void keepJournal();
+  /// What was painted before on a scene that is set aside. `stored`: the file of a project of the
+  /// user's that holds it; empty = none does. Returns whether it is kept in a journal anew.
+  bool bring(std::uint64_t scene, RecoveredAnnotation found, std::filesystem::path stored);
+  /// Ensures that what is painted next survives a crash; whether that is so.
+  bool keepJournal();
 
   /// Applies any edit; what it throws is reported as a problem. Returns whether the document
   /// changed.
@@ -104,9 +107,10 @@ class DocumentController : public QObject {
   struct Open {
     std::unique_ptr<Annotation> annotation;
     bool is_whole = true;
+    std::filesystem::path stored{};  ///< The file of a project that held it last.
     std::optional<std::uint64_t> discarded_state{};
     std::optional<std::uint64_t> project_state{};  ///< What a project holds and no other file.
-    void note_kept(std::uint64_t state);
+    void note_kept(const EditedDocument& kept);
     [[nodiscard]] bool has_unsaved_changes() const;
   };
 
@@ -121,11 +125,17 @@ class DocumentController : public QObject {
   static void finish(Open& open);
   void setDocument(AnnotationDocument document, bool is_whole, const std::string& file);
   void go(DocumentChange (AnnotationDocument::*step)());
-  void markSaved(std::uint64_t state);
+  void markSaved(Open& open, std::uint64_t state);
+  /// The document of a scene that is set aside; null if there is none.
+  [[nodiscard]] Open* findAside(std::uint64_t scene);
+  bool keepJournal(Open& open);
   void tell(const DocumentChange& change);
   void tellUnsaved();
-  /// Runs a change and reports what it threw. A journal that fails is abandoned.
-  void run(const std::function<void()>& change);
+  /// Runs a change and reports what it threw. A journal that fails is abandoned; what a project
+  /// holds of the strokes then stays in it.
+  void run(const std::function<void()>& change) { run(now_, change); }
+  void run(Open& open, const std::function<void()>& change);
+  [[nodiscard]] std::uint64_t sceneOf(const Open& open) const;
   [[nodiscard]] DocumentChange everything() const;
   [[nodiscard]] bool isCurrent() const;
 

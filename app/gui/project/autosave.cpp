@@ -7,6 +7,7 @@
 #include "app/gui/frame/queued_post.h"
 #include "app/gui/opening/scene_switcher.h"
 #include "app/session/project/project_file.h"
+#include "app/session/project/scene_work.h"
 #include "app/session/project/session_project.h"
 #include "app/session/project/stored_project.h"
 #include "app/session/scene/user_folders.h"
@@ -25,8 +26,7 @@ constexpr int kLater_ms = 500;  // what changes with every movement of the hand
 bool is_worth_keeping(const Project& project) {
   return project.scenes.size() > 1 || !project.sweeps.empty() ||
          std::ranges::any_of(project.scenes, [](const ProjectScene& scene) {
-           return !scene.results.empty() || scene.labels.covers_many() ||
-                  !scene.place.measured.list.empty() || !scene.place.capture.empty();
+           return !scene.results.empty() || scene.labels.covers_many() || has_work(scene.place);
          });
 }
 
@@ -92,19 +92,20 @@ void Autosave::write() {
   project.saved_as = project_file_;
   if (is_over_ || (!workspace_ && !is_worth_keeping(project)) || !makeWorkspace()) return;
   is_writing_ = true;
-  runner_->start<Kept>(
-      [project, folder = workspace_->folder(),
-       file = workspace_->project_file()](const Progress& progress) {
+  const auto kept = std::make_shared<Kept>();
+  runner_->start<bool>(
+      [project, kept, file = workspace_->project_file()](const Progress& progress) {
         lower_thread_priority();
-        return write_all(project, folder, file, progress);
+        write_all(project, file, *kept, progress);
+        return true;
       },
-      [this](const Outcome<Kept>& outcome) { finish(outcome); });
+      [this, kept](const Outcome<bool>& outcome) { finish(outcome, *kept); });
 }
 
-Autosave::Kept Autosave::write_all(Project project, const fs::path& folder, const fs::path& file,
-                                   const Progress& progress) {
+void Autosave::write_all(Project project, const fs::path& file, Kept& kept,
+                         const Progress& progress) {
   write_project(file, written_part(project));  // results may take long
-  Kept kept;
+  const fs::path folder = file.parent_path();
   for (ProjectScene& scene : project.scenes) {
     for (ProjectResult& result : scene.results) {
       if (is_in_file(result)) continue;
@@ -119,7 +120,6 @@ Autosave::Kept Autosave::write_all(Project project, const fs::path& folder, cons
     kept.labels.push_back({scene.id, scene.labels.labeling, scene.labels.file});
     write_project(file, written_part(project));
   }
-  return kept;
 }
 
 // The file of labels that are out of date goes once the project names the new one.
@@ -130,14 +130,11 @@ void Autosave::keepLabels(const Kept::Labels& kept) {
   bench_.session.set_labels_file(kept.scene, kept.labeling, kept.file);
 }
 
-void Autosave::finish(const Outcome<Kept>& outcome) {
+void Autosave::finish(const Outcome<bool>& outcome, const Kept& kept) {
   is_writing_ = false;
-  if (outcome.value) {
-    for (const auto& [estimate, file] : outcome.value->results) {
-      bench_.session.set_kept(estimate, file);
-    }
-    for (const Kept::Labels& each : outcome.value->labels) keepLabels(each);
-  } else if (outcome.failure && !std::exchange(has_failed_, true)) {
+  for (const auto& [estimate, file] : kept.results) bench_.session.set_kept(estimate, file);
+  for (const Kept::Labels& each : kept.labels) keepLabels(each);
+  if (outcome.failure && !std::exchange(has_failed_, true)) {
     bench_.messages.warn(
         tr("Results cannot be kept for a crash: %1").arg(failure_sentence(outcome.failure)));
   }

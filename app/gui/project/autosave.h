@@ -43,7 +43,7 @@ class Autosave : public QObject {
   void projectFileChanged();
 
  private:
-  /// What was written.
+  /// What was written, also where the rest could not be.
   struct Kept {
     std::vector<std::pair<int, std::filesystem::path>> results;  ///< Estimates and their files.
     struct Labels {
@@ -53,15 +53,15 @@ class Autosave : public QObject {
     };
     std::vector<Labels> labels;
   };
-  [[nodiscard]] static Kept write_all(Project project, const std::filesystem::path& folder,
-                                      const std::filesystem::path& file, const Progress& progress);
+  static void write_all(Project project, const std::filesystem::path& file, Kept& kept,
+                        const Progress& progress);
   void keepLabels(const Kept::Labels& kept);
 
   void follow(Parts parts);
   void schedule();
   void write();
   bool makeWorkspace();
-  void finish(const Outcome<Kept>& outcome);
+  void finish(const Outcome<bool>& outcome, const Kept& kept);
 
   Workbench bench_;
   std::filesystem::path root_;

@@ -13,10 +13,10 @@
 #include "app/gui/opening/scene_switcher.h"
 #include "app/gui/project/autosave.h"
 #include "app/gui/project/restore.h"
-#include "app/session/project/capture_json.h"
 #include "app/session/project/moved_inputs.h"
 #include "app/session/project/own_folders.h"
 #include "app/session/project/project_file.h"
+#include "app/session/project/scene_work.h"
 #include "app/session/project/session_project.h"
 #include "app/session/project/stored_project.h"
 
@@ -24,16 +24,32 @@
 #include <QPushButton>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <utility>
 
 namespace episcope {
 namespace {
 
-// What the user did for ground truth: poses follow from it.
-std::string done_text(CaptureWork work) {
-  for (CaptureObject& each : work.objects) each.pose.reset();
-  return work.empty() ? std::string() : capture_to_json(work, "/") + '\n';
+// The results of a scene, in the order in which they were made: also those that cannot be read.
+std::string results_text(const OpenScene& scene) {
+  std::map<int, std::string> lines;
+  for (const auto* entries : {&scene.estimates, &scene.unread}) {
+    for (const EstimateEntry& entry : *entries) lines[entry.id] = entry.name + ' ' + entry.note;
+  }
+  std::string text;
+  for (const auto& [id, line] : lines) text += std::to_string(id) + ' ' + line + '\n';
+  return text;
+}
+
+// The documents with the files of the project that hold them.
+std::vector<EditedDocument> stored_in(const Project& project,
+                                      std::vector<EditedDocument> documents) {
+  for (EditedDocument& each : documents) {
+    const auto scene = std::ranges::find(project.scenes, each.scene, &ProjectScene::id);
+    if (scene != project.scenes.end()) each.stored = scene->strokes;
+  }
+  return documents;
 }
 
 }  // namespace
@@ -89,12 +105,9 @@ void ProjectController::setFile(const QString& path) {
 std::string ProjectController::content() const {
   std::string text;
   for (const OpenScene* scene : bench_.session.scenes()) {
-    text += scene->input + '\n';
-    for (const EstimateEntry& entry : scene->estimates) {
-      text += std::to_string(entry.id) + ' ' + entry.name + ' ' + entry.note + '\n';
-    }
+    text += scene->input + '\n' + results_text(*scene);
     if (!scene->labels.empty()) text += std::to_string(scene->labels.strokes) + '\n';
-    text += done_text(scene->place.capture);
+    text += work_text(scene->place);
   }
   for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
     text += "sweep " + std::to_string(sweep.id);
@@ -177,7 +190,7 @@ void ProjectController::write(const QString& path, std::function<void()> then) {
         return store_project(path.toStdString(), project, progress);
       },
       [this, path, documents, content = content(), then = std::move(then)](const Project& written) {
-        bench_.document.noteKept(documents);
+        bench_.document.noteKept(stored_in(written, documents));
         saved_content_ = content;
         noteSaved(path, written);
         if (then) then();
@@ -187,6 +200,7 @@ void ProjectController::write(const QString& path, std::function<void()> then) {
 void ProjectController::noteSaved(const QString& path, const Project& written) {
   for (const ProjectScene& scene : written.scenes) {
     bench_.session.set_labels_file(scene.id, scene.labels.labeling, scene.labels.file);
+    bench_.session.set_unread_strokes(scene.id, scene.unread_strokes);
     for (const ProjectResult& result : scene.results) {
       bench_.session.set_kept(result.id, result.file);
       bench_.session.mark_saved(result.id);

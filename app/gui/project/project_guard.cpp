@@ -37,7 +37,8 @@ ProjectGuard::ProjectGuard(const Workbench& bench, ProjectController& project)
   bench.guards.add({.may_leave = [this](Leaving what) { return loss(what).empty(); },
                     .ask = [this](Leaving what, const Continue& go_on) { ask(what, go_on); }});
   bench.session.on_changed([this](Parts parts) {
-    if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates | Part::Capture)) {
+    if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates | Part::Capture |
+                      Part::Measured)) {
       is_settled_ = false;
     }
   });
@@ -57,6 +58,7 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
   for (const OpenScene* scene : session.scenes()) {
     if (what == Leaving::Scene && scene->id != session.generation()) continue;
     if (!has_file && has_picks(*scene)) loss.picked.push_back(scene->name);
+    if (!has_file && !scene->place.measured.list.empty()) loss.measured.push_back(scene->name);
     for (const EstimateEntry& entry : scene->estimates) {
       const double seconds = entry.estimate ? entry.estimate->seconds : worth_keeping_s_;
       if (!entry.is_saved && (has_file || seconds >= worth_keeping_s_)) {
@@ -96,6 +98,9 @@ QString ProjectGuard::sentence(const Loss& loss) {
   }
   if (!loss.picked.empty()) {
     sentences << tr("Pairs of points that are not saved: on %1.").arg(list_of(loss.picked));
+  }
+  if (!loss.measured.empty()) {
+    sentences << tr("Kept lines that are not saved: on %1.").arg(list_of(loss.measured));
   }
   if (loss.of_project && sentences.isEmpty()) sentences << tr("The project has changed.");
   if (loss.is_running) {

@@ -37,12 +37,14 @@ class ProjectGuard : public QObject {
   struct Loss {
     std::vector<std::string> results;
     std::vector<std::string> scribbled;  ///< Names of light fields,
-    std::vector<std::string> picked;     ///< and of those with pairs for ground truth.
+    std::vector<std::string> picked;     ///< of those with pairs for ground truth,
+    std::vector<std::string> measured;   ///< and of those with lines kept of EPIs.
     bool of_project = false;             ///< Other changes of a project that has a file.
     bool is_running = false;
     [[nodiscard]] bool empty() const { return !has_unsaved() && !is_running; }
     [[nodiscard]] bool has_unsaved() const {
-      return !results.empty() || !scribbled.empty() || !picked.empty() || of_project;
+      return !results.empty() || !scribbled.empty() || !picked.empty() || !measured.empty() ||
+             of_project;
     }
   };
 

@@ -45,20 +45,27 @@ void make_way(const Workbench& bench, const Project& project, ProjectOrigin orig
 
 }  // namespace
 
-void show_project(const Workbench& bench, ReadProject read, ProjectOrigin origin) {
+std::vector<std::filesystem::path> show_project(const Workbench& bench, ReadProject read,
+                                                ProjectOrigin origin) {
   const bool is_saved = origin == ProjectOrigin::File;
   make_way(bench, read.project, origin);
   bench.session.set_bad_threshold(read.project.bad_threshold_px);
   std::uint64_t current = 0;
+  std::vector<std::filesystem::path> kept;
   std::map<std::uint64_t, std::uint64_t> ids;  // of scenes: those of the project, those of now
   for (std::size_t i = 0; i < read.project.scenes.size(); ++i) {
-    const std::uint64_t id = bench.session.add_aside(scene_of(read.project.scenes[i], is_saved));
-    ids[read.project.scenes[i].id] = id;
+    const ProjectScene& scene = read.project.scenes[i];
+    const std::uint64_t id = bench.session.add_aside(scene_of(scene, is_saved));
+    ids[scene.id] = id;
     if (i <= read.project.current) current = id;
     const auto strokes = read.strokes.find(i);
-    if (strokes == read.strokes.end()) continue;
-    strokes->second.owner.source = read.project.scenes[i].input;
-    bench.document.bring(id, std::move(strokes->second), is_saved);
+    if (strokes == read.strokes.end()) {
+      bench.session.set_unread_strokes(id, scene.strokes);
+      continue;
+    }
+    strokes->second.owner.source = scene.input;
+    const auto stored = is_saved ? scene.strokes : std::filesystem::path();
+    if (bench.document.bring(id, std::move(strokes->second), stored)) kept.push_back(scene.strokes);
   }
   for (Sweep& sweep : read.project.sweeps) {
     for (SweepScene& scene : sweep.scenes) scene.scene = ids[scene.scene];
@@ -67,6 +74,7 @@ void show_project(const Workbench& bench, ReadProject read, ProjectOrigin origin
   }
   if (!read.failures.isEmpty()) bench.messages.warn(read.failures.join(' '));
   bench.scenes.show(current);
+  return kept;
 }
 
 }  // namespace episcope

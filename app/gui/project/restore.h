@@ -7,7 +7,9 @@
 
 #include <QStringList>
 
+#include <filesystem>
 #include <map>
+#include <vector>
 
 namespace episcope {
 
@@ -27,7 +29,9 @@ enum class ProjectOrigin {
   Crash,  ///< Nothing of it is saved; what else was opened meanwhile stays.
 };
 
-/// Opens the scenes of a project and shows the current one.
-void show_project(const Workbench& bench, ReadProject read, ProjectOrigin origin);
+/// Opens the scenes of a project and shows the current one. Returns the files of strokes that are
+/// in journals of their own again.
+std::vector<std::filesystem::path> show_project(const Workbench& bench, ReadProject read,
+                                                ProjectOrigin origin);
 
 }  // namespace episcope

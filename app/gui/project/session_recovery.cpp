@@ -100,18 +100,18 @@ void SessionRecovery::takeOver(const LeftWorkspace& left) {
         return read;
       },
       [this, left](const Read& read) {
-        const Project project = read->project;
+        const std::filesystem::path saved_as = read->project.saved_as;
         try {
           autosave_.takeOver(left.folder);
         } catch (const IoError& error) {
           bench_.messages.warn(QString::fromUtf8(error.what()));
           return;
         }
-        show_project(bench_, std::move(*read), ProjectOrigin::Crash);
-        autosave_.setProjectFile(project.saved_as);
-        // They have journals of their own again.
-        for (const ProjectScene& each : project.scenes) {
-          if (!each.strokes.empty()) discard_journal(each.strokes);
+        const auto kept = show_project(bench_, std::move(*read), ProjectOrigin::Crash);
+        autosave_.setProjectFile(saved_as);
+        for (const std::filesystem::path& each : kept) {
+          // What lies elsewhere is of a project of the user's.
+          if (each.parent_path() == bench_.document.journalFolder()) discard_journal(each);
         }
         bench_.messages.success(tr("Recovered what was open."));
         offerNext();

@@ -3,10 +3,10 @@
 
 #include "app/session/document/journal_records.h"
 #include "app/session/document/unheld_journals.h"
+#include "app/session/save/file_name.h"
 #include "engine/core/error.h"
 #include "engine/io/durable/make_folder.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <random>
 
@@ -19,8 +19,7 @@ fs::path new_path(const fs::path& folder, const std::string& name) {
   std::random_device random;
   char suffix[24];
   std::snprintf(suffix, sizeof suffix, "-%08x", static_cast<unsigned>(random()));
-  std::string stem = name.substr(0, 60);
-  std::ranges::replace(stem, '/', '_');
+  const std::string stem = file_name_of(name);
   return folder / ((stem.empty() ? "session" : stem) + suffix + kJournalSuffix);
 }
 
@@ -80,7 +79,8 @@ std::vector<LeftJournal> left_journals(const fs::path& folder) {
         continue;
       }
     } catch (const IoError&) {
-      // Nothing in it can be had: it is of no use to anybody.
+      // Of a later program, or for the moment not to be read: another start may have more luck.
+      if (std::error_code error; fs::file_size(each.path, error) != 0 || error) continue;
     }
     discard_journal(each.path);
   }

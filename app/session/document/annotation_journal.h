@@ -75,7 +75,8 @@ struct LeftJournal {
 };
 
 /// Journals in `folder` whose session crashed with unsaved changes, the latest first. Those of
-/// running sessions are skipped; those with nothing unsaved or nothing readable are removed.
+/// running sessions are skipped, and those that cannot be read; those with nothing unsaved are
+/// removed.
 [[nodiscard]] std::vector<LeftJournal> left_journals(const std::filesystem::path& folder);
 
 /// Removes a journal that the user does not want or that was recovered.

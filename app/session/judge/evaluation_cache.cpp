@@ -10,6 +10,9 @@ namespace {
 
 // An evaluation of 512×512 pixels takes 1.5 MB.
 constexpr std::size_t kKept = 48;
+// Of each estimate, however many there are: what tables and pictures ask for again and again, by
+// either protocol and in the view that is looked at.
+constexpr std::ptrdiff_t kKeptOfEach = 3;
 
 // 1 in the part; empty for an empty part.
 Image<std::uint8_t> mask_of(const PixelRect& part, const LightField& light_field) {
@@ -39,7 +42,7 @@ EvaluationPtr EvaluationCache::find_or_begin(const EvaluationKey& key, const Est
     entries_.splice(entries_.begin(), entries_, found);
     return found->evaluation;
   }
-  entries_.push_front({key, nullptr});
+  entries_.push_front({.key = key});
   trim();
   ++pending_;
   entries_.front().job = runner_.start<EvaluationPtr>(
@@ -57,8 +60,10 @@ EvaluationPtr EvaluationCache::find_or_begin(const EvaluationKey& key, const Est
 
 void EvaluationCache::finish(const EvaluationKey& key, Outcome<EvaluationPtr> outcome) {
   --pending_;
-  const auto found = find(key);
-  if (found != entries_.end() && outcome.value) found->evaluation = std::move(*outcome.value);
+  if (const auto found = find(key); found != entries_.end()) {
+    found->is_under_way = false;
+    if (outcome.value) found->evaluation = std::move(*outcome.value);
+  }
   on_evaluated_();
 }
 
@@ -71,7 +76,15 @@ void EvaluationCache::forget(int estimate) {
 }
 
 void EvaluationCache::trim() {
-  while (entries_.size() > kKept) entries_.pop_back();
+  const auto count_of = [&](int estimate) {
+    return std::ranges::count(entries_, estimate,
+                              [](const Entry& entry) { return entry.key.estimate; });
+  };
+  for (auto end = entries_.end(); entries_.size() > kKept && end != entries_.begin();) {
+    const auto oldest = std::prev(end);
+    const bool stays = oldest->is_under_way || count_of(oldest->key.estimate) <= kKeptOfEach;
+    end = stays ? oldest : entries_.erase(oldest);
+  }
 }
 
 }  // namespace episcope

@@ -19,8 +19,8 @@ struct EvaluationKey {
   friend bool operator==(const EvaluationKey&, const EvaluationKey&) = default;
 };
 
-/// Judges estimates in the background and keeps the newest evaluations. For the owner's thread
-/// only.
+/// Judges estimates in the background and keeps the newest evaluations, a few of each estimate in
+/// any case. For the owner's thread only.
 class EvaluationCache {
  public:
   /// `on_evaluated` is called on the owner's thread when an evaluation that was begun is there
@@ -41,7 +41,8 @@ class EvaluationCache {
  private:
   struct Entry {
     EvaluationKey key;
-    EvaluationPtr evaluation;  ///< Null: under way or failed.
+    EvaluationPtr evaluation{};  ///< Null: under way or failed.
+    bool is_under_way = true;
     JobId job = 0;
   };
   [[nodiscard]] std::list<Entry>::iterator find(const EvaluationKey& key);

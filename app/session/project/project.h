@@ -18,8 +18,9 @@ struct ProjectResult {
   Interval display_range{};    ///< EstimateEntry::display_range.
   bool is_shown = false;
   bool is_compared = false;
-  std::string note{};  ///< EstimateEntry::note.
-  int id = 0;          ///< EstimateEntry::id. Not part of a project file, as what follows.
+  std::string note{};      ///< EstimateEntry::note.
+  int id = 0;              ///< EstimateEntry::id. Not part of a project file, as what follows.
+  bool is_unread = false;  ///< In OpenScene::unread.
   /// In memory; null if it is in its file only.
   EstimatePtr estimate{};
 };
@@ -35,7 +36,9 @@ struct ProjectScene {
   std::uint64_t id = 0;
   std::vector<ProjectResult> results;
   std::filesystem::path strokes;  ///< Journal of what was painted; empty = nothing was.
-  KeptLabels labels{};            ///< In memory only while the program runs.
+  /// OpenScene::unread_strokes, whatever is painted now. Not part of a project file.
+  std::filesystem::path unread_strokes{};
+  KeptLabels labels{};  ///< In memory only while the program runs.
 };
 
 /// What a project file holds.

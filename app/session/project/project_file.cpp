@@ -299,7 +299,8 @@ void write_project(const fs::path& path, const Project& project) {
     json["scenes"].push_back(scene_json(each, fs::absolute(path)));
   }
   if (!project.sweeps.empty()) json["sweeps"] = sweeps_json(project);
-  const std::string text = json.dump(1) + '\n';
+  // Names of other systems may be no UTF-8.
+  const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
   io::write_atomically(path, text);
 }
 

@@ -4,6 +4,15 @@
 namespace episcope {
 namespace {
 
+ProjectResult result_of(const EstimateEntry& entry) {
+  return {.name = entry.name,
+          .file = entry.kept,
+          .display_range = entry.display_range,
+          .note = entry.note,
+          .id = entry.id,
+          .estimate = entry.estimate};
+}
+
 ProjectScene project_scene_of(const OpenScene& open) {
   ProjectScene scene{.name = open.name,
                      .input = open.input,
@@ -12,17 +21,19 @@ ProjectScene project_scene_of(const OpenScene& open) {
                      .place = open.place,
                      .id = open.id,
                      .results = {},
-                     .strokes = {},
+                     .strokes = open.unread_strokes,
+                     .unread_strokes = open.unread_strokes,
                      .labels = open.labels};
   for (const EstimateEntry& entry : open.estimates) {
-    scene.results.push_back({.name = entry.name,
-                             .file = entry.kept,
-                             .display_range = entry.display_range,
-                             .is_shown = entry.id == open.shown,
-                             .is_compared = entry.id == open.compared && open.is_compared_chosen,
-                             .note = entry.note,
-                             .id = entry.id,
-                             .estimate = entry.estimate});
+    ProjectResult result = result_of(entry);
+    result.is_shown = entry.id == open.shown;
+    result.is_compared = entry.id == open.compared && open.is_compared_chosen;
+    scene.results.push_back(std::move(result));
+  }
+  for (const EstimateEntry& entry : open.unread) {
+    if (entry.kept.empty()) continue;
+    scene.results.push_back(result_of(entry));
+    scene.results.back().is_unread = true;
   }
   return scene;
 }

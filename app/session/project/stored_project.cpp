@@ -43,6 +43,7 @@ std::set<fs::path> files_in(const Project& project, const fs::path& folder) {
   };
   for (const ProjectScene& scene : project.scenes) {
     add(scene.strokes);
+    add(scene.unread_strokes);
     add(scene.labels.file);
     for (const ProjectResult& result : scene.results) add(result.file);
   }
@@ -58,20 +59,36 @@ std::set<fs::path> files_of_former(const fs::path& path, const fs::path& folder)
   return {};
 }
 
+fs::path copied_into(const fs::path& folder, const std::string& stem, const fs::path& file) {
+  const fs::path target = unused_file(folder, file_name_of(stem), file.extension());
+  copy_to(file, target);
+  return target;
+}
+
+// Of what could not be read, another folder may be unable to have even a copy.
+fs::path copied_unread(const fs::path& folder, const fs::path& file) {
+  if (file.empty() || file.parent_path() == folder) return file;
+  try {
+    return copied_into(folder, file.stem(), file);
+  } catch (const IoError&) {
+    return {};
+  }
+}
+
 void store_results(ProjectScene& scene, const fs::path& folder, const Progress& progress) {
   for (ProjectResult& result : scene.results) {
+    const std::string stem = scene.name + "_" + result.name;
     if (!is_in_file(result)) result.file.clear();
-    if (result.file.parent_path() == folder) continue;
-    if (result.file.empty()) {
+    if (result.is_unread) {
+      result.file = copied_unread(folder, result.file);
+    } else if (result.file.empty()) {
       result.file = store_result(folder, scene.name, result, scene.input, progress);
-    } else {
-      const std::string stem = file_name_of(scene.name + "_" + result.name);
-      const fs::path target = unused_file(folder, stem, ".h5");
-      copy_to(result.file, target);
-      result.file = target;
+    } else if (result.file.parent_path() != folder) {
+      result.file = copied_into(folder, stem, result.file);
     }
     progress.check();
   }
+  std::erase_if(scene.results, [](const ProjectResult& each) { return each.file.empty(); });
 }
 
 void store_scene_labels(ProjectScene& scene, const fs::path& folder, const Progress& progress) {
@@ -81,14 +98,15 @@ void store_scene_labels(ProjectScene& scene, const fs::path& folder, const Progr
     labels.file = store_labels(folder, scene, progress);
     return;
   }
-  const fs::path target = unused_file(folder, file_name_of(scene.name + "_labels"), ".h5");
-  copy_to(labels.file, target);
-  labels.file = target;
+  labels.file = copied_into(folder, scene.name + "_labels", labels.file);
 }
 
 // What was painted may have gone on since it was stored last: always a new file.
 void store_strokes(ProjectScene& scene, const fs::path& folder) {
-  if (scene.strokes.empty()) return;
+  const bool is_unread = scene.strokes == scene.unread_strokes;
+  scene.unread_strokes = copied_unread(folder, scene.unread_strokes);
+  if (is_unread) scene.strokes = scene.unread_strokes;
+  if (is_unread || scene.strokes.empty()) return;
   const fs::path target = unused_file(folder, file_name_of(scene.name), kStrokes);
   copy_to(scene.strokes, target);
   scene.strokes = target;

@@ -22,6 +22,11 @@ namespace episcope {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
+/// A byte that goes on with a character of UTF-8, as all but the first of it do.
+[[nodiscard]] inline bool continues_character(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
 /// The place behind the digits that begin at `at`; `at` itself if there are none.
 [[nodiscard]] inline std::size_t end_of_digits(std::string_view text, std::size_t at) {
   while (at < text.size() && is_digit(text[at])) ++at;

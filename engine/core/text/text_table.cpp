@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/text/text_table.h"
 
+#include "engine/core/text/character.h"
 #include "engine/core/text/join.h"
 
 #include <fmt/format.h>
@@ -45,9 +46,7 @@ std::string latex_cell(const std::string& text) {
 }  // namespace
 
 std::size_t character_count(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
+  return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, continues_character));
 }
 
 std::string fixed_text(double value, int digits) {

@@ -111,10 +111,7 @@ class Wildcards final : public NameMatcher {
       case Part::Kind::Character: {
         if (at == name.size()) return false;
         std::size_t end = at + 1;
-        const auto continues_character = [&] {
-          return (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U;  // of UTF-8
-        };
-        while (end < name.size() && continues_character()) ++end;
+        while (end < name.size() && continues_character(name[end])) ++end;
         return matches(search, part + 1, end);
       }
       case Part::Kind::Anything:

@@ -16,6 +16,7 @@
 #include "widgets/controls/message_bar.h"
 
 #include <QAction>
+#include <QFile>
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QProcess>
@@ -70,6 +71,7 @@ class RecoveryTest : public QObject {
  private slots:
   void killedWindow_losesAtMostTheStrokeInProgress();
   void discardedJournal_isGone();
+  void journalThatCannotBeKeptAnew_stays();
   void whatWasPaintedAtAFocusPlane_comesBackThere();
   void whatWasPaintedMeanwhile_isNotLost();
   void whatWasSavedElsewhere_isSavedThereAgain();
@@ -118,6 +120,25 @@ void RecoveryTest::discardedJournal_isGone() {
   QVERIFY(!f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
   QVERIFY(left_journals(f.window.bench().document.journalFolder()).empty());
   QVERIFY(!f.window.isWindowModified());
+}
+
+void RecoveryTest::journalThatCannotBeKeptAnew_stays() {
+  WindowFixture f;
+  f.openSmall();
+  (void)paint_and_kill(f, QString::fromStdString(f.window.bench().session.input()));
+  f.window.bench().frame.start();
+  QTRY_VERIFY(f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
+  const std::filesystem::path folder = f.window.bench().document.journalFolder();
+  QCOMPARE(left_journals(folder).size(), 1U);
+  QFile file(f.path("file"));
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  f.window.bench().document.setJournalFolder(f.path("file/no folder").toStdString());
+
+  button(f, "message.action")->click();
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), kPatience);
+  QCOMPARE(left_journals(folder).size(), 1U);
+  f.window.bench().document.discardChanges();
 }
 
 void RecoveryTest::whatWasPaintedAtAFocusPlane_comesBackThere() {

@@ -13,6 +13,7 @@
 
 #include <QAction>
 #include <QClipboard>
+#include <QTimer>
 #include <QToolButton>
 
 #include <cmath>
@@ -64,6 +65,7 @@ class FocusTest : public QObject {
   void appliedFocus_movesTruthAndResults();
   void appliedFocus_keepsThePlace();
   void appliedFocus_keepsNames();
+  void appliedFocus_keepsResults_whateverIsOpened();
   void appliedFocus_keepsWhatWasDoneOnTheScene();
   void appliedFocus_keepsPairs();
   void appliedFocus_keepsTheComparison();
@@ -123,6 +125,26 @@ void FocusTest::appliedFocus_keepsNames() {
   f.waitFor(kFocus);
 
   QCOMPARE(f.session().estimates().front().name, std::string("the first"));
+}
+
+// While they are moved: to cancel, or to go to another light field, loses nothing.
+void FocusTest::appliedFocus_keepsResults_whateverIsOpened() {
+  Focused f;
+  f.session().rename_estimate(f.session().estimates().front().id, "mine");
+  f.session().on_changed([&f, done = false](Parts parts) mutable {
+    if (done || !parts.has(Part::Scene) || !f.session().scene() || f.baked() != kFocus) return;
+    done = true;
+    QTimer::singleShot(0, &f.window, [&f] {
+      f.window.bench().jobs.cancelLane(Lane::Load);
+      f.session().add(f.session().scene(), "another");
+    });
+  });
+
+  f.clickApply();
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().scenes().size(), 2U, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().scenes()[0]->estimates.size(), 1U, kPatience);
+  QCOMPARE(f.session().scenes()[0]->estimates.front().name, std::string("mine"));
 }
 
 void FocusTest::appliedFocus_keepsWhatWasDoneOnTheScene() {

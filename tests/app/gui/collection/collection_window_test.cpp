@@ -160,6 +160,10 @@ void CollectionWindowTest::steppingThrough_keepsOpenWhatWasWorkedOn() {
 
   QCOMPARE(open_count(), 2U);
   QCOMPARE(f.window.bench().session.scenes()[0]->estimates.size(), 1U);
+
+  f.window.bench().session.set_measurements({.list = {{.name = "line 1"}}});
+  go_to("c");
+  QCOMPARE(open_count(), 3U);
 }
 
 void CollectionWindowTest::filterAndOrder_chooseRows() {

@@ -200,7 +200,8 @@ class JournalTest : public QObject {
       dead.add_label("lost");
       path_of_dead = of_dead.path();
     }
-    write(folder() / "rubbish.journal", {1, 2, 3}, 3);
+    write(folder() / "later.journal", {1, 2, 3}, 3);  // of a later program, perhaps
+    write(folder() / "empty.journal", {}, 0);
 
     const auto left = left_journals(folder());
 
@@ -211,6 +212,8 @@ class JournalTest : public QObject {
     discard_journal(left[0].path);
     QVERIFY(left_journals(folder()).empty());
     QVERIFY(std::filesystem::exists(held.path()));
+    QVERIFY(std::filesystem::exists(folder() / "later.journal"));
+    QVERIFY(!std::filesystem::exists(folder() / "empty.journal"));
     QVERIFY(left_journals(folder() / "none").empty());
   }
 
