@@ -124,12 +124,13 @@ void MainWindow::start(const QString& input) {
 void MainWindow::addTabCommands() {
   int number = 0;
   for (const Tab& tab : core_->frame->tabs()) {
+    const QKeySequence key = tab.key ? *tab.key : QKeySequence(tr("Ctrl+%1").arg(++number));
     core_->commands.add({.id = "tab." + tab.id,
                          .menu = Menu::Tabs,
                          .text = tab.command_text,
                          .tip = tab.command_tip,
                          .icon = tab.icon,
-                         .keys = {tab.key.isEmpty() ? tr("Ctrl+%1").arg(++number) : tab.key},
+                         .keys = key.isEmpty() ? QList<QKeySequence>() : QList{key},
                          .run = [frame = core_->frame, id = tab.id] { frame->showTab(id); }});
   }
 }

@@ -1718,6 +1718,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Führt das Verfahren mit mehreren Werten eines oder zweier Parameter aus</translation>
     </message>
     <message>
+        <source>Ctrl+Shift+F5</source>
+        <translation>Ctrl+Shift+F5</translation>
+    </message>
+    <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
     </message>
@@ -6851,10 +6855,6 @@ s</translation>
     <message>
         <source>Tries values of one or two parameters of the method</source>
         <translation>Probiert Werte eines oder zweier Parameter des Verfahrens aus</translation>
-    </message>
-    <message>
-        <source>Ctrl+Shift+F5</source>
-        <translation>Ctrl+Shift+F5</translation>
     </message>
     <message>
         <source>%1, other values as in the Estimate tab</source>

@@ -60,7 +60,7 @@ void SweepController::addTab() {
                        .command_tip = tr("Tries values of one or two parameters of the method"),
                        .widget = panel_,
                        .waits = true,
-                       .key = tr("Ctrl+Shift+F5")});
+                       .key = QKeySequence()});  // that of “Sweep parameters…”
 }
 
 void SweepController::connectPanel() {
