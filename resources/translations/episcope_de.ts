@@ -3790,6 +3790,10 @@ s</translation>
         <translation>%1 von %2</translation>
     </message>
     <message>
+        <source> · the ground truth has no error</source>
+        <translation> · die Referenz hat keinen Fehler</translation>
+    </message>
+    <message>
         <source>view (v %1, u %2)</source>
         <translation>Ansicht (v %1, u %2)</translation>
     </message>
