@@ -2206,6 +2206,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>, Gleitkomma</translation>
     </message>
     <message>
+        <source>, linear</source>
+        <translation>, linear</translation>
+    </message>
+    <message>
+        <source>, gamma-encoded</source>
+        <translation>, gammakodiert</translation>
+    </message>
+    <message>
         <source>, on disk</source>
         <translation>, auf der Platte</translation>
     </message>
