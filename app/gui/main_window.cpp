@@ -48,6 +48,7 @@ struct MainWindow::Core {
       : session(queued_post(&window)),
         frame(new Frame(&window)),
         messages(*frame),
+        job_cancel(session, jobs, messages, nullptr),
         stage(new Stage(frame)),
         commands(&window, frame->viewer()),
         keyboard(window, [this] { return stage->keyboardHome(); }),
@@ -58,8 +59,8 @@ struct MainWindow::Core {
         opener(session, jobs, *stage, guards, scenes, nullptr),
         results(session, jobs, messages, nullptr),
         features(&window),
-        bench{window, features, session, jobs,     messages, commands, cancels, guards,
-              *frame, *stage,   overlay, document, labels,   scenes,   opener,  results} {}
+        bench{window, features, session, jobs,     messages, job_cancel, commands, cancels, guards,
+              *frame, *stage,   overlay, document, labels,   scenes,     opener,   results} {}
 
   Session session;
   Cancels cancels;
@@ -67,6 +68,7 @@ struct MainWindow::Core {
   Jobs jobs;
   Frame* frame;
   Messages messages;
+  JobCancel job_cancel;
   Stage* stage;
   Commands commands;
   KeyboardHome keyboard;
@@ -87,11 +89,11 @@ MainWindow::MainWindow(QWidget* parent)
   keep_painting_threads();
   setCentralWidget(&bench.frame);
   bench.frame.setStage(&bench.stage);
-  show_jobs(bench.jobs, bench.frame, bench.messages);
+  show_jobs(bench.jobs, bench.job_cancel, bench.frame, bench.messages);
   connect(&bench.document, &DocumentController::problem, &bench.messages, &Messages::warn);
   connect(&bench.opener, &SceneOpener::failureIsOver, &bench.messages, &Messages::retract);
-  auto* job_cancel = new JobCancel(bench.session, bench.jobs, bench.messages, this);
-  bench.cancels.add(CancelRank::Job, [job_cancel] { return job_cancel->cancel(); });
+  bench.cancels.add(CancelRank::Job,
+                    [&cancel = bench.job_cancel] { return cancel.cancelNewest(); });
   bench.cancels.add(CancelRank::Message, [&messages = bench.messages] {
     messages.dismiss();
     return true;
@@ -122,12 +124,13 @@ void MainWindow::start(const QString& input) {
 void MainWindow::addTabCommands() {
   int number = 0;
   for (const Tab& tab : core_->frame->tabs()) {
+    const QKeySequence key = tab.key ? *tab.key : QKeySequence(tr("Ctrl+%1").arg(++number));
     core_->commands.add({.id = "tab." + tab.id,
                          .menu = Menu::Tabs,
                          .text = tab.command_text,
                          .tip = tab.command_tip,
                          .icon = tab.icon,
-                         .keys = {tab.key.isEmpty() ? tr("Ctrl+%1").arg(++number) : tab.key},
+                         .keys = key.isEmpty() ? QList<QKeySequence>() : QList{key},
                          .run = [frame = core_->frame, id = tab.id] { frame->showTab(id); }});
   }
 }

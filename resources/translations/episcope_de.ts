@@ -1718,6 +1718,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Führt das Verfahren mit mehreren Werten eines oder zweier Parameter aus</translation>
     </message>
     <message>
+        <source>Ctrl+Shift+F5</source>
+        <translation>Ctrl+Shift+F5</translation>
+    </message>
+    <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
     </message>
@@ -2200,6 +2204,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>, float</source>
         <translation>, Gleitkomma</translation>
+    </message>
+    <message>
+        <source>, linear</source>
+        <translation>, linear</translation>
+    </message>
+    <message>
+        <source>, gamma-encoded</source>
+        <translation>, gammakodiert</translation>
     </message>
     <message>
         <source>, on disk</source>
@@ -3784,6 +3796,10 @@ s</translation>
     <message>
         <source>%1 of %2</source>
         <translation>%1 von %2</translation>
+    </message>
+    <message>
+        <source> · the ground truth has no error</source>
+        <translation> · die Referenz hat keinen Fehler</translation>
     </message>
     <message>
         <source>view (v %1, u %2)</source>
@@ -6851,10 +6867,6 @@ s</translation>
     <message>
         <source>Tries values of one or two parameters of the method</source>
         <translation>Probiert Werte eines oder zweier Parameter des Verfahrens aus</translation>
-    </message>
-    <message>
-        <source>Ctrl+Shift+F5</source>
-        <translation>Ctrl+Shift+F5</translation>
     </message>
     <message>
         <source>%1, other values as in the Estimate tab</source>

@@ -132,6 +132,10 @@ void InfoPanel::rebuild() {
     key->setPalette(theme::text_palette(theme::muted_text(palette())));
     auto* value = make_value(row.value, body);
     if (!row.id.isEmpty()) value->setObjectName("info." + row.id);
+    if (!row.tip.isEmpty()) {
+      value->setToolTip(row.tip);
+      value->setAccessibleDescription(row.tip);
+    }
     grid->addWidget(key, line, 0);
     grid->addWidget(value, line++, 1);
     if (!row.check.isEmpty()) grid->addWidget(make_check(row.check, body), line++, 1);

@@ -21,6 +21,7 @@ struct InfoRow {
   QString check;  ///< "checked against truth: …", drawn quietly below the value; may be empty.
   QString id{};   ///< "order": the value is the object "info.order"; may be empty.
   QAction* action = nullptr;  ///< A command that changes it, as a link below; may be null.
+  QString tip{};              ///< What the value says in short; may be empty.
   friend bool operator==(const InfoRow&, const InfoRow&) = default;
 };
 

@@ -10,6 +10,12 @@ namespace episcope {
 
 namespace {
 
+constexpr double kGap = 4;  // of a plate to the edges of the canvas
+
+double plate_height(const QFontMetricsF& metrics) {
+  return metrics.height() + 4;
+}
+
 bool ends_in_a_number(const QString& part) {
   static const QRegularExpression number("\\d\\.\\d+$");
   return number.match(part).hasMatch();
@@ -34,13 +40,16 @@ QString fitted_caption(const QString& text, const QFontMetricsF& metrics, double
   return parts.join(separator);
 }
 
+double caption_depth(const QFontMetricsF& metrics) {
+  return kGap + plate_height(metrics);
+}
+
 QRectF draw_plate(QPainter& painter, const QRectF& canvas, Qt::Alignment corner,
                   const QString& text, const QColor& color, Side side) {
   if (text.isEmpty()) return {};
-  constexpr double kGap = 4;
   constexpr double kPadding = 5;
   const QFontMetricsF metrics(painter.font());
-  const double height = metrics.height() + 4;
+  const double height = plate_height(metrics);
   const double badge = side == Side::None ? 0 : height;
   const QRectF inside = canvas.adjusted(kGap, kGap, -kGap, -kGap);
   const QString fitting = fitted_caption(text, metrics, inside.width() - badge - 2 * kPadding + 1);

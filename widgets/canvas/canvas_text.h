@@ -16,6 +16,9 @@ namespace episcope {
 [[nodiscard]] QString fitted_caption(const QString& text, const QFontMetricsF& metrics,
                                      double room);
 
+/// How far a caption at the top of a canvas reaches down in it.
+[[nodiscard]] double caption_depth(const QFontMetricsF& metrics);
+
 /// Text on a translucent dark plate in a corner of a canvas, legible on any picture. Gives the
 /// plate back; draws nothing for an empty text. The badge of a side stands before the text; the
 /// text is fitted to the canvas.

@@ -5,6 +5,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -39,11 +40,14 @@ MoviePanel::MoviePanel(QWidget* parent)
   overlay_->setObjectName("movie.overlay");
   overlay_->setChecked(true);
   form->addRow(QString(), overlay_);
-  auto* save = new QPushButton(tr("Save…"), this);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+  buttons->button(QDialogButtonBox::Cancel)->setObjectName("movie.cancel");
+  QPushButton* save = buttons->addButton(tr("Save…"), QDialogButtonBox::AcceptRole);
   save->setObjectName("movie.save");
   save->setDefault(true);
-  form->addRow(QString(), save);
-  connect(save, &QPushButton::clicked, this, &MoviePanel::saveRequested);
+  form->addRow(buttons);
+  connect(buttons, &QDialogButtonBox::accepted, this, &MoviePanel::saveRequested);
+  connect(buttons, &QDialogButtonBox::rejected, this, &MoviePanel::cancelRequested);
   connect(kind_, &QComboBox::currentIndexChanged, this, &MoviePanel::adapt);
   adapt();
 }

@@ -35,6 +35,7 @@ class MoviePanel : public QWidget {
 
  signals:
   void saveRequested();
+  void cancelRequested();
 
  private:
   void addKinds(QFormLayout& form);

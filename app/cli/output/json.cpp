@@ -4,6 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <iostream>
 
 namespace episcope::cli {
@@ -28,6 +31,19 @@ struct Writer {
     return value;
   }
 };
+
+// Of a single, the shortest text that reads back as the same; of a double, without what rounding
+// left of sums.
+double without_excess_digits(double value) {
+  constexpr double kRounding = 1e-12;
+  const auto single = static_cast<float>(value);
+  std::array<char, 32> text{};
+  const char* end = std::to_chars(text.data(), text.data() + text.size(), single).ptr;
+  double shortest = value;
+  std::from_chars(text.data(), end, shortest);
+  const bool is_same = single == value || std::abs(shortest - value) < kRounding;
+  return is_same ? shortest : value;
+}
 
 }  // namespace
 
@@ -59,7 +75,7 @@ Json value_json(const ParameterValue& value) {
 }
 
 Json interval_json(const Interval& interval) {
-  return Json::array({interval.min, interval.max});
+  return Json::array({without_excess_digits(interval.min), without_excess_digits(interval.max)});
 }
 
 Json view_json(ViewIndex view) {

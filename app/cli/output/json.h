@@ -49,6 +49,8 @@ class Json {
 
 /// "auto" or "found" for an interval that is not set, else [A, B].
 [[nodiscard]] Json value_json(const ParameterValue& value);
+/// Without digits that say nothing: ends of single precision in the shortest text that reads back
+/// as the same.
 [[nodiscard]] Json interval_json(const Interval& interval);
 [[nodiscard]] Json view_json(ViewIndex view);
 /// Values by key, for people: what is not set is a word, where files have null

@@ -10,6 +10,7 @@ class Cancels;
 class Commands;
 class DocumentController;
 class Frame;
+class JobCancel;
 class Jobs;
 class LabelChoice;
 class LeaveGuards;
@@ -29,6 +30,7 @@ struct Workbench {
   Session& session;
   Jobs& jobs;
   Messages& messages;
+  JobCancel& job_cancel;
   Commands& commands;
   Cancels& cancels;
   LeaveGuards& guards;

@@ -31,7 +31,9 @@ QString type_text(const LightField& light_field) {
 }
 
 QString sample_text(const LightField& light_field) {
-  const QString type = type_text(light_field);
+  const bool is_linear = light_field.sample_type() == SampleType::Float32;
+  const QString type =
+      type_text(light_field) + (is_linear ? Text::tr(", linear") : Text::tr(", gamma-encoded"));
   return light_field.is_on_disk() ? type + Text::tr(", on disk") : type;
 }
 
@@ -137,8 +139,10 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
                            .arg(light_field.height())
                            .arg(megabytes(light_field.byte_size())),
                        {}});
-  info.rows.push_back(
-      {Text::tr("Samples"), sample_text(light_field), schema_text(samples_text(scene))});
+  info.rows.push_back({.key = Text::tr("Samples"),
+                       .value = sample_text(light_field),
+                       .id = "samples",
+                       .tip = schema_text(samples_text(scene))});
   if (!light_field.valid().empty()) {
     info.rows.push_back(
         {Text::tr("Valid"),

@@ -191,7 +191,7 @@ void CompareController::showMode() {
 void CompareController::showWipe() {
   const MapChoice other = overlay_.choiceB();
   if (auto picture = overlay_.pictureOf(other)) wipe_picture_ = *std::move(picture);
-  canvas_->setWipe(wipe_position_, wipe_picture_, overlay_.describe(other));
+  canvas_->setWipe(wipe_position_, wipe_picture_, overlay_.describeB());
 }
 
 TileRequest CompareController::request(const std::optional<MapChoice>& choice) const {
@@ -207,8 +207,13 @@ std::vector<CompareController::Entry> CompareController::sides() const {
   std::vector<Entry> entries;
   for (const Side side : {Side::A, Side::B}) {
     const MapChoice choice = side == Side::A ? overlay_.choiceA() : overlay_.choiceB();
-    entries.push_back(
-        {static_cast<quint64>(side), overlay_.describe(choice), side, request(choice), {}});
+    const QString caption = side == Side::A ? overlay_.describe(choice) : overlay_.describeB();
+    entries.push_back({static_cast<quint64>(side),
+                       caption,
+                       side,
+                       request(choice),
+                       {},
+                       choice.quantity == Quantity::View});
   }
   return entries;
 }
@@ -222,7 +227,8 @@ QString CompareController::captionOf(const EstimateEntry& entry) const {
 }
 
 std::vector<CompareController::Entry> CompareController::everything() const {
-  std::vector<Entry> entries = {{kViewTile, tr("view"), Side::None, request(std::nullopt), {}}};
+  std::vector<Entry> entries = {
+      {kViewTile, tr("view"), Side::None, request(std::nullopt), {}, true}};
   if (session_.has_truth(session_.view())) {
     entries.push_back({kTruthTile,
                        tr("ground truth"),
@@ -285,7 +291,7 @@ void CompareController::fillWall() {
     Tile tile{entry.id, entry.caption, entry.side, entry.picture.picture, {}};
     if (const auto map = entry.picture.map) {
       tile.pixel_text = [map](int y, int x) { return value_text(*map, y, x); };
-    } else if (!entry.request.source && entry.id == kViewTile) {
+    } else if (entry.is_view) {
       tile.pixel_text = [request = entry.request](int y, int x) {
         return sample_texts(*request.light_field, request.view, {y, x});
       };

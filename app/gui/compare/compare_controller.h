@@ -43,6 +43,7 @@ class CompareController : public QObject {
     Side side;
     TileRequest request;
     TilePicture picture;
+    bool is_view = false;  ///< And no map.
   };
 
   void showComparison(CompareMode mode);

@@ -89,6 +89,7 @@ MovieExport::MovieExport(const Workbench& bench)
   layout->addWidget(panel_);
   layout->setSizeConstraint(QLayout::SetFixedSize);
   connect(panel_, &MoviePanel::saveRequested, this, &MovieExport::ask);
+  connect(panel_, &MoviePanel::cancelRequested, dialog_, &QDialog::reject);
   bench.commands.add({.id = "file.save_movie",
                       .menu = Menu::File,
                       .text = tr("Save movie…"),

@@ -39,6 +39,7 @@ void EstimateController::addCommands() {
                        .menu = Menu::Estimate,
                        .text = tr("Sweep parameters…"),
                        .tip = tr("Runs the method with several values of one or two parameters"),
+                       .keys = {tr("Ctrl+Shift+F5")},
                        .run = [this] { bench_.frame.showTab("sweep"); },
                        .section = kRun});
   QAction* cancel = bench_.commands.add({.id = "estimate.cancel",

@@ -7,7 +7,7 @@
 #include "app/gui/estimate/sweep_controller.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/frame.h"
-#include "app/gui/frame/jobs.h"
+#include "app/gui/frame/job_cancel.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/session/run/command_line.h"
@@ -169,7 +169,7 @@ void EstimateController::showRunning() {
 }
 
 void EstimateController::cancel() {
-  runs_.cancel(session_.generation());
+  bench_.job_cancel.cancel(runs_.jobsOn(session_.generation()));
 }
 
 void EstimateController::removeShown() {

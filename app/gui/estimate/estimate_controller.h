@@ -26,7 +26,7 @@ class EstimateController : public QObject {
   /// Runs what the form says; parameters are copied now.
   void run();
   void run(const EstimateRequest& request);
-  /// Cancels all runs on the light field that is shown.
+  /// Cancels all runs on the light field that is shown, as JobCancel does.
   void cancel();
   void removeShown();
   /// Brings back the result that was removed last.

@@ -75,10 +75,12 @@ bool MethodRuns::isRunning(std::uint64_t scene) const {
   return std::ranges::any_of(runs_, [scene](const auto& run) { return run.second == scene; });
 }
 
-void MethodRuns::cancel(std::uint64_t scene) {
+std::vector<quint64> MethodRuns::jobsOn(std::uint64_t scene) const {
+  std::vector<quint64> jobs;
   for (const auto& [job, of] : runs_) {
-    if (of == scene) bench_.jobs.cancel(job);
+    if (of == scene) jobs.push_back(job);
   }
+  return jobs;
 }
 
 void MethodRuns::cancelClosed() {

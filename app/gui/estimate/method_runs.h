@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <map>
+#include <vector>
 
 namespace episcope {
 
@@ -30,8 +31,8 @@ class MethodRuns : public QObject {
   void run(const EstimateRequest& request, const OpenScene& scene);
   /// Whether a method runs, or waits, on the open scene of this id.
   [[nodiscard]] bool isRunning(std::uint64_t scene) const;
-  /// Ends all runs on it.
-  void cancel(std::uint64_t scene);
+  /// Of all runs on it.
+  [[nodiscard]] std::vector<quint64> jobsOn(std::uint64_t scene) const;
 
  signals:
   /// A run began or ended.

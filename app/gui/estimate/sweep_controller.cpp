@@ -5,6 +5,7 @@
 #include "app/gui/estimate/sweep_runs.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/frame.h"
+#include "app/gui/frame/job_cancel.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/frame/text_file.h"
@@ -59,7 +60,7 @@ void SweepController::addTab() {
                        .command_tip = tr("Tries values of one or two parameters of the method"),
                        .widget = panel_,
                        .waits = true,
-                       .key = tr("Ctrl+Shift+F5")});
+                       .key = QKeySequence()});  // that of “Sweep parameters…”
 }
 
 void SweepController::connectPanel() {
@@ -68,7 +69,8 @@ void SweepController::connectPanel() {
   connect(&bench_.frame, &Frame::tabShown, this, &SweepController::showMethod);
   connect(panel_, &SweepPanel::planEdited, this, &SweepController::showPlan);
   connect(panel_, &SweepPanel::runRequested, this, &SweepController::run);
-  connect(panel_, &SweepPanel::cancelRequested, runs_, &SweepRuns::cancel);
+  connect(panel_, &SweepPanel::cancelRequested, this,
+          [this] { bench_.job_cancel.cancel({runs_->job()}); });
   connect(runs_, &SweepRuns::ended, this, &SweepController::end);
   connect(panel_, &SweepPanel::sweepChosen, this, &SweepController::showSweep);
   connect(panel_, &SweepPanel::removeRequested, this,

@@ -79,7 +79,7 @@ bool run_all(const Work& work, const Progress& progress) {
 
 SweepRuns::SweepRuns(const Workbench& bench) : QObject(&bench.owner), bench_(bench) {
   bench.scenes.sweeps().on_changed([this] {
-    if (isRunning() && !bench_.scenes.sweeps().find(sweep_)) cancel();
+    if (isRunning() && !bench_.scenes.sweeps().find(sweep_)) bench_.jobs.cancel(job_);
   });
 }
 
@@ -114,10 +114,6 @@ std::uint64_t SweepRuns::run(Sweep sweep, const std::vector<ParameterSet>& point
       });
   bench_.jobs.setScene(job_, only);
   return id;
-}
-
-void SweepRuns::cancel() {
-  bench_.jobs.cancel(job_);
 }
 
 }  // namespace episcope

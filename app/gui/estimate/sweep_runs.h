@@ -22,8 +22,9 @@ class SweepRuns : public QObject {
   /// Begins a sweep at these points (`sweep_points`). Returns its id. Precondition: none runs, and
   /// its scenes are open.
   std::uint64_t run(Sweep sweep, const std::vector<ParameterSet>& points);
-  void cancel();
   [[nodiscard]] bool isRunning() const { return job_ != 0; }
+  /// 0 if none runs.
+  [[nodiscard]] quint64 job() const { return job_; }
   /// Of the one that runs, or ran last.
   [[nodiscard]] std::uint64_t sweep() const { return sweep_; }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/frame/floating.h"
 
+#include "widgets/canvas/canvas_text.h"
 #include "widgets/style/theme.h"
 
 #include <QEvent>
+#include <QtMath>
 
 #include <algorithm>
 
@@ -57,7 +59,8 @@ bool Floating::eventFilter(QObject* watched, QEvent* event) {
 void Floating::place() {
   if (!area_) return;
   const int width = std::min(kWidest, area_->width() - 2 * theme::kMargin);
-  QPoint corner = area_->mapTo(&parent_, QPoint((area_->width() - width) / 2, theme::kMargin));
+  const int top = qCeil(caption_depth(QFontMetricsF(parent_.font()))) + theme::kSpacing;
+  QPoint corner = area_->mapTo(&parent_, QPoint((area_->width() - width) / 2, top));
   for (QWidget* widget : widgets_) {
     if (!widget || widget->isHidden()) continue;
     const int height = height_of(*widget, width);

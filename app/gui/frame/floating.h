@@ -9,8 +9,8 @@
 
 namespace episcope {
 
-/// Widgets that float at the top of an area, below each other, each as high as it needs to be:
-/// nothing moves when they come and go.
+/// Widgets that float at the top of an area, under the captions there and below each other, each as
+/// high as it needs to be: nothing moves when they come and go.
 class Floating : public QObject {
   Q_OBJECT
 

@@ -6,6 +6,7 @@
 #include <QWidget>
 
 #include <map>
+#include <optional>
 #include <vector>
 
 class QBoxLayout;
@@ -28,7 +29,8 @@ struct Tab {
   QWidget* widget = nullptr;
   QBoxLayout* room = nullptr;  ///< Where other features may add to it; may be null.
   bool waits = false;          ///< It is not among the tabs until it is asked for.
-  QKeySequence key{};          ///< Of its command; empty = Ctrl and its number among those without.
+  /// Of its command, empty = none; without it, Ctrl and its number among those without.
+  std::optional<QKeySequence> key{};
 };
 
 /// Lines under everything else, in their order.

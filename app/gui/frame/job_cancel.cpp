@@ -15,33 +15,49 @@ JobCancel::JobCancel(const Session& session, Jobs& jobs, Messages& messages, QOb
   });
 }
 
-bool JobCancel::cancel() {
+bool JobCancel::cancelNewest() {
   const auto job = jobs_.newest(session_.generation());
-  if (!job) return false;
-  if (job->seconds < worth_asking_s_) {
-    jobs_.cancel(job->id);
-  } else if (asked_ == job->id && messages_.isShown(question_)) {
-    end(job->id);
-  } else if (!job->is_cancelling) {
-    ask(*job);
+  if (job) cancel({job->id});
+  return job.has_value();
+}
+
+void JobCancel::cancel(const std::vector<quint64>& ids) {
+  const auto longest = longestOf(ids);
+  if (!longest) return;
+  if (longest->seconds < worth_asking_s_) {
+    for (const quint64 id : ids) jobs_.cancel(id);
+  } else if (asked_ == longest->id && messages_.isShown(question_)) {
+    end(ids, *longest);
+  } else {
+    ask(ids, *longest);
   }
-  return true;
 }
 
-void JobCancel::ask(const Jobs::Running& job) {
-  asked_ = job.id;
+// Of those that are not being cancelled.
+std::optional<Jobs::Running> JobCancel::longestOf(const std::vector<quint64>& ids) const {
+  std::optional<Jobs::Running> longest;
+  for (const quint64 id : ids) {
+    const auto job = jobs_.find(id);
+    if (!job || job->is_cancelling) continue;
+    if (!longest || job->seconds > longest->seconds) longest = job;
+  }
+  return longest;
+}
+
+void JobCancel::ask(const std::vector<quint64>& ids, const Jobs::Running& longest) {
+  asked_ = longest.id;
   question_ = tr("%1 is at %2 %. Cancel again to end it.")
-                  .arg(job.title)
-                  .arg(std::lround(100 * job.fraction));
-  messages_.offer(question_, tr("Cancel it"), [this, id = job.id] { end(id); });
+                  .arg(longest.title)
+                  .arg(std::lround(100 * longest.fraction));
+  messages_.offer(question_, tr("Cancel it"), [this, ids] {
+    if (const auto job = longestOf(ids)) end(ids, *job);
+  });
 }
 
-void JobCancel::end(quint64 id) {
-  const auto job = jobs_.find(id);
-  if (!job) return;
-  jobs_.cancel(id);
+void JobCancel::end(const std::vector<quint64>& ids, const Jobs::Running& longest) {
+  for (const quint64 id : ids) jobs_.cancel(id);
   messages_.hint(
-      tr("%1 was cancelled at %2 %.").arg(job->title).arg(std::lround(100 * job->fraction)));
+      tr("%1 was cancelled at %2 %.").arg(longest.title).arg(std::lround(100 * longest.fraction)));
 }
 
 }  // namespace episcope

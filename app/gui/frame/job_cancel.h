@@ -6,28 +6,34 @@
 #include <QObject>
 #include <QString>
 
+#include <optional>
+#include <vector>
+
 namespace episcope {
 
 class Messages;
 class Session;
 
-/// What the cancel key does to jobs: it ends the newest one of the light field that is shown, or of
-/// none. A job that took long already is asked for in a message, and ended if the key is pressed
-/// again while that is seen.
+/// How the user ends jobs, by the cancel key or by a button. One that took long already is asked
+/// for in a message, and ended if that is wanted again while the message is seen.
 class JobCancel : public QObject {
   Q_OBJECT
 
  public:
   JobCancel(const Session& session, Jobs& jobs, Messages& messages, QObject* parent);
 
-  /// Returns whether there was such a job.
-  bool cancel();
+  /// Ends the newest job of the light field that is shown, or of none. Returns whether there was
+  /// such a job.
+  bool cancelNewest();
+  /// Ends all of them, or asks for the one among them that has run longest.
+  void cancel(const std::vector<quint64>& ids);
   /// Jobs that ran for less time are ended at once: 10 s unless set.
   void setWorthAsking(double seconds) { worth_asking_s_ = seconds; }
 
  private:
-  void ask(const Jobs::Running& job);
-  void end(quint64 id);
+  [[nodiscard]] std::optional<Jobs::Running> longestOf(const std::vector<quint64>& ids) const;
+  void ask(const std::vector<quint64>& ids, const Jobs::Running& longest);
+  void end(const std::vector<quint64>& ids, const Jobs::Running& longest);
 
   const Session& session_;
   Jobs& jobs_;

@@ -4,10 +4,11 @@
 namespace episcope {
 
 class Frame;
+class JobCancel;
 class Jobs;
 class Messages;
 
 /// Shows the jobs under the tabs, with their buttons, and tells the user of those that failed.
-void show_jobs(Jobs& jobs, Frame& frame, Messages& messages);
+void show_jobs(Jobs& jobs, JobCancel& cancel, Frame& frame, Messages& messages);
 
 }  // namespace episcope

@@ -267,6 +267,16 @@ QString Overlay::describe(const MapChoice& choice) const {
   return tr("%1 of %2").arg(quantity_label(choice.quantity), name(entry));
 }
 
+bool Overlay::isTruthWithoutError(const MapChoice& choice) const {
+  return choice.quantity == Quantity::View && render::info_of(quantity_).subject == Subject::Error;
+}
+
+QString Overlay::describeB() const {
+  const MapChoice other = choiceB();
+  const QString name = describe(other);
+  return isTruthWithoutError(other) ? name + tr(" · the ground truth has no error") : name;
+}
+
 void Overlay::showScale(const MapChoice& choice) const {
   const bool has_scale = session_.scene() && render::info_of(choice.quantity).has_scale();
   ColorBar* scale = stage_.colorBar();
@@ -280,6 +290,7 @@ void Overlay::showCaption(const MapChoice& choice) const {
   const ViewIndex view = session_.view();
   QString caption = tr("view (v %1, u %2)").arg(view.v).arg(view.u);
   if (choice.quantity != Quantity::View) caption += tr(" · %1").arg(describe(choice));
+  if (isTruthWithoutError(choice)) caption += tr(" · the ground truth has no error");
   if (choice.quantity != Quantity::View && picture_.isNull() && is_up_to_date_) {
     caption += tr(" · no such map for this view");
   }

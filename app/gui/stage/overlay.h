@@ -51,6 +51,8 @@ class Overlay : public QObject {
   [[nodiscard]] MapChoice choiceB() const;
   /// "error of EPI_L", "truth"; "view" without an overlay.
   [[nodiscard]] QString describe(const MapChoice& choice) const;
+  /// The same of B; says so where B is the truth, which has no error to show.
+  [[nodiscard]] QString describeB() const;
   /// Colours as they are drawn now, edited ranges included.
   [[nodiscard]] render::Shading shadingOf(render::Quantity quantity) const;
   /// What the map of a choice in the current view is made from; nothing if there is none, or not
@@ -79,6 +81,7 @@ class Overlay : public QObject {
 
  private:
   void leaveWhatIsGone();
+  [[nodiscard]] bool isTruthWithoutError(const MapChoice& choice) const;
   [[nodiscard]] bool isAwaited(render::Quantity quantity) const;
   void connectStage();
   void update(Parts parts);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/main_window.h"
+
+#include "app/gui/frame/job_cancel.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/annotate/segment_panel.h"
@@ -25,6 +27,22 @@
 
 namespace episcope::in_main_window_test {
 
+namespace {
+
+// However quick the machine is, another one is still running and keeps it waiting.
+void begin_run_that_waits(WindowFixture& f) {
+  f.window.bench().jobs.start<int>(
+      Lane::Estimate, "endless",
+      [](const Progress& progress) -> int {
+        while (true) progress.check();
+      },
+      [](int) {});
+  f.trigger("estimate.run");
+  QCOMPARE(f.window.bench().jobs.count(), 2);
+}
+
+}  // namespace
+
 class MainWindowTest : public QObject {
   Q_OBJECT
 
@@ -32,6 +50,8 @@ class MainWindowTest : public QObject {
   void emptyWindow_saysWhatToDo();
   void formOfTheFirstMethod_isSeenWhole();
   void escape_cancelsTheRun();
+  void runThatTookLong_isAskedForBeforeItEnds_data();
+  void runThatTookLong_isAskedForBeforeItEnds();
   void largerWindow_givesItsRoomToTheView();
   void smallWindow_showsEveryButton();
   void threadsThatDraw_haveThePriorityOfTheWindow();
@@ -63,15 +83,7 @@ void MainWindowTest::escape_cancelsTheRun() {
   auto* canvas = f.window.bench().stage.canvas();
   canvas->setFocus();
   f.window.activateWindow();
-  // However quick the machine is, this one is still running and keeps the next one waiting.
-  f.window.bench().jobs.start<int>(
-      Lane::Estimate, "endless",
-      [](const Progress& progress) -> int {
-        while (true) progress.check();
-      },
-      [](int) {});
-  f.window.bench().commands.find("estimate.run")->trigger();
-  QCOMPARE(f.window.bench().jobs.count(), 2);
+  begin_run_that_waits(f);
 
   QTest::keyClick(canvas, Qt::Key_Escape);
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 1, kPatience);
@@ -80,6 +92,33 @@ void MainWindowTest::escape_cancelsTheRun() {
 
   QVERIFY(f.window.bench().session.estimates().empty());
   QVERIFY(f.window.findChild<MessageBar*>("messageBar")->text().isEmpty());
+}
+
+void MainWindowTest::runThatTookLong_isAskedForBeforeItEnds_data() {
+  QTest::addColumn<QString>("button");
+  QTest::newRow("button of the method") << "method.cancel";
+  QTest::newRow("button of the job") << "job.%1.cancel";
+}
+
+void MainWindowTest::runThatTookLong_isAskedForBeforeItEnds() {
+  QFETCH(QString, button);
+  WindowFixture f;
+  f.openSmall();
+  begin_run_that_waits(f);
+  Jobs& jobs = f.window.bench().jobs;
+  f.window.bench().job_cancel.setWorthAsking(0);
+  const quint64 run = jobs.newest(f.window.bench().session.generation())->id;
+  button = button.replace("%1", QString::number(run));
+  const auto* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY(f.window.findChild<QWidget*>(button)->isVisible());
+
+  f.click(button);
+  QVERIFY2(messages->text().startsWith("EPI_L · edge is at 0 %"), qPrintable(messages->text()));
+  QVERIFY(!jobs.find(run)->is_cancelling);
+  f.click(button);
+
+  QTRY_VERIFY_WITH_TIMEOUT(!jobs.find(run), kPatience);
+  QCOMPARE(messages->text(), QString("EPI_L · edge was cancelled at 0 %."));
 }
 
 void MainWindowTest::largerWindow_givesItsRoomToTheView() {

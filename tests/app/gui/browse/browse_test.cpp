@@ -33,6 +33,7 @@ class BrowseTest : public QObject {
   void click_movesTheCrossHairAndTheEpis();
   void shiftClick_focusesAtThePixel();
   void valuesAtTheCursor_areRead();
+  void samples_areSaidInShort_andInFullInTheTip();
   void gpu_isAskedForOnAWorker();
   void measuredLine_belongsToItsRow();
   void viewsWithStrokesOfTheFile_areMarked();
@@ -52,6 +53,17 @@ void BrowseTest::viewsWithStrokesOfTheFile_areMarked() {
 
   QCOMPARE(corner_of(painted), theme::kPainted);
   QVERIFY(corner_of({painted.v, painted.u - 1}) != theme::kPainted);
+}
+
+void BrowseTest::samples_areSaidInShort_andInFullInTheTip() {
+  WindowFixture f;
+  f.openSmall();
+
+  const auto* samples = f.window.findChild<QLabel*>("info.samples");
+
+  QCOMPARE(samples->text().remove(QChar(0x200b)), QString("RGB, 8 bit, gamma-encoded"));
+  QVERIFY2(samples->toolTip().contains("value/255"), qPrintable(samples->toolTip()));
+  QVERIFY(samples->height() >= samples->heightForWidth(samples->width()));
 }
 
 // The question may take a second: the window is there meanwhile, and fills the row in later.

@@ -54,6 +54,7 @@ class CompareTest : public QObject {
   void flip_marksWhichOneIsSeen();
   void flip_isHeardInLists_data();
   void flip_isHeardInLists();
+  void truthAsB_isSaidToHaveNoError();
   void difference_isOfAAndB();
   void clickOnAMark_choosesB();
   void chosenB_staysWhenAnotherIsShown();
@@ -161,6 +162,18 @@ void CompareTest::flip_isHeardInLists() {
   QTest::keyRelease(widget, Qt::Key_Tab);
 
   QVERIFY(!f.window.bench().overlay.isFlipped());
+}
+
+void CompareTest::truthAsB_isSaidToHaveNoError() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  f.trigger("overlay.error");
+  const Overlay& overlay = f.window.bench().overlay;
+
+  QCOMPARE(overlay.describeB(), QString("view · the ground truth has no error"));
+  f.trigger("overlay.disparity");
+  QCOMPARE(overlay.describeB(), QString("truth"));
 }
 
 void CompareTest::difference_isOfAAndB() {

@@ -11,6 +11,7 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QFile>
+#include <QFileDialog>
 #include <QImageReader>
 
 namespace episcope::in_movie_export_test {
@@ -93,6 +94,15 @@ class MovieExportTest : public QObject {
     }
     f.window.bench().session.set_view({center.v, 0});
     QTRY_VERIFY_WITH_TIMEOUT(difference(pictures[8], f.shown()) > 6, kPatience);
+  }
+
+  void cancel_writesNothing() {
+    Filming f;
+
+    f.click("movie.cancel");
+
+    QVERIFY(!f.window.findChild<QDialog*>("movie")->isVisible());
+    QVERIFY(!f.window.findChild<QFileDialog*>());
   }
 
   void overlay_isDrawnUnlessLeftOut() {

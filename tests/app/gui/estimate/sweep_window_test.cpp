@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps, driven in the window that ships.
+#include "app/gui/frame/job_cancel.h"
 #include "app/gui/opening/scene_switcher.h"
 #include "app/gui/project/project_controller.h"
 #include "app/gui/project/project_guard.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/message_bar.h"
 #include "widgets/estimate/method_panel.h"
 #include "widgets/estimate/parameter_form.h"
 #include "widgets/plot/line_plot.h"
@@ -220,6 +222,10 @@ void SweepWindowTest::cancelled_keepsThePointsThatAreThere() {
     return series.empty() ? std::size_t{0} : series[0].points.size();
   };
   QTRY_VERIFY_WITH_TIMEOUT(count() >= 2, kScenePatience);
+  f.window.bench().job_cancel.setWorthAsking(0);  // as one that took long
+  f.click("sweep.cancel");
+  const auto* messages = f.window.findChild<MessageBar*>("messageBar");
+  QVERIFY2(messages->text().startsWith("Sweep of"), qPrintable(messages->text()));
   f.click("sweep.cancel");
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
   QVERIFY(count() >= 2 && count() < 50);

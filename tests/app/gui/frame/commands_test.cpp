@@ -37,6 +37,7 @@ class CommandsTest : public QObject {
   void everyCommand_hasTextAndTip();
   void everyCommand_isInAMenu();
   void menus_fitASmallScreen();
+  void sweep_showsItsKeyInTheMenu();
   void everyCommandWithKeys_isInTheShortcutWindow();
   void shortenedTexts_areWholeInTheirTips();
   void listOfKeys_isSearched_data();
@@ -99,6 +100,16 @@ void CommandsTest::everyCommand_isInAMenu() {
   for (const Command& command : f.window.bench().commands.all()) {
     QVERIFY2(in_menus.contains(f.window.bench().commands.find(command.id)), qPrintable(command.id));
   }
+}
+
+void CommandsTest::sweep_showsItsKeyInTheMenu() {
+  WindowFixture f;
+  QCOMPARE(f.window.bench().commands.find("estimate.sweep")->shortcut(),
+           QKeySequence("Ctrl+Shift+F5"));
+
+  f.key(Qt::Key_F5, Qt::ControlModifier | Qt::ShiftModifier);
+
+  QCOMPARE(f.window.bench().frame.shownTab(), QString("sweep"));
 }
 
 // Those that do not are broken into columns, which cover the window.

@@ -4,6 +4,7 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/browse/value_bar.h"
+#include "widgets/canvas/canvas_text.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/job_panel.h"
 #include "widgets/controls/message_bar.h"
@@ -40,6 +41,7 @@ class LayoutTest : public QObject {
 
  private slots:
   void message_movesNothing();
+  void message_coversNoCaptionAtTheTop();
   void jobs_moveNothing();
   void longMessage_isSeenWhole();
   void firstWindow_fitsTheScreen();
@@ -135,6 +137,19 @@ void LayoutTest::tabThatComesLate_isSeenAmongTheOthers() {
     QVERIFY2(bar->tabRect(0).left() <= 0, tab);  // no gap before the first
     QVERIFY2(bar->tabRect(bar->count() - 1).right() > bar->width() / 2, tab);
   }
+}
+
+void LayoutTest::message_coversNoCaptionAtTheTop() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.window.bench().messages.hint("Something was done.");
+  QCoreApplication::processEvents();
+
+  const QRect message = place_of(*f.window.findChild<MessageBar*>("messageBar"), f.window);
+  const QRect view = place_of(*f.canvas(), f.window);
+  QVERIFY(message.top() >= view.top() + caption_depth(QFontMetricsF(f.canvas()->font())));
+  QVERIFY(message.intersects(view));
 }
 
 void LayoutTest::jobs_moveNothing() {

@@ -221,7 +221,7 @@ void ProjectTest::cancelKey_leavesOtherLightFieldsAlone() {
   QVERIFY(!jobs.newest(first)->is_cancelling);
 
   f.show(first);
-  find<JobCancel>(f.window).setWorthAsking(0);
+  f.window.bench().job_cancel.setWorthAsking(0);
   const auto* messages = f.window.findChild<MessageBar*>("messageBar");
   f.key(Qt::Key_Escape);  // asks, as it took long
   QVERIFY2(messages->text().startsWith("EPI_L · edge is at 0 %"), qPrintable(messages->text()));

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/output/json.h"
+#include "tests/test_main.h"
+
+#include <cmath>
+
+namespace episcope::in_json_test {
+
+using namespace episcope::cli;
+
+class JsonTest : public QObject {
+  Q_OBJECT
+ private slots:
+  void interval_hasNoDigitsBeyondSinglePrecision() {
+    const auto end = [](double value) {
+      const auto ends = std::get<Json::Array>(interval_json({value, 2}).value());
+      return std::get<double>(ends.front().value());
+    };
+    QCOMPARE(end(static_cast<double>(1.2F)), 1.2);
+    QCOMPARE(end(static_cast<double>(-0.1F)), -0.1);
+    QCOMPARE(end(0.5), 0.5);
+    QVERIFY(end(-0.6999999999999993) == -0.7);
+    const double third = 1.0 / 3;  // no single: all digits count
+    QVERIFY(end(third) == third);
+    QVERIFY(std::isinf(end(INFINITY)));
+  }
+};
+
+}  // namespace episcope::in_json_test
+
+EPISCOPE_TEST(json_test, JsonTest)
+#include "json_test.moc"
