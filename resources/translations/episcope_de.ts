@@ -1539,6 +1539,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>What you paint can no longer be recovered after a crash, so save it soon: %1</source>
         <translation>Gemaltes kann nach einem Absturz nicht mehr wiederhergestellt werden, also bald speichern: %1</translation>
     </message>
+    <message>
+        <source>What was painted on “%1” belongs to a light field of another size; it is offered again at the next start.</source>
+        <translation>Was auf „%1“ gemalt wurde, gehört zu einem Lichtfeld anderer Größe; es wird beim nächsten Start wieder angeboten.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::EdgeSource</name>
@@ -2048,8 +2052,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Auf diesem Lichtfeld sind Striche nicht gespeichert: erst speichern oder zurücknehmen.</translation>
     </message>
     <message>
-        <source>Moving results to the focus plane</source>
-        <translation>Ergebnisse werden in die Fokusebene verschoben</translation>
+        <source>Results are still being moved to the focus plane: wait a moment.</source>
+        <translation>Ergebnisse werden noch auf die Fokusebene verschoben: bitte einen Moment warten.</translation>
     </message>
 </context>
 <context>
@@ -4248,6 +4252,10 @@ s</translation>
     <message>
         <source>Pairs of points that are not saved: on %1.</source>
         <translation>Nicht gespeicherte Punktpaare: auf %1.</translation>
+    </message>
+    <message>
+        <source>Kept lines that are not saved: on %1.</source>
+        <translation>Nicht gespeicherte behaltene Linien: auf %1.</translation>
     </message>
 </context>
 <context>

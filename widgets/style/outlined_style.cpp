@@ -10,6 +10,8 @@ namespace episcope {
 namespace {
 
 constexpr int kTabSpace = 12;  // Left and right of the text together.
+constexpr int kIconSpace = 4;  // Between icon and text of a combo box.
+constexpr int kTextMargin = 1;
 constexpr int kGripLength = 24;
 constexpr int kGripWidth = 2;
 
@@ -22,6 +24,15 @@ void draw_grip(const QStyleOption& handle, QPainter& painter) {
   painter.fillRect(grip, theme::frame(handle.palette));
 }
 
+// With as much of the text as there is room for.
+QStyleOptionComboBox elided(const QStyleOptionComboBox& box, const QRect& field) {
+  QStyleOptionComboBox fitting = box;
+  const int icon = box.currentIcon.isNull() ? 0 : box.iconSize.width() + kIconSpace;
+  fitting.currentText = box.fontMetrics.elidedText(box.currentText, Qt::ElideRight,
+                                                   field.width() - icon - 2 * kTextMargin);
+  return fitting;
+}
+
 }  // namespace
 
 OutlinedStyle::OutlinedStyle() : QProxyStyle("Fusion") {}
@@ -30,6 +41,11 @@ void OutlinedStyle::drawControl(ControlElement element, const QStyleOption* opti
                                 QPainter* painter, const QWidget* widget) const {
   if (element == CE_Splitter) {
     draw_grip(*option, *painter);
+  } else if (const auto* box = qstyleoption_cast<const QStyleOptionComboBox*>(option);
+             box && element == CE_ComboBoxLabel) {
+    const QRect field = subControlRect(CC_ComboBox, box, SC_ComboBoxEditField, widget);
+    const QStyleOptionComboBox fitting = elided(*box, field);
+    QProxyStyle::drawControl(element, &fitting, painter, widget);
   } else {
     QProxyStyle::drawControl(element, option, painter, widget);
   }

@@ -84,6 +84,32 @@ class ThemeTest : public QObject {
     QCOMPARE(theme::contrast_ratio(Qt::red, Qt::red), 1.0);
   }
 
+  void longNamesOfAComboBox_endInAnEllipsis() {
+    OutlinedStyle style;
+    QComboBox box;
+    box.setStyle(&style);
+    box.setFixedSize(120, 28);
+    QStyleOptionComboBox option;
+    option.initFrom(&box);
+    const int room =
+        style.subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, &box)
+            .width();
+    const auto picture = [&](const QString& text) {
+      box.clear();
+      box.addItem(text);
+      return box.grab().toImage();
+    };
+    const QImage drawn = picture(QString(80, 'a'));
+
+    QString text = "…";
+    while (picture(text) != drawn && box.fontMetrics().horizontalAdvance(text) < room) {
+      text.prepend('a');
+    }
+
+    QCOMPARE(picture(text), drawn);
+    QVERIFY(text.size() > 4 && box.fontMetrics().horizontalAdvance(text) <= room);
+  }
+
   void drawnText_isLegible_data() { addPalettes(); }
   void drawnText_isLegible() {
     QFETCH(QPalette, palette);
