@@ -7363,6 +7363,10 @@ s</translation>
         <source>No views</source>
         <translation>Keine Ansichten</translation>
     </message>
+    <message>
+        <source>Opening …</source>
+        <translation>Wird geöffnet …</translation>
+    </message>
 </context>
 <context>
     <name>episcope::render</name>

@@ -74,6 +74,10 @@ void ViewGrid::setGrid(GridShape grid) {
   setCurrent(grid.center());
 }
 
+void ViewGrid::setOpening(bool is_opening) {
+  cells_->setOpening(is_opening);
+}
+
 void ViewGrid::setCurrent(ViewIndex view) {
   cells_->setCurrent(view);
   position_->setText(grid().count() > 0 ? tr("v %1  u %2").arg(view.v).arg(view.u) : QString());

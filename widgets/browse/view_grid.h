@@ -31,6 +31,8 @@ class ViewGrid : public QWidget {
   /// A new light field: no thumbnails yet, centre view current, playing stops.
   void setGrid(GridShape grid);
   void setCurrent(ViewIndex view);
+  /// A light field is being read: as long as there is no grid, that is said in its place.
+  void setOpening(bool is_opening);
   /// Ignored for a view outside the grid.
   void setThumbnail(ViewIndex view, const QImage& thumbnail);
   /// Marks views that are painted.

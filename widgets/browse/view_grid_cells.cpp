@@ -47,6 +47,11 @@ void ViewGridCells::setGrid(GridShape grid) {
   update();
 }
 
+void ViewGridCells::setOpening(bool is_opening) {
+  is_opening_ = is_opening;
+  update();
+}
+
 void ViewGridCells::setCurrent(ViewIndex view) {
   if (view == current_) return;
   current_ = view;
@@ -125,7 +130,7 @@ void ViewGridCells::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   if (grid_.count() <= 0) {
     painter.setPen(theme::muted_text(palette()));
-    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, tr("No views"));
+    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, is_opening_ ? tr("Opening …") : tr("No views"));
     return;
   }
   const double gap = cellRect({0, 0}).width() >= 14 ? 2 : 1;

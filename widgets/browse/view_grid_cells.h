@@ -22,6 +22,7 @@ class ViewGridCells : public QWidget {
 
   void setGrid(GridShape grid);
   void setCurrent(ViewIndex view);
+  void setOpening(bool is_opening);
   void setThumbnail(ViewIndex view, const QImage& thumbnail);
   /// Marks views that are painted.
   void setPainted(const std::vector<ViewIndex>& views);
@@ -52,6 +53,7 @@ class ViewGridCells : public QWidget {
 
   GridShape grid_;
   ViewIndex current_;
+  bool is_opening_ = false;
   std::vector<QImage> thumbnails_;
   std::vector<ViewIndex> painted_;
 };

@@ -95,6 +95,7 @@ void BrowseController::connectEpis() {
 
 void BrowseController::setPreviewing(bool is_previewing) {
   grid_->setPlaying(false);
+  grid_->setOpening(is_previewing);
   refocus_job_.drop();
   if (is_previewing) return;
   showView();

@@ -88,6 +88,7 @@ bool DocumentController::takeAside() {
   const LightField& light_field = *session_.light_field();
   if (layer.grid() == light_field.grid() && layer.height() == light_field.height() &&
       layer.width() == light_field.width()) {
+    run([this] { now_.annotation->set_source(session_.input()); });
     return true;
   }
   const QString name = QString::fromStdString(light_field.info().name);

@@ -13,7 +13,12 @@ Annotation::Annotation(AnnotationDocument document, JournalOwner owner,
 
 void Annotation::set_file(const std::string& file) {
   owner_.file = file;
-  if (journal_) journal_->set_file(file);
+  if (journal_) journal_->set_owner(owner_);
+}
+
+void Annotation::set_source(const std::string& source) {
+  owner_.source = source;
+  if (journal_) journal_->set_owner(owner_);
 }
 
 void Annotation::keep_journal() {

@@ -26,6 +26,8 @@ class Annotation {
   /// journal cannot be written.
   void set_file(const std::string& file);
   [[nodiscard]] const std::string& file() const { return owner_.file; }
+  /// What opens the light field now, which was moved. Throws IoError likewise.
+  void set_source(const std::string& source);
   /// Begins the journal unless it is there, or is not wanted. To be called before each edit. Throws
   /// IoError if it cannot be kept: then there will be none.
   void keep_journal();

@@ -44,9 +44,9 @@ void AnnotationJournal::finish() {
   discard_journal(path_);
 }
 
-void AnnotationJournal::set_file(std::string file) {
-  if (file == owner_.file) return;
-  owner_.file = std::move(file);
+void AnnotationJournal::set_owner(JournalOwner owner) {
+  if (owner == owner_) return;
+  owner_ = std::move(owner);
   rewrite();
 }
 

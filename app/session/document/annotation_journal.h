@@ -40,8 +40,8 @@ class AnnotationJournal {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::uintmax_t byte_size() const { return log_->byte_size(); }
-  /// The document was saved to another file. Throws IoError.
-  void set_file(std::string file);
+  /// The document was saved to another file, or its light field moved. Throws IoError.
+  void set_owner(JournalOwner owner);
   /// Waits until everything is on the disk. Throws IoError.
   void flush() { log_->flush(); }
   /// Ends the journal and removes the file: the session ended normally.

@@ -48,6 +48,17 @@ class ViewGridTest : public QObject {
     QVERIFY(cells.rect().contains(cells.cellRect({v - 1, u - 1}).toRect().adjusted(0, 0, -1, -1)));
   }
 
+  void withoutViews_itSaysWhetherSomeAreComing() {
+    ViewGrid grid;
+    grid.resize(190, 260);
+    const QImage empty = grid.grab().toImage();
+
+    grid.setOpening(true);
+    QVERIFY(grid.grab().toImage() != empty);
+    grid.setOpening(false);
+    QCOMPARE(grid.grab().toImage(), empty);
+  }
+
   void cellsOfFlatViews_areHighEnoughToBeAimedAt() {
     ViewGridCells cells;
     cells.setGrid({5, 5});

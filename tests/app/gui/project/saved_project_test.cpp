@@ -185,6 +185,7 @@ void SavedProjectTest::movedLightFields_areAskedForOnce() {
   f.openSmall("edge");
   f.estimate();
   f.openSmall("slant");
+  f.window.bench().document.edit([](AnnotationDocument& document) { document.add_label(); });
   f.saveAs(f.path("work.episcope"));
   f.trigger("file.close");
   QTRY_COMPARE(f.session().scenes().size(), 1U);
@@ -200,6 +201,9 @@ void SavedProjectTest::movedLightFields_areAskedForOnce() {
 
   QTRY_VERIFY_WITH_TIMEOUT(f.session().scene(), kScenePatience);
   QCOMPARE(f.session().input(), f.path("elsewhere/slant/lf.h5").toStdString());
+  const auto edited = f.window.bench().document.editedDocuments();
+  QCOMPARE(edited.size(), 1U);
+  QCOMPARE(read_journal(edited[0].journal).owner.source, f.session().input());
   f.show(f.session().scenes()[0]->id);
   QCOMPARE(f.session().input(), f.path("elsewhere/edge/lf.h5").toStdString());
   QCOMPARE(f.session().estimates().size(), 1U);
