@@ -129,14 +129,15 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   GroundTruth truth{std::move(depth.field), std::move(depth.foreground),
                     std::move(depth.background), std::move(labels.labels), std::move(regions)};
   info.camera = depth.camera;
-  const std::vector<FileUse> others =
-      read_other_maps(input, layout, options.needs_truth,
-                      {samples, truth, valid, info.camera, report}, progress.part(0.95, 0.97));
+  ExpectedOrder expected = expected_order(file);
+  const std::vector<FileUse> others = read_other_maps(
+      input, layout, options.needs_truth, {samples, truth, valid, info.camera, expected, report},
+      progress.part(0.95, 0.97));
   tell_unused_depth(depth, !truth.field.empty(), report);
   assemble({.samples = std::move(samples),
             .truth = std::move(truth),
             .info = std::move(info),
-            .expected = expected_order(file),
+            .expected = std::move(expected),
             .valid = std::move(valid)},
            options, scene, progress);
   scene.scribbles = std::move(labels.scribbles);

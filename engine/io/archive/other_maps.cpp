@@ -44,6 +44,7 @@ std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& fil
   if (!has_depth && !maps.truth.field.empty()) {
     settle_disparity(parts.samples, maps, maps.truth.field, parts.camera, parts.report);
     parts.truth.field = std::move(maps.truth.field);
+    parts.expected.is_truth_sign_assumed = maps.is_sign_assumed;
   } else if (!maps.disparity_name.empty()) {
     const auto use = std::ranges::find(maps.uses, maps.disparity_name, &FileUse::example);
     *use = {"disparity maps, as there is depth", 1, maps.disparity_name, false};

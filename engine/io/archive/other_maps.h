@@ -3,6 +3,7 @@
 
 #include "engine/core/light_field/scene.h"
 #include "engine/io/archive/archive_layout.h"
+#include "engine/io/order/order_check.h"
 
 #include <memory>
 #include <string>
@@ -16,6 +17,7 @@ struct ArchiveParts {
   GroundTruth& truth;
   ViewStack<std::uint8_t>& valid;
   CameraGrid& camera;
+  ExpectedOrder& expected;
   ConventionReport& report;
 };
 

@@ -6,6 +6,7 @@
 #include "engine/io/beside/map_name.h"
 #include "engine/io/beside/near_side.h"
 #include "engine/io/beside/settle_values.h"
+#include "engine/io/beside/truth_sign.h"
 #include "engine/io/maps/foreign_result.h"
 
 #include <fmt/format.h>
@@ -123,12 +124,8 @@ FileUse not_used(const ArrayEntry& entry) {
   return {entry.other_kind.empty() ? "array of " + content : content, 1, entry.name, false};
 }
 
-std::string side_text(const NearSide& side) {
-  return fmt::format("{} values {}", side.larger_is_nearer() ? "larger" : "smaller",
-                     hiding_text(side));
-}
-
-void settle_stored(const LightField::Samples& samples, NamedValues values,
+/// Whether the sign is known.
+bool settle_stored(const LightField::Samples& samples, NamedValues values,
                    ConventionReport& report) {
   DisparityField& field = values.field;
   const GridShape grid = grid_of(samples);
@@ -140,15 +137,15 @@ void settle_stored(const LightField::Samples& samples, NamedValues values,
   if (settled.explanation.is_good()) {
     side = find_near_side(samples, at, field.view(at), factor, settled.explanation);
   }
-  const bool is_reversed = has_other_sign(side, settled.explanation, grid);
-  scale_values(field, is_reversed ? -factor : factor);
+  const TruthSign sign = find_truth_sign(samples, side, settled.explanation);
+  scale_values(field, sign.is_negated ? -factor : factor);
   report.units = fmt::format("disparity of {}: {}{}", values.name, settled.unit.text,
-                             is_reversed ? ", negative = nearer" : "");
+                             sign.is_negated ? ", negative = nearer" : "");
   report.units_check =
       fmt::format("mean grey error of neighbouring views after warping {:.2f}, unwarped {:.2f}",
                   settled.explanation.error, settled.explanation.unwarped);
-  if (side.is_decided()) report.units_check += "; " + side_text(side);
-  if (!side.is_decided() && is_reversed) report.units_check += std::string("; ") + kSignByOrder;
+  if (!sign.evidence.empty()) report.units_check += "; " + sign.evidence;
+  return sign.is_known;
 }
 
 }  // namespace
@@ -206,7 +203,10 @@ ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEn
 void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, DisparityField& field,
                       CameraGrid& camera, ConventionReport& report) {
   if (field.empty()) return;
-  if (!maps.is_depth) return settle_stored(samples, {field, maps.disparity_text()}, report);
+  if (!maps.is_depth) {
+    maps.is_sign_assumed = !settle_stored(samples, {field, maps.disparity_text()}, report);
+    return;
+  }
   const auto meaning = settle_unknown_values(samples, {ValueForm::Inverse, ValueForm::Linear},
                                              {field, maps.disparity_name}, report);
   if (!meaning) {
@@ -215,6 +215,7 @@ void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, Dispa
   }
   const auto use = std::ranges::find(maps.uses, maps.disparity_name, &FileUse::example);
   if (use != maps.uses.end()) *use = {kind_text(MapKind::Depth), 1, maps.disparity_name, true};
+  maps.is_sign_assumed = meaning->is_sign_assumed;
   if (!camera.is_known()) camera = meaning->camera();
 }
 

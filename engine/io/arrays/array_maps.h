@@ -18,6 +18,7 @@ struct ArrayMaps {
   std::vector<FileUse> uses;      ///< Every array of the file but the light field: used as what.
   std::string disparity_name;     ///< Of the array that holds the disparity.
   bool is_depth = false;          ///< Or, where there is none, depth of unknown unit.
+  bool is_sign_assumed = false;   ///< Nothing tells near from far in it.
   bool is_named_labels = false;   ///< That name is one of labels, but it holds fractions.
 
   /// For the report: the name, and why it is not taken for labels.
@@ -49,7 +50,8 @@ inline constexpr const char* kNamedLabels = "named like labels, but with fractio
 /// Brings disparity as stored into px per view step, positive = nearer, as the views speak for
 /// (`settle_values`, `find_near_side`), and tells the report. Depth becomes disparity, and gives
 /// the camera if that is not known, where the views tell its unit (`settle_unknown_values`); else
-/// it is not used. `field` is that of the truth of `maps`, wherever it is by now.
+/// it is not used. Whether the sign is assumed is noted in `maps`, of whose truth `field` is,
+/// wherever it is by now.
 void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, DisparityField& field,
                       CameraGrid& camera, ConventionReport& report);
 

@@ -130,6 +130,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   report_form(file, entry, chosen, scene.convention);
   parts.files = std::move(maps.uses);
   parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});
+  parts.expected.is_truth_sign_assumed = maps.is_sign_assumed;
   parts.expected.reason = "arrays do not say how their views are ordered";
   if (more.add) more.add(parts, scene.convention, progress);
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));

@@ -45,6 +45,7 @@ FoundBeside read_beside(const BesideViews& views, const BesideNotes& notes,
   DisparityBeside disparity = read_disparity_beside(maps.sets, views, notes, progress.part(0, 0.6));
   found.truth.field = std::move(disparity.field);
   found.camera = disparity.camera;
+  found.is_sign_assumed = disparity.is_sign_assumed;
   if (!views.needs_truth) return found;
   LabelsBeside labels = read_labels_beside(maps.sets, views, notes, progress.part(0.6, 0.9));
   found.truth.labels = std::move(labels.labels);

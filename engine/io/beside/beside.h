@@ -13,6 +13,7 @@ struct FoundBeside {
   GroundTruth truth;
   std::vector<LabelInfo> label_infos;  ///< Names and colours of its labels, as far as known.
   CameraGrid camera;                   ///< As given, or what disparity and depth say together.
+  bool is_sign_assumed = false;        ///< Nothing tells near from far in the disparity.
 };
 
 /// Finds (`find_maps`) and reads disparity, depth, labels and masks beside views. Every file that

@@ -11,6 +11,7 @@
 #include "engine/io/beside/near_side.h"
 #include "engine/io/beside/read_set.h"
 #include "engine/io/beside/settle_values.h"
+#include "engine/io/beside/truth_sign.h"
 
 #include <fmt/format.h>
 
@@ -68,21 +69,16 @@ std::string warp_text(const SettledUnit& settled) {
   return text;
 }
 
-std::string side_text(const NearSide& side) {
-  return fmt::format("{} values are nearer: they {}",
-                     side.larger_is_nearer() ? "larger" : "smaller", hiding_text(side));
-}
-
 std::string fit_text(const DepthFit& fit) {
   return fmt::format("{:.1f} % of the depth map agree within 0.01 px with d = {:.6g}/Z {} {:.6g}",
                      100 * fit.exact_share, fit.a, fit.b < 0 ? "+" : "−", std::abs(fit.b));
 }
 
-/// Whether values are to be negated.
-bool is_reversed(const NearSide& side, const DepthFit& fit, const Explanation& explanation,
-                 GridShape grid) {
-  if (!side.is_decided() && fit.is_exact()) return fit.a < 0;
-  return has_other_sign(side, explanation, grid);
+/// Depth beside it tells the sign of disparity where no pixel hides another.
+TruthSign sign_of(const LightField::Samples& samples, const NearSide& side, const DepthFit& fit,
+                  const Explanation& explanation) {
+  if (!side.is_decided() && fit.is_exact()) return {fit.a < 0, true, {}};
+  return find_truth_sign(samples, side, explanation);
 }
 
 void append(std::string& text, const std::string& more) {
@@ -159,16 +155,16 @@ DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const 
   const DepthFit fit = fit_of(depth, maps, at, factor);
   tell_depth(depths, depth.set, fit, notes);
 
-  const double sign = is_reversed(side, fit, settled.explanation, views.grid()) ? -1 : 1;
+  const TruthSign told = sign_of(views.samples, side, fit, settled.explanation);
+  const double sign = told.is_negated ? -1 : 1;
   scale_values(maps.field, sign * factor);
   ConventionReport& report = notes.report;
   report.units = "disparity of " + name_of(*maps.set) + ": " + settled.unit.text +
                  (sign < 0 ? ", negative = nearer" : "");
   report.units_check = warp_text(settled);
-  if (side.is_decided()) append(report.units_check, side_text(side));
-  if (!side.is_decided() && !fit.is_exact() && sign < 0) append(report.units_check, kSignByOrder);
+  if (!told.evidence.empty()) append(report.units_check, told.evidence);
   if (fit.is_exact()) append(report.units_check, fit_text(fit));
-  DisparityBeside found{std::move(maps.field), views.camera};
+  DisparityBeside found{std::move(maps.field), views.camera, !told.is_known};
   if (fit.is_exact() && sign * fit.a > 0 && !views.camera.is_known()) {
     found.camera = DepthFit{sign * fit.a, sign * fit.b, fit.exact_share, fit.pixels}.camera();
     append(report.units_check, "the camera follows from disparity and depth");
@@ -204,6 +200,7 @@ void add_unknown(const UnknownSets& unknown, const BesideViews& views, const Bes
     }
     outcome.tell(unknown.name, notes);
     found.field = std::move(field);
+    found.is_sign_assumed = meaning->is_sign_assumed;
     if (!views.camera.is_known() || views.is_shift_unknown) found.camera = meaning->camera();
   }
 }

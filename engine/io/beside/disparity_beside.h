@@ -9,8 +9,9 @@ namespace episcope::io {
 /// Disparity found beside views, in px per view step, positive = nearer, in the stored order of
 /// views.
 struct DisparityBeside {
-  DisparityField field;  ///< Empty if there is none that can be used.
-  CameraGrid camera;     ///< That of the views, or what disparity and depth say together.
+  DisparityField field;          ///< Empty if there is none that can be used.
+  CameraGrid camera;             ///< That of the views, or what disparity and depth say together.
+  bool is_sign_assumed = false;  ///< Nothing tells near from far.
 };
 
 /// Reads disparity maps, else depth maps where the camera is known. Unit and sign are checked: by

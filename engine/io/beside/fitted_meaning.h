@@ -20,10 +20,11 @@ struct FittedMeaning {
   ValueForm form = ValueForm::Linear;
   double scale = 0;
   double offset = 0;
-  double error = 0;     ///< Mean grey error of the next views, warped by it,
-  double unwarped = 0;  ///< and as they are.
-  std::string text;     ///< "d = value/100 px per view step",
-  std::string check;    ///< and the evidence.
+  double error = 0;              ///< Mean grey error of the next views, warped by it,
+  double unwarped = 0;           ///< and as they are.
+  std::string text;              ///< "d = value/100 px per view step",
+  std::string check;             ///< and the evidence.
+  bool is_sign_assumed = false;  ///< Nothing tells near from far.
 
   /// NaN where a depth is not positive.
   [[nodiscard]] float disparity(float value) const;

@@ -3,6 +3,7 @@
 
 #include "engine/io/beside/doubtful_map.h"
 #include "engine/io/beside/near_side.h"
+#include "engine/io/beside/truth_sign.h"
 #include "engine/io/beside/unknown_value.h"
 
 #include <algorithm>
@@ -63,13 +64,13 @@ void put_upright(const LightField::Samples& samples, const std::vector<MapUnit>&
   if (found) turn_back(*found, field, report);
 }
 
-/// Negates disparity of the other sign, and says whether it did.
-bool correct_sign(const LightField::Samples& samples, ViewIndex at, DisparityField& field) {
+/// Negates disparity of the other sign.
+TruthSign correct_sign(const LightField::Samples& samples, ViewIndex at, DisparityField& field) {
   const Explanation explanation = explain_views(samples, at, field.view(at), 1);
   const NearSide side = find_near_side(samples, at, field.view(at), 1, explanation);
-  if (!has_other_sign(side, explanation, grid_of(samples))) return false;
-  scale_values(field, -1);
-  return true;
+  TruthSign sign = find_truth_sign(samples, side, explanation);
+  if (sign.is_negated) scale_values(field, -1);
+  return sign;
 }
 
 }  // namespace
@@ -116,17 +117,19 @@ std::optional<FittedMeaning> settle_unknown_values(const LightField::Samples& sa
                                                    NamedValues values, ConventionReport& report) {
   const ViewIndex at = values.at(grid_of(samples));
   const std::vector<float> possible = possible_unknown_values(values.field.view(at));
-  const auto found = fit_doubtful_map(samples, at, values.field.view(at), forms);
+  auto found = fit_doubtful_map(samples, at, values.field.view(at), forms);
   if (!found) return std::nullopt;
   if (found->turn) turn_back(*found->turn, values.field, report);
-  const FittedMeaning& meaning = found->meaning;
+  FittedMeaning& meaning = found->meaning;
   apply_meaning(meaning, values.field);
   drop_unknown(samples, possible, {&meaning, 1}, values, report);
-  const bool is_reversed =
-      meaning.form == ValueForm::Linear && correct_sign(samples, at, values.field);
+  // Depth is larger where it is farther.
+  TruthSign sign{false, true, {}};
+  if (meaning.form == ValueForm::Linear) sign = correct_sign(samples, at, values.field);
   report.units = "disparity from " + values.name + ": " + meaning.text +
-                 (is_reversed ? ", negative = nearer" : "");
+                 (sign.is_negated ? ", negative = nearer" : "");
   report.units_check = meaning.check;
+  meaning.is_sign_assumed = !sign.is_known;
   report.warnings.push_back(meaning.warning(values.name));
   return meaning;
 }

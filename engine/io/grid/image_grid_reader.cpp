@@ -179,6 +179,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
                                       options.needs_truth, grid.poses.are_used()},
                                      {account, report}, progress.part(0.9, 1));
     parts.truth = std::move(beside.truth);
+    parts.expected.is_truth_sign_assumed = beside.is_sign_assumed;
     info.camera = beside.camera;
     scene.scribbles.labels = std::move(beside.label_infos);
   }

@@ -17,6 +17,8 @@ constexpr double kExplained = 0.5;
 constexpr double kJump = 1.5;
 /// A period is taken before its multiples, which explain as much.
 constexpr double kAlmost = 0.9;
+/// Of JPEG, in px; with colours of half the size, they are twice as large.
+constexpr int kBlock = 8;
 
 struct Folded {
   double explained = 0;
@@ -51,6 +53,10 @@ Folded fold(const std::vector<double>& signal, int period) {
 
 bool LensletPeriod::is_likely() const {
   return period_px > 0 && explained >= kExplained && jump >= kJump;
+}
+
+bool LensletPeriod::is_likely_in_jpeg() const {
+  return is_likely() && (period_px % kBlock != 0 || shading >= kExplained);
 }
 
 bool LensletPeriod::is_certain() const {

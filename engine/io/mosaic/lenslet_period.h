@@ -21,6 +21,8 @@ struct LensletPeriod {
   /// The same without regard to compression: for a picture of which one knows otherwise that it
   /// consists of lenslets.
   [[nodiscard]] bool is_likely() const;
+  /// For such a picture that is a JPEG: of multiples of 8 the brightness must repeat.
+  [[nodiscard]] bool is_likely_in_jpeg() const;
 };
 
 /// `lines`: brightness, a line a row. Periods of 3 to 32 px are tried.

@@ -2,6 +2,7 @@
 #include "engine/io/mosaic/mosaic_layout.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text/suffix.h"
 #include "engine/io/grid/image_size.h"
 #include "engine/io/mosaic/lenslet_period.h"
 #include "engine/io/mosaic/mosaic_name.h"
@@ -82,11 +83,20 @@ std::optional<Answer> eslf_by_size(const Question& question) {
   return std::nullopt;
 }
 
+bool is_jpeg_name(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".jpg" || suffix == ".jpeg";
+}
+
+bool can_be_lenslets(const Question& question, const LensletPeriod& period) {
+  if (question.kind != Mosaic::Lenslets) return period.is_certain();
+  return is_jpeg_name(question.path) ? period.is_likely_in_jpeg() : period.is_likely();
+}
+
 std::optional<Answer> lenslets_of(const Question& question) {
   const LensletPeriod u = find_lenslet_period(question.along_x);
   const LensletPeriod v = find_lenslet_period(question.along_y);
-  const bool is_named = question.kind == Mosaic::Lenslets || question.name != MosaicName::Plain;
-  if (is_named ? u.is_likely() && v.is_likely() : u.is_certain() && v.is_certain()) {
+  if (can_be_lenslets(question, u) && can_be_lenslets(question, v)) {
     return Answer{
         Mosaic::Lenslets,
         {v.period_px, u.period_px},

@@ -73,6 +73,7 @@ void add_beside(const fs::path& path, const OpenOptions& options, SceneParts& pa
                    .is_own = [&](const fs::path& file) { return own.contains(file); }},
                   {account, scene.convention}, progress);
   parts.truth = std::move(beside.truth);
+  parts.expected.is_truth_sign_assumed = beside.is_sign_assumed;
   parts.info.camera = beside.camera;
   scene.scribbles.labels = std::move(beside.label_infos);
   parts.files = account.uses();

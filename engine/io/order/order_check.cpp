@@ -42,6 +42,10 @@ std::string axis_text(const char* name, const AxisErrors& errors, bool is_flippe
          ")";
 }
 
+constexpr const char* kEitherWay =
+    "the truth fits this order of views, and negated the opposite one; nothing tells which is "
+    "right";
+
 struct Checked {
   ViewFlip flip;
   bool is_decided = false;
@@ -70,17 +74,17 @@ std::string poor_truth(const WarpErrors& errors) {
 }
 
 Checked check_by_truth(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
-                       ViewFlip expected) {
+                       const ExpectedOrder& expected) {
   const WarpErrors errors = mean_errors(samples, truth);
-  Checked checked{expected, errors.u.is_decided() || errors.v.is_decided(), {}};
+  Checked checked{expected.flip, errors.u.is_decided() || errors.v.is_decided(), {}};
   if (errors.u.is_decided()) checked.flip.u = errors.u.says_reversed();
   if (errors.v.is_decided()) checked.flip.v = errors.v.says_reversed();
   if (checked.is_decided) {
     const std::string errors_text =
         axis_text("u", errors.u, checked.flip.u) + ", " + axis_text("v", errors.v, checked.flip.v);
     checked.text = "checked against truth, mean grey error after warping: " + errors_text;
-    checked.is_sign_known = true;
-    checked.sign_text = "by truth: " + errors_text;
+    checked.is_sign_known = !expected.is_truth_sign_assumed;
+    checked.sign_text = checked.is_sign_known ? "by truth: " + errors_text : kEitherWay;
   }
   if (truth.size() == 1) checked.warning = poor_truth(errors);
   return checked;
@@ -162,7 +166,7 @@ Flip flip_choice(ViewFlip flip) {
 OrderFinding find_order(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
                         const ExpectedOrder& expected, Flip choice, const Progress& progress) {
   progress.check();
-  Checked checked = check_by_truth(samples, truth, expected.flip);
+  Checked checked = check_by_truth(samples, truth, expected);
   OrderFinding finding;
   if (!checked.warning.empty()) finding.warnings.push_back(checked.warning);
   if (!checked.is_decided || !checked.warning.empty()) {

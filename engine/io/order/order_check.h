@@ -18,6 +18,8 @@ struct ExpectedOrder {
   std::string reason;  ///< "raw files of the archive store h reversed", …
   /// Rows and columns are beyond doubt: motion along the other axis is reported, not corrected.
   bool are_axes_known = false;
+  /// Nothing tells near from far in the truth: negated, it would fit the opposite order as well.
+  bool is_truth_sign_assumed = false;
 };
 
 /// A disparity map as stored, by which neighbouring views can be warped.
@@ -36,11 +38,11 @@ struct OrderFinding {
   std::vector<std::string> warnings;
 };
 
-/// Determines which view axes to reverse: by warping with the truth if there is any. Else the sign
-/// of the correlation of EPI slopes tells whether the axes agree, and occlusion whether near and
-/// far do; what remains open is as expected. A `choice` other than Auto takes precedence, but is
-/// checked, and a contradiction is reported in the warnings. Nothing is reversed yet. Throws
-/// Cancelled.
+/// Determines which view axes to reverse: by warping with the truth if there is any, which does
+/// not tell near from far where its sign is assumed. Else the sign of the correlation of EPI slopes
+/// tells whether the axes agree, and occlusion whether near and far do; what remains open is as
+/// expected. A `choice` other than Auto takes precedence, but is checked, and a contradiction is
+/// reported in the warnings. Nothing is reversed yet. Throws Cancelled.
 [[nodiscard]] OrderFinding find_order(const LightField::Samples& samples,
                                       const std::vector<OrderEvidence>& truth,
                                       const ExpectedOrder& expected, Flip choice,

@@ -114,6 +114,23 @@ class MapMeaningTest : public QObject {
     QCOMPARE(side.larger_is_nearer(), sign > 0);
   }
 
+  void nearSide_isFoundInWeakViews() {
+    LayeredScene scene;
+    // Square and wall differ by 7 grey levels of 255 on the average.
+    std::transform(scene.views.data(), scene.views.data() + scene.views.size(), scene.views.data(),
+                   [](std::uint8_t grey) { return static_cast<std::uint8_t>(grey / 12); });
+    const ViewIndex center = scene.views.grid().center();
+    const Image<float> map = copy(scene.disparity.view(center), -1);
+    const io::Explanation explanation =
+        io::explain_views(samples(scene), center, {map.view(), {}}, 1);
+
+    const io::NearSide side =
+        io::find_near_side(samples(scene), center, {map.view(), {}}, 1, explanation);
+
+    QVERIFY(side.is_decided());
+    QVERIFY(!side.larger_is_nearer());
+  }
+
   void nearSide_isUndecidedWithoutDepthEdges() {
     const LayeredScene scene;
     const ViewIndex center = scene.views.grid().center();

@@ -286,19 +286,60 @@ class MosaicTest : public QObject {
 
   void photograph_isNoLightField_data() {
     QTest::addColumn<bool>("is_blocky");
-    QTest::newRow("plain") << false;
-    QTest::newRow("in blocks of 8 px, as JPEG leaves them") << true;
+    QTest::addColumn<QString>("name");
+    QTest::newRow("plain") << false << "photo.png";
+    QTest::newRow("in blocks of 8 px, as JPEG leaves them") << true << "photo.png";
+    QTest::newRow("such blocks under a name of mosaics") << true << "lf.png";
   }
   void photograph_isNoLightField() {
     QFETCH(bool, is_blocky);
+    QFETCH(QString, name);
     const Scene scene = plane({1, 1});
     const Image<std::uint8_t> blocky = blocky_photograph();
-    io::write_png(path("photo.png"), is_blocky ? blocky.view() : bytes_of(scene).view({0, 0}));
+    io::write_png(path(name.toStdString()),
+                  is_blocky ? blocky.view() : bytes_of(scene).view({0, 0}));
 
-    const QString sentence = refusal_of("photo.png");
+    const QString sentence = refusal_of(name.toStdString());
 
     QVERIFY2(sentence.contains("single picture") && sentence.contains("--mosaic views --grid RxC"),
              qPrintable(sentence));
+  }
+
+  void lensletsInAJpeg_areNotItsBlocks_data() {
+    QTest::addColumn<bool>("is_blocky");
+    QTest::addColumn<int>("side");
+    QTest::newRow("7 px") << false << 7;
+    QTest::newRow("14 px") << false << 14;
+    QTest::newRow("blocks of 8 px") << true << 0;
+  }
+  void lensletsInAJpeg_areNotItsBlocks() {
+    QFETCH(bool, is_blocky);
+    QFETCH(int, side);
+    write("a_macpi.png", plane({std::max(side, 1), std::max(side, 1)}));
+    const Image<std::uint8_t> blocks = blocky_photograph();
+    const cv::Mat blocky(blocks.height(), blocks.width(), CV_8UC1,
+                         const_cast<std::uint8_t*>(blocks.data()));
+    cv::imwrite(path("a_macpi.jpg").string(),
+                is_blocky ? blocky : cv::imread(path("a_macpi.png").string()));
+
+    if (is_blocky) {
+      QVERIFY_THROWS_EXCEPTION(io::Undecided, (void)open("a_macpi.jpg"));
+    } else {
+      QCOMPARE(open("a_macpi.jpg").light_field->grid(), (GridShape{side, side}));
+    }
+  }
+
+  void viewsSideBySide_areFoundInSpiteOfBlocks() {
+    const Image<std::uint8_t> view = blocky_photograph();
+    Image<std::uint8_t> picture(2 * view.height(), 3 * view.width());
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        picture.at(y, x) = view.at(y % view.height(), x % view.width());
+      }
+    }
+    io::write_png(path("lf.png"), picture.view());
+
+    QCOMPARE(open("lf.png").light_field->grid(), (GridShape{2, 3}));
   }
 
   void folderOfOne_opensItsPicture() {
