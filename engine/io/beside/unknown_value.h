@@ -25,10 +25,12 @@ struct UnknownValue {
   double factor = 1;  ///< whose values times this are px.
 };
 
-/// Marks pixels of exactly this value as invalid, in all views, if at view `at` the neighbouring
-/// views contradict them, though they agree with the rest; of a value other than 0 they must not
-/// agree better than without warping. Returns what a warning says after the name of the map, or
-/// nothing. Linear in the pixels.
+/// Marks pixels of exactly this value as invalid, in all views, if hardly any other value is near
+/// it and at view `at` the neighbouring views contradict them, though they agree with the rest; of
+/// a value other than 0 they must not agree better than without warping. Zeros among other values,
+/// many times as many as of any of these, become invalid if the values around them explain the
+/// views better there, whatever the noise. Returns what a warning says after the name of the map,
+/// also where the views do not tell; or nothing. Linear in the pixels but for sorting values.
 [[nodiscard]] std::string drop_unknown_value(const LightField::Samples& samples, ViewIndex at,
                                              const UnknownValue& unknown, DisparityField& field);
 

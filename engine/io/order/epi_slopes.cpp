@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -18,6 +20,8 @@ namespace {
 constexpr int kLargestArea = 512;
 constexpr int kStride = 4;
 constexpr int kRadius = 3;
+constexpr int kSquare = 8;
+constexpr double kSignificant = 3.3;  ///< Standard deviations of correlations by chance.
 constexpr double kStep = 0.5;
 constexpr double kLargestRange = 64;
 
@@ -136,7 +140,7 @@ struct Sums {
     const bool has_depth = std::min(var_h, var_v) > 0.25 * kStep * kStep;
     const double top = has_depth ? hv / n - h / n * v / n : hv / n;
     const double bottom = has_depth ? var_h * var_v : hh / n * vv / n;
-    return {bottom > 0 ? top / std::sqrt(bottom) : 0, static_cast<int>(n)};
+    return {bottom > 0 ? top / std::sqrt(bottom) : 0, static_cast<int>(n), 0};
   }
 };
 
@@ -149,14 +153,19 @@ SlopeCorrelation correlate(const LightField::Samples& samples, ViewIndex center,
   const int columns = (part.x1 - part.x0 - 2 * kRadius) / kStride;
   const int rows = (part.y1 - part.y0 - 2 * kRadius) / kStride;
   Sums sums;
+  std::set<std::pair<int, int>> squares;
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
       const double a = along_u[static_cast<std::size_t>(r) * columns + c];
       const double b = along_v[static_cast<std::size_t>(c) * rows + r];
-      if (std::isfinite(a) && std::isfinite(b)) sums.add(a, b);
+      if (!std::isfinite(a) || !std::isfinite(b)) continue;
+      sums.add(a, b);
+      squares.insert({r * kStride / kSquare, c * kStride / kSquare});
     }
   }
-  return sums.correlation();
+  SlopeCorrelation found = sums.correlation();
+  found.squares = static_cast<int>(squares.size());
+  return found;
 }
 
 /// In px between neighbouring views.
@@ -169,10 +178,17 @@ double search_range(const LightField::Samples& samples, const Progress& progress
   return std::clamp(std::max(u, v), usual, kLargestRange);
 }
 
+bool is_better(const SlopeCorrelation& next, const SlopeCorrelation& found) {
+  if (next.is_decided() != found.is_decided()) return next.is_decided();
+  return std::abs(next.value) * std::min(next.points, 30) >
+         std::abs(found.value) * std::min(found.points, 30);
+}
+
 }  // namespace
 
 bool SlopeCorrelation::is_decided() const {
-  return points >= 30 && std::abs(value) > 0.2;
+  return points >= 30 && std::abs(value) > 0.2 &&
+         std::abs(value) * std::sqrt(squares) > kSignificant;
 }
 
 SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples,
@@ -187,10 +203,7 @@ SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples,
         // Farther views tell small disparities apart, where the next ones do not.
         for (int step = 1; step <= std::min(reach, 4); step *= 2) {
           const SlopeCorrelation next = correlate(samples, center, step, range, progress);
-          if (std::abs(next.value) * std::min(next.points, 30) >
-              std::abs(found.value) * std::min(found.points, 30)) {
-            found = next;
-          }
+          if (is_better(next, found)) found = next;
           if (found.is_decided() && std::abs(found.value) > 0.5) break;
         }
         return found;

@@ -9,8 +9,11 @@ namespace episcope::io {
 /// How the slopes of horizontal and vertical EPIs correlate, point by point.
 struct SlopeCorrelation {
   double value = 0;  ///< In [−1, 1]; negative: exactly one view axis is reversed.
-  int points = 0;    ///< Textured points at which both slopes were found.
+  int points = 0;    ///< Textured points at which both slopes were found,
+  int squares = 0;   ///< and squares of 8×8 px that have any: windows of points nearer to each
+                     ///< other overlap.
 
+  /// Whether so many squares do not correlate so by chance.
   [[nodiscard]] bool is_decided() const;
 };
 

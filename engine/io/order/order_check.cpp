@@ -2,6 +2,7 @@
 #include "engine/io/order/order_check.h"
 
 #include "engine/core/text/text_table.h"
+#include "engine/io/order/constant_check.h"
 #include "engine/io/order/epi_slopes.h"
 #include "engine/io/order/sign_check.h"
 #include "engine/io/order/warp_check.h"
@@ -53,6 +54,7 @@ struct Checked {
   std::string warning = {};
   bool is_sign_known = false;
   std::string sign_text = {};
+  bool is_poor = false;  ///< Of a truth: it hardly explains the views in any order.
 
   /// Whether another order contradicts what was found.
   [[nodiscard]] bool contradicts(ViewFlip other) const {
@@ -61,9 +63,17 @@ struct Checked {
   }
 };
 
-/// Of a single map; the layers of a transparent scene explain views only together.
-std::string poor_truth(const WarpErrors& errors) {
-  if (!errors.u.is_poor() && !errors.v.is_poor()) return {};
+/// Of a truth that explains the views better than one disparity for all nothing is said.
+std::string poor_truth(const WarpErrors& errors, const ConstantComparison& comparison) {
+  if (comparison.is_better()) return {};
+  if (!errors.u.is_poor() && !errors.v.is_poor()) {
+    if (!comparison.is_told()) return {};
+    return fmt::format(
+        "The values of the truth could not be checked: one disparity for all explains the views "
+        "as well, or better (where both differ, in {} squares of the view, the truth is better by "
+        "{:.1f} standard deviations of chance).",
+        comparison.squares, comparison.score);
+  }
   const AxisErrors& worse = errors.u.is_poor() ? errors.u : errors.v;
   return "The truth hardly explains the views: warped by it, they differ by " +
          fixed_text(std::min(worse.forward, worse.reversed), 2) + " grey levels along " +
@@ -79,14 +89,22 @@ Checked check_by_truth(const LightField::Samples& samples, const std::vector<Ord
   Checked checked{expected.flip, errors.u.is_decided() || errors.v.is_decided(), {}};
   if (errors.u.is_decided()) checked.flip.u = errors.u.says_reversed();
   if (errors.v.is_decided()) checked.flip.v = errors.v.says_reversed();
+  // The layers of a transparent scene explain views only together.
+  if (truth.size() == 1) {
+    const auto& [at, disparity] = truth.front();
+    checked.warning = poor_truth(errors, compare_with_constant(samples, at, disparity, errors));
+    checked.is_poor = !checked.warning.empty() && (errors.u.is_poor() || errors.v.is_poor());
+  }
   if (checked.is_decided) {
     const std::string errors_text =
         axis_text("u", errors.u, checked.flip.u) + ", " + axis_text("v", errors.v, checked.flip.v);
-    checked.text = "checked against truth, mean grey error after warping: " + errors_text;
-    checked.is_sign_known = !expected.is_truth_sign_assumed;
-    checked.sign_text = checked.is_sign_known ? "by truth: " + errors_text : kEitherWay;
+    const bool is_sure = checked.warning.empty();
+    checked.text = is_sure ? "checked against truth" : "by the truth, which is in doubt";
+    checked.text += ", mean grey error after warping: " + errors_text;
+    checked.is_sign_known = is_sure && !expected.is_truth_sign_assumed;
+    checked.sign_text = is_sure ? kEitherWay : "the truth is in doubt";
+    if (checked.is_sign_known) checked.sign_text = "by truth: " + errors_text;
   }
-  if (truth.size() == 1) checked.warning = poor_truth(errors);
   return checked;
 }
 
@@ -172,8 +190,11 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
   if (!checked.is_decided || !checked.warning.empty()) {
     Checked by_views = check_by_slopes(samples, expected.flip, progress);
     add_occlusion(samples, by_views, progress);
+    const bool says_more = by_views.is_sign_known || by_views.contradicts(checked.flip);
     // Truth that hardly explains the views says nothing of their order.
-    if (!checked.is_decided || by_views.is_decided) checked = std::move(by_views);
+    if (!checked.is_decided || (by_views.is_decided && (checked.is_poor || says_more))) {
+      checked = std::move(by_views);
+    }
   }
 
   finding.flip = checked.flip;

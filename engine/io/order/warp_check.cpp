@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/order/warp_check.h"
 
+#include "engine/io/order/pair_gain.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,30 +40,61 @@ float white_of(const ViewStack<T>& stack) {
   return static_cast<float>(white);
 }
 
-/// Adds the errors against the view one step along the axis (`step` +1 or −1).
-void add_neighbour(const Image<float>& center, const Image<float>& neighbour, bool is_u, int step,
-                   const DisparityView& disparity, AxisErrors& sums) {
-  const int width = center.width();
-  const int height = center.height();
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+/// A view, and one next to it along an axis.
+struct ViewPair {
+  const Image<float>& center;
+  const Image<float>& neighbour;
+  bool is_u;
+  int step;  ///< +1 or −1.
+};
+
+/// Grey levels at a pixel, and where it is by each assumption.
+struct Moved {
+  float here;
+  float forward;
+  float reversed;
+  float unwarped;
+};
+
+/// Of every `stride`-th pixel whose targets lie inside the image.
+template <class Visit>
+void for_moved(const ViewPair& pair, const DisparityView& disparity, int stride,
+               const Visit& visit) {
+  const int width = pair.center.width();
+  const int height = pair.center.height();
+  for (int y = 0; y < height; y += stride) {
+    for (int x = 0; x < width; x += stride) {
       if (!disparity.is_valid(y, x)) continue;
-      const double shift = step * static_cast<double>(disparity.disparity.at(y, x));
-      const double place = is_u ? x : y;
-      const double last = (is_u ? width : height) - 1;
+      const double shift = pair.step * static_cast<double>(disparity.disparity.at(y, x));
+      const double place = pair.is_u ? x : y;
+      const double last = (pair.is_u ? width : height) - 1;
       if (place - std::abs(shift) < 0 || place + std::abs(shift) > last) continue;
-      const float here = center.at(y, x);
-      const float forward =
-          is_u ? sample(neighbour, y, x - shift) : sample(neighbour, y - shift, x);
-      const float backward =
-          is_u ? sample(neighbour, y, x + shift) : sample(neighbour, y + shift, x);
-      const float unwarped = neighbour.at(y, x);
-      sums.forward += std::abs(here - forward);
-      sums.reversed += std::abs(here - backward);
-      sums.unwarped += std::abs(here - unwarped);
-      ++sums.pixels;
+      const auto moved = [&](double by) {
+        return pair.is_u ? sample(pair.neighbour, y, x - by) : sample(pair.neighbour, y - by, x);
+      };
+      visit(Moved{pair.center.at(y, x), moved(shift), moved(-shift), pair.neighbour.at(y, x)});
     }
   }
+}
+
+/// Adds the errors against the neighbour, of which brightness is evened out.
+void add_neighbour(const ViewPair& pair, const DisparityView& disparity, AxisErrors& sums) {
+  constexpr int kGainStride = 3;
+  PairGain forward, reversed, unwarped;
+  for_moved(pair, disparity, kGainStride, [&](const Moved& moved) {
+    forward.add(moved.here, moved.forward);
+    reversed.add(moved.here, moved.reversed);
+    unwarped.add(moved.here, moved.unwarped);
+  });
+  const float of_forward = forward.value();
+  const float of_reversed = reversed.value();
+  const float of_unwarped = unwarped.value();
+  for_moved(pair, disparity, 1, [&](const Moved& moved) {
+    sums.forward += std::abs(moved.here - of_forward * moved.forward);
+    sums.reversed += std::abs(moved.here - of_reversed * moved.reversed);
+    sums.unwarped += std::abs(moved.here - of_unwarped * moved.unwarped);
+    ++sums.pixels;
+  });
 }
 
 AxisErrors axis_errors(const LightField::Samples& samples, ViewIndex at, bool is_u,
@@ -72,7 +105,8 @@ AxisErrors axis_errors(const LightField::Samples& samples, ViewIndex at, bool is
   for (const int step : {-1, 1}) {
     const ViewIndex next = is_u ? ViewIndex{at.v, at.u + step} : ViewIndex{at.v + step, at.u};
     if (!grid.contains(next)) continue;
-    add_neighbour(center, grey_levels(samples, next), is_u, step, disparity, errors);
+    const Image<float> neighbour = grey_levels(samples, next);
+    add_neighbour({center, neighbour, is_u, step}, disparity, errors);
   }
   if (errors.pixels > 0) {
     errors.forward /= static_cast<double>(errors.pixels);

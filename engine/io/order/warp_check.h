@@ -42,6 +42,7 @@ struct WarpErrors {
 
 /// Warps the up to four neighbours of `at` onto it. Only pixels with a valid disparity whose
 /// targets lie inside the image for both orders count, so that both are judged on the same pixels.
+/// Neighbours that are brighter or darker by more than 2 % are evened out.
 [[nodiscard]] WarpErrors warp_errors(const LightField::Samples& samples, ViewIndex at,
                                      const DisparityView& disparity);
 

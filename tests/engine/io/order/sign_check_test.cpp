@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/order/sign_check.h"
 #include "engine/io/open/assemble_scene.h"
+#include "engine/io/order/epi_slopes.h"
 #include "tests/engine/io/order/layered_scene.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
@@ -183,6 +184,23 @@ class SignCheckTest : public QObject {
       QVERIFY2(scene.convention.sign_check.find("no depth edges") != std::string::npos,
                told(scene).c_str());
     }
+  }
+
+  void slopesThatCorrelateByChance_decideNothing_data() {
+    QTest::addColumn<double>("correlation");
+    QTest::addColumn<int>("squares");
+    QTest::addColumn<bool>("is_decided");
+    QTest::newRow("by chance") << 0.3 << 80 << false;
+    QTest::newRow("more than that") << 0.5 << 80 << true;
+    QTest::newRow("of as many points in fewer places") << 0.5 << 20 << false;
+  }
+  void slopesThatCorrelateByChance_decideNothing() {
+    QFETCH(double, correlation);
+    QFETCH(int, squares);
+    QFETCH(bool, is_decided);
+
+    QCOMPARE((io::SlopeCorrelation{correlation, 200, squares}.is_decided()), is_decided);
+    QCOMPARE((io::SlopeCorrelation{-correlation, 200, squares}.is_decided()), is_decided);
   }
 
   void singleRow_isNotCalledFlat() {
