@@ -83,8 +83,8 @@ class Jobs : public QObject {
   void cancelling(quint64 id);
   void finishing(quint64 id);
   void removed(quint64 id);
-  /// A sentence for the user.
-  void failed(const QString& sentence);
+  /// A sentence for the user, of a job that is no longer there.
+  void failed(const QString& sentence, quint64 id);
 
  private:
   struct Job {

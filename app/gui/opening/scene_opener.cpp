@@ -113,8 +113,8 @@ SceneOpener::SceneOpener(Session& session, Jobs& jobs, Stage& stage, const Leave
       cache_folder_(default_cache_folder()) {
   connect(&jobs_, &Jobs::progressed, this,
           [this](quint64 job, double fraction) { showLoading(job, fraction); });
-  connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence) {
-    if (loading_job_ != 0) last_failure_ = sentence;
+  connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence, quint64 job) {
+    if (job == loading_job_) last_failure_ = sentence;
   });
 }
 

@@ -2,6 +2,8 @@
 #include "app/gui/files/recent_inputs.h"
 #include "app/gui/frame/messages.h"
 #include "app/session/scene/builtin_inputs.h"
+#include "engine/core/error.h"
+#include "tests/app/gui/held_lane.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
@@ -21,6 +23,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMimeData>
+#include <QSignalSpy>
 #include <QTreeWidget>
 #include <QUrl>
 
@@ -41,6 +44,7 @@ class OpeningTest : public QObject {
   void brokenFile_isForgottenOnceAnotherIsOpen();
   void brokenFile_withoutScene_isDrawnAsError();
   void brokenFile_ofTheDialog_isTold();
+  void failureOfAnotherJob_isNotThatOfOpening();
   void firstDialog_beginsAtHome();
   void dialog_beginsBesideWhatWasOpened();
   void dialog_remembersItsFolder();
@@ -207,6 +211,23 @@ void OpeningTest::brokenFile_withoutScene_isDrawnAsError() {
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Failed,
                             kPatience);
+}
+
+void OpeningTest::failureOfAnotherJob_isNotThatOfOpening() {
+  WindowFixture f;
+  const Workbench& bench = f.window.bench();
+  HeldLane held(bench.jobs, Lane::Load);
+  bench.opener.open(f.writeScene("edge", WindowFixture::smallOptions()));
+  QSignalSpy failures(&bench.jobs, &Jobs::failed);
+  bench.jobs.start<bool>(
+      Lane::Export, "Writing",
+      [](const Progress&) -> bool { throw IoError("/x.png", "the disk is full"); }, [](bool) {});
+  QTRY_COMPARE_WITH_TIMEOUT(failures.size(), 1, kPatience);
+  held.release();
+  QTRY_VERIFY_WITH_TIMEOUT(bench.session.scene(), kScenePatience);
+  QTRY_COMPARE_WITH_TIMEOUT(bench.jobs.count(Lane::Load), 0, kPatience);
+
+  QVERIFY(!bench.opener.hasFailed());
 }
 
 void OpeningTest::firstDialog_beginsAtHome() {
