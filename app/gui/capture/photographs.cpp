@@ -154,7 +154,7 @@ void Photographs::askForRectified() {
 
 void Photographs::calibrate(const QStringList& photographs, const capture::Pattern& pattern) {
   bench_.jobs.start<capture::Calibration>(
-      Lane::Load, tr("Calibrating the lens"),
+      Lane::Capture, tr("Calibrating the lens"),
       [files = paths_of(photographs), pattern](const Progress& progress) {
         return capture::calibrate(files, pattern, progress);
       },
@@ -212,7 +212,7 @@ void Photographs::rectify(const QString& path) {
   if (!canRectify() || !is_new_light_field(path, bench_.messages)) return;
   const RectifyTask task{*bench_.session.scene(), documents_.now().work(), path_of(path)};
   bench_.jobs.start<CaptureWork>(
-      Lane::Load, tr("Rectifying"),
+      Lane::Capture, tr("Rectifying"),
       [task](const Progress& progress) { return rectify_to_file(task, progress).work; },
       [this, path](const CaptureWork& work) {
         bench_.opener.open(path, [this, work] { documents_.begin(work); });
@@ -222,7 +222,7 @@ void Photographs::rectify(const QString& path) {
 void Photographs::makeDemo(const QString& folder, const capture::DemoOptions& options) {
   const GantryFolder demo{new_folder(folder)};
   bench_.jobs.start<bool>(
-      Lane::Load, tr("Making the demo"),
+      Lane::Capture, tr("Making the demo"),
       [demo, options](const Progress& progress) {
         capture::write_demo_folder(demo.path, options, progress);
         return true;

@@ -222,13 +222,13 @@ void SceneOpener::leave(const Load& load, const std::function<void()>& go_on) {
 }
 
 void SceneOpener::start(const Load& load) {
-  jobs_.cancelLane(Lane::Load);
+  jobs_.cancelLane(Lane::Open);
   const quint64 number = ++number_;
   loading_name_ = short_name(load.input);
   last_failure_.clear();
   if (!session_.scene()) stage_.canvas()->showLoading(loading_name_, -1);
   loading_job_ = jobs_.start<Opened>(
-      Lane::Load, tr("Opening %1").arg(loading_name_),
+      Lane::Open, tr("Opening %1").arg(loading_name_),
       [path = load.input.toStdString(), options = loadOptions(number, load.given),
        is_remembered = load.is_remembered](const Progress& progress) {
         return read_or_question([&] {
@@ -325,7 +325,7 @@ void SceneOpener::keepBuiltin(const QString& input) {
 
 void SceneOpener::close() {
   guards_.leave(Leaving::Scene, [this] {
-    jobs_.cancelLane(Lane::Load);
+    jobs_.cancelLane(Lane::Open);
     ++number_;
     loading_job_ = 0;
     failed_input_.clear();

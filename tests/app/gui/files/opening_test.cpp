@@ -216,7 +216,7 @@ void OpeningTest::brokenFile_withoutScene_isDrawnAsError() {
 void OpeningTest::failureOfAnotherJob_isNotThatOfOpening() {
   WindowFixture f;
   const Workbench& bench = f.window.bench();
-  HeldLane held(bench.jobs, Lane::Load);
+  HeldLane held(bench.jobs, Lane::Open);
   bench.opener.open(f.writeScene("edge", WindowFixture::smallOptions()));
   QSignalSpy failures(&bench.jobs, &Jobs::failed);
   bench.jobs.start<bool>(
@@ -225,7 +225,7 @@ void OpeningTest::failureOfAnotherJob_isNotThatOfOpening() {
   QTRY_COMPARE_WITH_TIMEOUT(failures.size(), 1, kPatience);
   held.release();
   QTRY_VERIFY_WITH_TIMEOUT(bench.session.scene(), kScenePatience);
-  QTRY_COMPARE_WITH_TIMEOUT(bench.jobs.count(Lane::Load), 0, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(bench.jobs.count(Lane::Open), 0, kPatience);
 
   QVERIFY(!bench.opener.hasFailed());
 }
