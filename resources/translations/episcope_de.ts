@@ -719,6 +719,10 @@
         <source>%1 cannot be read</source>
         <translation>%1 kann nicht gelesen werden</translation>
     </message>
+    <message>
+        <source>%1 was not read</source>
+        <translation>%1 wurde nicht gelesen</translation>
+    </message>
 </context>
 <context>
     <name>episcope::CaptureFiles</name>

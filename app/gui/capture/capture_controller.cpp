@@ -47,7 +47,7 @@ CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
   tab->installEventFilter(this);
   bench.stage.canvas()->installEventFilter(this);
   connect(documents_, &CaptureDocuments::changed, this, &CaptureController::show);
-  connect(shelf_, &MeshShelf::changed, this, &CaptureController::show);
+  connect(shelf_, &MeshShelf::changed, this, &CaptureController::showRead);
   connect(&bench.frame, &Frame::tabShown, this, [this](const QString& id) {
     if (id == "capture") makePanel();
   });
@@ -263,6 +263,11 @@ void CaptureController::addPair() {
 void CaptureController::show() {
   if (!panel_) return;
   shelf_->keep(documents_->meshes());
+  showRead();
+}
+
+void CaptureController::showRead() {
+  if (!panel_) return;
   showMesh();
   showPairs();
   showNext();
@@ -280,7 +285,8 @@ void CaptureController::showMesh() {
     const auto count = static_cast<qulonglong>(read ? read->mesh->faces.size() : 0);
     text = read ? tr("%1 · %2 faces").arg(name, QLocale::c().toString(count))
            : shelf_->isReading(object->mesh) ? tr("%1 is being read…").arg(name)
-                                             : tr("%1 cannot be read").arg(name);
+           : shelf_->isBroken(object->mesh)  ? tr("%1 cannot be read").arg(name)
+                                             : tr("%1 was not read").arg(name);
   }
   panel_->objects()->setMesh(text);
   const void* shown = read ? read->mesh.get() : nullptr;

@@ -49,6 +49,34 @@ class CaptureJobsTest : public QObject {
 
     QTRY_COMPARE_WITH_TIMEOUT(f.session().light_field()->grid().v, 3, kScenePatience);
   }
+
+  void cancelledMesh_isReadLater() {
+    AtWork f;
+    auto& shelf = find<MeshShelf>(f.window);
+    const std::string file = f.file("scan.ply").string();
+    HeldLane held(f.jobs(), Lane::Load);
+    shelf.read(file, [] {});
+    f.jobs().cancelLane(Lane::Load);
+    held.release();
+    QTRY_VERIFY_WITH_TIMEOUT(!shelf.isReading(file), kPatience);
+    QVERIFY(!shelf.find(file));
+
+    shelf.keep({file});
+
+    QTRY_VERIFY_WITH_TIMEOUT(shelf.find(file), kPatience);
+  }
+
+  void brokenMesh_isReadOnce() {
+    AtWork f;
+    auto& shelf = find<MeshShelf>(f.window);
+    const std::string file = f.file("none.ply").string();
+    shelf.read(file, [] {});
+    QTRY_VERIFY_WITH_TIMEOUT(!shelf.isReading(file), kPatience);
+
+    shelf.keep({file});
+
+    QVERIFY(!shelf.isReading(file));
+  }
 };
 
 }  // namespace episcope::in_capture_jobs_test
