@@ -720,6 +720,10 @@
         <translation>%1 kann nicht gelesen werden</translation>
     </message>
     <message>
+        <source>%1 was dropped: its light field was closed meanwhile.</source>
+        <translation>%1 wurde verworfen: Das Lichtfeld dazu wurde inzwischen geschlossen.</translation>
+    </message>
+    <message>
         <source>%1 was not read</source>
         <translation>%1 wurde nicht gelesen</translation>
     </message>
@@ -4081,6 +4085,10 @@ s</translation>
     <message>
         <source>Photographs of a gantry need the lens first.</source>
         <translation>Fotos brauchen zuerst das kalibrierte Objektiv.</translation>
+    </message>
+    <message>
+        <source>The lens was dropped: its light field was closed meanwhile.</source>
+        <translation>Das Objektiv wurde verworfen: Das Lichtfeld dazu wurde inzwischen geschlossen.</translation>
     </message>
 </context>
 <context>

@@ -200,9 +200,11 @@ void CaptureController::connectFiles() {
 void CaptureController::readMesh(const QString& path, const Change& then) {
   bench_.frame.showTab("capture");
   makePanel();
-  shelf_->read(path.toStdString(), [this, then] {
-    vertex_.reset();
-    change(then);
+  shelf_->read(path.toStdString(), [this, path, then, scene = bench_.session.generation()] {
+    if (scene == bench_.session.generation()) vertex_.reset();
+    if (documents_->changeOf(scene, then)) return;
+    bench_.messages.warn(tr("%1 was dropped: its light field was closed meanwhile.")
+                             .arg(QFileInfo(path).fileName()));
   });
 }
 

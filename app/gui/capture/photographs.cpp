@@ -158,7 +158,8 @@ void Photographs::calibrate(const QStringList& photographs, const capture::Patte
       [files = paths_of(photographs), pattern](const Progress& progress) {
         return capture::calibrate(files, pattern, progress);
       },
-      [this, pattern](const capture::Calibration& calibration) { take(calibration, pattern); });
+      [this, pattern, scene = bench_.session.generation()](
+          const capture::Calibration& calibration) { take(calibration, pattern, scene); });
 }
 
 void Photographs::beginGantry(const GantryFolder& demo) {
@@ -175,9 +176,15 @@ void Photographs::beginGantry(const GantryFolder& demo) {
          "Rectify them to find the pose of the mesh."));
 }
 
-void Photographs::take(const capture::Calibration& calibration, const capture::Pattern& pattern) {
-  documents_.change(
-      [&](CaptureDocument& document) { document.set_lens(lens_of(calibration), pattern); });
+void Photographs::take(const capture::Calibration& calibration, const capture::Pattern& pattern,
+                       std::uint64_t scene) {
+  const auto set = [&](CaptureDocument& document) {
+    document.set_lens(lens_of(calibration), pattern);
+  };
+  if (!documents_.changeOf(scene, set)) {
+    bench_.messages.warn(tr("The lens was dropped: its light field was closed meanwhile."));
+    return;
+  }
   const auto& all = calibration.photographs;
   const auto used = std::ranges::count_if(all, &capture::PatternPhotograph::is_used);
   if (used < std::ssize(all)) {

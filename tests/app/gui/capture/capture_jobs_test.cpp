@@ -5,6 +5,9 @@
 #include "tests/app/gui/capture/capturing.h"
 #include "tests/app/gui/held_lane.h"
 #include "tests/window_test_main.h"
+#include "widgets/controls/message_bar.h"
+
+#include <QFile>
 
 namespace episcope::in_capture_jobs_test {
 
@@ -14,6 +17,10 @@ class AtWork : public Capturing {
  public:
   [[nodiscard]] Jobs& jobs() { return window.bench().jobs; }
   [[nodiscard]] Session& session() { return window.bench().session; }
+  [[nodiscard]] const CaptureWork& workOf(std::uint64_t scene) {
+    return session().find_scene(scene)->place.capture;
+  }
+  [[nodiscard]] QString message() { return window.findChild<MessageBar*>("messageBar")->text(); }
 };
 
 }  // namespace
@@ -76,6 +83,64 @@ class CaptureJobsTest : public QObject {
     shelf.keep({file});
 
     QVERIFY(!shelf.isReading(file));
+  }
+
+  void mesh_isOfTheLightFieldThatWasShown() {
+    AtWork f;
+    const std::uint64_t edge = f.session().generation();
+    f.openSmall("slant");
+    const std::uint64_t slant = f.session().generation();
+    f.session().choose(edge);
+    HeldLane held(f.jobs(), Lane::Load);
+    f.capture().openMesh(f.path("scan.ply"));
+
+    f.session().choose(slant);
+    held.release();
+
+    QTRY_COMPARE_WITH_TIMEOUT(f.jobs().count(Lane::Load), 0, kPatience);
+    QCOMPARE(f.workOf(edge).objects.size(), std::size_t{1});
+    QVERIFY(f.workOf(slant).objects.empty());
+    f.session().choose(edge);
+    f.awaitMesh("scan.ply");
+  }
+
+  void meshOfAClosedLightField_isToldAndDropped() {
+    AtWork f;
+    const std::uint64_t edge = f.session().generation();
+    f.openSmall("slant");
+    const std::uint64_t slant = f.session().generation();
+    f.session().choose(edge);
+    HeldLane held(f.jobs(), Lane::Load);
+    f.capture().openMesh(f.path("scan.ply"));
+
+    f.session().choose(slant);
+    f.session().remove(edge);
+    held.release();
+
+    QTRY_VERIFY2_WITH_TIMEOUT(f.message().contains("scan.ply"), qPrintable(f.message()), kPatience);
+    QVERIFY(f.workOf(slant).objects.empty());
+  }
+
+  void lens_isOfTheLightFieldThatWasShown() {
+    AtWork f;
+    f.trigger("tab.compare");
+    f.window.bench().opener.setCacheFolder(f.file("cache"));
+    f.window.bench().opener.open("demo:gantry?size=400x300&grid=3x3");
+    QTRY_COMPARE_WITH_TIMEOUT(f.session().light_field()->grid().v, 3, kScenePatience);
+    const std::uint64_t gantry = f.session().generation();
+    f.openSmall("slant");
+    const std::uint64_t slant = f.session().generation();
+    f.session().choose(gantry);
+    HeldLane held(f.jobs(), Lane::Capture);
+    f.trigger("tab.capture");
+    QTRY_COMPARE_WITH_TIMEOUT(f.jobs().count(Lane::Capture), 2, kPatience);
+
+    f.session().choose(slant);
+    held.release();
+
+    QTRY_COMPARE_WITH_TIMEOUT(f.jobs().count(Lane::Capture), 0, kScenePatience);
+    QVERIFY(f.workOf(gantry).lens.has_value());
+    QVERIFY(!f.workOf(slant).lens.has_value());
   }
 };
 
