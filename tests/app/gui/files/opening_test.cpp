@@ -29,6 +29,21 @@
 
 namespace episcope::in_opening_test {
 
+namespace {
+
+void drop(MainWindow& window, const QStringList& files) {
+  QMimeData data;
+  QList<QUrl> urls;
+  for (const QString& file : files) urls << QUrl::fromLocalFile(file);
+  data.setUrls(urls);
+  QDragEnterEvent enter({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&window, &enter);
+  QCoreApplication::sendEvent(&window, &drop);
+}
+
+}  // namespace
+
 class OpeningTest : public QObject {
   Q_OBJECT
 
@@ -50,6 +65,7 @@ class OpeningTest : public QObject {
   void dialog_remembersItsFolder();
   void droppedFile_isOpened();
   void droppedFiles_areAllOpened();
+  void droppedFiles_areOpenedBesideABrokenOne();
   void anotherScene_hasItsOwnResults();
   void closedScene_leavesTheEmptyWindow();
   void recentFiles_areRemembered();
@@ -301,19 +317,28 @@ void OpeningTest::droppedFile_isOpened() {
 
 void OpeningTest::droppedFiles_areAllOpened() {
   WindowFixture f;
-  QMimeData data;
-  QList<QUrl> urls;
+  QStringList files;
   for (const char* id : {"slant", "edge", "fronto"}) {
-    urls << QUrl::fromLocalFile(f.writeScene(id, WindowFixture::smallOptions()));
+    files << f.writeScene(id, WindowFixture::smallOptions());
   }
-  data.setUrls(urls);
-  QDragEnterEvent enter({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
 
-  QCoreApplication::sendEvent(&f.window, &enter);
-  QCoreApplication::sendEvent(&f.window, &drop);
+  drop(f.window, files);
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.scenes().size(), 3U, kScenePatience);
+}
+
+void OpeningTest::droppedFiles_areOpenedBesideABrokenOne() {
+  WindowFixture f;
+  const QString slant = f.writeScene("slant", WindowFixture::smallOptions());
+  const QString edge = f.writeScene("edge", WindowFixture::smallOptions());
+
+  drop(f.window, {slant, f.path("missing"), f.path("gone"), edge});
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.scenes().size(), 2U, kScenePatience);
+  const auto* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY2(messages->isVisible() && messages->text().contains(f.path("gone")) &&
+                   messages->text().contains(f.path("missing")),
+               qPrintable(messages->text()));
 }
 
 void OpeningTest::anotherScene_hasItsOwnResults() {
