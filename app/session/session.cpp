@@ -304,9 +304,14 @@ void Session::set_measurements(const Measurements& measured) {
 }
 
 void Session::set_capture(const CaptureWork& work) {
-  if (!now_->scene) return;
-  const bool is_news = work != now_->place.capture;
-  now_->place.capture = work;  // poses, which follow from it, may be news although it is none
+  if (now_->scene) set_capture(now_->id, work);
+}
+
+void Session::set_capture(std::uint64_t id, const CaptureWork& work) {
+  OpenScene* scene = open_scene(id);
+  if (!scene) return;
+  const bool is_news = work != scene->place.capture;
+  scene->place.capture = work;  // poses, which follow from it, may be news although it is none
   if (is_news) changed(Part::Capture);
 }
 

@@ -164,6 +164,8 @@ class Session {
   void set_measurements(const Measurements& measured);
   /// What was done on the way from photographs to ground truth.
   void set_capture(const CaptureWork& work);
+  /// The same of a scene that need not be shown. Unknown scenes are ignored.
+  void set_capture(std::uint64_t scene, const CaptureWork& work);
   /// Which pixels metrics are of, of an open scene. Ignored for an unknown one.
   void set_judged(std::uint64_t scene, const JudgedPart& part);
 

@@ -719,6 +719,14 @@
         <source>%1 cannot be read</source>
         <translation>%1 kann nicht gelesen werden</translation>
     </message>
+    <message>
+        <source>%1 was dropped: its light field was closed meanwhile.</source>
+        <translation>%1 wurde verworfen: Das Lichtfeld dazu wurde inzwischen geschlossen.</translation>
+    </message>
+    <message>
+        <source>%1 was not read</source>
+        <translation>%1 wurde nicht gelesen</translation>
+    </message>
 </context>
 <context>
     <name>episcope::CaptureFiles</name>
@@ -4097,6 +4105,10 @@ s</translation>
     <message>
         <source>Photographs of a gantry need the lens first.</source>
         <translation>Fotos brauchen zuerst das kalibrierte Objektiv.</translation>
+    </message>
+    <message>
+        <source>The lens was dropped: its light field was closed meanwhile.</source>
+        <translation>Das Objektiv wurde verworfen: Das Lichtfeld dazu wurde inzwischen geschlossen.</translation>
     </message>
 </context>
 <context>

@@ -47,7 +47,7 @@ CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
   tab->installEventFilter(this);
   bench.stage.canvas()->installEventFilter(this);
   connect(documents_, &CaptureDocuments::changed, this, &CaptureController::show);
-  connect(shelf_, &MeshShelf::changed, this, &CaptureController::show);
+  connect(shelf_, &MeshShelf::changed, this, &CaptureController::showRead);
   connect(&bench.frame, &Frame::tabShown, this, [this](const QString& id) {
     if (id == "capture") makePanel();
   });
@@ -200,9 +200,11 @@ void CaptureController::connectFiles() {
 void CaptureController::readMesh(const QString& path, const Change& then) {
   bench_.frame.showTab("capture");
   makePanel();
-  shelf_->read(path.toStdString(), [this, then] {
-    vertex_.reset();
-    change(then);
+  shelf_->read(path.toStdString(), [this, path, then, scene = bench_.session.generation()] {
+    if (scene == bench_.session.generation()) vertex_.reset();
+    if (documents_->changeOf(scene, then)) return;
+    bench_.messages.warn(tr("%1 was dropped: its light field was closed meanwhile.")
+                             .arg(QFileInfo(path).fileName()));
   });
 }
 
@@ -263,6 +265,11 @@ void CaptureController::addPair() {
 void CaptureController::show() {
   if (!panel_) return;
   shelf_->keep(documents_->meshes());
+  showRead();
+}
+
+void CaptureController::showRead() {
+  if (!panel_) return;
   showMesh();
   showPairs();
   showNext();
@@ -280,7 +287,8 @@ void CaptureController::showMesh() {
     const auto count = static_cast<qulonglong>(read ? read->mesh->faces.size() : 0);
     text = read ? tr("%1 · %2 faces").arg(name, QLocale::c().toString(count))
            : shelf_->isReading(object->mesh) ? tr("%1 is being read…").arg(name)
-                                             : tr("%1 cannot be read").arg(name);
+           : shelf_->isBroken(object->mesh)  ? tr("%1 cannot be read").arg(name)
+                                             : tr("%1 was not read").arg(name);
   }
   panel_->objects()->setMesh(text);
   const void* shown = read ? read->mesh.get() : nullptr;

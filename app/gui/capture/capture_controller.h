@@ -68,6 +68,8 @@ class CaptureController : public QObject {
   bool hearKey(const QKeyEvent& event);
   /// The document, or the mesh of its object, is another.
   void show();
+  /// The same, with the meshes that are read by now.
+  void showRead();
   void showMesh();
   void showPairs();
   /// What the next pair would take.

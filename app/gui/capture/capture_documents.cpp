@@ -46,6 +46,8 @@ void CaptureDocuments::follow() {
   if (scene == scene_) return;
   if (!documents_.contains(scene)) documents_.emplace(scene, CaptureDocument(firstWork()));
   if (scene_ == 0) documents_[0] = CaptureDocument();
+  if (shows_none_) heir_ = {scene_, scene};
+  shows_none_ = !bench_.session.scene();
   scene_ = scene;
   settle();
 }
@@ -54,6 +56,22 @@ void CaptureDocuments::change(const std::function<void(CaptureDocument&)>& chang
   follow();
   change(documents_[scene_]);
   settle();
+}
+
+bool CaptureDocuments::changeOf(std::uint64_t scene,
+                                const std::function<void(CaptureDocument&)>& change) {
+  follow();
+  const std::uint64_t id = scene == heir_.none ? heir_.next : scene;
+  if (id == scene_) {
+    this->change(change);
+    return true;
+  }
+  const auto found = documents_.find(id);
+  if (found == documents_.end() || !bench_.session.find_scene(id)) return false;
+  change(found->second);  // its pose is solved when it is shown again
+  bench_.session.set_capture(id, found->second.work());
+  emit changed();
+  return true;
 }
 
 void CaptureDocuments::begin(CaptureWork work) {

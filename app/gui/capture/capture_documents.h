@@ -33,6 +33,11 @@ class CaptureDocuments : public QObject {
 
   /// Changes the document of the light field that is shown.
   void change(const std::function<void(CaptureDocument&)>& change);
+  /// The same of the light field that was shown when `scene` was `Session::generation`; what began
+  /// with none goes on with the one that came next. Returns false, and does nothing, if it is
+  /// closed.
+  [[nodiscard]] bool changeOf(std::uint64_t scene,
+                              const std::function<void(CaptureDocument&)>& change);
   /// What the light field that is shown begins with; nothing of it can be undone.
   void begin(CaptureWork work);
   /// Light fields that were just opened are told of later: this follows at once.
@@ -43,12 +48,20 @@ class CaptureDocuments : public QObject {
   void changed();
 
  private:
+  /// The last time that there was no light field, and the one that came next.
+  struct Heir {
+    std::uint64_t none = 0;
+    std::uint64_t next = 0;
+  };
+
   [[nodiscard]] CaptureWork firstWork() const;
   void settle();
 
   Workbench bench_;
   std::map<std::uint64_t, CaptureDocument> documents_;  // by OpenScene::id
   std::uint64_t scene_ = 0;
+  bool shows_none_ = true;
+  Heir heir_;
   QString problem_;
 };
 

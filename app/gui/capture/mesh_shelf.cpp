@@ -9,11 +9,16 @@
 
 namespace episcope {
 
-MeshShelf::MeshShelf(const Workbench& bench, QObject* parent) : QObject(parent), bench_(bench) {}
+MeshShelf::MeshShelf(const Workbench& bench, QObject* parent) : QObject(parent), bench_(bench) {
+  connect(&bench.jobs, &Jobs::failed, this, [this](const QString&, quint64 job) {
+    for (const auto& [file, reading] : reading_) {
+      if (reading == job) broken_.insert(file);
+    }
+  });
+}
 
 void MeshShelf::read(const std::string& file, const std::function<void()>& then) {
-  reading_.insert(file);
-  bench_.jobs.start<ReadMesh>(
+  reading_[file] = bench_.jobs.start<ReadMesh>(
       Lane::Load, tr("Opening %1").arg(QFileInfo(QString::fromStdString(file)).fileName()),
       [file](const Progress& progress) {
         ReadMesh read;
@@ -29,16 +34,14 @@ void MeshShelf::read(const std::string& file, const std::function<void()>& then)
         then();
       },
       [this, file] {
-        if (reading_.erase(file) == 0) return;
-        broken_.insert(file);
-        emit changed();
+        if (reading_.erase(file) > 0) emit changed();
       });
 }
 
 void MeshShelf::keep(const std::set<std::string>& files) {
   std::erase_if(meshes_, [&](const auto& each) { return !files.contains(each.first); });
   for (const std::string& file : files) {
-    if (file.empty() || find(file) || isReading(file) || broken_.contains(file)) continue;
+    if (file.empty() || find(file) || isReading(file) || isBroken(file)) continue;
     read(file, [this] { emit changed(); });
   }
 }

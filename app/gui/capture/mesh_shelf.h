@@ -31,20 +31,22 @@ class MeshShelf : public QObject {
   /// Reads a file, anew if it was read before; `then` is called if it is a mesh.
   void read(const std::string& file, const std::function<void()>& then);
   /// Reads the files that are not there, but for those that could not be read, and forgets all
-  /// others.
+  /// others. What was cancelled is read again.
   void keep(const std::set<std::string>& files);
   /// Null if it is not there (yet).
   [[nodiscard]] const ReadMesh* find(const std::string& file) const;
   [[nodiscard]] bool isReading(const std::string& file) const { return reading_.contains(file); }
+  /// Whether it could not be read.
+  [[nodiscard]] bool isBroken(const std::string& file) const { return broken_.contains(file); }
 
  signals:
-  /// A mesh is there that `keep` asked for, or it cannot be read.
+  /// A mesh is there that `keep` asked for, or reading one has failed or was cancelled.
   void changed();
 
  private:
   Workbench bench_;
   std::map<std::string, ReadMesh> meshes_;
-  std::set<std::string> reading_;
+  std::map<std::string, quint64> reading_;  // with its newest job
   std::set<std::string> broken_;
 };
 

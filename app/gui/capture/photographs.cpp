@@ -154,11 +154,12 @@ void Photographs::askForRectified() {
 
 void Photographs::calibrate(const QStringList& photographs, const capture::Pattern& pattern) {
   bench_.jobs.start<capture::Calibration>(
-      Lane::Load, tr("Calibrating the lens"),
+      Lane::Capture, tr("Calibrating the lens"),
       [files = paths_of(photographs), pattern](const Progress& progress) {
         return capture::calibrate(files, pattern, progress);
       },
-      [this, pattern](const capture::Calibration& calibration) { take(calibration, pattern); });
+      [this, pattern, scene = bench_.session.generation()](
+          const capture::Calibration& calibration) { take(calibration, pattern, scene); });
 }
 
 void Photographs::beginGantry(const GantryFolder& demo) {
@@ -175,9 +176,15 @@ void Photographs::beginGantry(const GantryFolder& demo) {
          "Rectify them to find the pose of the mesh."));
 }
 
-void Photographs::take(const capture::Calibration& calibration, const capture::Pattern& pattern) {
-  documents_.change(
-      [&](CaptureDocument& document) { document.set_lens(lens_of(calibration), pattern); });
+void Photographs::take(const capture::Calibration& calibration, const capture::Pattern& pattern,
+                       std::uint64_t scene) {
+  const auto set = [&](CaptureDocument& document) {
+    document.set_lens(lens_of(calibration), pattern);
+  };
+  if (!documents_.changeOf(scene, set)) {
+    bench_.messages.warn(tr("The lens was dropped: its light field was closed meanwhile."));
+    return;
+  }
   const auto& all = calibration.photographs;
   const auto used = std::ranges::count_if(all, &capture::PatternPhotograph::is_used);
   if (used < std::ssize(all)) {
@@ -212,7 +219,7 @@ void Photographs::rectify(const QString& path) {
   if (!canRectify() || !is_new_light_field(path, bench_.messages)) return;
   const RectifyTask task{*bench_.session.scene(), documents_.now().work(), path_of(path)};
   bench_.jobs.start<CaptureWork>(
-      Lane::Load, tr("Rectifying"),
+      Lane::Capture, tr("Rectifying"),
       [task](const Progress& progress) { return rectify_to_file(task, progress).work; },
       [this, path](const CaptureWork& work) {
         bench_.opener.open(path, [this, work] { documents_.begin(work); });
@@ -222,7 +229,7 @@ void Photographs::rectify(const QString& path) {
 void Photographs::makeDemo(const QString& folder, const capture::DemoOptions& options) {
   const GantryFolder demo{new_folder(folder)};
   bench_.jobs.start<bool>(
-      Lane::Load, tr("Making the demo"),
+      Lane::Capture, tr("Making the demo"),
       [demo, options](const Progress& progress) {
         capture::write_demo_folder(demo.path, options, progress);
         return true;

@@ -10,6 +10,8 @@
 #include <QString>
 #include <QStringList>
 
+#include <cstdint>
+
 namespace episcope {
 
 class CaptureDocuments;
@@ -40,7 +42,8 @@ class Photographs : public QObject {
  private:
   void askForPattern();
   void askForRectified();
-  void take(const capture::Calibration& calibration, const capture::Pattern& pattern);
+  void take(const capture::Calibration& calibration, const capture::Pattern& pattern,
+            std::uint64_t scene);
   void show();
   [[nodiscard]] bool canRectify() const;
 

@@ -6,6 +6,7 @@
 #include "app/gui/files/save_forms.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/dialogs.h"
+#include "app/gui/frame/messages.h"
 #include "app/gui/opening/result_opener.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/stage/stage.h"
@@ -177,16 +178,23 @@ void FileController::openAny(const QString& path) {
 
 // One after the other, for each takes the place of what is still being opened; results last, as
 // they belong to a light field.
-void FileController::openAll(QStringList paths) {
+void FileController::openAll(QStringList paths, const QStringList& failures) {
   std::stable_partition(paths.begin(), paths.end(),
                         [](const QString& path) { return !is_result(path); });
-  if (paths.isEmpty()) return;
+  if (paths.isEmpty()) {
+    if (!failures.isEmpty()) bench_.messages.fail(failures.join('\n'));
+    return;
+  }
   const QString path = paths.takeFirst();
   if (bench_.session.scene() && is_result(path)) {
     openAny(path);
-    openAll(paths);
+    openAll(paths, failures);
   } else {
-    bench_.opener.open(path, [this, paths] { openAll(paths); });
+    const auto go_on = [this, paths, failures](const QString& failure) {
+      openAll(paths, failure.isEmpty() ? failures : QStringList(failures) << failure);
+    };
+    bench_.opener.open(
+        path, [go_on] { go_on({}); }, go_on);
   }
 }
 
@@ -227,7 +235,7 @@ bool FileController::eventFilter(QObject* watched, QEvent* event) {
   for (const QUrl& url : urls) {
     if (url.isLocalFile()) paths << url.toLocalFile();
   }
-  openAll(paths);
+  openAll(paths, {});
   return true;
 }
 

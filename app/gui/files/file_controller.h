@@ -31,7 +31,8 @@ class FileController : public QObject {
   void askForBuiltin();
   /// A result is added to the open light field; anything else is opened.
   void openAny(const QString& path);
-  void openAll(QStringList paths);
+  /// Tells of earlier failures once all of them were tried.
+  void openAll(QStringList paths, const QStringList& failures);
   void remember(const QString& input);
   void fillRecentMenu();
   void showInvitation();

@@ -72,7 +72,7 @@ void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
   const QString title = jobs_[id].title;
   jobs_.erase(id);
   emit removed(id);
-  if (failure) emit failed(tr("%1 failed: %2").arg(title, failure_sentence(failure)));
+  if (failure) emit failed(tr("%1 failed: %2").arg(title, failure_sentence(failure)), id);
 }
 
 void Jobs::cancel(quint64 id) {

@@ -18,8 +18,18 @@
 
 namespace episcope {
 
-/// Jobs of one lane run one after the other, those of different lanes side by side.
-enum class Lane { Load, Estimate, Label, Export, List };
+/// Jobs of one lane run one after the other, those of different lanes side by side. A light field
+/// or a project that is opened ends what else is being opened, and nothing in other lanes.
+enum class Lane {
+  Open,     ///< Light fields and projects.
+  Load,     ///< What belongs to a light field: results, meshes, masks, labels.
+  Capture,  ///< Light fields that are made of photographs.
+  Estimate,
+  Label,
+  Export,
+  List,
+  Count
+};
 
 /// Every background job that a user sees: start, progress, cancellation, end and failure, in all
 /// lanes, with unique ids.
@@ -83,8 +93,8 @@ class Jobs : public QObject {
   void cancelling(quint64 id);
   void finishing(quint64 id);
   void removed(quint64 id);
-  /// A sentence for the user.
-  void failed(const QString& sentence);
+  /// A sentence for the user, of a job that is no longer there.
+  void failed(const QString& sentence, quint64 id);
 
  private:
   struct Job {
@@ -107,7 +117,7 @@ class Jobs : public QObject {
   std::map<quint64, Job> jobs_;
   quint64 last_id_ = 0;
   QTimer progress_;  // Runs for a while after progress was told.
-  std::array<std::unique_ptr<JobRunner>, 5> runners_;
+  std::array<std::unique_ptr<JobRunner>, static_cast<std::size_t>(Lane::Count)> runners_;
 };
 
 /// What went wrong, as a sentence for the user.

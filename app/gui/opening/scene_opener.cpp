@@ -113,12 +113,13 @@ SceneOpener::SceneOpener(Session& session, Jobs& jobs, Stage& stage, const Leave
       cache_folder_(default_cache_folder()) {
   connect(&jobs_, &Jobs::progressed, this,
           [this](quint64 job, double fraction) { showLoading(job, fraction); });
-  connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence) {
-    if (loading_job_ != 0) last_failure_ = sentence;
+  connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence, quint64 job) {
+    if (job == loading_job_) last_failure_ = sentence;
   });
 }
 
-void SceneOpener::open(const QString& input_as_given, std::function<void()> then) {
+void SceneOpener::open(const QString& input_as_given, std::function<void()> then,
+                       std::function<void(const QString&)> otherwise) {
   const QString input = absolute(input_as_given);
   if (names_project(input.toStdString())) {
     emit isProject(input);
@@ -137,6 +138,7 @@ void SceneOpener::open(const QString& input_as_given, std::function<void()> then
               emit opened(input);
               if (then) then();
             },
+        .otherwise = std::move(otherwise),
         .is_added = true});
 }
 
@@ -175,15 +177,19 @@ void SceneOpener::reopenAt(double focus_px, std::function<void()> then) {
   if (!session_.scene()) return;
   Reading reading = session_.light_field()->info().reading;
   reading.set_focus(focus_px);
-  load({QString::fromStdString(session_.input()), reading.options, false, std::move(then), true});
+  load({.input = QString::fromStdString(session_.input()),
+        .given = reading.options,
+        .then = std::move(then),
+        .keeps_results = true});
 }
 
 void SceneOpener::reopenFrame(int frame, std::function<void()> then) {
   if (!session_.scene()) return;
   io::OpenOptions options = io::open_schema().parse(session_.reading_options());
   options.frame = frame;
-  load({QString::fromStdString(session_.input()), io::given_options(options), false,
-        std::move(then)});
+  load({.input = QString::fromStdString(session_.input()),
+        .given = io::given_options(options),
+        .then = std::move(then)});
 }
 
 QString SceneOpener::reopenable() const {
@@ -222,13 +228,14 @@ void SceneOpener::leave(const Load& load, const std::function<void()>& go_on) {
 }
 
 void SceneOpener::start(const Load& load) {
-  jobs_.cancelLane(Lane::Load);
+  jobs_.cancelLane(Lane::Open);
   const quint64 number = ++number_;
   loading_name_ = short_name(load.input);
   last_failure_.clear();
+  has_asked_ = false;
   if (!session_.scene()) stage_.canvas()->showLoading(loading_name_, -1);
   loading_job_ = jobs_.start<Opened>(
-      Lane::Load, tr("Opening %1").arg(loading_name_),
+      Lane::Open, tr("Opening %1").arg(loading_name_),
       [path = load.input.toStdString(), options = loadOptions(number, load.given),
        is_remembered = load.is_remembered](const Progress& progress) {
         return read_or_question([&] {
@@ -242,7 +249,9 @@ void SceneOpener::start(const Load& load) {
           return;
         }
         if (opened.is_collection) {
-          if (number == number_) emit isCollection(load.input);
+          if (number != number_) return;
+          emit isCollection(load.input);
+          if (load.otherwise) load.otherwise({});
           return;
         }
         // Painting may have gone on while this was read.
@@ -252,7 +261,7 @@ void SceneOpener::start(const Load& load) {
           if (load.then) load.then();
         });
       },
-      [this, number, input = load.input] { end(number, input); });
+      [this, number, load] { end(number, load); });
   emit changed();
 }
 
@@ -260,6 +269,7 @@ void SceneOpener::ask(const Load& load, const io::Undecided& question) {
   last_failure_ = tr("%1: %2. “Conventions…” lets you choose.")
                       .arg(QString::fromStdString(question.path().string()),
                            QString::fromStdString(question.reason()));
+  has_asked_ = true;
   auto* dialog = new ReadingQuestion(question, stage_.canvas()->window());
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QDialog::accepted, this, [this, load, key = question.option(), dialog] {
@@ -272,6 +282,10 @@ void SceneOpener::ask(const Load& load, const io::Undecided& question) {
     };
     this->load(again);
   });
+  if (load.otherwise) {
+    connect(dialog, &QDialog::rejected, this,
+            [load, failure = last_failure_] { load.otherwise(failure); });
+  }
   dialog->open();
 }
 
@@ -297,19 +311,16 @@ void SceneOpener::finish(const Load& load, const ScenePtr& scene) {
   if (is_builtin(load.input)) keepBuiltin(load.input);
 }
 
-void SceneOpener::end(quint64 number, const QString& input) {
+void SceneOpener::end(quint64 number, const Load& load) {
   if (number != number_) return;
   loading_job_ = 0;
-  failed_input_ = last_failure_.isEmpty() ? QString() : input;
+  failed_input_ = last_failure_.isEmpty() ? QString() : load.input;
   if (!last_failure_.isEmpty()) told_failure_ = last_failure_;
   stage_.endPreview();
   emit changed();
-  if (session_.scene()) return;
-  if (last_failure_.isEmpty()) {
-    stage_.canvas()->showEmpty();
-  } else {
-    stage_.canvas()->showError(last_failure_);
-  }
+  if (!session_.scene() && last_failure_.isEmpty()) stage_.canvas()->showEmpty();
+  if (!session_.scene() && !last_failure_.isEmpty()) stage_.canvas()->showError(last_failure_);
+  if (load.otherwise && !last_failure_.isEmpty() && !has_asked_) load.otherwise(told_failure_);
 }
 
 void SceneOpener::keepBuiltin(const QString& input) {
@@ -325,7 +336,7 @@ void SceneOpener::keepBuiltin(const QString& input) {
 
 void SceneOpener::close() {
   guards_.leave(Leaving::Scene, [this] {
-    jobs_.cancelLane(Lane::Load);
+    jobs_.cancelLane(Lane::Open);
     ++number_;
     loading_job_ = 0;
     failed_input_.clear();

@@ -30,9 +30,12 @@ class SceneOpener : public QObject {
               SceneSwitcher& scenes, QObject* parent);
 
   /// Opens a path, `demo` or `demo:<scene>`, with the conventions that are remembered for it,
-  /// beside what is open already; what is open itself is shown. `then` is called after success. A
-  /// project is not opened here: see `isProject`.
-  void open(const QString& input, std::function<void()> then = nullptr);
+  /// beside what is open already; what is open itself is shown. `then` is called after success,
+  /// `otherwise` after a failure, with the sentence that told it, and after `isCollection`, with
+  /// none; neither if it is cancelled or gives way to another. A project is not opened here: see
+  /// `isProject`.
+  void open(const QString& input, std::function<void()> then = nullptr,
+            std::function<void(const QString&)> otherwise = nullptr);
   /// Reads what is open, or what failed to open, again as it is on the disk by now.
   void reopen();
   /// Reads what is open, or what failed to open, again as the user chose. The choice is remembered
@@ -74,7 +77,8 @@ class SceneOpener : public QObject {
     QString input;
     ParameterSet given;
     bool is_remembered = false;  ///< Conventions that do not fit any more are passed over.
-    std::function<void()> then;
+    std::function<void()> then{};
+    std::function<void(const QString&)> otherwise{};
     bool keeps_results = false;  ///< `then` brings them back.
     bool is_added = false;       ///< Beside what is open, not in its place.
   };
@@ -86,7 +90,7 @@ class SceneOpener : public QObject {
   [[nodiscard]] LoadOptions loadOptions(quint64 number, const ParameterSet& given);
   void showLoading(quint64 job, double fraction);
   void finish(const Load& load, const std::shared_ptr<const Scene>& scene);
-  void end(quint64 number, const QString& input);
+  void end(quint64 number, const Load& load);
   void ask(const Load& load, const io::Undecided& question);
   void keepBuiltin(const QString& input);
   void forgetFailure();
@@ -100,6 +104,7 @@ class SceneOpener : public QObject {
   quint64 number_ = 0;  // of the newest load
   quint64 loading_job_ = 0;
   QString loading_name_;
+  bool has_asked_ = false;  // whether it waits for an answer
   QString last_failure_;
   QString told_failure_;  // of the last load that failed, until another succeeds
   QString failed_input_;  // asked for last, and not to be read

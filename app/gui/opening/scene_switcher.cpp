@@ -139,7 +139,7 @@ void SceneSwitcher::read(OpenScene scene, std::function<bool(const Read&)> takes
   wanted_ = id;
   auto copy = std::make_shared<OpenScene>(std::move(scene));
   jobs_.start<Read>(
-      Lane::Load, tr("Opening %1").arg(QString::fromStdString(copy->name)),
+      Lane::Open, tr("Opening %1").arg(QString::fromStdString(copy->name)),
       [copy, cache = cache_folder_](const Progress& progress) {
         return read_all(*copy, cache, progress);
       },

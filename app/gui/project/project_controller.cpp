@@ -128,7 +128,7 @@ void ProjectController::open(const QString& path) {
 void ProjectController::read(const QString& path) {
   using Read = std::shared_ptr<ReadProject>;
   bench_.jobs.start<Read>(
-      Lane::Load, tr("Opening %1").arg(QFileInfo(path).fileName()),
+      Lane::Open, tr("Opening %1").arg(QFileInfo(path).fileName()),
       [path](const Progress&) {
         auto read = std::make_shared<ReadProject>();
         read->project = read_project(path.toStdString());

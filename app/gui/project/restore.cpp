@@ -35,7 +35,7 @@ bool gives_way(const OpenScene& open, const Project& project) {
 }
 
 void make_way(const Workbench& bench, const Project& project, ProjectOrigin origin) {
-  bench.jobs.cancelLane(Lane::Load);
+  bench.jobs.cancelLane(Lane::Open);
   for (const OpenScene* each : bench.session.scenes()) {
     if (origin == ProjectOrigin::Crash && !gives_way(*each, project)) continue;
     const std::uint64_t id = each->id;

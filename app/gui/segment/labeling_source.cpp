@@ -20,14 +20,19 @@ LabelingSource::LabelingSource(Session& session, Jobs& jobs, QObject* parent)
 }
 
 void LabelingSource::update(Parts parts) {
-  if (parts.has(Part::Scene)) {
-    choice_ = Automatic;
-    own_ = {};
-    is_running_ = false;
-  }
+  if (parts.has(Part::Scene)) choice_ = Automatic;
+  if (parts.has_any(Part::Scene | Part::Scenes)) leaveGone();
   if (!parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) return;
   if (choice_ > 0 && !session_.find_estimate(choice_)) choice_ = Automatic;
   emit changed();
+}
+
+// They take as much memory as a result.
+void LabelingSource::leaveGone() {
+  std::erase_if(own_, [this](const auto& own) {
+    const OpenScene* scene = session_.find_scene(own.first);
+    return !scene || !scene->scene;
+  });
 }
 
 void LabelingSource::choose(int choice) {
@@ -56,8 +61,8 @@ LabelingDisparity LabelingSource::automatic() const {
   for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
     if (LabelingDisparity found = fieldOf(&*entry); found.field) return found;
   }
-  // Its own belongs to the light field that it was made of.
-  return tried_ == session_.generation() ? own_ : LabelingDisparity{};
+  const auto own = own_.find(session_.generation());
+  return own == own_.end() ? LabelingDisparity{} : own->second;
 }
 
 LabelingDisparity LabelingSource::find(FeatureSet features) const {
@@ -86,25 +91,21 @@ bool LabelingSource::isComing() const {
 void LabelingSource::provide() {
   const LightFieldPtr light_field = session_.light_field();
   const std::uint64_t generation = session_.generation();
-  if (!light_field || choice_ != Automatic || automatic().field || is_running_ ||
-      tried_ == generation || jobs_.count(Lane::Estimate) > 0) {
+  if (!light_field || choice_ != Automatic || automatic().field || own_.contains(generation) ||
+      jobs_.count(Lane::Estimate) > 0) {
     return;
   }
-  tried_ = generation;
-  is_running_ = true;
+  own_[generation] = {};
   const quint64 job = jobs_.start<FinishedEstimate>(
       Lane::Estimate, job_title(tr("Disparity for labels"), session_),
       [light_field](const Progress& progress) {
         return run_estimator(*light_field, {kQuickEstimator, {}, {}}, progress);
       },
       [this, generation](const FinishedEstimate& finished) {
-        if (generation != session_.generation()) return;
-        own_ = disparity_of(finished.estimate, kQuickEstimator);
+        const auto own = own_.find(generation);
+        if (own != own_.end()) own->second = disparity_of(finished.estimate, kQuickEstimator);
       },
-      [this] {
-        is_running_ = false;
-        emit changed();
-      });
+      [this] { emit changed(); });
   jobs_.setScene(job, generation);
 }
 

@@ -9,6 +9,8 @@
 
 #include <QObject>
 
+#include <cstdint>
+#include <map>
 #include <vector>
 
 namespace episcope {
@@ -30,8 +32,8 @@ class LabelingSource : public QObject {
   [[nodiscard]] std::vector<SegmentPanel::Source> sources() const;
   /// What the features ask for; without a field if there is none (yet).
   [[nodiscard]] LabelingDisparity find(FeatureSet features) const;
-  /// Begins to estimate what is missing, unless that was tried already, something is chosen, or a
-  /// run is under way that may give it.
+  /// Begins to estimate what is missing, unless that was tried already while this scene is in
+  /// memory, something is chosen, or a run is under way that may give it.
   void provide();
   /// Whether a disparity is on its way.
   [[nodiscard]] bool isComing() const;
@@ -42,6 +44,7 @@ class LabelingSource : public QObject {
 
  private:
   void update(Parts parts);
+  void leaveGone();
   [[nodiscard]] LabelingDisparity fieldOf(const EstimateEntry* entry) const;
   [[nodiscard]] LabelingDisparity automatic() const;
   [[nodiscard]] LabelingDisparity truth() const;
@@ -50,9 +53,8 @@ class LabelingSource : public QObject {
   Session& session_;
   Jobs& jobs_;
   int choice_ = Automatic;
-  LabelingDisparity own_;    // estimated for labels alone
-  std::uint64_t tried_ = 0;  // generation of the session
-  bool is_running_ = false;
+  // Estimated for labels alone, by scene; without a field as long as it is not there.
+  std::map<std::uint64_t, LabelingDisparity> own_;
 };
 
 }  // namespace episcope

@@ -4,7 +4,6 @@
 #include "app/gui/document/label_choice.h"
 #include "app/gui/frame/cancels.h"
 #include "app/gui/frame/commands.h"
-#include "app/gui/frame/job_title.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/frame/queued_post.h"
 #include "app/gui/stage/overlay.h"
@@ -172,9 +171,9 @@ LabelerParameters SegmentController::parameters() const {
 }
 
 void SegmentController::update(Parts parts) {
-  if (parts.has(Part::Scene)) {
-    jobs_.cancelLane(Lane::Label);  // the document tells of the rest
-  } else if (parts.has(Part::View)) {
+  if (parts.has(Part::Scenes)) endAllViewsOfClosed();
+  if (parts.has(Part::Scene)) return;  // the document tells of it
+  if (parts.has(Part::View)) {
     if (is_live_) begin();
     publish();
   } else if (parts.has(Part::TrueLabels)) {
@@ -244,28 +243,6 @@ bool SegmentController::cancel() {
   live_.cancel();
   showState();
   return true;
-}
-
-void SegmentController::segmentAllViews() {
-  if (!live_.has_input()) return;
-  const auto input = live_.input();
-  if (!input->disparity) source_.provide();
-  tried_all_ = input;
-  wants_to_show_ = true;
-  jobs_.cancelLane(Lane::Label);
-  const quint64 job = jobs_.start<LabelingPtr>(
-      Lane::Label, job_title(tr("Segment all views"), session_),
-      [input](const Progress& progress) { return label_all_views(*input, progress); },
-      [this, input](const LabelingPtr& labeling) { finishAll(labeling, input); });
-  jobs_.setScene(job, session_.generation());
-}
-
-void SegmentController::finishAll(const LabelingPtr& labeling,
-                                  const std::shared_ptr<const LabelingInput>& input) {
-  if (input->light_field == session_.light_field()) keep(labeling, *input);
-  live_.take(labeling, input);
-  seconds_ = labeling->seconds;
-  publish();
 }
 
 void SegmentController::followLabeler() {

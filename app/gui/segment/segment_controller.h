@@ -15,6 +15,8 @@
 #include <QElapsedTimer>
 #include <QObject>
 
+#include <cstdint>
+#include <map>
 #include <optional>
 
 namespace episcope {
@@ -34,13 +36,14 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] bool isLive() const { return is_live_; }
   /// Labels of this view, once.
   void updateNow();
-  /// Labels of all views, as a job.
+  /// Labels of all views, as a job that goes on while other scenes are shown.
   void segmentAllViews();
   /// Ends what is under way for this view; false if nothing is.
   bool cancel();
 
   [[nodiscard]] const LiveLabeler& labeler() const { return live_; }
-  [[nodiscard]] bool isSegmentingAll() const { return jobs_.count(Lane::Label) > 0; }
+  /// Of the scene that is shown.
+  [[nodiscard]] bool isSegmentingAll() const;
   /// Labels that cover the current view, as files hold them; nothing without.
   [[nodiscard]] std::optional<Segmentation> segmentation() const;
   /// Boundaries of all labels; one step of the history.
@@ -78,6 +81,7 @@ class SegmentController : public QObject, public MapProvider {
   void begin();
   void endWish();
   void finishAll(const LabelingPtr& labeling, const std::shared_ptr<const LabelingInput>& input);
+  void endAllViewsOfClosed();
   void followLabeler();
   void publish();
   void keep(const LabelingPtr& labeling, const LabelingInput& input);
@@ -110,7 +114,8 @@ class SegmentController : public QObject, public MapProvider {
   Scored scored_;
   LabelingPtr shown_labeling_;
   std::shared_ptr<const LabelingInput> tried_all_;
-  std::uint64_t restored_ = 0;  // scene whose kept labels were brought back
+  std::map<std::uint64_t, quint64> all_views_;  // the newest job of each scene
+  std::uint64_t restored_ = 0;                  // scene whose kept labels were brought back
   LatestJob score_job_;
   LiveLabeler live_;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace episcope::io {
 namespace {
@@ -168,8 +169,11 @@ std::string remove_padding(DisparityField& field, int height, int width) {
     }
     return true;
   };
-  if (std::ranges::count_if(places, fits) != 1) return {};
-  const Place place = *std::ranges::find_if(places, fits);
+  // Of one row or column too many, half is none: both places are the same.
+  const bool is_one = places[0].y == places[1].y && places[0].x == places[1].x;
+  const auto different = std::span(places).subspan(is_one ? 1 : 0);
+  if (std::ranges::count_if(different, fits) != 1) return {};
+  const Place place = *std::ranges::find_if(different, fits);
   field.valid = cut(field.valid, place, height, width);
   field.disparity = cut(field.disparity, place, height, width);
   return fmt::format("The maps of {}×{} px are padded {} with a constant; {}×{} px are used.", wide,

@@ -2,6 +2,8 @@
 #include "app/gui/files/recent_inputs.h"
 #include "app/gui/frame/messages.h"
 #include "app/session/scene/builtin_inputs.h"
+#include "engine/core/error.h"
+#include "tests/app/gui/held_lane.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
@@ -21,10 +23,26 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMimeData>
+#include <QSignalSpy>
 #include <QTreeWidget>
 #include <QUrl>
 
 namespace episcope::in_opening_test {
+
+namespace {
+
+void drop(MainWindow& window, const QStringList& files) {
+  QMimeData data;
+  QList<QUrl> urls;
+  for (const QString& file : files) urls << QUrl::fromLocalFile(file);
+  data.setUrls(urls);
+  QDragEnterEvent enter({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&window, &enter);
+  QCoreApplication::sendEvent(&window, &drop);
+}
+
+}  // namespace
 
 class OpeningTest : public QObject {
   Q_OBJECT
@@ -41,11 +59,13 @@ class OpeningTest : public QObject {
   void brokenFile_isForgottenOnceAnotherIsOpen();
   void brokenFile_withoutScene_isDrawnAsError();
   void brokenFile_ofTheDialog_isTold();
+  void failureOfAnotherJob_isNotThatOfOpening();
   void firstDialog_beginsAtHome();
   void dialog_beginsBesideWhatWasOpened();
   void dialog_remembersItsFolder();
   void droppedFile_isOpened();
   void droppedFiles_areAllOpened();
+  void droppedFiles_areOpenedBesideABrokenOne();
   void anotherScene_hasItsOwnResults();
   void closedScene_leavesTheEmptyWindow();
   void recentFiles_areRemembered();
@@ -209,6 +229,23 @@ void OpeningTest::brokenFile_withoutScene_isDrawnAsError() {
                             kPatience);
 }
 
+void OpeningTest::failureOfAnotherJob_isNotThatOfOpening() {
+  WindowFixture f;
+  const Workbench& bench = f.window.bench();
+  HeldLane held(bench.jobs, Lane::Open);
+  bench.opener.open(f.writeScene("edge", WindowFixture::smallOptions()));
+  QSignalSpy failures(&bench.jobs, &Jobs::failed);
+  bench.jobs.start<bool>(
+      Lane::Export, "Writing",
+      [](const Progress&) -> bool { throw IoError("/x.png", "the disk is full"); }, [](bool) {});
+  QTRY_COMPARE_WITH_TIMEOUT(failures.size(), 1, kPatience);
+  held.release();
+  QTRY_VERIFY_WITH_TIMEOUT(bench.session.scene(), kScenePatience);
+  QTRY_COMPARE_WITH_TIMEOUT(bench.jobs.count(Lane::Open), 0, kPatience);
+
+  QVERIFY(!bench.opener.hasFailed());
+}
+
 void OpeningTest::firstDialog_beginsAtHome() {
   WindowFixture f;
 
@@ -280,19 +317,28 @@ void OpeningTest::droppedFile_isOpened() {
 
 void OpeningTest::droppedFiles_areAllOpened() {
   WindowFixture f;
-  QMimeData data;
-  QList<QUrl> urls;
+  QStringList files;
   for (const char* id : {"slant", "edge", "fronto"}) {
-    urls << QUrl::fromLocalFile(f.writeScene(id, WindowFixture::smallOptions()));
+    files << f.writeScene(id, WindowFixture::smallOptions());
   }
-  data.setUrls(urls);
-  QDragEnterEvent enter({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
 
-  QCoreApplication::sendEvent(&f.window, &enter);
-  QCoreApplication::sendEvent(&f.window, &drop);
+  drop(f.window, files);
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.scenes().size(), 3U, kScenePatience);
+}
+
+void OpeningTest::droppedFiles_areOpenedBesideABrokenOne() {
+  WindowFixture f;
+  const QString slant = f.writeScene("slant", WindowFixture::smallOptions());
+  const QString edge = f.writeScene("edge", WindowFixture::smallOptions());
+
+  drop(f.window, {slant, f.path("missing"), f.path("gone"), edge});
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.scenes().size(), 2U, kScenePatience);
+  const auto* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY2(messages->isVisible() && messages->text().contains(f.path("gone")) &&
+                   messages->text().contains(f.path("missing")),
+               qPrintable(messages->text()));
 }
 
 void OpeningTest::anotherScene_hasItsOwnResults() {

@@ -13,6 +13,7 @@
 #include "engine/io/archive/write_scene.h"
 #include "engine/io/labels/segmentation_file.h"
 #include "tests/app/gui/annotating.h"
+#include "tests/app/gui/held_lane.h"
 #include "tests/window_test_main.h"
 #include "widgets/annotate/segment_panel.h"
 #include "widgets/compare/color_bar.h"
@@ -49,6 +50,8 @@ class SegmentTest : public QObject {
   void recolouredLabel_isSeenAtOnce();
   void labels_areComparedWithThoseOfAnotherFile();
   void allViews_areExportedAndReadAgain();
+  void allViews_goOnWhileAnotherSceneIsShown();
+  void allViewsOfAClosedScene_end();
   void otherScene_dropsEverything();
   void escape_endsALabeling();
   void mapOfLabels_isNotShownOverAnotherLightField();
@@ -240,6 +243,42 @@ void SegmentTest::allViews_areExportedAndReadAgain() {
   const Image<std::int32_t> read = file.labels({8, 1});
   QVERIFY(std::equal(read.begin(), read.end(), all->labels.view({8, 1}).data));
   QCOMPARE(QImage(f.path("out.png")).size(), QSize(96, 96));
+}
+
+void SegmentTest::allViews_goOnWhileAnotherSceneIsShown() {
+  Segmenting f;
+  Session& session = f.window.bench().session;
+  f.trigger("segment.update");
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  const std::uint64_t scene = session.generation();
+  HeldLane held(f.window.bench().jobs, Lane::Label);
+  f.trigger("segment.all");
+
+  f.openSmall("edge");
+  QVERIFY(!f.segment().isSegmentingAll());
+  held.release();
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(Lane::Label), 0, kPatience);
+  QVERIFY(session.labels().empty());
+  QVERIFY(session.find_scene(scene)->labels.covers_many());
+  session.choose(scene);
+  QTRY_VERIFY_WITH_TIMEOUT(f.segment().labeler().labeling({0, 0}), kPatience);
+  QVERIFY(f.segment().labeler().is_up_to_date({0, 0}));
+}
+
+void SegmentTest::allViewsOfAClosedScene_end() {
+  Segmenting f;
+  f.trigger("segment.update");
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  const std::uint64_t scene = f.window.bench().session.generation();
+  HeldLane held(f.window.bench().jobs, Lane::Label);
+  f.trigger("segment.all");
+  f.openSmall("edge");
+  QSignalSpy cancelling(&f.window.bench().jobs, &Jobs::cancelling);
+
+  f.window.bench().session.remove(scene);
+
+  QTRY_COMPARE(cancelling.size(), 1);
 }
 
 void SegmentTest::otherScene_dropsEverything() {

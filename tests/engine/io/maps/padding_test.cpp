@@ -73,6 +73,34 @@ class PaddingTest : public QObject {
     QCOMPARE(field.disparity.view({0, 0}).at(5, 6), 57.0F);
   }
 
+  // Half of one is none, on all sides as on the right and below.
+  void paddingOfOne_isRemoved_data() {
+    QTest::addColumn<int>("height");
+    QTest::addColumn<int>("width");
+    QTest::newRow("row and column") << 9 << 10;
+    QTest::newRow("row") << 9 << 11;
+    QTest::newRow("column") << 10 << 10;
+  }
+  void paddingOfOne_isRemoved() {
+    QFETCH(int, height);
+    QFETCH(int, width);
+    DisparityField field;
+    field.disparity = ViewStack<float>({1, 1}, 10, 11);
+    std::fill_n(field.disparity.data(), field.disparity.size(), 0.0F);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        field.disparity.view({0, 0}).at(y, x) = static_cast<float>(10 * y + x + 1);
+      }
+    }
+
+    const std::string note = io::remove_padding(field, height, width);
+
+    QVERIFY2(note.find("on the right and below") != std::string::npos, note.c_str());
+    QCOMPARE(field.disparity.height(), height);
+    QCOMPARE(field.disparity.width(), width);
+    QCOMPARE(field.disparity.view({0, 0}).at(0, 0), 1.0F);
+  }
+
   void doubtfulPadding_isKept() {
     DisparityField elsewhere = padded(1, 3, 0);
     DisparityField flat = padded(2, 2, 0);
