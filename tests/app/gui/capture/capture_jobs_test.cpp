@@ -2,16 +2,25 @@
 // What is read and computed for the Capture tab while other light fields are opened and closed.
 #include "app/gui/capture/mesh_shelf.h"
 #include "app/gui/capture/photographs.h"
+#include "app/session/scene/gantry_scene.h"
+#include "engine/capture/demo/demo_folder.h"
 #include "tests/app/gui/capture/capturing.h"
 #include "tests/app/gui/held_lane.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
 
-#include <QFile>
-
 namespace episcope::in_capture_jobs_test {
 
 namespace {
+
+capture::DemoOptions small_demo() {
+  capture::DemoOptions options;
+  options.grid = {3, 3};
+  options.height = 300;
+  options.width = 400;
+  options.detail = 50;
+  return options;
+}
 
 class AtWork : public Capturing {
  public:
@@ -43,13 +52,8 @@ class CaptureJobsTest : public QObject {
 
   void demoIsMade_whileAnotherLightFieldIsOpened() {
     AtWork f;
-    capture::DemoOptions small;
-    small.grid = {3, 3};
-    small.height = 300;
-    small.width = 400;
-    small.detail = 50;
     HeldLane held(f.jobs(), Lane::Capture);
-    f.capture().photographs().makeDemo(f.path(""), small);
+    f.capture().photographs().makeDemo(f.path(""), small_demo());
 
     f.openSmall("slant");
     held.release();
@@ -123,23 +127,22 @@ class CaptureJobsTest : public QObject {
 
   void lens_isOfTheLightFieldThatWasShown() {
     AtWork f;
-    f.trigger("tab.compare");
-    f.window.bench().opener.setCacheFolder(f.file("cache"));
-    f.window.bench().opener.open("demo:gantry?size=400x300&grid=3x3");
-    QTRY_COMPARE_WITH_TIMEOUT(f.session().light_field()->grid().v, 3, kScenePatience);
-    const std::uint64_t gantry = f.session().generation();
+    const GantryFolder demo{f.file("demo")};
+    capture::write_demo_folder(demo.path, small_demo(), Progress());
+    QStringList photographs;
+    for (const auto& each : demo.pattern()) photographs << QString::fromStdString(each.string());
+    const std::uint64_t edge = f.session().generation();
     f.openSmall("slant");
     const std::uint64_t slant = f.session().generation();
-    f.session().choose(gantry);
+    f.session().choose(edge);
     HeldLane held(f.jobs(), Lane::Capture);
-    f.trigger("tab.capture");
-    QTRY_COMPARE_WITH_TIMEOUT(f.jobs().count(Lane::Capture), 2, kPatience);
+    f.capture().photographs().calibrate(photographs, capture::demo_pattern());
 
     f.session().choose(slant);
     held.release();
 
     QTRY_COMPARE_WITH_TIMEOUT(f.jobs().count(Lane::Capture), 0, kScenePatience);
-    QVERIFY(f.workOf(gantry).lens.has_value());
+    QVERIFY(f.workOf(edge).lens.has_value());
     QVERIFY(!f.workOf(slant).lens.has_value());
   }
 };
