@@ -32,6 +32,22 @@ class AtWork : public Capturing {
   [[nodiscard]] QString message() { return window.findChild<MessageBar*>("messageBar")->text(); }
 };
 
+struct Two {
+  std::uint64_t left = 0;
+  std::uint64_t shown = 0;
+};
+
+// A mesh that is still to be read when another light field is shown.
+Two open_mesh_and_leave(AtWork& f) {
+  Two scenes{.left = f.session().generation()};
+  f.openSmall("slant");
+  scenes.shown = f.session().generation();
+  f.session().choose(scenes.left);
+  f.capture().openMesh(f.path("scan.ply"));
+  f.session().choose(scenes.shown);
+  return scenes;
+}
+
 }  // namespace
 
 class CaptureJobsTest : public QObject {
@@ -91,14 +107,8 @@ class CaptureJobsTest : public QObject {
 
   void mesh_isOfTheLightFieldThatWasShown() {
     AtWork f;
-    const std::uint64_t edge = f.session().generation();
-    f.openSmall("slant");
-    const std::uint64_t slant = f.session().generation();
-    f.session().choose(edge);
     HeldLane held(f.jobs(), Lane::Load);
-    f.capture().openMesh(f.path("scan.ply"));
-
-    f.session().choose(slant);
+    const auto [edge, slant] = open_mesh_and_leave(f);
     held.release();
 
     QTRY_COMPARE_WITH_TIMEOUT(f.jobs().count(Lane::Load), 0, kPatience);
@@ -110,14 +120,8 @@ class CaptureJobsTest : public QObject {
 
   void meshOfAClosedLightField_isToldAndDropped() {
     AtWork f;
-    const std::uint64_t edge = f.session().generation();
-    f.openSmall("slant");
-    const std::uint64_t slant = f.session().generation();
-    f.session().choose(edge);
     HeldLane held(f.jobs(), Lane::Load);
-    f.capture().openMesh(f.path("scan.ply"));
-
-    f.session().choose(slant);
+    const auto [edge, slant] = open_mesh_and_leave(f);
     f.session().remove(edge);
     held.release();
 
