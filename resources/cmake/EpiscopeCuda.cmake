@@ -23,11 +23,10 @@ if(EPISCOPE_CUDA)
   endif()
 endif()
 
-# episcope_cuda_room(library [UNITS a …] [KERNELS b …]): what a folder brings to the library of
-# device code. A unit is a.h, which any C++ may include, with a.cu; builds without CUDA take
+# episcope_cuda_units(library [UNITS a …] [KERNELS b …]): the units of the library of device code. A unit is a.h, which any C++ may include, with a.cu; builds without CUDA take
 # a_unavailable.cpp in its place. A kernel is b.cuh with b.cu, for other device code alone.
-function(episcope_cuda_room library)
-  cmake_parse_arguments(ARG "" "" "UNITS;KERNELS;HEADERS" ${ARGN})
+function(episcope_cuda_units library)
+  cmake_parse_arguments(ARG "" "" "UNITS;KERNELS" ${ARGN})
   set(sources)
   set(headers)
   foreach(unit ${ARG_UNITS})

@@ -42,7 +42,7 @@ function(episcope_precompile target)
 endfunction()
 
 # episcope_add_library(name [LIGHT] [LINK public targets] [PRIVATE_LINK …]): a library without sources
-# yet; its rooms bring them. A light one leaves heavy work to others, and is optimised little: that
+# yet; episcope_units brings them. A light one leaves heavy work to others, and is optimised little: that
 # saves a quarter of the time that it takes to compile.
 function(episcope_add_library name)
   cmake_parse_arguments(ARG "LIGHT" "" "LINK;PRIVATE_LINK" ${ARGN})
@@ -55,24 +55,25 @@ function(episcope_add_library name)
   episcope_precompile(${name})
 endfunction()
 
-# episcope_room(library [PAIRS a …] [SOURCES b.cpp …] [HEADERS c.h …] [KERNELS d …]): what a folder
-# brings to a library. A pair is a.h with a.cpp. A kernel, d.cpp and maybe d.h, is compiled once for
-# every instruction set (episcope_add_kernels).
-function(episcope_room library)
-  cmake_parse_arguments(ARG "" "" "PAIRS;SOURCES;HEADERS;KERNELS" ${ARGN})
-  set(sources ${ARG_SOURCES})
-  set(headers ${ARG_HEADERS})
-  foreach(pair ${ARG_PAIRS})
-    list(APPEND sources ${pair}.cpp)
-    list(APPEND headers ${pair}.h)
-  endforeach()
-  set(kernels)
-  foreach(kernel ${ARG_KERNELS})
-    list(APPEND kernels ${kernel}.cpp)
-    if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${kernel}.h")
-      list(APPEND headers ${kernel}.h)
+# episcope_units(library [UNITS a room/b …] [KERNELS c …]): the units of a library. A unit is a.h, a.cpp
+# or both. A kernel is compiled once for every instruction set (episcope_add_kernels).
+function(episcope_units library)
+  cmake_parse_arguments(ARG "" "" "UNITS;KERNELS" ${ARGN})
+  set(sources)
+  set(headers)
+  foreach(unit ${ARG_UNITS} ${ARG_KERNELS})
+    if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${unit}.h")
+      list(APPEND headers ${unit}.h)
     endif()
   endforeach()
+  foreach(unit ${ARG_UNITS})
+    if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${unit}.cpp")
+      list(APPEND sources ${unit}.cpp)
+    elseif(NOT EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${unit}.h")
+      message(FATAL_ERROR "${library}: there is neither ${unit}.h nor ${unit}.cpp")
+    endif()
+  endforeach()
+  list(TRANSFORM ARG_KERNELS APPEND .cpp OUTPUT_VARIABLE kernels)
   target_sources(${library} PRIVATE ${sources} ${headers})
   if(kernels)
     episcope_add_kernels(${library} ${kernels})
@@ -82,8 +83,8 @@ function(episcope_room library)
   endif()
 endfunction()
 
-# Sees to it that every header of a room can be compiled alone. A header that some source of the
-# room includes before anything else is proven by that source; the others get a unit of their own.
+# Checks that every header compiles alone. A header that some source includes before anything else is
+# proven by that source; the others get a unit of their own.
 function(episcope_check_headers library)
   cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES" ${ARGN})
   file(RELATIVE_PATH room "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
@@ -105,17 +106,16 @@ function(episcope_check_headers library)
     list(APPEND units "${unit}")
   endforeach()
   if(units)
-    string(MAKE_C_IDENTIFIER "${room}" id)
-    add_library(${id}_headers OBJECT ${units})
-    set_target_properties(${id}_headers PROPERTIES AUTOMOC OFF)
-    target_link_libraries(${id}_headers PRIVATE ${library})
-    target_include_directories(${id}_headers SYSTEM PRIVATE
+    add_library(${library}_headers OBJECT ${units})
+    set_target_properties(${library}_headers PROPERTIES AUTOMOC OFF)
+    target_link_libraries(${library}_headers PRIVATE ${library})
+    target_include_directories(${library}_headers SYSTEM PRIVATE
                                $<TARGET_PROPERTY:${library},INCLUDE_DIRECTORIES>)
     # What headers of kernels expect (episcope_add_kernels).
-    target_compile_definitions(${id}_headers PRIVATE EPISCOPE_KERNEL_NAMESPACE=baseline
+    target_compile_definitions(${library}_headers PRIVATE EPISCOPE_KERNEL_NAMESPACE=baseline
                                EPISCOPE_VECTOR_BYTES=16)
     # Not -fsyntax-only: without object files they would be compiled anew in every build.
-    target_compile_options(${id}_headers PRIVATE -O0 -g0 -U_FORTIFY_SOURCE -Wno-psabi)
+    target_compile_options(${library}_headers PRIVATE -O0 -g0 -U_FORTIFY_SOURCE -Wno-psabi)
   endif()
 endfunction()
 
@@ -135,10 +135,8 @@ function(episcope_add_kernels library)
   else()
     target_compile_definitions(${library} PRIVATE EPISCOPE_BASELINE_ONLY)
   endif()
-  file(RELATIVE_PATH room "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
-  string(MAKE_C_IDENTIFIER "${room}" id)
   foreach(isa ${isas})
-    set(objects ${id}_kernels_${isa})
+    set(objects ${library}_kernels_${isa})
     add_library(${objects} OBJECT ${ARGN})
     target_link_libraries(${objects} PRIVATE episcope_options)
     target_compile_options(${objects} PRIVATE -O3 -fno-math-errno -fno-trapping-math
