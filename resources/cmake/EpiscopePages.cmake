@@ -59,11 +59,11 @@ if(EPISCOPE_WEB)
   <screenshots>
     <screenshot type=\"default\">
       <caption>A view with the error of its disparity laid over it, and its two EPIs</caption>
-      <image type=\"source\" width=\"1280\" height=\"800\">${EPISCOPE_WEB}/resources/window.png</image>
+      <image type=\"source\" width=\"1280\" height=\"800\">${EPISCOPE_WEB}/resources/manual/pages/pictures/window.png</image>
     </screenshot>
     <screenshot>
       <caption>Strokes of eleven labels and the segmentation learnt from them</caption>
-      <image type=\"source\" width=\"1280\" height=\"800\">${EPISCOPE_WEB}/resources/annotate.png</image>
+      <image type=\"source\" width=\"1280\" height=\"800\">${EPISCOPE_WEB}/resources/manual/pages/pictures/annotate.png</image>
     </screenshot>
   </screenshots>
 ")

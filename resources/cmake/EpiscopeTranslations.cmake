@@ -1,5 +1,5 @@
 # Translations of the window, compiled into it where Qt's lrelease is installed; without it, the window
-# is in English. How to add a language: resources/adding.md.
+# is in English. How to add a language: resources/manual/pages/adding.md.
 set(EPISCOPE_LANGUAGES de en)
 set(EPISCOPE_TRANSLATIONS "${CMAKE_SOURCE_DIR}/resources/translations")
 set(linguist_tools "${QT6_INSTALL_PREFIX}/${QT6_INSTALL_BINS}")

@@ -17,5 +17,5 @@ for file in "$copy"/episcope_*.ts; do
     status=1
   fi
 done
-[ $status -eq 0 ] || echo "Build the target update_translations, and translate (resources/adding.md)."
+[ $status -eq 0 ] || echo "Build the target update_translations, and translate (resources/manual/pages/adding.md)."
 exit $status
