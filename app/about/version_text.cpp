@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/about/version_text.h"
 
-#include "app/about/commit.h"
 #include "engine/core/version.h"
-#include "engine/cuda/device/cuda_device.h"
+#include "engine/cuda/device.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/io/libraries/library_versions.h"
+#include "engine/io/base/library_versions.h"
 
 #include <string>
 #include <vector>
@@ -12,5 +12,9 @@ namespace episcope {
 /// the engine and `others`. Ends with a new line.
 [[nodiscard]] std::string version_text(const std::string& program,
                                        const std::vector<LibraryVersion>& others);
+
+/// The commit that was built, as `git describe --always --dirty` tells it; "unknown" where the
+/// sources are no git checkout.
+extern const char* const kCommit;
 
 }  // namespace episcope

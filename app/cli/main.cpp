@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/about/version_text.h"
-#include "app/cli/arguments/usage_error.h"
-#include "app/cli/exit_code.h"
-#include "app/cli/interrupt.h"
-#include "app/cli/verbs/program_help.h"
+#include "app/cli/arguments.h"
+#include "app/cli/job.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/scene/user_folders.h"
-#include "engine/io/durable/file_size_limit.h"
+#include "app/session/user_folders.h"
+#include "engine/io/base/files.h"
 
 #include <exception>
 #include <iostream>

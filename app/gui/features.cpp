@@ -1,21 +1,295 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/features.h"
 
-#include "app/gui/annotate/annotate.h"
-#include "app/gui/browse/browse.h"
-#include "app/gui/capture/capture.h"
-#include "app/gui/cloud/cloud.h"
-#include "app/gui/collection/collection.h"
-#include "app/gui/compare/compare.h"
-#include "app/gui/estimate/estimate.h"
-#include "app/gui/files/files.h"
-#include "app/gui/help/help.h"
-#include "app/gui/measure/measure.h"
-#include "app/gui/project/project.h"
-#include "app/gui/review/review.h"
-#include "app/gui/segment/segment.h"
+#include "app/gui/annotate/annotate_controller.h"
+#include "app/gui/annotate/annotation_files.h"
+#include "app/gui/annotate/label_controller.h"
+#include "app/gui/annotate/label_review.h"
+#include "app/gui/annotate/recovery_controller.h"
+#include "app/gui/annotate/scribble_controller.h"
+#include "app/gui/annotate/segment_controller.h"
+#include "app/gui/browse/browse_controller.h"
+#include "app/gui/browse/cloud_controller.h"
+#include "app/gui/browse/focus_controller.h"
+#include "app/gui/browse/info_controller.h"
+#include "app/gui/browse/measure_controller.h"
+#include "app/gui/browse/value_controller.h"
+#include "app/gui/capture/capture_controller.h"
+#include "app/gui/compare/compare_controller.h"
+#include "app/gui/compare/error_plot_controller.h"
+#include "app/gui/compare/metric_controller.h"
+#include "app/gui/compare/picture_export.h"
+#include "app/gui/compare/region_controller.h"
+#include "app/gui/compare/statistics_controller.h"
+#include "app/gui/estimate/estimate_controller.h"
+#include "app/gui/files/autosave.h"
+#include "app/gui/files/collection_controller.h"
+#include "app/gui/files/file_controller.h"
+#include "app/gui/files/project_controller.h"
+#include "app/gui/files/project_guard.h"
+#include "app/gui/files/scene_chooser.h"
+#include "app/gui/files/session_recovery.h"
+#include "app/gui/shell/appearance.h"
+#include "app/gui/shell/command_palette.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/panes.h"
+#include "app/gui/shell/shortcut_window.h"
+#include "app/gui/shell/workbench.h"
+#include "engine/core/version.h"
+#include "widgets/controls/icon.h"
+#include "widgets/panels/brush_panel.h"
+#include "widgets/panels/compare_bar.h"
+#include "widgets/panels/label_palette.h"
+#include "widgets/panels/label_review_panel.h"
+#include "widgets/panels/metric_table.h"
+#include "widgets/panels/statistics_panel.h"
+
+#include <QAbstractItemView>
+#include <QCoreApplication>
+#include <QMessageBox>
+#include <QVBoxLayout>
+#include <QWidget>
 
 namespace episcope {
+namespace {
+
+// Painting labels on views: tools, labels, scribbles on all views, their files, and recovery after
+// a crash.
+void add_annotating(const Workbench& bench) {
+  auto* tab = new QWidget(&bench.frame);
+  auto* brush = new BrushPanel(tab);
+  auto* palette = new LabelPalette(tab);
+  auto* bar = new AnnotationBar(tab);
+  auto* room = new QVBoxLayout;
+  auto* layout = new QVBoxLayout(tab);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(brush);
+  layout->addWidget(palette, 1);
+  layout->addLayout(room);
+  layout->addWidget(bar);
+  bench.frame.addTab({.id = "annotate",
+                      .title = AnnotateController::tr("Annotate"),
+                      .command_text = AnnotateController::tr("Annotate tab"),
+                      .command_tip = AnnotateController::tr("Shows the labels and painting tools"),
+                      .widget = tab,
+                      .room = room});
+  new AnnotateController(bench, brush);
+  new LabelController(bench, palette);
+  new LabelLookController(bench, palette);
+  new ScribbleController(bench, bar);
+  new AnnotationFiles(bench, bar);
+  new RecoveryController(bench);
+}
+
+// Browsing views and EPIs, the focus plane, the values of a pixel, and the facts about the light
+// field.
+void add_browsing(const Workbench& bench) {
+  new BrowseController(bench);
+  new FocusController(bench);
+  new InfoController(bench);
+  new ToneController(bench);
+  new ValueController(bench);
+}
+
+// Adds the Capture tab and its commands.
+void add_capture(const Workbench& bench) {
+  auto* tab = new QWidget(&bench.frame);
+  bench.frame.addTab({.id = "capture",
+                      .title = CaptureController::tr("Capture"),
+                      .command_text = CaptureController::tr("Capture tab"),
+                      .command_tip = CaptureController::tr("Makes ground truth from a mesh"),
+                      .widget = tab,
+                      .waits = true});
+  new CaptureController(bench, tab);
+}
+
+void add_commands(const Workbench& bench, CloudController* cloud) {
+  bench.commands.add({.id = "cloud.large",
+                      .menu = Menu::Panes,
+                      .text = CloudController::tr("3D in the place of the view"),
+                      .tip = CloudController::tr("Shows the 3D view large, in the place of the "
+                                                 "view, or puts it back into its tab"),
+                      .icon = "cube",
+                      .keys = {Qt::Key_F4},
+                      .run = [cloud] { cloud->setLarge(!cloud->isLarge()); },
+                      .checked = [cloud] { return cloud->isLarge(); }});
+  bench.commands.add(
+      {.id = "cloud.window",
+       .menu = Menu::Panes,
+       .text = CloudController::tr("3D in its own window"),
+       .tip = CloudController::tr("Gives the 3D view with its controls a window of "
+                                  "its own, or takes it back"),
+       .icon = "sides",
+       .keys = {CloudController::tr("Shift+F4")},
+       .run =
+           [&frame = bench.frame, cloud] {
+             cloud->setLarge(false);
+             frame.showTab("cloud");
+             frame.panes().toggle("tab.cloud");
+           },
+       .checked = [&frame = bench.frame] { return frame.panes().isTorn("tab.cloud"); }});
+  bench.commands.add({.id = "cloud.export",
+                      .menu = Menu::File,
+                      .text = CloudController::tr("Save 3D view…"),
+                      .tip = CloudController::tr("Writes the points or surfaces that the 3D view "
+                                                 "shows, in their colours, as PLY"),
+                      .icon = "export",
+                      .keys = {CloudController::tr("Ctrl+Alt+E")},
+                      .run = [cloud] { cloud->askToExport(); },
+                      .section = section::kExport,
+                      .enabled = [cloud] { return cloud->hasScene(); }});
+}
+
+// The shown result as a point cloud.
+void add_cloud(const Workbench& bench) {
+  auto* tab = new QWidget(&bench.frame);
+  bench.frame.addTab({.id = "cloud",
+                      .title = CloudController::tr("3D"),
+                      .command_text = CloudController::tr("3D tab"),
+                      .command_tip = CloudController::tr("Shows the result in 3D, as points or as "
+                                                         "a surface"),
+                      .icon = "cube",
+                      .widget = tab});
+  add_commands(bench, new CloudController(bench, tab));
+}
+
+// The light fields of a folder, and the frames of a sequence.
+void add_collection(const Workbench& bench) {
+  new CollectionController(bench);
+  new FrameController(bench);
+}
+
+// Maps over the view, results compared with each other, statistics of the visible part, the table
+// of metrics, and pictures of all that.
+void add_comparing(const Workbench& bench) {
+  auto* tab = new QWidget(&bench.frame);
+  auto* bar = new CompareBar(tab);
+  auto* statistics = new StatisticsPanel(tab);
+  auto* region = new RegionBar(tab);
+  auto* metrics = new MetricTable(tab);
+  auto* layout = new QVBoxLayout(tab);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(bar);
+  layout->addWidget(statistics);
+  layout->addWidget(region);
+  layout->addWidget(metrics, 1);
+  bench.frame.addTab({.id = "compare",
+                      .title = CompareController::tr("Compare"),
+                      .command_text = CompareController::tr("Compare tab"),
+                      .command_tip = CompareController::tr("Shows the table of metrics"),
+                      .widget = tab});
+  bench.commands.hearHeldKeys(metrics->findChild<QAbstractItemView*>());
+  new CompareController(bench, bar);
+  new StatisticsController(bench, statistics);
+  const auto* part = new RegionController(bench, region);
+  new MetricController(bench, metrics, *part);
+  new ErrorPlotController(bench, *part);
+  add_picture_export(bench);
+  new MovieExport(bench);
+}
+
+// Running methods, and the list of what they found.
+void add_estimating(const Workbench& bench) {
+  new EstimateController(bench);
+}
+
+// Opening light fields and results by dialog, by drop, from the list of recent ones; closing.
+void add_files(const Workbench& bench) {
+  new FileController(bench);
+}
+
+constexpr int kIconSize = 64;
+
+struct HelpText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::Help)
+};
+
+void show_shortcuts(Commands& commands, QWidget& window) {
+  auto* shortcuts = window.findChild<ShortcutWindow*>();
+  if (!shortcuts) shortcuts = new ShortcutWindow(commands, &window);
+  shortcuts->show();
+  shortcuts->raise();
+}
+
+void show_about(QWidget& window) {
+  auto* box = new QMessageBox(
+      QMessageBox::NoIcon, HelpText::tr("About Episcope"),
+      HelpText::tr("<b>Episcope %1</b><p>Views, EPIs, disparity and labels of 4D light fields.</p>"
+                   "<p>BSD 3-Clause licence.</p>")
+          .arg(kVersion),
+      QMessageBox::Close, &window);
+  box->setObjectName("about");
+  box->setIconPixmap(program_icon().pixmap(kIconSize));
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->open();
+}
+
+// The list of keys, the palette of commands, colours, and what the program is.
+void add_help(const Workbench& bench) {
+  Commands& commands = bench.commands;
+  QWidget& window = bench.window;
+  auto* palette = new CommandPalette(commands, &window);
+  add_theme_commands(commands);
+  add_language_commands(commands, bench.messages);
+  commands.add({.id = "help.keys",
+                .menu = Menu::Help,
+                .text = HelpText::tr("Keys and mouse"),
+                .tip = HelpText::tr("Lists every key and mouse gesture"),
+                .icon = "help",
+                .keys = {Qt::Key_F1, Qt::Key_Question},
+                .run = [&commands, &window] { show_shortcuts(commands, window); },
+                .bar = BarSection::Help});
+  commands.add({.id = "help.palette",
+                .menu = Menu::Help,
+                .text = HelpText::tr("Find a command…"),
+                .tip = HelpText::tr("Finds any command by its name"),
+                .keys = {HelpText::tr("Ctrl+Shift+P")},
+                .run = [palette] { palette->popUp(); }});
+  commands.add({.id = "help.about",
+                .menu = Menu::Help,
+                .text = HelpText::tr("About Episcope"),
+                .tip = HelpText::tr("Shows version and licence"),
+                .icon = "info",
+                .run = [&window] { show_about(window); }});
+}
+
+// Adds the Measure tab, which waits until it is asked for.
+void add_measuring(const Workbench& bench) {
+  new MeasureController(bench);
+}
+
+// Adds the list of open light fields, projects, and what keeps work from being lost.
+void add_project(const Workbench& bench) {
+  auto* autosave = new Autosave(bench);
+  auto* project = new ProjectController(bench, *autosave);
+  new ProjectGuard(bench, *project);
+  new SessionRecovery(bench, *autosave);
+  new SceneChooser(bench);
+  new WindowTitle(bench, *autosave, *project);
+}
+
+// Adds the Check tab and what goes from one place to check to the next.
+void add_reviewing(const Workbench& bench) {
+  auto* panel = new CheckPanel(&bench.frame);
+  bench.frame.addTab({.id = "check",
+                      .title = ReviewController::tr("Check"),
+                      .command_text = ReviewController::tr("Check tab"),
+                      .command_tip = ReviewController::tr(
+                          "Shows where labels are in doubt, their islands and holes"),
+                      .widget = panel});
+  new ReviewController(bench, panel);
+  new StripController(bench, panel);
+}
+
+// Segmenting from what is painted, live or all views, and what is shown of that.
+void add_segmenting(const Workbench& bench) {
+  auto* panel = new SegmentPanel(&bench.frame);
+  bench.frame.addToTab("annotate", panel);
+  new SegmentController(bench, panel);
+}
+
+}  // namespace
 
 std::span<const Feature> features() {
   static constexpr Feature kFeatures[] = {{"files", add_files},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
+#include "app/gui/shell/workbench.h"
 
 #include <span>
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/about/version_text.h"
-#include "app/gui/help/language_choice.h"
-#include "app/gui/help/theme_choice.h"
 #include "app/gui/main_window.h"
-#include "app/session/scene/user_folders.h"
-#include "engine/core/parameter/parameter.h"
+#include "app/gui/shell/appearance.h"
+#include "app/session/user_folders.h"
+#include "engine/core/parameter.h"
 #include "engine/core/version.h"
-#include "engine/io/durable/file_size_limit.h"
-#include "widgets/cloud/vtk_version.h"
-#include "widgets/style/icon.h"
+#include "engine/io/base/files.h"
+#include "widgets/cloud/point_cloud_view.h"
+#include "widgets/controls/icon.h"
 
 #include <QApplication>
 #include <QCommandLineParser>

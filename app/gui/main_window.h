@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
+#include "app/gui/shell/workbench.h"
 
 #include <QMainWindow>
 
 #include <memory>
 
 namespace episcope {
-
-class Layout;
 
 /// Joins the session, the places of the window and the features; does nothing itself.
 class MainWindow : public QMainWindow {
@@ -36,7 +34,6 @@ class MainWindow : public QMainWindow {
   void restoreLayout();
 
   std::unique_ptr<Core> core_;
-  std::unique_ptr<Layout> layout_;
 };
 
 }  // namespace episcope

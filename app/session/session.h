@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/session/judge/evaluation_cache.h"
+#include "app/session/judge.h"
 #include "app/session/open_scene.h"
-#include "app/session/parts.h"
+#include "engine/evaluation/metrics.h"
+#include "engine/render/shade.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,24 +1,66 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// episcope_texts SOURCES: prints the texts of the engine that the window shows, for lupdate.
-#include "app/texts/sentences.h"
-#include "engine/capture/calibrate/pattern.h"
-#include "engine/capture/rectify/rectify.h"
-#include "engine/core/light_field/scene.h"
+// episcope_texts SOURCES: prints the English texts that the engine holds and the window shows, in a form
+// that Qt's lupdate reads. They come from tables and schemas, and from literal sentences in
+// SOURCES/engine. The target update_translations keeps them in resources/translations/engine_texts.h.
+#include "engine/capture/pattern.h"
+#include "engine/capture/rectify.h"
+#include "engine/core/error.h"
+#include "engine/core/scene.h"
 #include "engine/disparity/registry.h"
-#include "engine/io/open/open_options.h"
-#include "engine/io/order/view_order.h"
-#include "engine/labeling/labeler_parameters.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/models/order/view_order.h"
+#include "engine/labeling/labeler.h"
 #include "engine/render/quantity.h"
 #include "engine/scenes/builtin.h"
-#include "engine/scenes/random/kinds.h"
+#include "engine/scenes/random_kind.h"
 
 #include <cstdint>
 #include <exception>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+namespace episcope {
+namespace {
+
+bool is_source(const std::filesystem::path& path) {
+  return path.extension() == ".cpp" || path.extension() == ".cu";
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw IoError(path, "cannot be read");
+  return text;
+}
+
+// What sources below `folder` say literally of the step of a job (`progress.step("denoising")`)
+// and of why there is no GPU (`device.why_not = "…"`); sentences composed of data are left out. As
+// in the source: escapes stay as they are. Throws IoError if a source cannot be read.
+std::set<std::string> literal_sentences(const std::filesystem::path& folder) {
+  static const std::regex sentence(
+      R"re((?:[.]step\(|[.](?:step|why_not|format|order|order_check|sign_check|units|units_check|gain) = ))re"
+      R"re("((?:[^"\\]|\\.)*)"[;)])re");
+  std::set<std::string> sentences;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!is_source(entry.path())) continue;
+    const std::string text = text_of(entry.path());
+    for (std::sregex_iterator match(text.begin(), text.end(), sentence), end; match != end;
+         ++match) {
+      sentences.insert((*match)[1]);
+    }
+  }
+  return sentences;
+}
+
+}  // namespace
+}  // namespace episcope
 
 namespace {
 
@@ -103,7 +145,7 @@ int main(int argc, char** argv) {
     Texts texts = schema_texts();
     texts.merge(literal_sentences(std::filesystem::path(argv[1]) / "engine"));
     std::cout << "// SPDX-License-Identifier: BSD-3-Clause\n"
-                 "// Texts of the engine, for lupdate. Made by episcope_texts (README.md).\n";
+                 "// Texts of the engine, for lupdate. Made by episcope_texts.\n";
     print("episcope::Schema", texts);
     print("episcope::render", quantity_texts());
     return std::cout.flush() ? 0 : 1;

@@ -2,15 +2,15 @@
 #include "engine/disparity/registry.h"
 
 #include "engine/core/error.h"
-#include "engine/disparity/common/even_brightness.h"
-#include "engine/disparity/cuts/kz02.h"
-#include "engine/disparity/epi/epi_c.h"
-#include "engine/disparity/epi/epi_g.h"
-#include "engine/disparity/epi/epi_l.h"
-#include "engine/disparity/epi/epi_s.h"
-#include "engine/disparity/layers/epi_two_layer.h"
-#include "engine/disparity/plane/plane_pm.h"
-#include "engine/disparity/stereo/stereo_methods.h"
+#include "engine/disparity/epi_c.h"
+#include "engine/disparity/epi_g.h"
+#include "engine/disparity/epi_l.h"
+#include "engine/disparity/epi_s.h"
+#include "engine/disparity/epi_two_layer.h"
+#include "engine/disparity/even_brightness.h"
+#include "engine/disparity/kz02.h"
+#include "engine/disparity/plane_pm.h"
+#include "engine/disparity/stereo.h"
 
 #include <utility>
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/disparity/common/estimator.h"
+#include "engine/disparity/estimator.h"
 
 #include <string>
 #include <vector>
 
 namespace episcope {
 
-/// Every estimator of this build, in the order of lists; made once, and there until the program ends.
+/// Every estimator of this build, in the order of lists; made once, and there until the program
+/// ends.
 [[nodiscard]] const std::vector<Estimator>& registered_estimators();
 
 /// Throws Unavailable for an unknown id, naming the nearest.

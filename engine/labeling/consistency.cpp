@@ -2,8 +2,8 @@
 #include "engine/labeling/consistency.h"
 
 #include "engine/core/error.h"
-#include "engine/core/parallel/parallel.h"
-#include "engine/labeling/rays/ray_targets.h"
+#include "engine/core/parallel.h"
+#include "engine/labeling/ray_targets.h"
 
 #include <vector>
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/image.h"
-#include "engine/core/array/indices.h"
-#include "engine/core/array/view_rectangle.h"
-#include "engine/core/array/volume.h"
+#include "engine/core/image.h"
+#include "engine/core/indices.h"
+#include "engine/core/volume.h"
 
 #include <cstdint>
 #include <vector>

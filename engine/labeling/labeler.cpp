@@ -2,20 +2,18 @@
 #include "engine/labeling/labeler.h"
 
 #include "engine/core/error.h"
-#include "engine/core/parallel/parallel.h"
-#include "engine/core/parallel/stopwatch.h"
-#include "engine/cuda/device/cuda_device.h"
-#include "engine/labeling/features/pixel_features.h"
-#include "engine/labeling/features/training_samples.h"
-#include "engine/labeling/forest/device_forest.h"
-#include "engine/labeling/forest/grown_forest.h"
-#include "engine/labeling/forest/pixel_votes.h"
-#include "engine/labeling/judge_colors.h"
+#include "engine/core/indices.h"
+#include "engine/core/parallel.h"
+#include "engine/core/progress.h"
+#include "engine/cuda/device.h"
+#include "engine/labeling/device_labeling.h"
+#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/forest.h"
+#include "engine/labeling/pixel_features.h"
 #include "engine/labeling/predict_from_strokes.h"
-#include "engine/labeling/rays/edge_probability.h"
-#include "engine/labeling/rays/kept_solver.h"
-#include "engine/labeling/rays/no_smoothing.h"
-#include "engine/labeling/requested_views.h"
+#include "engine/labeling/regularizer.h"
+#include "engine/labeling/reweight_by_color.h"
+#include "engine/labeling/solve_views.h"
 
 #include <fmt/format.h>
 
@@ -26,6 +24,34 @@
 
 namespace episcope {
 namespace {
+
+// Throws InvalidInput unless the views are in the grid, and one at least.
+void require_views(ViewRectangle views, GridShape grid) {
+  const ViewIndex last{views.first.v + views.grid.v - 1, views.first.u + views.grid.u - 1};
+  if (views.grid.v > 0 && views.grid.u > 0 && grid.contains(views.first) && grid.contains(last)) {
+    return;
+  }
+  throw InvalidInput(
+      fmt::format("views {} to {} were requested, but there are {}×{} views, counted from 0",
+                  view_text(views.first), view_text(last), grid.v, grid.u));
+}
+
+// Throws InvalidInput if the regulariser joins views and there is no disparity to join them by.
+void require_disparity(Regularizer regularizer, bool has_disparity) {
+  if (has_disparity || !info_of(regularizer).joins_views) return;
+  throw InvalidInput(
+      "labels that are consistent along rays need the disparity of all views; estimate it first, "
+      "or smooth each view alone");
+}
+
+// The view and those beside it in its row; in a grid of one column, above and below.
+ViewRectangle neighbours(ViewIndex view, GridShape grid) {
+  const int down = grid.u > 1 ? 0 : 1;
+  const int across = 1 - down;
+  const ViewIndex first{std::max(view.v - down, 0), std::max(view.u - across, 0)};
+  const ViewIndex last{std::min(view.v + down, grid.v - 1), std::min(view.u + across, grid.u - 1)};
+  return {first, {last.v - first.v + 1, last.u - first.u + 1}};
+}
 
 using Features = std::shared_ptr<const PixelFeatures>;
 
@@ -392,6 +418,40 @@ Labeling Labeler::smooth(LabelProbabilities probabilities, const LabelerParamete
   labeling.note = state_->note;
   labeling.seconds = watch.seconds();
   return labeling;
+}
+
+Names<FeatureSet> names_of(FeatureSet) {
+  return {{FeatureSet::Image, "image"},
+          {FeatureSet::ImageEstimate, "image+estimate"},
+          {FeatureSet::ImageTruth, "image+truth"}};
+}
+
+Schema<LabelerParameters> labeler_schema() {
+  return Schema<LabelerParameters>()
+      .choice("features", &LabelerParameters::features,
+              {"Features",
+               "Features that the forest uses: of the image alone, or of disparity as well"})
+      .choice("regularizer", &LabelerParameters::regularizer,
+              {"Smoothing",
+               "How labels are made consistent: not at all, view by view, along the rays of all "
+               "views (rayspace), or by minimising one energy of all views (wsg13; slower, 16 "
+               "bytes per ray and label)"})
+      .real("smoothness", &LabelerParameters::smoothness,
+            {"Smoothness", "Cost of one pixel of boundary between labels, in units of -log p", ""},
+            {0, 200})
+      .real("nearness", &LabelerParameters::nearness,
+            {"Nearness",
+             "Influence of the distance to the strokes of a label, measured along surfaces"},
+            {0, 5})
+      .integer("trees", &LabelerParameters::trees, {"Trees", "Number of trees of the forest"},
+               {4, 500})
+      .integer("depth", &LabelerParameters::depth, {"Depth", "Maximum depth of a tree"}, {1, 25})
+      .integer("seed", &LabelerParameters::seed,
+               {"Seed", "Seed of the random numbers used to train the forest"}, {0, 1000000});
+}
+
+bool uses_disparity(const LabelerParameters& parameters) {
+  return parameters.features != FeatureSet::Image;
 }
 
 }  // namespace episcope

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/view_rectangle.h"
-#include "engine/core/light_field/disparity_field.h"
-#include "engine/core/light_field/light_field.h"
-#include "engine/core/light_field/scene.h"
-#include "engine/core/parallel/device.h"
-#include "engine/core/parallel/progress.h"
-#include "engine/labeling/forest/grown_forest.h"
+#include "engine/core/disparity_field.h"
+#include "engine/core/indices.h"
+#include "engine/core/isa.h"
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/core/schema.h"
+#include "engine/labeling/forest.h"
 #include "engine/labeling/label_probabilities.h"
-#include "engine/labeling/labeler_parameters.h"
+#include "engine/labeling/regularizer.h"
 
 #include <functional>
 #include <memory>
@@ -17,6 +18,27 @@
 #include <vector>
 
 namespace episcope {
+
+/// The features that the forest uses: the three sets of the archive. Which disparity is meant is up
+/// to the caller; here all but Image judge labels by it.
+enum class FeatureSet { Image, ImageEstimate, ImageTruth };
+[[nodiscard]] Names<FeatureSet> names_of(FeatureSet);
+
+/// Parameters of a segmentation.
+struct LabelerParameters {
+  FeatureSet features = FeatureSet::ImageEstimate;
+  Regularizer regularizer = Regularizer::Rayspace;
+  double smoothness = 32;
+  double nearness = 0.35;
+  int trees = 96;
+  int depth = 14;
+  int seed = 1;
+};
+
+[[nodiscard]] Schema<LabelerParameters> labeler_schema();
+
+/// Whether the set of features includes disparity.
+[[nodiscard]] bool uses_disparity(const LabelerParameters& parameters);
 
 /// A segmentation of a rectangle of views.
 struct Labeling {
@@ -34,19 +56,19 @@ struct Labeling {
 /// and so are the forest while it would be the same, and, up to 1 GiB, the solvers of the view that
 /// is painted.
 ///
-/// A random forest (engine/labeling/forest/forest.h) is trained on the painted pixels of all
+/// A random forest (engine/labeling/forest.h) is trained on the painted pixels of all
 /// painted views, equally many per label, and votes on the pixels of the requested views by their
-/// features (engine/labeling/features/pixel_features.h). Its votes are weighted by how well the
+/// features (engine/labeling/pixel_features.h). Its votes are weighted by how well the
 /// disparity of a pixel fits the surface on which the strokes of each label lie, if the parameters
-/// ask for it (engine/labeling/features/label_surfaces.h), as far as that surface holds where the
-/// image alone is sure (engine/labeling/surface_support.h; of estimates only) and not in the gaps
-/// of thin things (engine/labeling/thin_gaps.h; likewise), and, since a forest knows nothing about
+/// ask for it (engine/labeling/label_surfaces.h), as far as that surface holds where the
+/// image alone is sure (engine/labeling/predict_from_strokes.h; of estimates only) and not in the gaps
+/// of thin things (engine/labeling/predict_from_strokes.h; likewise), and, since a forest knows nothing about
 /// what lies between a pixel and a stroke, by how near the strokes of each label are along
-/// surfaces, exp(−nearness·excess) (engine/labeling/features/stroke_distance.h).
+/// surfaces, exp(−nearness·excess) (engine/labeling/stroke_distance.h).
 /// Pixels that are painted on a view keep their labels there before smoothing. Unless disparity is
 /// known to be right (it comes without confidence), the middle view is then smoothed alone, and the
-/// colours near its boundaries speak for labels in all views (engine/labeling/judge_colors.h).
-/// Labels are then made consistent (engine/labeling/rays/regularizer.h). With `rayspace`, a single
+/// colours near its boundaries speak for labels in all views (engine/labeling/reweight_by_color.h).
+/// Labels are then made consistent (engine/labeling/regularizer.h). With `rayspace`, a single
 /// view uses its rays in neighbouring views only, for a quick answer; all views use those of all.
 ///
 /// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weightings are additions; what they

@@ -1,19 +1,80 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/predict_from_strokes.h"
 
-#include "engine/labeling/features/label_surfaces.h"
-#include "engine/labeling/features/pixel_features.h"
-#include "engine/labeling/features/stroke_distance.h"
-#include "engine/labeling/predict_view.h"
-#include "engine/labeling/rays/disparity_trust.h"
-#include "engine/labeling/surface_support.h"
-#include "engine/labeling/thin_gaps.h"
+#include "engine/core/image.h"
+#include "engine/core/parallel.h"
+#include "engine/core/progress.h"
+#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/forest.h"
+#include "engine/labeling/label_probabilities.h"
+#include "engine/labeling/label_surfaces.h"
+#include "engine/labeling/pixel_features.h"
+#include "engine/labeling/stroke_distance.h"
+
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <vector>
 
 namespace episcope {
 namespace {
+
+/// What is known about the pixels of a view besides their features.
+struct StrokeEvidence {
+  const StrokeDistances& distances;
+  double nearness = 0;
+  const LabelSurfaces* surfaces = nullptr;  ///< Null = no disparity to compare.
+  /// Painted on this view itself: labels there are certain. Empty = none.
+  ImageView<const std::int32_t> painted{};
+};
+
+/// Rows of probabilities `[x][label]` into bytes `[label][x]`.
+void store_row(const float* row, int pitch, VolumeView<std::uint8_t> map, int y) {
+  for (int l = 0; l < map.layers; ++l) {
+    std::uint8_t* out = map.row(y, l);
+    for (int x = 0; x < map.width; ++x) {
+      const float scaled = row[static_cast<std::ptrdiff_t>(x) * pitch + l] * 255.0F + 0.5F;
+      out[x] = static_cast<std::uint8_t>(std::min(scaled, 255.0F));
+    }
+  }
+}
+
+/// Certainty on the painted pixels of a row.
+void keep_strokes(const std::int32_t* strokes, int width, int pitch, float* row) {
+  for (int x = 0; x < width; ++x) {
+    if (strokes[x] == 0) continue;
+    float* p = row + static_cast<std::ptrdiff_t>(x) * pitch;
+    std::fill_n(p, pitch, 0.F);
+    p[strokes[x] - 1] = 1;
+  }
+}
+
+// The votes of the forest for each pixel of a view, weighted by what else is known. Throws
+// Cancelled.
+ProbabilityMap predict_view(const PixelVotes& votes, const StrokeEvidence& evidence,
+                            const Progress& progress) {
+  ProbabilityMap map(votes.height(), votes.label_count(), votes.width());
+  const int pitch = votes.pitch();
+  constexpr int kRows = 8;
+  parallel_for_workers((votes.height() + kRows - 1) / kRows, progress, [&] {
+    return [&, row = std::vector<float>(static_cast<std::size_t>(votes.row_size()))](
+               int item) mutable {
+      const int end = std::min(votes.height(), (item + 1) * kRows);
+      for (int y = item * kRows; y < end; ++y) {
+        std::copy_n(votes.row(y), row.size(), row.data());
+        if (evidence.surfaces != nullptr) evidence.surfaces->weigh_row(y, row.data());
+        evidence.distances.weigh_row(y, evidence.nearness, row.data());
+        if (!evidence.painted.empty()) {
+          keep_strokes(evidence.painted.row(y), votes.width(), pitch, row.data());
+        }
+        store_row(row.data(), pitch, map.view(), y);
+      }
+    };
+  });
+  return map;
+}
 
 /// Edges of colour that a path along a surface should not cross.
 std::vector<Image<float>> color_guides(VolumeView<const float> features) {
@@ -61,6 +122,169 @@ ProbabilityMap predict_from_strokes(const StrokeKnowledge& known, ViewIndex view
   StrokeEvidence evidence{distances, known.nearness, guides.surfaces};
   if (is_painted(known.scribbles, view)) evidence.painted = strokes.view();
   return predict_view(votes, evidence, progress);
+}
+
+namespace {
+
+constexpr int kRowStep = 8;
+constexpr float kSureShare = 0.7F;
+constexpr double kPrior = 3;
+
+struct Counts {
+  double fitting = kPrior, all = kPrior;
+};
+
+// Adds the pixels of a row of which the forest is sure.
+void count_row(const PixelVotes& pixel_votes, const LabelSurfaces& surfaces, int y,
+               const float* trust, std::vector<Counts>& counts) {
+  const auto labels = static_cast<std::ptrdiff_t>(counts.size());
+  const float *votes = pixel_votes.row(y), *misfits = surfaces.misfits(y);
+  for (int x = 0; x < pixel_votes.width();
+       ++x, votes += pixel_votes.pitch(), misfits += surfaces.pitch()) {
+    const auto label = std::max_element(votes, votes + labels) - votes;
+    if (votes[label] < kSureShare) continue;
+    const float least = *std::min_element(misfits, misfits + labels);
+    const auto weight = static_cast<double>(trust[x]);
+    Counts& count = counts[static_cast<std::size_t>(label)];
+    count.fitting += weight * std::exp(static_cast<double>(least - misfits[label]));
+    count.all += weight;
+  }
+}
+
+}  // namespace
+
+std::vector<float> surface_support(const PixelVotes& pixel_votes, const LabelSurfaces& surfaces,
+                                   ImageView<const float> trust, const Progress& progress) {
+  const auto labels = static_cast<std::size_t>(pixel_votes.label_count());
+  const int rows = (pixel_votes.height() + kRowStep - 1) / kRowStep;
+  // Of each row by itself, so that the sums do not depend on the threads.
+  std::vector<std::vector<Counts>> of_rows(static_cast<std::size_t>(rows));
+  parallel_for(rows, progress, [&](int row) {
+    const int y = std::min(row * kRowStep + kRowStep / 2, pixel_votes.height() - 1);
+    std::vector<Counts>& counts = of_rows[static_cast<std::size_t>(row)];
+    counts.assign(labels, {0, 0});
+    count_row(pixel_votes, surfaces, y, trust.row(y), counts);
+  });
+  std::vector<float> support;
+  for (std::size_t l = 0; l < labels; ++l) {
+    Counts sum;
+    for (const std::vector<Counts>& counts : of_rows) {
+      sum.fitting += counts[l].fitting;
+      sum.all += counts[l].all;
+    }
+    support.push_back(static_cast<float>(sum.fitting / sum.all));
+  }
+  return support;
+}
+
+namespace {
+
+constexpr int kReach_px = 9;
+constexpr int kThin_px = 7;
+constexpr int kFewestPixels = 60;
+constexpr double kThinShare = 0.5;
+constexpr double kMostThin = 0.7;
+constexpr float kAgreement = 1;  // Most by which the misfit of a label may exceed the least one.
+
+// What forest and disparity say of each pixel: labels.
+struct Opinions {
+  Opinions(int height, int width)
+      : voted(height, width, CV_32S), fitting(height, width, CV_32S), agree(height, width, CV_8U) {}
+  cv::Mat voted, fitting;
+  cv::Mat agree;  // 255 where the voted label fits about as well as the fitting one.
+};
+
+Opinions opinions_of(const PixelVotes& votes, const LabelSurfaces& surfaces,
+                     const Progress& progress) {
+  const int labels = votes.label_count();
+  Opinions opinions(votes.height(), votes.width());
+  parallel_for(votes.height(), progress, [&](int y) {
+    const float *p = votes.row(y), *m = surfaces.misfits(y);
+    for (int x = 0; x < votes.width(); ++x, p += votes.pitch(), m += surfaces.pitch()) {
+      const auto voted = std::max_element(p, p + labels) - p;
+      const auto fitting = std::min_element(m, m + labels) - m;
+      opinions.voted.at<std::int32_t>(y, x) = static_cast<std::int32_t>(voted);
+      opinions.fitting.at<std::int32_t>(y, x) = static_cast<std::int32_t>(fitting);
+      opinions.agree.at<std::uint8_t>(y, x) = m[voted] - m[fitting] < kAgreement ? 255 : 0;
+    }
+  });
+  return opinions;
+}
+
+// What of a label lies in no square of it, as masks of 255.
+struct ThinParts {
+  cv::Mat pixels;  // For which the forest votes.
+  cv::Mat thin;
+  double share = 0;     // Of its pixels that are thin,
+  double agreeing = 0;  // and of those whose disparity agrees.
+};
+
+double share_of(const cv::Mat& part, const cv::Mat& whole) {
+  return static_cast<double>(cv::countNonZero(part)) / std::max(cv::countNonZero(whole), 1);
+}
+
+ThinParts thin_parts_of(const Opinions& opinions, int label) {
+  const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {kThin_px, kThin_px});
+  ThinParts parts;
+  parts.pixels = opinions.voted == label;
+  cv::Mat wide;
+  cv::morphologyEx(parts.pixels, wide, cv::MORPH_OPEN, square, {-1, -1}, 1, cv::BORDER_REPLICATE);
+  parts.thin = parts.pixels & ~wide;
+  parts.share = share_of(parts.thin, parts.pixels);
+  parts.thin &= opinions.agree;
+  parts.agreeing = share_of(parts.thin, parts.pixels & opinions.agree);
+  return parts;
+}
+
+// What lies within kReach_px of connected thin pixels, if they are many.
+cv::Mat reach_of(const cv::Mat& thin) {
+  cv::Mat parts, statistics, middles;
+  cv::connectedComponentsWithStats(thin, parts, statistics, middles, 8);
+  cv::Mat large(thin.size(), CV_8U);
+  for (int y = 0; y < thin.rows; ++y) {
+    const auto* part = parts.ptr<std::int32_t>(y);
+    std::transform(part, part + thin.cols, large.ptr(y), [&](std::int32_t id) {
+      const bool is_large =
+          id > 0 && statistics.at<std::int32_t>(id, cv::CC_STAT_AREA) >= kFewestPixels;
+      return static_cast<std::uint8_t>(is_large ? 255 : 0);
+    });
+  }
+  cv::Mat reach = cv::Mat::zeros(thin.size(), CV_8U);
+  // Most labels have none, and few are everywhere: a disc is no product of lines, and slow.
+  const cv::Rect box = cv::boundingRect(large);
+  if (box.empty()) return reach;
+  const cv::Rect around = cv::Rect(box.x - kReach_px, box.y - kReach_px, box.width + 2 * kReach_px,
+                                   box.height + 2 * kReach_px) &
+                          cv::Rect({0, 0}, thin.size());
+  const cv::Mat disc =
+      cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kReach_px + 1, 2 * kReach_px + 1});
+  cv::dilate(large(around), reach(around), disc);
+  return reach;
+}
+
+}  // namespace
+
+Image<std::int32_t> labels_in_thin_gaps(const PixelVotes& votes, const LabelSurfaces& surfaces,
+                                        const Progress& progress) {
+  const Opinions opinions = opinions_of(votes, surfaces, progress);
+  std::vector<ThinParts> parts;
+  for (int l = 0; l < votes.label_count(); ++l) parts.push_back(thin_parts_of(opinions, l));
+  Image<std::int32_t> gaps(votes.height(), votes.width());
+  for (int l = 0; l < votes.label_count(); ++l) {
+    progress.check();
+    const ThinParts& thing = parts[static_cast<std::size_t>(l)];
+    if (thing.agreeing < kThinShare) continue;
+    const cv::Mat candidates = reach_of(thing.thin) & (opinions.fitting == l) & ~thing.pixels;
+    for (int y = 0; y < gaps.height(); ++y) {
+      for (int x = 0; x < gaps.width(); ++x) {
+        if (candidates.at<std::uint8_t>(y, x) == 0) continue;
+        const std::int32_t voted = opinions.voted.at<std::int32_t>(y, x);
+        const bool goes_on = parts[static_cast<std::size_t>(voted)].share <= kMostThin;
+        if (goes_on && surfaces.lies_behind(voted, y, x)) gaps.at(y, x) = voted + 1;
+      }
+    }
+  }
+  return gaps;
 }
 
 }  // namespace episcope

@@ -2,7 +2,7 @@
 #include "engine/render/color_map.h"
 
 #include "engine/core/error.h"
-#include "engine/core/parameter/parameter.h"
+#include "engine/core/parameter.h"
 
 #include <algorithm>
 #include <cmath>

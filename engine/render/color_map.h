@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/label_info.h"
+#include "engine/core/label_info.h"
 
 #include <array>
 #include <cstdint>

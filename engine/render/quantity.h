@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/indices.h"
+#include "engine/core/indices.h"
 
 #include <cstdint>
 #include <span>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/image.h"
-#include "engine/core/array/indices.h"
-#include "engine/core/array/pixel_rect.h"
+#include "engine/core/image.h"
+#include "engine/core/indices.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/image.h"
-#include "engine/core/light_field/disparity_field.h"
-#include "engine/core/light_field/label_info.h"
-#include "engine/core/light_field/light_field.h"
+#include "engine/core/disparity_field.h"
+#include "engine/core/image.h"
+#include "engine/core/label_info.h"
+#include "engine/core/light_field.h"
 #include "engine/render/color_map.h"
 #include "engine/render/quantity.h"
 #include "engine/render/tone.h"
@@ -81,5 +81,9 @@ template <class Label>
 /// [0, 1]. Samples between pixels are interpolated linearly, with 8-bit light fields to 1/256 px;
 /// those outside repeat the border. Throws InvalidInput if the view lies outside the grid.
 [[nodiscard]] Image<float> refocus(const LightField& light_field, ViewIndex view, double focus_px);
+
+/// A picture of 8-bit samples `[y][x][c]`, scaled down by the means of areas until its longer side
+/// is `longest_px` (at least 1); as it is if it is no larger.
+[[nodiscard]] Image<std::uint8_t> fitted(const Image<std::uint8_t>& picture, int longest_px);
 
 }  // namespace episcope::render

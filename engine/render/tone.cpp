@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/render/tone.h"
 
-#include "engine/core/array/quantile.h"
+#include "engine/core/numbers.h"
 
 #include <algorithm>
 #include <cmath>

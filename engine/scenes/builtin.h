@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/scene.h"
-#include "engine/core/parallel/progress.h"
-#include "engine/scenes/random/kinds.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/scenes/random_kind.h"
 
 #include <string>
 #include <vector>
@@ -52,16 +52,39 @@ void require_builtin(const std::string& id);
 /// its kind as well ("dots_3", "random_thin_7").
 [[nodiscard]] std::string builtin_name(const std::string& id, const RenderOptions& options);
 
-/// How users write the scene (request.h): the id; of a drawn scene with seed, and kind if it has one
+/// How users write the scene (read_request): the id; of a drawn scene with seed, and kind if it has
+/// one
 /// ("random?seed=7&kind=thin").
 [[nodiscard]] std::string builtin_text(const std::string& id, const RenderOptions& options);
 
 /// Ray-casts a built-in scene analytically, each view by itself: exact disparity and labels at
 /// pixel centres for every view, colour averaged over 4×4 samples, band-limited textures, seeded
 /// noise. Deterministic: the same options give the same bytes on every machine and thread count.
-/// `id` is a scene alone (request.h reads queries).
+/// `id` is a scene alone (read_request reads queries).
 /// Throws Unavailable for an unknown id (naming the nearest), InvalidInput, Cancelled.
 [[nodiscard]] Scene render_builtin(const std::string& id, const RenderOptions& options,
                                    const Progress& progress);
+
+/// A built-in scene as users write it.
+struct BuiltinRequest {
+  std::string scene;
+  RenderOptions options;
+
+  /// Whether anything but the scene was said.
+  [[nodiscard]] bool is_plain() const { return options == RenderOptions(); }
+  /// See builtin_name.
+  [[nodiscard]] std::string name() const { return builtin_name(scene, options); }
+};
+
+/// Reads "<scene>" or "<scene>?key=value&key=value", e.g. "random?seed=7&kind=thin". Keys: seed
+/// (of a scene that is drawn, and of noise), kind (of a random scene: random_kind_names()), size
+/// (px, "256" or "320x240" for width and height), grid ("9x9", rows and columns of views), noise
+/// (in units of 1/255) and channels (3, or 1 for gray). Throws Unavailable for an unknown scene and
+/// InvalidInput for a query that is not of this form; the message says what is possible.
+[[nodiscard]] BuiltinRequest read_request(const std::string& text);
+
+/// What stands behind the '?' of such a text, into the options of `request`; others stay as they
+/// are. Throws InvalidInput likewise.
+void read_options(const std::string& text, BuiltinRequest& request);
 
 }  // namespace episcope::scenes

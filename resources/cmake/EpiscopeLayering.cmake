@@ -115,9 +115,7 @@ episcope_forbid(episcope_session ${ui} "^episcope_(widgets|window)$")
 episcope_forbid(episcope_widgets "^episcope_(io|session|solvers|disparity|evaluation|window)$" ${hdf5}
                 "^opencv")
 episcope_forbid(episcope-cli ${ui})
-episcope_floors(engine/core . array,hash,parallel,text parameter light_field space)
-episcope_floors(engine/disparity tensor common blocks,epi,stereo cuts,layers,plane)
-episcope_floors(engine/capture camera,mesh calibrate,depth,pose rectify demo)
-episcope_floors(widgets style controls canvas,estimate,plot annotate,browse,cloud,collection,compare,sweep capture)
-episcope_floors(app/gui frame document,stage opening bench
-                annotate,browse,capture,cloud,collection,compare,estimate,files,help,measure,project,review,segment)
+episcope_floors(engine/disparity kernels)
+episcope_floors(engine/io base models formats .)
+episcope_floors(widgets controls canvas,cloud panels)
+episcope_floors(app/gui shell scene annotate,browse,capture,compare,estimate,files)

@@ -31,8 +31,8 @@ pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavfilter libavformat libavc
 if(EPISCOPE_GUI)
   find_package(Qt6 REQUIRED COMPONENTS Widgets OpenGL Svg)
   # Always with components: without them VTK wants Qt 5.
-  find_package(VTK REQUIRED COMPONENTS ChartsCore CommonCore CommonDataModel CommonTransforms
-               FiltersCore InteractionStyle InteractionWidgets RenderingAnnotation RenderingContext2D
+  find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel CommonTransforms
+               FiltersCore InteractionStyle InteractionWidgets RenderingAnnotation
                RenderingCore RenderingFreeType RenderingOpenGL2)
 endif()
 if(EPISCOPE_TESTS)

@@ -121,7 +121,7 @@ endfunction()
 
 # episcope_add_kernels(library a_kernel.cpp …): compiles each source once for every instruction set,
 # with EPISCOPE_KERNEL_NAMESPACE and EPISCOPE_VECTOR_BYTES defined. See
-# engine/core/parallel/isa.h.
+# engine/core/isa.h.
 function(episcope_add_kernels library)
   set(flags_baseline "")
   set(bytes_baseline 16)

@@ -15,7 +15,7 @@ if(GIT)
   endif()
 endif()
 file(CONFIGURE OUTPUT "${OUT}" @ONLY CONTENT [[
-#include "app/about/commit.h"
+#include "app/about/version_text.h"
 
 namespace episcope {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts of the engine, for lupdate. Made by episcope_texts (README.md).
+// Texts of the engine, for lupdate. Made by episcope_texts.
 QT_TRANSLATE_NOOP("episcope::Schema", "(1/255)²")
 QT_TRANSLATE_NOOP("episcope::Schema", "1/255")
 QT_TRANSLATE_NOOP("episcope::Schema", "2016 benchmark folder")

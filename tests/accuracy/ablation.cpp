@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
-#include "engine/scenes/request.h"
+#include "engine/scenes/builtin.h"
 #include "tests/accuracy/measure.h"
 #include "tests/accuracy/variant.h"
 

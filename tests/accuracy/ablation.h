@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/parallel/progress.h"
-#include "engine/core/parameter/parameter.h"
+#include "engine/core/parameter.h"
+#include "engine/core/progress.h"
 
 #include <filesystem>
 #include <functional>

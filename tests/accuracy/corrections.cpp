@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/accuracy/corrections.h"
 
-#include "engine/io/arrays/npy_file.h"
-#include "engine/labeling/features/pixel_features.h"
+#include "engine/io/base/npy.h"
+#include "engine/labeling/pixel_features.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/accuracy/label_measure.h"
 
-#include "app/session/run/run_estimator.h"
-#include "engine/core/parallel/stopwatch.h"
-#include "engine/io/maps/result_file.h"
+#include "app/session/run_estimator.h"
+#include "engine/core/progress.h"
+#include "engine/io/models/result_file.h"
 #include "engine/labeling/consistency.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/session/labels/labeling_inputs.h"
-#include "engine/core/light_field/scene.h"
-#include "engine/evaluation/metrics/label_quality.h"
+#include "app/session/labeling_inputs.h"
+#include "engine/core/scene.h"
+#include "engine/evaluation/label_quality.h"
 #include "engine/labeling/labeler.h"
 #include "tests/accuracy/strokes.h"
 

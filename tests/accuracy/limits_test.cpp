@@ -2,7 +2,7 @@
 // Keeps the accuracy that was reached: limits on small scenes, a quarter above what was measured,
 // so that another machine's rounding passes and a wrong filter, shear or weight does not.
 #include "engine/disparity/registry.h"
-#include "engine/scenes/request.h"
+#include "engine/scenes/builtin.h"
 #include "tests/accuracy/measure.h"
 #include "tests/test_main.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/scene.h"
-#include "engine/core/parallel/progress.h"
-#include "engine/disparity/common/estimator.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/disparity/estimator.h"
 
 #include <string>
 

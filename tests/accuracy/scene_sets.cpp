@@ -2,8 +2,8 @@
 #include "tests/accuracy/scene_sets.h"
 
 #include "engine/core/error.h"
-#include "engine/io/open/open.h"
-#include "engine/scenes/request.h"
+#include "engine/io/open.h"
+#include "engine/scenes/builtin.h"
 
 #include <nlohmann/json.hpp>
 

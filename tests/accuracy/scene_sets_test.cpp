@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/accuracy/scene_sets.h"
 
-#include "engine/scenes/request.h"
+#include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 
 #include <algorithm>

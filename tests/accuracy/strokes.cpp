@@ -2,7 +2,7 @@
 #include "tests/accuracy/strokes.h"
 
 #include "engine/core/error.h"
-#include "engine/scenes/recipes/scribble.h"
+#include "engine/scenes/recipes.h"
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/image.h"
+#include "engine/core/image.h"
 
 #include <cstdint>
 #include <string>
@@ -10,7 +10,7 @@ namespace episcope::accuracy {
 
 /// How a simulated user paints. All know the true labels.
 enum class StrokeStyle {
-  Cross,   ///< Along a row and a column inside each label (engine/scenes/recipes/scribble.h).
+  Cross,   ///< Along a row and a column inside each label (engine/scenes/recipes.h).
   Line,    ///< Along the middle of the largest part of each label.
   Dots,    ///< A few round dots in each label, far from its outline.
   Stored,  ///< What the scene brings along.

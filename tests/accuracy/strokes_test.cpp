@@ -2,7 +2,7 @@
 #include "tests/accuracy/strokes.h"
 
 #include "engine/core/error.h"
-#include "engine/scenes/request.h"
+#include "engine/scenes/builtin.h"
 #include "tests/accuracy/scene_sets.h"
 #include "tests/test_main.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/disparity/common/estimator.h"
+#include "engine/disparity/estimator.h"
 
 #include <string>
 #include <vector>

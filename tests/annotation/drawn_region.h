@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/paint/pixel_region.h"
-#include "engine/core/array/image.h"
+#include "annotation/scribble_layer.h"
+#include "engine/core/image.h"
 
 namespace episcope::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/paint/stroke.h"
+#include "annotation/brush.h"
 
 #include <random>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/bench/bench_scene.h"
 
-#include "engine/core/array/large_memory.h"
-#include "engine/core/parallel/parallel.h"
+#include "engine/core/memory.h"
+#include "engine/core/parallel.h"
 #include "engine/scenes/builtin.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // big_light_field OUT.h5 ROWSxCOLUMNS WIDTHxHEIGHT [SCENE]: a light field of any size in the
 // archive form, as large files are tried with: a built-in scene of 256×256 px, repeated over the
 // views, so that a view is made at the speed of the disk. 27x27 4096x2160 takes 19.3 GB.
-#include "engine/io/durable/atomic_file.h"
-#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/hdf5_file.h"
 #include "engine/scenes/builtin.h"
 
 #include <algorithm>

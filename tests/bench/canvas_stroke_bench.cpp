@@ -3,14 +3,14 @@
 // window that ships, at rest and while the view is segmented live on every core, against drawing
 // the whole view anew. A frame of the screen lasts 16 ms. Run with QT_QPA_PLATFORM=offscreen.
 #include "app/gui/annotate/annotate_controller.h"
-#include "app/gui/document/document_controller.h"
-#include "app/gui/frame/commands.h"
+#include "app/gui/annotate/segment_controller.h"
 #include "app/gui/main_window.h"
-#include "app/gui/segment/segment_controller.h"
-#include "app/gui/stage/stage.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
 #include "app/session/session.h"
 #include "engine/scenes/builtin.h"
-#include "widgets/canvas/tools/stroke_tool.h"
+#include "widgets/canvas/stroke_tool.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <benchmark/benchmark.h>
@@ -59,7 +59,7 @@ class PaintedWindow {
     for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();
   }
   void send(QEvent::Type type, QPointF image) {
-    ViewCanvas* canvas = window->bench().stage.canvas();
+    ViewCanvas* canvas = window->bench().viewer_area.canvas();
     const QPointF at = canvas->canvasTransform().to_widget(image, canvas->size());
     const bool is_move = type == QEvent::MouseMove;
     QMouseEvent event(type, at, canvas->mapToGlobal(at), is_move ? Qt::NoButton : Qt::LeftButton,
@@ -105,7 +105,7 @@ void segment_on_screen(benchmark::State& state) {
   PaintedWindow painted;
   const bool is_live = state.range(1) != 0;
   if (is_live) painted.window->bench().commands.trigger("segment.live");
-  ViewCanvas* canvas = painted.window->bench().stage.canvas();
+  ViewCanvas* canvas = painted.window->bench().viewer_area.canvas();
   qobject_cast<StrokeTool*>(canvas->tool())->setBrushSize(static_cast<double>(state.range(0)));
   painted.send(QEvent::MouseButtonPress, point_at(0));
   PaintedWindow::settle();
@@ -138,7 +138,7 @@ void whole_view_on_screen(benchmark::State& state) {
   std::vector<double> ms;
   for (auto _ : state) {
     const auto begin = Clock::now();
-    painted.window->bench().stage.canvas()->update();
+    painted.window->bench().viewer_area.canvas()->update();
     QCoreApplication::processEvents();
     const std::chrono::duration<double> took = Clock::now() - begin;
     state.SetIterationTime(took.count());

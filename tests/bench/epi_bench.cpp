@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // EPI_L and EPI_S of all views at 9×9×768×768 RGB against the same work through OpenCV's separable
 // filters, against what the memory can copy, and the memory they take.
-#include "engine/disparity/common/disparity_range.h"
-#include "engine/disparity/epi/epi_l.h"
-#include "engine/disparity/epi/epi_s.h"
+#include "engine/disparity/disparity_range.h"
+#include "engine/disparity/epi_l.h"
+#include "engine/disparity/epi_s.h"
 #include "tests/bench/bench_scene.h"
 #include "tests/bench/opencv_epi_l.h"
 

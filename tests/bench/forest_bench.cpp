@@ -2,7 +2,7 @@
 // Votes of a random forest for the pixels of a view, against OpenCV's own prediction with as many
 // trees of the same depth in the same run; and the share of it that reading the features would take
 // at the speed of a copy.
-#include "engine/labeling/forest/forest.h"
+#include "engine/labeling/forest.h"
 
 #include <opencv2/ml.hpp>
 

@@ -2,10 +2,10 @@
 // The methods that work on several views together, at 9×9×768×768 RGB: EPI_C, EPI_TWO_LAYER and
 // KZ02 against EPI_S in the same run, which solves the same TV-L2 problem once a view, and against
 // what the memory can copy.
-#include "engine/disparity/cuts/kz02.h"
-#include "engine/disparity/epi/epi_c.h"
-#include "engine/disparity/epi/epi_s.h"
-#include "engine/disparity/layers/epi_two_layer.h"
+#include "engine/disparity/epi_c.h"
+#include "engine/disparity/epi_s.h"
+#include "engine/disparity/epi_two_layer.h"
+#include "engine/disparity/kz02.h"
 #include "tests/bench/bench_scene.h"
 
 #include <benchmark/benchmark.h>

@@ -4,15 +4,15 @@
 // once) by the time it takes, against what the memory copies, and its arithmetic. Where a kernel
 // stays under a third of the copy, the comment says what it waits for. TV-L2 and the lifted
 // labeling have programs of their own (tv_l2_bench, lifted_labeling_bench).
-#include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/matching_cost.h"
-#include "engine/disparity/epi/epi_l.h"
-#include "engine/disparity/epi/line_check.h"
-#include "engine/disparity/epi/replace_occluded.h"
-#include "engine/disparity/layers/double_orientation.h"
-#include "engine/disparity/stereo/guided_filter.h"
-#include "engine/disparity/tensor/structure_tensor.h"
-#include "engine/solvers/ordering/ordering_terms.h"
+#include "engine/core/parallel.h"
+#include "engine/disparity/double_orientation.h"
+#include "engine/disparity/epi_l.h"
+#include "engine/disparity/guided_filter.h"
+#include "engine/disparity/line_check.h"
+#include "engine/disparity/matching_cost.h"
+#include "engine/disparity/replace_occluded.h"
+#include "engine/disparity/structure_tensor.h"
+#include "engine/solvers/ordering_terms.h"
 #include "tests/bench/bench_scene.h"
 
 #include <benchmark/benchmark.h>

@@ -3,8 +3,8 @@
 // read from binary PLY, made coarser for turning, turned with the mouse. Needs a display, such as
 // that of xvfb-run.
 #include "app/gui/capture/pair_marks.h"
-#include "engine/capture/demo/scan_mesh.h"
-#include "engine/capture/mesh/mesh_file.h"
+#include "engine/capture/mesh_file.h"
+#include "engine/capture/scan_mesh.h"
 #include "widgets/cloud/point_cloud_view.h"
 
 #include <QApplication>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/bench/opencv_epi_l.h"
 
-#include "engine/core/parallel/parallel.h"
-#include "engine/disparity/tensor/structure_tensor.h"
+#include "engine/core/parallel.h"
+#include "engine/disparity/structure_tensor.h"
 #include "tests/bench/bench_scene.h"
 
 #include <opencv2/core.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/estimate.h"
-#include "engine/core/light_field/light_field.h"
-#include "engine/disparity/epi/epi_l.h"
+#include "engine/core/estimate.h"
+#include "engine/core/light_field.h"
+#include "engine/disparity/epi_l.h"
 
 namespace episcope::bench {
 

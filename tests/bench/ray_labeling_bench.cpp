@@ -2,9 +2,9 @@
 // Multi-label TV against the plain loops that one would write first (Chambolle and Pock 2011, with
 // the simplex projected to by sorting), and against what the memory can copy; and labels of a whole
 // light field. All use as many threads as the machine has.
-#include "engine/core/parallel/parallel.h"
-#include "engine/labeling/rays/regularizer.h"
-#include "engine/solvers/simplex/simplex_labeling.h"
+#include "engine/core/parallel.h"
+#include "engine/labeling/regularizer.h"
+#include "engine/solvers/simplex_labeling.h"
 #include "tests/bench/bench_scene.h"
 
 #include <benchmark/benchmark.h>

@@ -2,9 +2,9 @@
 // read_rate FOLDER [MIB]: how fast a light field in HDF5 is read, view by view, beside a plain loop
 // over the same file in the same run, nothing of either in memory: samples one after the other, in
 // chunks of a view, and in chunks packed by deflate. The files are made in FOLDER and removed.
-#include "engine/core/light_field/light_field.h"
-#include "engine/core/parallel/stopwatch.h"
-#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/io/base/hdf5_file.h"
 #include "engine/scenes/builtin.h"
 
 #include <fcntl.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Multi-view stereo of the centre view at 9×9×768×768 RGB, 64 labels: each method's time and
 // memory, and the matching costs against the same work through OpenCV.
-#include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/matching_cost.h"
+#include "engine/core/parallel.h"
+#include "engine/disparity/matching_cost.h"
 #include "engine/disparity/registry.h"
 #include "tests/bench/bench_scene.h"
 

@@ -2,8 +2,8 @@
 // One segment of a stroke on a 1024×1024 view, as it is painted and shown, against the plain way:
 // to ask for every pixel of the view whether the brush covers it. A frame of the screen lasts 16
 // ms.
-#include "annotation/paint/flood_fill.h"
-#include "annotation/paint/stroke.h"
+#include "annotation/brush.h"
+#include "annotation/flood_fill.h"
 
 #include <benchmark/benchmark.h>
 

@@ -2,8 +2,8 @@
 // How late the window handles events while it works: a method that runs, overlays that change,
 // tiles that are zoomed, strokes during live labeling; each against the same window at rest. A
 // frame of the screen lasts 16 ms. Needs a display, or QT_QPA_PLATFORM=offscreen.
+#include "app/gui/annotate/segment_controller.h"
 #include "app/gui/compare/compare_controller.h"
-#include "app/gui/segment/segment_controller.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/bench/window/event_ages.h"
 #include "tests/widgets/pictures.h"
@@ -32,7 +32,7 @@ constexpr scenes::RenderOptions kLargeViews{{3, 3}, 1024, 1024};
 
 // What a user does: moves the mouse over the view, and steps through the views.
 void give_input(MainWindow& window, int number) {
-  ViewCanvas* canvas = window.bench().stage.canvas();
+  ViewCanvas* canvas = window.bench().viewer_area.canvas();
   const PixelIndex pixel{number % 500, (number * 7) % 500};
   QTest::mouseMove(canvas, canvas->positionOf(pixel).toPoint());
   if (number % 3 == 0) window.bench().session.set_view({4, number % 9});
@@ -58,7 +58,7 @@ void change_overlay(MainWindow& window, int number) {
   constexpr std::array maps = {Quantity::Disparity, Quantity::SignedError, Quantity::Truth,
                                Quantity::AbsoluteError, Quantity::BadPixels};
   Overlay& overlay = window.bench().overlay;
-  ViewCanvas* canvas = window.bench().stage.canvas();
+  ViewCanvas* canvas = window.bench().viewer_area.canvas();
   switch (number % 8) {
     case 0:
       overlay.setQuantity(maps[static_cast<std::size_t>(number / 8) % maps.size()]);
@@ -122,7 +122,7 @@ class Painter {
 
   void move(int number) {
     constexpr int kMoves = 15;
-    ViewCanvas* canvas = window_.bench().stage.canvas();
+    ViewCanvas* canvas = window_.bench().viewer_area.canvas();
     const int stroke = number / kMoves;
     const QPoint at = canvas
                           ->positionOf({80 + stroke * 131 % 800 + 3 * (number % kMoves),
@@ -186,7 +186,7 @@ void measure_tiles() {
   f.openScene("edge", {});
   const auto at_rest = latencies_at_rest(f.window);
   add_results(f.window.bench().session, 10);
-  TileWall* wall = f.window.bench().stage.wall();
+  TileWall* wall = f.window.bench().viewer_area.wall();
   find<CompareController>(f.window).setMode(CompareMode::Wall);
   (void)QTest::qWaitFor([&] { return wall->count() == 12; }, kScenePatience);
   std::vector<double> frames;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/cuda/agreement.h"
 
-#include "engine/evaluation/metrics/metrics.h"
+#include "engine/evaluation/metrics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/cuda/cases.h"
 
-#include "engine/disparity/common/profile.h"
+#include "engine/disparity/estimator.h"
 #include "engine/disparity/registry.h"
-#include "engine/scenes/request.h"
+#include "engine/scenes/builtin.h"
 
 #include <algorithm>
 #include <variant>

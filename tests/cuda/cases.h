@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/scene.h"
-#include "engine/disparity/common/estimator.h"
+#include "engine/core/scene.h"
+#include "engine/disparity/estimator.h"
 
 #include <string>
 #include <vector>
@@ -32,7 +32,7 @@ enum class Kind {
 /// of few, of many and of an even number of views, other types of samples.
 [[nodiscard]] std::vector<std::string> scene_texts();
 
-/// A scene by its text (engine/scenes/request.h), with views of about `size`² pixels. Before the
+/// A scene by its text (engine/scenes/builtin.h), with views of about `size`² pixels. Before the
 /// text may stand "masked:", for the corners of every view to be marked as invalid, "grey:" for one
 /// channel of 16 bits and "float:".
 [[nodiscard]] Scene make_scene(const std::string& text, int size);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/cuda/label_runs.h"
 
-#include "engine/core/light_field/gradient_magnitude.h"
-#include "engine/labeling/rays/regularizer.h"
+#include "engine/core/light_field.h"
+#include "engine/labeling/regularizer.h"
 #include "tests/engine/labeling/noisy_labels.h"
 
 #include <fmt/format.h>

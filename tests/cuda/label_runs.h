@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/scene.h"
-#include "engine/core/parallel/device.h"
+#include "engine/core/isa.h"
+#include "engine/core/scene.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares every method on the GPU with the CPU, or times it: see README.md.
-#include "engine/core/text/text_table.h"
-#include "engine/cuda/device/cuda_device.h"
-#include "engine/cuda/device/device_bounds.h"
+#include "engine/core/text_table.h"
+#include "engine/cuda/device.h"
 #include "tests/cuda/agreement.h"
 #include "tests/cuda/label_runs.h"
 #include "tests/cuda/timing.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/cuda/timing.h"
 
-#include "engine/core/parallel/stopwatch.h"
+#include "engine/core/progress.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/scene.h"
-#include "engine/cuda/device/kernel_times.h"
+#include "engine/core/scene.h"
+#include "engine/cuda/device.h"
 #include "tests/cuda/cases.h"
 
 #include <functional>

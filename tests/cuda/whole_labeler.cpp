@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/labeler.h"
-#include "engine/scenes/recipes/scribble.h"
+#include "engine/scenes/recipes.h"
 #include "tests/cuda/label_runs.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/capture/camera/camera_file.h"
-#include "engine/capture/pose/pairs_file.h"
-#include "engine/capture/pose/pose_file.h"
+#include "engine/capture/camera.h"
+#include "engine/capture/pose_file.h"
 #include "tests/fuzz/harness.h"
 
 #include <vector>

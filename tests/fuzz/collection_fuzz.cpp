@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/collection/collection_cache.h"
+#include "engine/io/formats/collection.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/fuzz/harness.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/benchmark/config_file.h"
-#include "engine/io/beside/baseline_file.h"
-#include "engine/io/open/folder_account.h"
+#include "engine/io/formats/benchmark_reader.h"
+#include "engine/io/models/file_usage.h"
+#include "engine/io/models/sidecar_maps/sidecar_maps.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"

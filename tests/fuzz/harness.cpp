@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/fuzz/harness.h"
 
-#include "engine/core/hash/fnv1a.h"
+#include "engine/core/hash.h"
 
 #include <hdf5.h>
 #include <unistd.h>

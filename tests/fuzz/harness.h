@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/error.h"
-#include "engine/core/parallel/progress.h"
+#include "engine/core/progress.h"
 
 #include <filesystem>
 #include <string>

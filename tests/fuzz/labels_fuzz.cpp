@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/archive/companions.h"
-#include "engine/io/labels/probability_samples.h"
-#include "engine/io/labels/scribble_file.h"
-#include "engine/io/labels/segmentation_file.h"
-#include "engine/io/labels/true_labels.h"
+#include "engine/io/formats/companions.h"
+#include "engine/io/models/scribble_file.h"
+#include "engine/io/models/segmentation_file.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 

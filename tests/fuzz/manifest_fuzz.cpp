@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/arrays/npy_file.h"
-#include "engine/io/blender/render_manifest.h"
-#include "engine/io/grid/image_file.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/npy.h"
+#include "engine/io/formats/blender_reader.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/beside/map_file.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/maps/pfm.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/pfm.h"
+#include "engine/io/models/sidecar_maps/map_file.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"

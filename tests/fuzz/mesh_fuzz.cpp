@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/capture/mesh/mesh_file.h"
+#include "engine/capture/mesh_file.h"
 #include "tests/fuzz/harness.h"
 
 namespace episcope::fuzz {

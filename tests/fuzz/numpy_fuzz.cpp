@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/arrays/npy_file.h"
+#include "engine/io/base/npy.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/fuzz/harness.h"

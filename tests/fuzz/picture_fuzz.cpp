@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/grid/claimed_pixels.h"
-#include "engine/io/grid/decode_image.h"
-#include "engine/io/grid/image_header.h"
-#include "engine/io/open/open.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/image_header.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/grid/exr_file.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"

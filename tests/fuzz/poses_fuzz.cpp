@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/arrays/npy_file.h"
-#include "engine/io/poses/pose_grid.h"
-#include "engine/io/poses/read_poses.h"
+#include "engine/io/base/npy.h"
+#include "engine/io/models/pose_grid.h"
+#include "engine/io/models/poses.h"
 #include "tests/fuzz/harness.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/project/project_file.h"
+#include "app/session/project_file.h"
 #include "tests/fuzz/harness.h"
 
 namespace episcope::fuzz {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/maps/result_file.h"
-#include "engine/io/maps/submission_folder.h"
+#include "engine/io/models/external_result.h"
+#include "engine/io/models/result_file.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/fuzz/seed_scene.h"
 
-#include "engine/io/open/open.h"
-#include "engine/io/open/reader.h"
-#include "engine/io/write/writer.h"
+#include "engine/io/models/reader.h"
+#include "engine/io/open.h"
+#include "engine/io/write.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/fuzz/harness.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/scene.h"
+#include "engine/core/scene.h"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/document/pending_edit.h"
-#include "annotation/paint/brush.h"
-#include "app/session/document/journal_records.h"
+#include "annotation/brush.h"
+#include "annotation/document.h"
+#include "app/session/annotation_journal.h"
 #include "tests/fuzz/harness.h"
 
 #include <fstream>

@@ -3,7 +3,7 @@
 // and keys, and writes its pictures to FOLDER. resources/manual/pictures.txt has the steps.
 #include "app/gui/capture/capture_controller.h"
 #include "app/gui/capture/photographs.h"
-#include "app/gui/help/language_choice.h"
+#include "app/gui/shell/appearance.h"
 #include "tests/app/gui/window_fixture.h"
 
 #include <QAbstractButton>

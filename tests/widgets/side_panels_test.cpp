@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/window_test_main.h"
-#include "widgets/browse/info_panel.h"
-#include "widgets/browse/value_bar.h"
-#include "widgets/controls/elided_label.h"
-#include "widgets/controls/folded_label.h"
 #include "widgets/controls/job_panel.h"
+#include "widgets/controls/labels.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/info_panel.h"
+#include "widgets/panels/value_bar.h"
 
 #include <QAction>
 #include <QClipboard>

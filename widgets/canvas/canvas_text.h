@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "widgets/style/side.h"
+#include "annotation/label_set.h"
+#include "annotation/scribble_layer.h"
+#include "engine/core/image.h"
+#include "engine/render/shade.h"
+#include "widgets/controls/theme.h"
 
 #include <QFontMetricsF>
+#include <QImage>
 #include <QPainter>
 #include <QRectF>
 #include <QString>
+
+#include <cstdint>
 
 namespace episcope {
 
@@ -24,5 +31,17 @@ namespace episcope {
 /// text is fitted to the canvas.
 QRectF draw_plate(QPainter& painter, const QRectF& canvas, Qt::Alignment corner,
                   const QString& text, const QColor& color, Side side = Side::None);
+
+/// The labels of one view, `[y][x]`; an empty image stands for zeros.
+struct ScribbleLayers {
+  ImageView<const std::uint8_t> painted;
+  ImageView<const std::uint8_t> carried;  ///< From other views; drawn where nothing is painted.
+};
+
+/// The pixels of `rect`, in the colours of the labels, on a transparent ground: painted ones
+/// opaque and in this style, carried ones as fainter stripes. Unknown labels get their default
+/// colour. Linear in the pixels of `rect`, which lies inside the view.
+[[nodiscard]] QImage scribble_picture(const ScribbleLayers& layers, const LabelSet& labels,
+                                      const PixelRect& rect, const render::LabelStyle& style = {});
 
 }  // namespace episcope

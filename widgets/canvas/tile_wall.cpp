@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/canvas/tile_wall.h"
 
-#include "widgets/style/theme.h"
+#include "widgets/controls/theme.h"
 
 #include <QResizeEvent>
 #include <QScrollBar>
@@ -13,8 +13,8 @@
 namespace episcope {
 namespace {
 
-constexpr int kGap = 2;
-constexpr int kLeastWidth = 170;  // logical pixels; smaller tiles say nothing
+constexpr int kTileGap = 2;
+constexpr int kLeastTileWidth = 170;  // logical pixels; smaller tiles say nothing
 constexpr int kLeastHeight = 140;
 
 }  // namespace
@@ -144,16 +144,17 @@ void TileWall::arrange() {
   const LinkedZoom before = zoom();
   const QSize picture = tile(0)->picture().isNull() ? QSize(1, 1) : tile(0)->picture().size();
   columns_ =
-      std::min(best_columns(count(), picture, room), std::max(1, room.width() / kLeastWidth));
+      std::min(best_columns(count(), picture, room), std::max(1, room.width() / kLeastTileWidth));
   const int rows = (count() + columns_ - 1) / columns_;
-  const QSize size(room.width() / columns_ - kGap,
-                   std::max(kLeastHeight, room.height() / rows - kGap));
-  wall_->resize(room.width(), rows * (size.height() + kGap));
-  verticalScrollBar()->setSingleStep(size.height() + kGap);
+  const QSize size(room.width() / columns_ - kTileGap,
+                   std::max(kLeastHeight, room.height() / rows - kTileGap));
+  wall_->resize(room.width(), rows * (size.height() + kTileGap));
+  verticalScrollBar()->setSingleStep(size.height() + kTileGap);
   is_following_ = true;
   for (int i = 0; i < count(); ++i) {
     tile(i)->setGeometry(QRect(
-        QPoint(i % columns_ * (size.width() + kGap), i / columns_ * (size.height() + kGap)), size));
+        QPoint(i % columns_ * (size.width() + kTileGap), i / columns_ * (size.height() + kTileGap)),
+        size));
   }
   is_following_ = false;
   setZoom(before);

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/canvas/view_canvas.h"
 
+#include "widgets/canvas/canvas_tool.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
 #include <QResizeEvent>
+#include <QStyleHints>
+#include <QTabletEvent>
+#include <QWheelEvent>
 
 #include <algorithm>
 #include <cmath>
@@ -217,6 +226,308 @@ void ViewCanvas::changeTransform(const CanvasTransform& transform, bool fitted) 
 void ViewCanvas::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   if (fitted_ && !picture_.isNull()) zoomToFit();
+}
+
+namespace {
+
+/// Way of the hand for one view step of parallax, logical pixels.
+constexpr double kParallaxStep = 32;
+constexpr double kWheelNotch = 120;
+
+}  // namespace
+
+bool ViewCanvas::event(QEvent* event) {
+  // Held, Space pans: no shortcut may take it while we have the focus.
+  if (event->type() == QEvent::ShortcutOverride &&
+      static_cast<QKeyEvent*>(event)->key() == Qt::Key_Space) {
+    event->accept();
+    return true;
+  }
+  return QWidget::event(event);
+}
+
+void ViewCanvas::wheelEvent(QWheelEvent* event) {
+  // With Alt held, some platforms report the vertical wheel as a horizontal one.
+  const QPoint angle = event->angleDelta();
+  const double turned = angle.y() != 0 ? angle.y() : angle.x();
+  const auto modifiers = event->modifiers();
+  const bool is_for_tool = modifiers & Qt::ControlModifier && modifiers & Qt::ShiftModifier;
+  if (picture_.isNull() || (is_for_tool && !tool_)) {
+    event->ignore();
+    return;
+  }
+  if (is_for_tool) {
+    tool_->step(turned / kWheelNotch);
+  } else if (modifiers & (Qt::AltModifier | Qt::ControlModifier)) {  // Alt may be the desktop's
+    emit focusStepped(turned / kWheelNotch);
+  } else {
+    zoomAt(event->position(), wheel_zoom(turned));
+    followCursor(event->position());
+  }
+  event->accept();
+}
+
+void ViewCanvas::mousePressEvent(QMouseEvent* event) {
+  if (picture_.isNull() || gesture_ != Gesture::None) return;
+  press_position_ = last_position_ = event->position();
+  press_modifiers_ = event->modifiers();
+  gesture_button_ = event->button();
+  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && space_held_)) {
+    gesture_ = Gesture::Pan;
+    space_used_ = true;
+    updateCursorShape();
+  } else if (event->button() == Qt::LeftButton && isOnDivider(event->position())) {
+    gesture_ = Gesture::Wipe;
+    updateCursorShape();
+  } else if (pressTool(event->position(), event->button(), event->modifiers(),
+                       event->type() == QEvent::MouseButtonDblClick)) {
+    event->accept();
+  } else if (event->button() == Qt::LeftButton) {
+    gesture_ = Gesture::Press;
+    updateCursorShape();
+  } else {
+    event->ignore();
+  }
+}
+
+void ViewCanvas::mouseMoveEvent(QMouseEvent* event) {
+  const QPointF position = event->position();
+  if (gesture_ == Gesture::Press && !(press_modifiers_ & Qt::ShiftModifier) &&
+      (position - press_position_).manhattanLength() >=
+          QGuiApplication::styleHints()->startDragDistance()) {
+    beginDrag();
+  }
+  drag(position);
+  followCursor(position);
+  if (gesture_ == Gesture::None) updateCursorShape();
+}
+
+void ViewCanvas::beginDrag() {
+  if (tool_) return;  // Ctrl+drag: a press on the cross-hair's new place
+  gesture_ = parallax_enabled_ ? Gesture::Parallax : Gesture::Pan;
+  updateCursorShape();
+  if (gesture_ == Gesture::Parallax) emit parallaxStarted();
+}
+
+void ViewCanvas::drag(QPointF position) {
+  if (gesture_ == Gesture::Pan) {
+    changeTransform(transform_.panned(position - last_position_), false);
+  } else if (gesture_ == Gesture::Parallax) {
+    // A point of disparity d > 0 moves by −d per view: the other way than the views.
+    emit parallaxDragged((press_position_ - position) / kParallaxStep);
+  } else if (gesture_ == Gesture::Wipe) {
+    emit wipeMoved(std::clamp(position.x() / std::max(1, width()), 0.0, 1.0));
+  } else if (gesture_ == Gesture::Tool) {
+    tool_->drag(transform_.to_image(position, size()));
+  }
+  last_position_ = position;
+}
+
+void ViewCanvas::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != gesture_button_) return;
+  const Gesture ended = gesture_;
+  gesture_ = Gesture::None;
+  if (ended == Gesture::Tool) tool_->release();
+  updateCursorShape();
+  updateMark();
+  if (ended == Gesture::Parallax) emit parallaxFinished();
+  if (ended != Gesture::Press) return;
+  if (const auto pixel = pixelAt(press_position_)) {
+    if (press_modifiers_ & Qt::ShiftModifier) {
+      emit focusRequested(*pixel);
+    } else {
+      emit crossHairRequested(*pixel);
+    }
+  }
+}
+
+void ViewCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (tool_) {
+    mousePressEvent(event);  // quick dabs
+  } else if (event->button() == Qt::LeftButton && !picture_.isNull() && !space_held_) {
+    emit centerRequested();
+  }
+}
+
+void ViewCanvas::leaveEvent(QEvent*) {
+  followCursor(std::nullopt);
+}
+
+void ViewCanvas::followCursor(std::optional<QPointF> position) {
+  cursor_ = position;
+  if (tool_) updateMark();
+  if (tool_ && position && gesture_ == Gesture::None) {
+    tool_->hover(transform_.to_image(*position, size()));
+  }
+  const auto pixel = position ? pixelAt(*position) : std::nullopt;
+  if (pixel == hovered_) return;
+  hovered_ = pixel;
+  emit cursorMoved(hovered_);
+}
+
+void ViewCanvas::keyPressEvent(QKeyEvent* event) {
+  if (event->key() != Qt::Key_Space) {
+    QWidget::keyPressEvent(event);
+    return;
+  }
+  if (event->isAutoRepeat()) return;
+  space_held_ = true;
+  space_used_ = false;
+  updateCursorShape();
+}
+
+void ViewCanvas::keyReleaseEvent(QKeyEvent* event) {
+  if (event->key() != Qt::Key_Space) {
+    QWidget::keyReleaseEvent(event);
+    return;
+  }
+  if (event->isAutoRepeat() || !space_held_) return;
+  space_held_ = false;
+  updateCursorShape();
+  if (!space_used_) emit spaceTapped();
+}
+
+void ViewCanvas::focusOutEvent(QFocusEvent* event) {
+  space_held_ = false;
+  endTool();
+  updateCursorShape();
+  QWidget::focusOutEvent(event);
+}
+
+void ViewCanvas::hideEvent(QHideEvent* event) {
+  endTool();
+  QWidget::hideEvent(event);
+}
+
+void ViewCanvas::endTool() {
+  if (gesture_ != Gesture::Tool) return;
+  gesture_ = Gesture::None;
+  has_pen_ = false;
+  tool_->end();
+}
+
+void ViewCanvas::updateCursorShape() {
+  if (gesture_ == Gesture::Pan) {
+    setCursor(Qt::ClosedHandCursor);
+  } else if (gesture_ == Gesture::Parallax) {
+    setCursor(Qt::SizeAllCursor);
+  } else if (space_held_) {
+    setCursor(Qt::OpenHandCursor);
+  } else if (gesture_ == Gesture::Wipe || (cursor_ && isOnDivider(*cursor_))) {
+    setCursor(Qt::SplitHCursor);
+  } else if (tool_) {
+    setCursor(tool_->cursor());
+  } else {
+    setCursor(Qt::CrossCursor);
+  }
+}
+
+void ViewCanvas::setTool(CanvasTool* tool) {
+  if (tool == tool_) return;
+  if (tool_) {
+    tool_->putAway();
+    tool_->disconnect(this);
+  }
+  tool_ = tool;
+  if (gesture_ == Gesture::Tool) gesture_ = Gesture::None;
+  if (tool_) {
+    connect(tool_, &CanvasTool::changed, this, [this] {
+      updateCursorShape();
+      updateMark();
+    });
+    connect(tool_, &CanvasTool::shapeChanged, this, qOverload<>(&ViewCanvas::update));
+  }
+  updateCursorShape();
+  update();
+}
+
+void ViewCanvas::setScribbles(const QImage& scribbles) {
+  scribbles_ = scribbles;
+  update();
+}
+
+void ViewCanvas::patchScribbles(QPoint at, const QImage& patch) {
+  if (patch.isNull() || scribbles_.isNull()) return;
+  QPainter painter(&scribbles_);
+  painter.setCompositionMode(QPainter::CompositionMode_Source);
+  painter.drawImage(at, patch);
+  painter.end();
+  updatePixels(QRect(at, patch.size()));
+}
+
+void ViewCanvas::setScribbleOpacity(double opacity) {
+  scribble_opacity_ = std::clamp(opacity, 0.0, 1.0);
+  update();
+}
+
+void ViewCanvas::updatePixels(const QRect& pixels) {
+  // Smoothing spreads a pixel to its neighbours.
+  const QRectF spread = QRectF(pixels).adjusted(-1, -1, 1, 1);
+  update(QRectF(transform_.to_widget(spread.topLeft(), size()),
+                transform_.to_widget(spread.bottomRight(), size()))
+             .toAlignedRect()
+             .adjusted(-1, -1, 1, 1));
+}
+
+void ViewCanvas::updateMark() {
+  update(mark_rect_);
+  mark_rect_ = {};
+  if (!tool_ || !cursor_ || picture_.isNull()) return;
+  mark_rect_ = tool_->markRect(*cursor_, transform_.scale).toAlignedRect();
+  update(mark_rect_);
+}
+
+void ViewCanvas::paintMark(QPainter& painter) const {
+  const bool is_in_use = gesture_ == Gesture::None || gesture_ == Gesture::Tool;
+  if (tool_ && cursor_ && is_in_use && !space_held_) {
+    tool_->paintMark(painter, *cursor_, transform_.scale);
+  }
+}
+
+void ViewCanvas::paintShape(QPainter& painter) const {
+  if (!tool_) return;
+  const QPointF origin = transform_.to_widget(QPointF(0, 0), size());
+  QTransform widget_from_image = QTransform::fromTranslate(origin.x(), origin.y());
+  widget_from_image.scale(transform_.scale, transform_.scale);
+  tool_->paintShape(painter, widget_from_image);
+}
+
+bool ViewCanvas::pressTool(QPointF position, Qt::MouseButton button,
+                           Qt::KeyboardModifiers modifiers, bool is_double) {
+  const bool is_painting = tool_ && (button == Qt::LeftButton || button == Qt::RightButton) &&
+                           !(modifiers & Qt::ControlModifier);
+  if (!is_painting) return false;
+  gesture_ = Gesture::Tool;
+  gesture_button_ = button;
+  tool_->press({transform_.to_image(position, size()), button, modifiers, is_double});
+  updateCursorShape();
+  return true;
+}
+
+// Finer than the mouse events that would be made of it; the other end of a pen erases.
+void ViewCanvas::tabletEvent(QTabletEvent* event) {
+  const bool is_eraser = event->pointerType() == QPointingDevice::PointerType::Eraser;
+  const QPointF position = event->position();
+  if (event->type() == QEvent::TabletPress) {
+    const auto button = is_eraser ? Qt::RightButton : event->button();
+    const bool is_free = gesture_ == Gesture::None && !picture_.isNull() && !space_held_;
+    if (!is_free || !pressTool(position, button, event->modifiers())) {
+      event->ignore();
+      return;
+    }
+    has_pen_ = true;
+  } else if (!has_pen_) {
+    event->ignore();
+    return;
+  } else if (event->type() == QEvent::TabletMove) {
+    drag(position);
+  } else {
+    has_pen_ = false;
+    gesture_ = Gesture::None;
+    if (tool_) tool_->release();
+  }
+  followCursor(position);
+  event->accept();
 }
 
 }  // namespace episcope

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/indices.h"
-#include "widgets/canvas/canvas_mark.h"
-#include "widgets/canvas/canvas_transform.h"
-#include "widgets/canvas/outline.h"
-#include "widgets/style/side.h"
+#include "engine/core/indices.h"
+#include "widgets/canvas/canvas_geometry.h"
+#include "widgets/controls/theme.h"
 
 #include <QImage>
 #include <QStringList>

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/space/point_cloud.h"
+#include "engine/core/point_cloud.h"
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,5 +42,25 @@ struct CloudLook {
   double clip_far = 1;
   friend bool operator==(const CloudLook&, const CloudLook&) = default;
 };
+
+enum class CloudColoring { Image, Disparity, Error, Labels, Distance, Source };
+
+/// What is shown with the result.
+enum class CloudCompanion { None, Truth, Other };
+
+/// What a user chose to see in 3D.
+struct CloudChoice {
+  CloudColoring coloring = CloudColoring::Image;
+  CloudCompanion companion = CloudCompanion::None;
+  bool is_beside = false;   ///< Both side by side; else at their places.
+  bool is_surface = false;  ///< Joined to a surface; else points.
+  double jump_px = 0.1;     ///< Where the surface is cut: px of disparity per pixel.
+  friend bool operator==(const CloudChoice&, const CloudChoice&) = default;
+};
+
+/// A surface for the 3D view, lit from the viewer: vertex i is position i, with y and z turned (a
+/// mesh has y downwards and z forwards, like images). Faces are three indices of vertices. Linear.
+[[nodiscard]] PointCloud make_mesh_cloud(std::span<const std::array<float, 3>> vertices,
+                                         std::span<const std::array<std::uint32_t, 3>> faces);
 
 }  // namespace episcope

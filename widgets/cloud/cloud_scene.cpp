@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/cloud/cloud_scene.h"
 
-#include "widgets/cloud/offscreen_gl.h"
-#include "widgets/style/theme.h"
+#include "widgets/cloud/point_cloud_view.h"
+#include "widgets/controls/theme.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
@@ -18,7 +18,6 @@
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkStaticPointLocator.h>
-
 #include <QMouseEvent>
 #include <QOpenGLContext>
 #include <QWheelEvent>

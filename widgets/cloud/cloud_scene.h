@@ -3,11 +3,9 @@
 
 #include "widgets/cloud/cloud_actor.h"
 #include "widgets/cloud/cloud_look.h"
-#include "widgets/cloud/cloud_marks.h"
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
-
 #include <QPointF>
 
 #include <array>

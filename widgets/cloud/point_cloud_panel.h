@@ -1,16 +1,104 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "widgets/cloud/cloud_controls.h"
-#include "widgets/cloud/cloud_display.h"
+#include "widgets/cloud/cloud_look.h"
+#include "widgets/cloud/point_cloud_view.h"
 
 #include <QWidget>
 
+class QCheckBox;
+class QComboBox;
+class QGridLayout;
 class QHBoxLayout;
 class QLabel;
+class QSlider;
+class QStackedLayout;
 class QVBoxLayout;
 
 namespace episcope {
+
+class NumberSpin;
+
+/// The 3D view, or a sentence on why nothing is seen in it. Can be moved to another window.
+class CloudDisplay : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit CloudDisplay(QWidget* parent = nullptr);
+
+  /// Clouds without points show `hint` instead.
+  void setParts(const CloudPartsPtr& parts, const QString& hint);
+  /// Null where there is no display to draw on.
+  [[nodiscard]] PointCloudView* view() const { return view_; }
+
+ signals:
+  /// It came on screen, or left it.
+  void shown();
+  void hidden();
+  /// A click on a point that is from this pixel.
+  void pixelPicked(episcope::PixelIndex pixel);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
+ private:
+  QLabel* hint_;
+  QStackedLayout* stack_;
+  PointCloudView* view_;
+  CloudPartsPtr parts_;
+};
+
+/// What of the choices of a user can be had now.
+struct CloudOffers {
+  bool has_truth = false;
+  bool has_error = false;
+  bool has_labels = false;
+  bool has_distance = false;
+  QString other{};  ///< Name of the result to compare with; empty = there is none.
+};
+
+/// Controls of the 3D view: what is seen, and how.
+class CloudControls : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit CloudControls(QWidget* parent = nullptr);
+
+  void setChoice(const CloudChoice& choice);
+  [[nodiscard]] CloudChoice choice() const;
+  void setLook(const CloudLook& look);
+  [[nodiscard]] CloudLook look() const;
+  /// What cannot be had cannot be chosen; what is chosen stays chosen.
+  void setOffers(const CloudOffers& offers);
+  /// What is drawn, in words, below the controls.
+  void setSummary(const QString& text);
+
+ signals:
+  /// The host should give clouds of this choice.
+  void choiceChanged();
+  void lookChanged();
+
+ private:
+  void addColoring(QGridLayout& grid);
+  void addCompanion(QGridLayout& grid);
+  void addSurface(QGridLayout& grid);
+  void addLook(QGridLayout& grid);
+  QSlider* makeSlider(const QString& name, const QString& text, const QString& tip);
+  void keepClipOpen(const QSlider* moved);
+
+  QComboBox* coloring_;
+  QComboBox* companion_;
+  QComboBox* arrangement_;
+  QCheckBox* surface_;
+  QCheckBox* shaded_;
+  NumberSpin* jump_;
+  QSlider* size_ = nullptr;
+  QSlider* stretch_ = nullptr;
+  QSlider* near_ = nullptr;
+  QSlider* far_ = nullptr;
+  QLabel* summary_;
+};
 
 /// The 3D tab: the display with its controls. The display can be lent to another place.
 class PointCloudPanel : public QWidget {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/controls/job_panel.h"
 
-#include "widgets/controls/elided_label.h"
+#include "widgets/controls/labels.h"
+#include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
-#include "widgets/style/theme.h"
 
 #include <QEvent>
 #include <QGridLayout>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/controls/message_bar.h"
 
+#include "widgets/controls/icon.h"
+#include "widgets/controls/text.h"
+#include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
-#include "widgets/style/breakable_text.h"
-#include "widgets/style/icon.h"
-#include "widgets/style/theme.h"
 
 #include <QAction>
 #include <QClipboard>

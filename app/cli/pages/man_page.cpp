@@ -1,16 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/pages/man_page.h"
 
-#include "app/cli/exit_code.h"
-#include "app/cli/pages/troff.h"
-#include "app/cli/verbs/program_help.h"
-#include "engine/core/text/join.h"
+#include "app/cli/verbs/verbs.h"
+#include "engine/core/text.h"
 #include "engine/core/version.h"
 
 #include <fmt/format.h>
 
+#include <string>
+#include <string_view>
+
 namespace episcope::cli {
 namespace {
+
+/// A text in which troff sees no request and no hyphen but typed ones; lines may break after "|".
+[[nodiscard]] inline std::string troff(std::string_view text) {
+  std::string result;
+  bool begins_line = true;
+  for (const char c : text) {
+    if (begins_line && (c == '.' || c == '\'')) result += "\\&";
+    if (c == '\\') {
+      result += "\\e";
+    } else if (c == '-') {
+      result += "\\-";
+    } else if (c == '|') {
+      result += "|\\:";
+    } else {
+      result += c;
+    }
+    begins_line = c == '\n';
+  }
+  return result;
+}
+
+/// "\fBbold\fR", "\fIitalic\fR".
+[[nodiscard]] inline std::string bold(std::string_view text) {
+  return "\\fB" + troff(text) + "\\fR";
+}
+[[nodiscard]] inline std::string italic(std::string_view text) {
+  return "\\fI" + troff(text) + "\\fR";
+}
 
 std::string head(const std::string& title, const std::string& summary) {
   return fmt::format(

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/output/job.h"
-#include "app/cli/output/json.h"
-#include "app/cli/output/output_file.h"
+#include "app/cli/arguments.h"
+#include "app/cli/job.h"
+#include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
-#include "engine/capture/calibrate/calibrate.h"
+#include "engine/capture/calibrate.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <iostream>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMostCorners = 100;
 
-struct Request {
+struct CalibrateRequest {
   std::vector<std::string> photographs;
   Extent size;
   capture::Pattern pattern;
@@ -25,7 +25,7 @@ struct Request {
   JobOptions job;
 };
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, CalibrateRequest& request) {
   Arguments parser("calibrate",
                    {"Calibrates a camera from photographs of a flat pattern, with OpenCV: focal\n"
                     "length, centre and distortion of the lens, as YAML that OpenCV reads.\n"
@@ -92,7 +92,7 @@ void print(const capture::Calibration& calibration, const std::string& output) {
 }  // namespace
 
 void run_calibrate(const VerbArguments& arguments, std::stop_token stop) {
-  Request request;
+  CalibrateRequest request;
   if (!parse(arguments, request)) return;
   check_output_file(request.output);
   for (const std::string& each : request.photographs) protect_input(request.output, each);

@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/arguments/usage_error.h"
-#include "app/cli/input/input.h"
-#include "app/cli/input/result_input.h"
-#include "app/cli/input/scene_inputs.h"
-#include "app/cli/output/failures.h"
-#include "app/cli/output/output_file.h"
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/job.h"
+#include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/run/command_line.h"
-#include "app/session/run/read_result.h"
-#include "app/session/run/result_source.h"
-#include "app/session/save/save_result.h"
-#include "engine/core/text/suffix.h"
-#include "engine/io/durable/make_folder.h"
-#include "engine/io/write/writer.h"
+#include "app/session/command_line.h"
+#include "app/session/result_files.h"
+#include "engine/core/text.h"
+#include "engine/io/base/files.h"
+#include "engine/io/write.h"
 
 #include <iostream>
 
 namespace episcope::cli {
 namespace {
 
-struct Request {
+struct ConvertRequest {
   std::string input;
   std::string output;
   std::string truth;
@@ -36,7 +31,7 @@ std::vector<std::string> writer_ids() {
   return ids;
 }
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, ConvertRequest& request) {
   Arguments parser(
       "convert",
       {"Writes a light field or a result in another form, by the suffix of OUT:\n"
@@ -68,14 +63,14 @@ struct Target {
   [[nodiscard]] bool needs_scene() const { return writer || map == MapForm::PointCloud; }
 };
 
-Target named_target(const Request& request) {
+Target named_target(const ConvertRequest& request) {
   const io::Writer& writer = *io::writer_named(request.form);
   if (writer.writes_folder() || writer.has_suffix_of(request.output)) return {&writer};
   throw UsageError("--to " + request.form + " writes a file *" + writer.suffixes.front() +
                    ", but the output is " + request.output + "; name it so");
 }
 
-Target target_of(const Request& request) {
+Target target_of(const ConvertRequest& request) {
   if (!request.form.empty()) return named_target(request);
   const std::string& output = request.output;
   const std::string suffix = suffix_of(output);
@@ -96,7 +91,7 @@ Target target_of(const Request& request) {
 }
 
 /// What is converted: disparity, and the light field it belongs to if that is known.
-struct Subject {
+struct ConvertSubject {
   std::optional<Scene> scene;
   std::optional<Estimate> estimate;
 
@@ -105,8 +100,9 @@ struct Subject {
   }
 };
 
-Subject load_subject(const Request& request, const Target& target, const Progress& progress) {
-  Subject subject;
+ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
+                            const Progress& progress) {
+  ConvertSubject subject;
   if (request.truth.empty() && !names_result(request.input)) {
     subject.scene = load_input(request.input, request.read, progress);
     return subject;
@@ -131,7 +127,7 @@ Subject load_subject(const Request& request, const Target& target, const Progres
 }
 
 /// The centre view of the map, or the only one there is.
-DisparityView map_of(const Subject& subject, const std::string& name) {
+DisparityView map_of(const ConvertSubject& subject, const std::string& name) {
   const DisparityField& field = subject.field();
   if (field.empty()) throw InvalidInput(name + " has no disparity to convert");
   const auto& stack = field.disparity;
@@ -140,7 +136,7 @@ DisparityView map_of(const Subject& subject, const std::string& name) {
 }
 
 /// The scene to write; the disparity of a result takes the place of the truth.
-Scene scene_to_write(Subject& subject) {
+Scene scene_to_write(ConvertSubject& subject) {
   Scene scene = std::move(*subject.scene);
   if (!subject.estimate) return scene;
   auto truth = std::make_shared<GroundTruth>();
@@ -153,14 +149,14 @@ Scene scene_to_write(Subject& subject) {
   return scene;
 }
 
-void write_map(const Subject& subject, const Request& request, MapForm form) {
+void write_map(const ConvertSubject& subject, const ConvertRequest& request, MapForm form) {
   const DisparityView map = map_of(subject, request.input);
   if (form != MapForm::PointCloud) return save_map(request.output, map);
   const LightField& light_field = *subject.scene->light_field;
   save_point_cloud(request.output, light_field, light_field.center(), map);
 }
 
-void write(Subject& subject, const Request& request, const Target& target, Job& job,
+void write(ConvertSubject& subject, const ConvertRequest& request, const Target& target, Job& job,
            const Progress& progress) {
   progress.step("writing " + request.output);
   if (target.writer == nullptr) return write_map(subject, request, target.map);
@@ -170,15 +166,15 @@ void write(Subject& subject, const Request& request, const Target& target, Job& 
 }
 
 /// Maps in image formats forget what a result file remembers.
-void note_forgotten_options(const Subject& subject, const Request& request, const Target& target,
-                            Job& job) {
+void note_forgotten_options(const ConvertSubject& subject, const ConvertRequest& request,
+                            const Target& target, Job& job) {
   const bool forgets = !target.needs_scene();
   if (!forgets || !subject.estimate || subject.estimate->reading.options.empty()) return;
   job.note(request.output + " does not store how its light field was read; evaluate it with" +
            reading_options_text(subject.estimate->reading.options));
 }
 
-void check_output(const Request& request, const Target& target) {
+void check_output(const ConvertRequest& request, const Target& target) {
   const bool is_folder = target.writer && target.writer->writes_folder();
   if (!is_folder) check_output_file(request.output);
   protect_input(request.output, request.input);
@@ -186,10 +182,10 @@ void check_output(const Request& request, const Target& target) {
   if (target.writer && !is_folder) check_light_field_output(request.output, request.overwrite);
 }
 
-void convert_one(const Request& request, Job& job, const Progress& progress) {
+void convert_one(const ConvertRequest& request, Job& job, const Progress& progress) {
   const Target target = target_of(request);
   check_output(request, target);
-  Subject subject = load_subject(request, target, progress.part(0, 0.5));
+  ConvertSubject subject = load_subject(request, target, progress.part(0, 0.5));
   if (subject.scene) {
     for (const auto& warning : subject.scene->convention.warnings) job.note(warning);
   }
@@ -202,7 +198,7 @@ void convert_one(const Request& request, Job& job, const Progress& progress) {
 
 /// Where a light field of a collection goes: a folder, or a file; files of the archive have a
 /// folder each, since labels lie beside them.
-std::string place_in(const Request& request, const std::string& name) {
+std::string place_in(const ConvertRequest& request, const std::string& name) {
   const std::filesystem::path place = std::filesystem::path(request.output) / name;
   const io::Writer& writer = *io::writer_named(request.form);
   if (writer.writes_folder()) {
@@ -217,7 +213,7 @@ std::string place_in(const Request& request, const std::string& name) {
   return file.string();
 }
 
-void convert_collection(Request request, Job& job) {
+void convert_collection(ConvertRequest request, Job& job) {
   if (request.form.empty()) request.form = "benchmark";
   const std::vector<SceneInput> scenes =
       scene_inputs({request.input}, request.read, Frames::One, job.progress().part(0, 0));
@@ -225,7 +221,7 @@ void convert_collection(Request request, Job& job) {
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const double share = 1 / static_cast<double>(scenes.size());
     const double begin = static_cast<double>(i) * share;
-    Request one = request;
+    ConvertRequest one = request;
     one.input = scenes[i].input;
     try {
       one.output = place_in(request, scenes[i].name);
@@ -243,7 +239,7 @@ void convert_collection(Request request, Job& job) {
 }
 
 /// Whether OUT is to be a folder for the light fields of a folder.
-bool is_many(const Request& request, const Progress& progress) {
+bool is_many(const ConvertRequest& request, const Progress& progress) {
   const bool may_be_folder = suffix_of(request.output).empty() || request.output.ends_with('/') ||
                              std::filesystem::is_directory(request.output);
   return may_be_folder && request.truth.empty() && !names_result(request.input) &&
@@ -253,7 +249,7 @@ bool is_many(const Request& request, const Progress& progress) {
 }  // namespace
 
 void run_convert(const VerbArguments& arguments, std::stop_token stop) {
-  Request request;
+  ConvertRequest request;
   if (!parse(arguments, request)) return;
   Job job(std::move(stop), request.job);
   if (is_many(request, job.progress())) return convert_collection(request, job);

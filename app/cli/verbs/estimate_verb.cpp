@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/arguments/parameter_options.h"
-#include "app/cli/arguments/usage_error.h"
-#include "app/cli/input/input.h"
-#include "app/cli/input/scene_inputs.h"
-#include "app/cli/output/failures.h"
-#include "app/cli/output/json.h"
-#include "app/cli/output/output_file.h"
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/job.h"
+#include "app/cli/output.h"
+#include "app/cli/parameter_options.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/run/run_estimator.h"
-#include "app/session/run/run_in_blocks.h"
-#include "app/session/save/save_result.h"
-#include "app/session/scene/scene_summary.h"
-#include "engine/core/array/memory_budget.h"
-#include "engine/core/text/join.h"
-#include "engine/core/text/suffix.h"
+#include "app/session/result_files.h"
+#include "app/session/run_estimator.h"
+#include "app/session/scene_summary.h"
+#include "engine/core/memory.h"
+#include "engine/core/text.h"
 #include "engine/disparity/registry.h"
-#include "engine/io/durable/make_folder.h"
-#include "engine/io/maps/submission_folder.h"
+#include "engine/io/base/files.h"
+#include "engine/io/base/json.h"
+#include "engine/io/models/external_result.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -27,7 +25,7 @@
 namespace episcope::cli {
 namespace {
 
-struct Request {
+struct EstimateArguments {
   std::string method;
   const Estimator* estimator = nullptr;  ///< That of `method`, once all is parsed.
   ParameterOptions parameters;
@@ -68,7 +66,8 @@ void require_method(const VerbArguments& arguments, const std::vector<Estimator>
 }
 
 /// With the parameters of `estimator` among the options, if it is known.
-bool parse_as(const Estimator* estimator, const VerbArguments& arguments, Request& request) {
+bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
+              EstimateArguments& request) {
   Arguments parser("estimate",
                    {"Estimates disparity and writes a result file. METHOD is an id listed by\n"
                     "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its "
@@ -107,7 +106,7 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments, Reques
 }
 
 bool parse(const VerbArguments& arguments, const std::vector<Estimator>& estimators,
-           Request& request) {
+           EstimateArguments& request) {
   const Estimator* first = method_among(arguments, estimators);
   if (!first) require_method(arguments, estimators);
   if (!parse_as(first, arguments, request)) return false;
@@ -121,7 +120,7 @@ bool parse(const VerbArguments& arguments, const std::vector<Estimator>& estimat
   return parse_as(named, arguments, request);
 }
 
-ViewSelection selected_views(const Request& request) {
+ViewSelection selected_views(const EstimateArguments& request) {
   const Estimator& estimator = *request.estimator;
   const bool can_all = estimator.info.all_views;
   if (request.is_submission) {
@@ -185,7 +184,7 @@ Json answer_json(const Answer& answer) {
   json["views"] = covered_views(answer.maps, answer.center).name;
   json["seconds"] = estimate.seconds;
   json["peak_mib"] = peak_memory_mib();
-  json["parameters"] = parameters_json(estimate.parameters);
+  json["parameters"] = io::parameters_json(estimate.parameters);
   json["range"] = interval_json(estimate.range);
   if (!estimate.notes.empty()) json["notes"] = estimate.notes;
   json["output"] = answer.output;
@@ -194,20 +193,20 @@ Json answer_json(const Answer& answer) {
 
 /// What the program itself leaves of a budget for light field and method, but half of it at least:
 /// a small budget should not end where the program begins.
-std::size_t beside_program(std::size_t budget) {
+std::size_t budget_after_program(std::size_t budget) {
   return std::max(budget - std::min(used_memory(), budget), budget / 2);
 }
 
 /// Does what the command line asks for, light field by light field.
 class Runner {
  public:
-  Runner(const Request& request, std::stop_token stop)
+  Runner(const EstimateArguments& request, std::stop_token stop)
       : request_(request), options_(request.job.run_options()), job_(std::move(stop), request.job) {
     options_.views = selected_views(request);
     options_.threads = job_.progress().threads();
     // The method asks as well, but not before the light field is loaded.
     require_device(options_.device, request.estimator->info);
-    if (request.memory > 0) set_memory_budget(beside_program(request.memory));
+    if (request.memory > 0) set_memory_budget(budget_after_program(request.memory));
   }
 
   [[nodiscard]] Job& job() { return job_; }
@@ -297,13 +296,13 @@ class Runner {
     job_.note(task.name.empty() ? sentence : task.name + ": " + sentence);
   }
 
-  const Request& request_;
+  const EstimateArguments& request_;
   RunOptions options_;
   Job job_;
   std::vector<io::SubmittedScene> submitted_;
 };
 
-void estimate_one(const Request& request, Runner& runner) {
+void estimate_one(const EstimateArguments& request, Runner& runner) {
   const Task task{request.inputs.front(), request.output};
   runner.check(task);
   const Answer answer = runner.run(task, runner.job().progress());
@@ -316,7 +315,7 @@ void estimate_one(const Request& request, Runner& runner) {
 }
 
 /// Reads what was submitted back, and says which scenes of the benchmark it lacks.
-void check_submitted(const Request& request, Runner& runner, Failures& failures) {
+void check_submitted(const EstimateArguments& request, Runner& runner, Failures& failures) {
   for (const auto& problem : io::submission_problems(request.output, runner.submitted())) {
     failures.add(problem);
   }
@@ -331,7 +330,8 @@ void check_submitted(const Request& request, Runner& runner, Failures& failures)
                     "; 'episcope-cli validate " + request.output + "' checks all");
 }
 
-void estimate_many(const Request& request, const std::vector<SceneInput>& scenes, Runner& runner) {
+void estimate_many(const EstimateArguments& request, const std::vector<SceneInput>& scenes,
+                   Runner& runner) {
   io::make_folder(request.output);
   Json results = Json::array();
   Failures failures;
@@ -368,7 +368,7 @@ void estimate_many(const Request& request, const std::vector<SceneInput>& scenes
 }
 
 /// Whether the output is a folder for one result file of each light field.
-bool wants_many(const Request& request, const Progress& progress) {
+bool wants_many(const EstimateArguments& request, const Progress& progress) {
   const std::string suffix = suffix_of(request.output);
   if (request.is_submission) return true;
   const bool names_file = suffix == ".h5" || suffix == ".hdf5";
@@ -384,7 +384,7 @@ bool wants_many(const Request& request, const Progress& progress) {
 
 void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   const std::vector<Estimator>& estimators = registered_estimators();
-  Request request;
+  EstimateArguments request;
   if (!parse(arguments, estimators, request)) return;
   Runner runner(request, std::move(stop));
   if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner);

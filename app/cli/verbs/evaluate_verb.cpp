@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/arguments/usage_error.h"
-#include "app/cli/input/input.h"
-#include "app/cli/input/result_input.h"
-#include "app/cli/output/json.h"
-#include "app/cli/output/output_file.h"
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/picture/picture.h"
-#include "app/session/run/read_result.h"
-#include "app/session/run/result_reading.h"
-#include "engine/core/text/suffix.h"
-#include "engine/core/text/text_table.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/maps/result_file.h"
+#include "app/session/picture.h"
+#include "app/session/result_files.h"
+#include "engine/core/text.h"
+#include "engine/core/text_table.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/models/result_file.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -24,7 +22,7 @@ namespace {
 /// What the answer is written as.
 enum class Format { Text, Json, Csv, Latex };
 
-struct Request {
+struct EvaluateRequest {
   std::vector<std::string> files;
   std::string truth;
   Protocol protocol = Protocol::Vmv2013;
@@ -55,11 +53,11 @@ OptionValue<Protocol> protocol_value() {
 }
 
 /// The 2013 paper ranks run times in classes.
-bool has_runtime_classes(const Request& request) {
+bool has_runtime_classes(const EvaluateRequest& request) {
   return request.protocol == Protocol::Vmv2013;
 }
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   Arguments parser("evaluate", {"Compares results with the ground truth of a light field.",
                                 "episcope-cli evaluate demo.h5 --truth demo --protocol "
                                 "benchmark2016 --error-map error.png"});
@@ -89,7 +87,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
 
 /// OUT.png for one result; OUT-<result>.png for several, numbered where names repeat. Empty if no
 /// error map is wanted.
-std::vector<std::filesystem::path> error_map_paths(const Request& request) {
+std::vector<std::filesystem::path> error_map_paths(const EvaluateRequest& request) {
   const std::filesystem::path path = request.error_map;
   if (path.empty()) return {};
   if (request.files.size() == 1) return {path};
@@ -108,7 +106,7 @@ std::vector<std::filesystem::path> error_map_paths(const Request& request) {
   return paths;
 }
 
-Json results_json(const Request& request, const std::vector<Row>& rows) {
+Json results_json(const EvaluateRequest& request, const std::vector<Row>& rows) {
   Json json;
   json["protocol"] = protocol_name(request.protocol);
   json["truth"] = request.truth;
@@ -141,7 +139,7 @@ std::vector<std::string> metric_keys(const std::vector<Row>& rows) {
   return keys;
 }
 
-TextTable results_table(const Request& request, const std::vector<Row>& rows) {
+TextTable results_table(const EvaluateRequest& request, const std::vector<Row>& rows) {
   constexpr int exact_digits = 6;
   const int digits = request.format == Format::Csv ? exact_digits : 3;
   const auto keys = metric_keys(rows);
@@ -166,7 +164,7 @@ TextTable results_table(const Request& request, const std::vector<Row>& rows) {
   return table;
 }
 
-void print_answer(const Request& request, const std::vector<Row>& rows) {
+void print_answer(const EvaluateRequest& request, const std::vector<Row>& rows) {
   if (request.format == Format::Json) return print_json(results_json(request, rows));
   const TextTable table = results_table(request, rows);
   if (request.format == Format::Csv) {
@@ -184,7 +182,7 @@ void print_answer(const Request& request, const std::vector<Row>& rows) {
 /// views of it, at another focus plane.
 class TruthScene {
  public:
-  TruthScene(const Request& request, const Progress& progress)
+  TruthScene(const EvaluateRequest& request, const Progress& progress)
       : request_(request), progress_(progress) {}
 
   /// The scene as this result needs it. Throws as `options_for_result` and `load_input`.
@@ -201,7 +199,7 @@ class TruthScene {
   }
 
  private:
-  const Request& request_;
+  const EvaluateRequest& request_;
   Progress progress_;
   std::optional<Scene> scene_;
   ParameterSet given_;
@@ -247,7 +245,7 @@ Row judge_file(const std::string& file, const Scene& scene, EvaluationOptions op
 }  // namespace
 
 void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
-  Request request;
+  EvaluateRequest request;
   if (!parse(arguments, request)) return;
   const EvaluationOptions options{request.protocol, request.invalid, {}};
   check_input(request.truth);

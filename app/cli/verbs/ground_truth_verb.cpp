@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/arguments/usage_error.h"
-#include "app/cli/input/input.h"
-#include "app/cli/output/json.h"
-#include "app/cli/output/output_file.h"
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
-#include "engine/capture/depth/visible_depth.h"
-#include "engine/capture/mesh/mesh_file.h"
-#include "engine/capture/pose/pose_file.h"
+#include "engine/capture/mesh_file.h"
+#include "engine/capture/pose_file.h"
+#include "engine/capture/visible_depth.h"
 #include "engine/core/error.h"
-#include "engine/io/archive/write_scene.h"
+#include "engine/io/formats/write_scene.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <iostream>
 #include <list>
@@ -19,7 +18,7 @@
 namespace episcope::cli {
 namespace {
 
-struct Request {
+struct GroundTruthRequest {
   std::string input;
   std::vector<std::string> poses;
   std::string output;
@@ -31,7 +30,7 @@ struct Request {
   ReadOptions read;
 };
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, GroundTruthRequest& request) {
   Arguments parser(
       "ground-truth",
       {"Adds the exact depth of meshes to a light field, for all views: in each pixel that of\n"
@@ -54,7 +53,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
   return parse_reading(parser, arguments, request.job, request.read);
 }
 
-GroundTruth truth_of(const Request& request, Scene& scene, const Progress& progress) {
+GroundTruth truth_of(const GroundTruthRequest& request, Scene& scene, const Progress& progress) {
   std::list<capture::TriangleMesh> meshes;
   std::vector<capture::PlacedMesh> placed;
   for (const std::string& file : request.poses) {
@@ -76,7 +75,7 @@ LightFieldPtr with_step(const LightFieldPtr& field, double step) {
   return std::make_shared<LightField>(std::move(samples), std::move(info), field->valid().clone());
 }
 
-void print(const Request& request, const Scene& scene) {
+void print(const GroundTruthRequest& request, const Scene& scene) {
   const GroundTruth& truth = *scene.truth;
   std::size_t valid = 0;
   std::size_t seen = 0;
@@ -106,7 +105,7 @@ void print(const Request& request, const Scene& scene) {
 }  // namespace
 
 void run_ground_truth(const VerbArguments& arguments, std::stop_token stop) {
-  Request request;
+  GroundTruthRequest request;
   if (!parse(arguments, request)) return;
   if (request.poses.empty()) throw UsageError("name at least one pose: --pose POSE.json");
   check_hdf5_output("ground-truth", request.output);

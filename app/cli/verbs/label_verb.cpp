@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/arguments/parameter_options.h"
-#include "app/cli/arguments/usage_error.h"
-#include "app/cli/input/input.h"
-#include "app/cli/input/result_input.h"
-#include "app/cli/output/json.h"
-#include "app/cli/output/output_file.h"
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/output.h"
+#include "app/cli/parameter_options.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/labels/judge_labeling.h"
-#include "app/session/labels/label_archive.h"
-#include "app/session/labels/labeling_inputs.h"
-#include "app/session/labels/save_masks.h"
-#include "app/session/labels/save_segmentation.h"
+#include "app/session/label_review.h"
+#include "app/session/labeling_inputs.h"
+#include "app/session/segmentation_files.h"
 #include "engine/core/error.h"
-#include "engine/core/parallel/stopwatch.h"
-#include "engine/disparity/common/estimator.h"
-#include "engine/io/labels/scribble_file.h"
-#include "engine/io/labels/scribble_pictures.h"
+#include "engine/core/progress.h"
+#include "engine/disparity/estimator.h"
+#include "engine/io/base/json.h"
+#include "engine/io/models/scribble_file.h"
+
+#include <nlohmann/json.hpp>
 
 #include <iomanip>
 #include <iostream>
@@ -25,7 +22,7 @@
 namespace episcope::cli {
 namespace {
 
-struct Request {
+struct LabelRequest {
   std::string input;
   std::string output;
   std::string scribbles;
@@ -40,7 +37,7 @@ struct Request {
   ReadOptions read;
 };
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, LabelRequest& request) {
   Arguments parser("label",
                    {"Segments all views of a light field from scribbles on some of them, and\n"
                     "writes a file of labels and their probabilities.",
@@ -87,7 +84,7 @@ void check_device(Device device) {
   require_device(device, label);
 }
 
-void check_output(const Request& request) {
+void check_output(const LabelRequest& request) {
   check_hdf5_output("label", request.output);
   check_labeling_output(request.output);
   protect_input(request.output, request.input);
@@ -96,7 +93,7 @@ void check_output(const Request& request) {
   }
 }
 
-Scribbles load_scribbles(const Request& request, Scene& scene, const Progress& progress) {
+Scribbles load_scribbles(const LabelRequest& request, Scene& scene, const Progress& progress) {
   if (io::holds_scribble_pictures(request.scribbles)) {
     const LightField& lf = *scene.light_field;
     return io::read_scribble_pictures(request.scribbles, lf.grid(), lf.height(), lf.width());
@@ -113,7 +110,7 @@ Scribbles load_scribbles(const Request& request, Scene& scene, const Progress& p
 }
 
 Labeling label_views(Labeler& labeler, const Scribbles& scribbles, const Scene& scene,
-                     const Request& request, const Progress& progress) {
+                     const LabelRequest& request, const Progress& progress) {
   if (request.given.empty()) {
     return labeler.label(scribbles, request.parameters, {{0, 0}, scene.light_field->grid()},
                          progress);
@@ -124,7 +121,7 @@ Labeling label_views(Labeler& labeler, const Scribbles& scribbles, const Scene& 
 }
 
 /// What the archive calls features with disparity has an estimate even where labels use the truth.
-void write_archive(const Scene& scene, const Scribbles& scribbles, const Request& request,
+void write_archive(const Scene& scene, const Scribbles& scribbles, const LabelRequest& request,
                    const LabelingDisparity& used, Job& job) {
   if (request.archive.empty()) return;
   LabelingDisparity estimate = used;
@@ -140,13 +137,13 @@ void write_archive(const Scene& scene, const Scribbles& scribbles, const Request
   }
 }
 
-void write_masks(const Segmentation& segmentation, const Request& request, Job& job) {
+void write_masks(const Segmentation& segmentation, const LabelRequest& request, Job& job) {
   if (request.masks.empty()) return;
   const int count = write_label_masks(request.masks, segmentation, job.progress().part(1, 1));
   job.note("wrote " + std::to_string(count) + " masks to " + request.masks);
 }
 
-void print_json_answer(const Request& request, const Labeling& labeling,
+void print_json_answer(const LabelRequest& request, const Labeling& labeling,
                        const LabelingScores& scores, double seconds) {
   Json json;
   json["labels"] = labeling.probabilities.ids.size();
@@ -163,12 +160,12 @@ void print_json_answer(const Request& request, const Labeling& labeling,
   if (scores.consistency) json["consistency"] = *scores.consistency;
   if (request.parameters.regularizer != Regularizer::None) json["gap"] = labeling.gap;
   json["peak_mib"] = peak_memory_mib();
-  json["parameters"] = parameters_json(labeler_schema().values(request.parameters));
+  json["parameters"] = io::parameters_json(labeler_schema().values(request.parameters));
   json["output"] = request.output;
   print_json(json);
 }
 
-void print_text_answer(const Request& request, const Labeling& labeling,
+void print_text_answer(const LabelRequest& request, const Labeling& labeling,
                        const LabelingScores& scores, double seconds) {
   std::cout << request.output << ": " << labeling.probabilities.ids.size() << " labels in "
             << labeling.labels.grid().count() << " views, " << std::fixed << std::setprecision(2)
@@ -197,7 +194,7 @@ void print_text_answer(const Request& request, const Labeling& labeling,
 }  // namespace
 
 void run_label(const VerbArguments& arguments, std::stop_token stop) {
-  Request request;
+  LabelRequest request;
   if (!parse(arguments, request)) return;
   const Device device = request.job.run_options().device;
   check_device(device);

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/output/job.h"
-#include "app/cli/output/json.h"
+#include "app/cli/arguments.h"
+#include "app/cli/job.h"
+#include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/scene/collections.h"
-#include "app/session/scene/scene_summary.h"
-#include "app/session/scene/user_folders.h"
+#include "app/session/collections.h"
+#include "app/session/scene_summary.h"
+#include "app/session/user_folders.h"
 #include "engine/core/error.h"
-#include "engine/core/text/join.h"
-#include "engine/core/text/text_table.h"
+#include "engine/core/text.h"
+#include "engine/core/text_table.h"
+
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <filesystem>
@@ -21,13 +23,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct ListRequest {
   std::vector<std::string> folders;
   bool is_json = false;
   JobOptions job;
 };
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, ListRequest& request) {
   Arguments parser("list",
                    {"Lists every light field in folders and below: form, views, size, truth,\n"
                     "labels, and results beside it. Reads headers only, and remembers them.",
@@ -39,7 +41,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
   return parser.parse(arguments);
 }
 
-std::vector<io::CollectionEntry> list_all(const Request& request, const Job& job) {
+std::vector<io::CollectionEntry> list_all(const ListRequest& request, const Job& job) {
   std::vector<io::CollectionEntry> all;
   std::set<fs::path> seen;
   for (std::size_t i = 0; i < request.folders.size(); ++i) {
@@ -160,7 +162,7 @@ Json entry_json(const io::CollectionEntry& entry) {
 }  // namespace
 
 void run_list(const VerbArguments& arguments, std::stop_token stop) {
-  Request request;
+  ListRequest request;
   if (!parse(arguments, request)) return;
   Job job(std::move(stop), request.job);
   const std::vector<io::CollectionEntry> entries = list_all(request, job);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/arguments/parameter_options.h"
-#include "app/cli/output/json.h"
+#include "app/cli/arguments.h"
+#include "app/cli/output.h"
+#include "app/cli/parameter_options.h"
 #include "app/cli/verbs/verbs.h"
 #include "engine/disparity/registry.h"
+#include "engine/io/base/json.h"
+
+#include <nlohmann/json.hpp>
 
 #include <iostream>
 
@@ -19,7 +22,7 @@ Json parameter_json(const ParameterDescription& parameter) {
   json["default"] = value_json(parameter.default_value);
   if (!parameter.choices.empty()) json["choices"] = parameter.choices;
   for (const Preset& preset : parameter.presets) {
-    json["presets"][preset.choice] = parameters_json(preset.values);
+    json["presets"][preset.choice] = io::parameters_json(preset.values);
   }
   if (has_numeric_domain(parameter)) {
     json["min"] = parameter.min;

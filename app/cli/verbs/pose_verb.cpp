@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/input/input.h"
-#include "app/cli/output/json.h"
-#include "app/cli/output/output_file.h"
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
-#include "engine/capture/mesh/mesh_file.h"
-#include "engine/capture/pose/pairs_file.h"
-#include "engine/capture/pose/pose_file.h"
+#include "engine/capture/mesh_file.h"
+#include "engine/capture/pose_file.h"
 #include "engine/core/error.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <iostream>
@@ -17,7 +16,7 @@
 namespace episcope::cli {
 namespace {
 
-struct Request {
+struct PoseRequest {
   std::string input;
   std::string mesh;
   std::string pairs;
@@ -27,7 +26,7 @@ struct Request {
   ReadOptions read;
 };
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, PoseRequest& request) {
   Arguments parser(
       "pose",
       {"Finds where a mesh lies before the camera, from points of the centre view and\n"
@@ -83,7 +82,7 @@ void print(const capture::PoseStory& story, const std::string& output) {
 }  // namespace
 
 void run_pose(const VerbArguments& arguments, std::stop_token stop) {
-  Request request;
+  PoseRequest request;
   if (!parse(arguments, request)) return;
   check_output_file(request.output);
   for (const std::string& each : {request.input, request.mesh, request.pairs}) {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/arguments/usage_error.h"
-#include "app/cli/input/input.h"
-#include "app/cli/output/json.h"
-#include "app/cli/output/output_file.h"
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/capture/rectify_photographs.h"
-#include "engine/capture/pose/pairs_file.h"
+#include "app/session/capture_output.h"
+#include "engine/capture/pose_file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -17,7 +16,7 @@
 namespace episcope::cli {
 namespace {
 
-struct Request {
+struct RectifyRequest {
   std::string input;
   std::string camera;
   std::string output;
@@ -31,7 +30,7 @@ struct Request {
   ReadOptions read;
 };
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, RectifyRequest& request) {
   Arguments parser(
       "rectify",
       {"Makes a light field of photographs taken on a grid: without distortion of the lens,\n"
@@ -95,7 +94,7 @@ void print(const capture::Rectified& rectified, const std::string& output) {
       -rectified.alignment.roll_degrees(), low, high);
 }
 
-void check_outputs(const Request& request) {
+void check_outputs(const RectifyRequest& request) {
   check_hdf5_output("rectify", request.output);
   protect_input(request.output, request.input);
   check_light_field_output(request.output, request.overwrite);
@@ -107,7 +106,7 @@ void check_outputs(const Request& request) {
 }  // namespace
 
 void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
-  Request request;
+  RectifyRequest request;
   if (!parse(arguments, request)) return;
   check_outputs(request);
   const capture::LensCamera camera = capture::read_camera(request.camera);

@@ -1,28 +1,105 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/arguments/usage_error.h"
-#include "app/cli/input/shown_map.h"
-#include "app/cli/output/output_file.h"
-#include "app/cli/verbs/show_movie.h"
+#include "app/cli/arguments.h"
+#include "app/cli/output.h"
+#include "app/cli/shown_map.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/picture/picture.h"
-#include "app/session/run/read_result.h"
-#include "engine/core/text/suffix.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/labels/segmentation_file.h"
-#include "engine/io/movie/movie_file.h"
-#include "engine/render/fit.h"
+#include "app/session/movie.h"
+#include "app/session/picture.h"
+#include "app/session/result_files.h"
+#include "app/session/scene_summary.h"
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/formats/movie.h"
+#include "engine/io/models/segmentation_file.h"
+#include "engine/render/shade.h"
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <iostream>
 #include <limits>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace episcope::cli {
 namespace {
 
+using render::CameraPath;
+using render::MovieChoice;
 using render::MovieKind;
 using render::Quantity;
+
+/// The options of a movie.
+struct MovieRequest {
+  /// Empty: a parallax if the output is named like a movie.
+  std::optional<MovieKind> kind;
+  std::optional<Interval> focus;  ///< Empty = the disparities known of the light field.
+  MovieChoice choice;             ///< The rest.
+};
+
+/// The other result of a flip.
+std::optional<MapSource> other_map(const LoadedMap& loaded) {
+  if (!loaded.source.other) return std::nullopt;
+  MapSource other = loaded.source;
+  other.quantity = Quantity::Disparity;
+  other.estimate = other.other;
+  const std::string reason = reason_against(other);
+  if (!reason.empty()) throw InvalidInput(reason);
+  return other;
+}
+
+Interval focus_range(const MovieRequest& request, const LoadedMap& loaded) {
+  if (request.focus) return *request.focus;
+  const Interval known = loaded.scene ? known_disparity_range(*loaded.scene) : Interval{};
+  if (known.length() > 0) return known;
+  throw InvalidInput(
+      "the disparities of this light field are not known; say with --focus-range A,B from where to "
+      "where the focus moves");
+}
+
+void declare_movie_options(Arguments& parser, MovieRequest& request) {
+  parser.heading("Movies");
+  parser.option("--movie", request.kind,
+                choice_of<MovieKind>({{MovieKind::Parallax, "parallax"},
+                                      {MovieKind::Refocus, "refocus"},
+                                      {MovieKind::Flip, "flip"}}),
+                "What changes: the view, the focus plane, or a RESULT and that of --minus in "
+                "turns; by default the view if OUT is a movie");
+  parser.option("--path", request.choice.path,
+                choice_of<CameraPath>({{CameraPath::Circle, "circle"},
+                                       {CameraPath::Swing, "swing"},
+                                       {CameraPath::Snake, "snake"}}),
+                "How a parallax moves: around the centre, along the row of the centre, or through "
+                "all views (default circle)");
+  parser.option("--seconds", request.choice.seconds,
+                real_value("S", render::kMovieSeconds.min, render::kMovieSeconds.max),
+                "How long the movie lasts (default 3)");
+  parser.option("--width", request.choice.width_px,
+                integer_value("PIXELS", 0, render::kWidestMovie_px),
+                "Width of the movie; its height follows (default 0: as the picture)");
+  parser.option("--focus-range", request.focus, interval_value(),
+                "Where the focus moves; by default over the disparities that are known");
+}
+
+/// The movie of a map that was loaded, which outlives it. Throws InvalidInput if the views or
+/// disparities that it needs are not known.
+Movie movie_of(const MovieRequest& request, const LoadedMap& loaded,
+               std::function<RgbaImage(const MapSource&)> draw) {
+  MovieChoice choice = request.choice;
+  choice.kind = request.kind.value_or(MovieKind::Parallax);
+  MovieSubject subject{loaded.source, std::nullopt, loaded.scene ? &*loaded.scene : nullptr,
+                       std::move(draw)};
+  if (choice.kind == MovieKind::Flip) {
+    subject.other = other_map(loaded);
+    subject.source.quantity = Quantity::Disparity;
+  }
+  if (choice.kind == MovieKind::Refocus && loaded.source.quantity == Quantity::View) {
+    choice.focus_px = focus_range(request, loaded);
+  }
+  return make_movie(choice, subject);
+}
 
 constexpr int kMost = std::numeric_limits<int>::max();
 
@@ -36,7 +113,7 @@ struct What {
 
 enum class Layer { Foreground, Background };
 
-struct Request {
+struct ShowRequest {
   std::string output;
   What what;
   Layer layer = Layer::Foreground;
@@ -51,14 +128,14 @@ struct Request {
   ReadOptions read;
 };
 
-ShownKind kind_of(const Request& request) {
+ShownKind kind_of(const ShowRequest& request) {
   if (io::is_segmentation_file(request.map.subject)) return ShownKind::Labels;
   const bool is_result = !request.map.truth.empty() || names_result(request.map.subject);
   return is_result ? ShownKind::Result : ShownKind::LightField;
 }
 
 /// "disparity" and "labels" are those of what is shown: true ones of a light field.
-Quantity quantity_of(const Request& request) {
+Quantity quantity_of(const ShowRequest& request) {
   const ShownKind kind = request.map.kind;
   if (request.what.id.empty()) {
     if (kind == ShownKind::Labels) return Quantity::Segmentation;
@@ -89,7 +166,7 @@ OptionValue<What> what_value() {
 }
 
 /// Whether the output is a movie; throws UsageError if what is asked for does not fit its name.
-bool is_movie(const Request& request) {
+bool is_movie(const ShowRequest& request) {
   const bool is_asked = request.movie.kind.has_value();
   if (suffix_of(request.output) == ".png") {
     if (!is_asked) return false;
@@ -107,7 +184,7 @@ bool is_movie(const Request& request) {
 }
 
 /// What follows from the options.
-void complete(Request& request) {
+void complete(ShowRequest& request) {
   while (request.output.size() > 1 && request.output.ends_with('/')) request.output.pop_back();
   if (request.what.movie) request.movie.kind = request.what.movie;
   if (is_movie(request) && !request.movie.kind) request.movie.kind = MovieKind::Parallax;
@@ -122,7 +199,7 @@ void complete(Request& request) {
   }
 }
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, ShowRequest& request) {
   Arguments parser("show", {"Writes a picture of a light field, a result or labels, as the window "
                             "shows it.",
                             "episcope-cli show demo.h5 -o error.png --what error"});
@@ -164,13 +241,13 @@ bool parse(const VerbArguments& arguments, Request& request) {
   return true;
 }
 
-RgbaImage epi_picture(const Request& request, const LightField& light_field, ViewIndex view) {
+RgbaImage epi_picture(const ShowRequest& request, const LightField& light_field, ViewIndex view) {
   if (request.column) return vertical_epi_picture(light_field, view, *request.column);
   return horizontal_epi_picture(light_field, view, request.row.value_or(light_field.height() / 2));
 }
 
 /// The source in the colours that were asked for.
-RgbaImage picture_of(const Request& request, const LoadedMap& loaded, const MapSource& source) {
+RgbaImage picture_of(const ShowRequest& request, const LoadedMap& loaded, const MapSource& source) {
   if (source.quantity == Quantity::View) {
     return render::shade_view(*source.light_field, source.view);
   }
@@ -182,7 +259,7 @@ RgbaImage picture_of(const Request& request, const LoadedMap& loaded, const MapS
 }
 
 /// What was written, for the user.
-std::string write_picture(const Request& request, const LoadedMap& loaded, Job& job) {
+std::string write_picture(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
   RgbaImage picture = request.what.is_epi
                           ? epi_picture(request, *loaded.source.light_field, loaded.source.view)
                           : picture_of(request, loaded, loaded.source);
@@ -192,7 +269,7 @@ std::string write_picture(const Request& request, const LoadedMap& loaded, Job& 
   return fmt::format("{}, {}×{} px", request.what.id, picture.width(), picture.height());
 }
 
-std::string write_movie_of(const Request& request, const LoadedMap& loaded, Job& job) {
+std::string write_movie_of(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
   const Movie movie = movie_of(request.movie, loaded, [&](const MapSource& source) {
     return picture_of(request, loaded, source);
   });
@@ -202,7 +279,7 @@ std::string write_movie_of(const Request& request, const LoadedMap& loaded, Job&
 }
 
 /// Pictures of a movie go into a folder, which may be there, empty.
-void check_output(const Request& request) {
+void check_output(const ShowRequest& request) {
   std::error_code ignored;
   const bool is_folder = std::filesystem::is_directory(request.output, ignored);
   if (!request.movie.kind || !is_folder) check_output_file(request.output);
@@ -211,7 +288,7 @@ void check_output(const Request& request) {
 }  // namespace
 
 void run_show(const VerbArguments& arguments, std::stop_token stop) {
-  Request request;
+  ShowRequest request;
   if (!parse(arguments, request)) return;
   check_output(request);
   for (const std::string& input : {request.map.subject, request.map.truth, request.map.minus}) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/input/input.h"
-#include "app/cli/output/job.h"
-#include "app/cli/output/output_file.h"
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/job.h"
+#include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/scene/load_scene.h"
-#include "engine/capture/demo/demo_folder.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/scenes/request.h"
+#include "app/session/load_scene.h"
+#include "engine/capture/demo_folder.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/scenes/builtin.h"
 
 #include <iostream>
 #include <limits>
@@ -21,7 +21,7 @@ constexpr int kMostViews = 101;
 constexpr int kMostPixels = 8192;
 constexpr double kMostNoise = 255;
 
-struct Request {
+struct SynthesizeRequest {
   std::string scene;
   std::string output;
   std::optional<Extent> views;
@@ -46,7 +46,7 @@ std::string list_of_scenes() {
   return list;
 }
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, SynthesizeRequest& request) {
   Arguments parser("synthesize", {list_of_scenes(),
                                   "episcope-cli synthesize edge -o lf.h5 --views 9x9 "
                                   "--size 256x256"});
@@ -68,7 +68,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
 }
 
 // What the scene says of itself, and options over it.
-scenes::BuiltinRequest scene_of(const Request& request) {
+scenes::BuiltinRequest scene_of(const SynthesizeRequest& request) {
   scenes::BuiltinRequest scene = scenes::read_request(request.scene);
   scenes::RenderOptions& options = scene.options;
   if (request.views) options.grid = {request.views->first, request.views->second};
@@ -82,7 +82,7 @@ scenes::BuiltinRequest scene_of(const Request& request) {
 }
 
 /// The folder of the gantry, in place of a light field.
-void synthesize_gantry(const Request& request, std::stop_token stop) {
+void synthesize_gantry(const SynthesizeRequest& request, std::stop_token stop) {
   capture::DemoOptions options;
   if (request.views) options.grid = {request.views->first, request.views->second};
   if (request.size) {
@@ -100,7 +100,7 @@ void synthesize_gantry(const Request& request, std::stop_token stop) {
 }  // namespace
 
 void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
-  Request request;
+  SynthesizeRequest request;
   if (!parse(arguments, request)) return;
   if (const std::string id = builtin_scene_id(request.scene); !id.empty()) request.scene = id;
   if (request.scene == kGantry) return synthesize_gantry(request, std::move(stop));

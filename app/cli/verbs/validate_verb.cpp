@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
-#include "app/cli/output/json.h"
+#include "app/cli/arguments.h"
+#include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
 #include "engine/core/error.h"
-#include "engine/io/maps/submission_folder.h"
+#include "engine/io/models/external_result.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <iostream>
@@ -13,14 +14,14 @@
 namespace episcope::cli {
 namespace {
 
-struct Request {
+struct ValidateRequest {
   std::string folder;
   std::vector<std::string> scenes;
   Extent size{512, 512};  ///< Width and height.
   bool is_json = false;
 };
 
-bool parse(const VerbArguments& arguments, Request& request) {
+bool parse(const VerbArguments& arguments, ValidateRequest& request) {
   Arguments parser("validate",
                    {"Checks a submission to the 2016 benchmark: a map and a runtime of every "
                     "scene,\nsizes, finite samples, little endian.",
@@ -36,7 +37,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
   return parser.parse(arguments);
 }
 
-std::vector<io::SubmittedScene> wanted_scenes(const Request& request) {
+std::vector<io::SubmittedScene> wanted_scenes(const ValidateRequest& request) {
   std::vector<io::SubmittedScene> scenes;
   for (const std::string& name : request.scenes) scenes.push_back({.name = name});
   if (scenes.empty()) scenes = io::benchmark_scenes();
@@ -47,7 +48,7 @@ std::vector<io::SubmittedScene> wanted_scenes(const Request& request) {
   return scenes;
 }
 
-void print_answer(const Request& request, std::size_t scenes,
+void print_answer(const ValidateRequest& request, std::size_t scenes,
                   const std::vector<std::string>& problems) {
   if (!request.is_json) {
     for (const std::string& problem : problems) std::cout << problem << '\n';
@@ -63,7 +64,7 @@ void print_answer(const Request& request, std::size_t scenes,
 }  // namespace
 
 void run_validate(const VerbArguments& arguments, std::stop_token) {
-  Request request;
+  ValidateRequest request;
   if (!parse(arguments, request)) return;
   const std::vector<io::SubmittedScene> scenes = wanted_scenes(request);
   if (!std::filesystem::is_directory(request.folder)) {

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/annotate_controller.h"
 
-#include "annotation/paint/flood_fill.h"
-#include "annotation/paint/polygon.h"
-#include "app/gui/document/label_choice.h"
-#include "app/gui/frame/cancels.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/frame.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/frame/panes.h"
-#include "app/gui/stage/overlay.h"
-#include "app/gui/stage/stage.h"
-#include "widgets/annotate/brush_panel.h"
-#include "widgets/canvas/tools/fill_tool.h"
-#include "widgets/canvas/tools/lasso_tool.h"
-#include "widgets/canvas/tools/point_tool.h"
-#include "widgets/canvas/tools/polygon_tool.h"
+#include "annotation/brush.h"
+#include "annotation/flood_fill.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/panes.h"
+#include "widgets/canvas/canvas_tool.h"
+#include "widgets/canvas/outline_tool.h"
+#include "widgets/canvas/stroke_tool.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/panels/brush_panel.h"
+
+#include <QAction>
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +52,7 @@ AnnotateController::AnnotateController(const Workbench& bench, BrushPanel* panel
       bench_(bench),
       session_(bench.session),
       document_(bench.document),
-      canvas_(bench.stage.canvas()),
+      canvas_(bench.viewer_area.canvas()),
       panel_(panel),
       stroke_tool_(new StrokeTool(this)),
       fill_tool_(new FillTool(this)),
@@ -69,7 +68,7 @@ AnnotateController::AnnotateController(const Workbench& bench, BrushPanel* panel
     if (is_of_labels(id)) setAnnotating(isTabShown());
   });
   connect(&bench.frame, &Frame::tabShown, this, &AnnotateController::showScribbles);
-  connect(&bench.stage, &Stage::previewChanged, this, &AnnotateController::showMode);
+  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, &AnnotateController::showMode);
   connect(&bench.labels, &LabelChoice::changed, this, &AnnotateController::showColor);
   connect(&document_, &DocumentController::replaced, this, &AnnotateController::showMode);
   connect(&document_, &DocumentController::changed, &bench.commands, &Commands::refresh);
@@ -130,7 +129,7 @@ void AnnotateController::setAnnotating(bool is_annotating) {
   if (std::exchange(is_annotating_, is_annotating) == is_annotating) return;
   if (is_annotating) {
     document_.keepJournal();
-    bench_.stage.requestSingleView();
+    bench_.viewer_area.requestSingleView();
   }
   showMode();
 }
@@ -158,7 +157,7 @@ CanvasTool* AnnotateController::canvasTool() const {
 }
 
 void AnnotateController::showMode() {
-  const bool is_painting = is_annotating_ && !bench_.stage.isPreviewing() && hasDocument();
+  const bool is_painting = is_annotating_ && !bench_.viewer_area.isPreviewing() && hasDocument();
   if (!is_painting) canvasTool()->end();
   canvas_->setTool(is_painting ? canvasTool() : nullptr);
   panel_->setEnabled(hasDocument());
@@ -287,6 +286,190 @@ void AnnotateController::goTo(const DocumentChange& change) {
   const auto& part = here == change.views.end() ? change.views.front() : *here;
   session_.set_view(part.view);
   canvas_->ensureVisible({(part.rect.y0 + part.rect.y1) / 2, (part.rect.x0 + part.rect.x1) / 2});
+}
+
+namespace {
+
+QString edit_text(EditKind kind) {
+  switch (kind) {
+    case EditKind::Paint:
+      return AnnotateController::tr("stroke");
+    case EditKind::Erase:
+      return AnnotateController::tr("erasing");
+    case EditKind::Fill:
+      return AnnotateController::tr("fill");
+    case EditKind::AddLabel:
+      return AnnotateController::tr("new label");
+    case EditKind::RenameLabel:
+      return AnnotateController::tr("label name");
+    case EditKind::RecolorLabel:
+      return AnnotateController::tr("label colour");
+    case EditKind::RemoveLabel:
+      return AnnotateController::tr("label removal");
+    case EditKind::Import:
+      return AnnotateController::tr("import");
+    case EditKind::SmoothBoundaries:
+      return AnnotateController::tr("smooth boundaries");
+    case EditKind::Polygon:
+      return AnnotateController::tr("polygon");
+    case EditKind::Lasso:
+      return AnnotateController::tr("lasso");
+  }
+  return {};
+}
+
+}  // namespace
+
+void AnnotateController::addModeCommand() {
+  bench_.commands.add({.id = "annotate.mode",
+                       .menu = Menu::Annotate,
+                       .text = tr("Annotate"),
+                       .tip = tr("Switches between painting labels and browsing"),
+                       .icon = "brush",
+                       .keys = {tr("Ctrl+B")},
+                       .run = [this] { setAnnotating(!is_annotating_); },
+                       .section = annotate_section::kMode,
+                       .bar = BarSection::Files,
+                       .enabled = [this] { return hasDocument(); },
+                       .checked = [this] { return is_annotating_; }});
+}
+
+void AnnotateController::addHistoryCommands() {
+  const auto undone = [this] { return hasDocument() ? history().next_undo() : nullptr; };
+  const auto redone = [this] { return hasDocument() ? history().next_redo() : nullptr; };
+  bench_.commands.add(
+      {.id = "annotate.undo",
+       .menu = Menu::Annotate,
+       .text = tr("Undo"),
+       .tip = tr("Undoes the last stroke or change of labels, on whichever view it was made"),
+       .icon = "undo",
+       .keys = {tr("Ctrl+Z")},
+       .run = [this] { document_.undo(); },
+       .section = annotate_section::kHistory,
+       .enabled = [undone] { return undone() != nullptr; },
+       .live_text =
+           [undone] {
+             return undone() ? tr("Undo %1").arg(edit_text(undone()->kind)) : tr("Undo");
+           }});
+  bench_.commands.add({.id = "annotate.redo",
+                       .menu = Menu::Annotate,
+                       .text = tr("Redo"),
+                       .tip = tr("Redoes the last undone change"),
+                       .icon = "redo",
+                       .keys = {tr("Ctrl+Y"), tr("Ctrl+Shift+Z")},
+                       .run = [this] { document_.redo(); },
+                       .section = annotate_section::kHistory,
+                       .enabled = [redone] { return redone() != nullptr; },
+                       .live_text =
+                           [redone] {
+                             return redone() ? tr("Redo %1").arg(edit_text(redone()->kind))
+                                             : tr("Redo");
+                           }});
+}
+
+void AnnotateController::addToolCommands() {
+  struct Row {
+    AnnotationTool tool;
+    QString id;
+    QString text;
+    QString tip;
+    Qt::Key key;
+  };
+  for (const Row& row : std::initializer_list<Row>{
+           {AnnotationTool::Brush, "brush", tr("Brush"),
+            tr("Paints the current label; the right button erases"), Qt::Key_B},
+           {AnnotationTool::Eraser, "eraser", tr("Eraser"), tr("Erases what is painted"),
+            Qt::Key_E},
+           {AnnotationTool::Fill, "fill", tr("Fill"),
+            tr("Fills a region up to its edges; the right button clears it"), Qt::Key_F},
+           {AnnotationTool::Polygon, "polygon", tr("Polygon"),
+            tr("Paints what is inside a polygon: click its corners, then double-click or press "
+               "Return; begun with the right button, it erases"),
+            Qt::Key_O},
+           {AnnotationTool::Lasso, "lasso", tr("Lasso"),
+            tr("Paints what a drag goes around; the right button erases it"), Qt::Key_Q},
+           {AnnotationTool::Pick, "pick", tr("Pick label"),
+            tr("Selects the label under the cursor"), Qt::Key_I}}) {
+    QAction* action =
+        bench_.commands.add({.id = "annotate." + row.id,
+                             .menu = Menu::Annotate,
+                             .text = row.text,
+                             .tip = row.tip,
+                             .icon = row.id,
+                             .keys = {row.key},
+                             .run = [this, tool = row.tool] { setTool(tool); },
+                             .section = annotate_section::kTools,
+                             .enabled = [this] { return hasDocument(); },
+                             .checked = [this, tool = row.tool] { return tool_ == tool; }});
+    panel_->addAction(action, "button.annotate." + row.id);
+  }
+}
+
+void AnnotateController::addPolygonCommands() {
+  const auto is_drawing = [this] { return polygon_tool_->isDrawing(); };
+  bench_.commands.add({.id = "annotate.close_polygon",
+                       .menu = Menu::Annotate,
+                       .text = tr("Close the polygon"),
+                       .tip = tr("Paints what is inside the polygon that is being drawn"),
+                       .keys = {Qt::Key_Return, Qt::Key_Enter},
+                       .run = [this] { polygon_tool_->closeUp(); },
+                       .section = annotate_section::kTools,
+                       .scope = KeyScope::Viewer,
+                       .enabled = is_drawing});
+  bench_.commands.add({.id = "annotate.take_corner_back",
+                       .menu = Menu::Annotate,
+                       .text = tr("Take the last corner back"),
+                       .tip = tr("Removes the corner of the polygon that was set last"),
+                       .keys = {Qt::Key_Backspace},
+                       .run = [this] { polygon_tool_->takeBack(); },
+                       .section = annotate_section::kTools,
+                       .scope = KeyScope::Viewer,
+                       .enabled = is_drawing});
+}
+
+void AnnotateController::addSizeCommands() {
+  const auto has_document = [this] { return hasDocument(); };
+  bench_.commands.add({.id = "annotate.larger",
+                       .menu = Menu::Annotate,
+                       .text = tr("Larger brush"),
+                       .tip = tr("Enlarges the brush, or the eraser while it is in use"),
+                       .keys = {Qt::Key_BracketRight, Qt::Key_Period},
+                       .run = [this] { stepSize(1); },
+                       .section = annotate_section::kTools,
+                       .enabled = has_document});
+  bench_.commands.add({.id = "annotate.smaller",
+                       .menu = Menu::Annotate,
+                       .text = tr("Smaller brush"),
+                       .tip = tr("Shrinks the brush, or the eraser while it is in use"),
+                       .keys = {Qt::Key_BracketLeft, Qt::Key_Comma},
+                       .run = [this] { stepSize(-1); },
+                       .section = annotate_section::kTools,
+                       .enabled = has_document});
+  bench_.commands.add({.id = "annotate.protect",
+                       .menu = Menu::Annotate,
+                       .text = tr("Protect other labels"),
+                       .tip = tr("Paints only unpainted pixels and erases only the current label; "
+                                 "holding Shift does the same"),
+                       .run = [this] { setProtectsOthers(!protects_others_); },
+                       .section = annotate_section::kTools,
+                       .enabled = has_document,
+                       .checked = [this] { return protects_others_; }});
+}
+
+const History<Edit>& AnnotateController::history() const {
+  return std::as_const(document_).document()->history();
+}
+
+void AnnotateController::addCommands() {
+  addModeCommand();
+  addHistoryCommands();
+  addToolCommands();
+  addPolygonCommands();
+  addSizeCommands();
+  panel_->addGap();
+  for (const char* id : {"annotate.undo", "annotate.redo"}) {
+    panel_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
+  }
 }
 
 }  // namespace episcope

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/paint/stroke.h"
-#include "app/gui/bench/workbench.h"
-#include "app/gui/document/document_controller.h"
+#include "annotation/brush.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
-#include "widgets/canvas/tools/stroke_tool.h"
+#include "widgets/canvas/stroke_tool.h"
 
 #include <QObject>
 
@@ -86,5 +86,24 @@ class AnnotateController : public QObject {
   bool protects_others_ = false;
   bool is_annotating_ = false;
 };
+
+/// Sections of the menu Annotate, in their order.
+namespace annotate_section {
+
+inline constexpr int kMode = 0;
+inline constexpr int kHistory = 1;
+inline constexpr int kTools = 2;
+inline constexpr int kCarry = 3;
+
+}  // namespace annotate_section
+
+/// Sections of its menu Label.
+namespace label_section {
+
+inline constexpr int kLabels = 0;
+inline constexpr int kEdit = 1;
+inline constexpr int kLook = 2;
+
+}  // namespace label_section
 
 }  // namespace episcope

@@ -1,37 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/annotation_files.h"
 
-#include "annotation/document/exchange.h"
-#include "app/gui/frame/changed_file.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/dialogs.h"
-#include "app/gui/frame/jobs.h"
-#include "app/gui/frame/leave_guards.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/frame/question_box.h"
-#include "app/session/scene/scribble_place.h"
-#include "engine/core/light_field/shear.h"
-#include "engine/io/labels/scribble_file.h"
-#include "engine/io/labels/scribble_pictures.h"
-#include "engine/io/labels/true_labels.h"
-#include "widgets/annotate/annotation_bar.h"
+#include "annotation/exchange.h"
+#include "app/gui/annotate/segment_controller.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
+#include "app/session/picture.h"
+#include "app/session/segmentation_files.h"
+#include "app/session/user_folders.h"
+#include "engine/core/shear.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/models/scribble_file.h"
+#include "widgets/panels/brush_panel.h"
 
+#include <QCoreApplication>
 #include <QDir>
 #include <QFileInfo>
 #include <QPushButton>
 
+#include <filesystem>
 #include <memory>
 #include <utility>
 
 namespace episcope {
-namespace {
-
-std::filesystem::path path_of(const QString& path) {
-  return path.toStdString();
-}
-
-}  // namespace
-
 AnnotationFiles::AnnotationFiles(const Workbench& bench, AnnotationBar* bar)
     : QObject(&bench.owner),
       bench_(bench),
@@ -339,6 +332,78 @@ void AnnotationFiles::leave(std::function<void()> go_on) {
             }
           });
   question_->open();
+}
+
+namespace {
+
+struct SegmentationExportText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::SegmentationExport)
+};
+
+}  // namespace
+
+void ask_to_export_segmentation(const Workbench& bench, const SegmentController& segment) {
+  const auto segmentation = segment.segmentation();
+  if (!segmentation) {
+    bench.messages.hint(SegmentationExportText::tr(
+        "Nothing is segmented yet: paint two labels, then update the segmentation."));
+    return;
+  }
+  const bool has_all = segmentation->labeling->labels.grid().count() > 1;
+  ask_where_to_save(
+      &bench.window,
+      {.name = "export_segmentation",
+       .title = SegmentationExportText::tr("Export the segmentation"),
+       .filter =
+           SegmentationExportText::tr("%1 (*.h5);;Labels of this view (*.png)")
+               .arg(has_all ? SegmentationExportText::tr("Labels and probabilities of all views")
+                            : SegmentationExportText::tr("Labels and probabilities of this view")),
+       .proposal = QString::fromStdString(bench.session.light_field()->info().name) + "_labels.h5"},
+      [bench, &segment](const QString& path) { export_segmentation(bench, segment, path); });
+}
+
+void export_segmentation(const Workbench& bench, const SegmentController& segment,
+                         const QString& path) {
+  const auto segmentation = segment.segmentation();
+  if (!segmentation || !has_suffix(path, {"h5", "png"}, bench.messages)) return;
+  const std::filesystem::path file = path.toStdString();
+  if (QFileInfo(path).suffix().toLower() != "png") {
+    write_in_background(
+        bench.jobs, bench.messages, path,
+        [file, segmentation, source = bench.session.input()](const Progress& progress) {
+          write_segmentation(file, *segmentation, source, StoredProbabilities::All, progress);
+        });
+    return;
+  }
+  const auto source = segment.map_source(render::Quantity::Segmentation, bench.session.view());
+  if (!source) return;
+  write_in_background(bench.jobs, bench.messages, path, [file, source = *source](const Progress&) {
+    io::write_png(file, map_picture(*make_map(source), {}).view());
+  });
+}
+
+void ask_to_export_masks(const Workbench& bench, const SegmentController& segment) {
+  const auto segmentation = segment.segmentation();
+  if (!segmentation) return;
+  const bool has_all = segmentation->labeling->labels.grid().count() > 1;
+  ask_for_folder(
+      &bench.window,
+      {.name = "export_masks",
+       .title = has_all
+                    ? SegmentationExportText::tr("Folder for the masks of all views")
+                    : SegmentationExportText::tr("Folder for the masks of this view; segment all "
+                                                 "views first to have those of all")},
+      [bench, &segment](const QString& folder) { export_masks(bench, segment, folder); });
+}
+
+void export_masks(const Workbench& bench, const SegmentController& segment, const QString& folder) {
+  const auto segmentation = segment.segmentation();
+  if (!segmentation) return;
+  write_in_background(
+      bench.jobs, bench.messages, folder,
+      [path = std::filesystem::path(folder.toStdString()), segmentation](const Progress& progress) {
+        write_label_masks(path, *segmentation, progress);
+      });
 }
 
 }  // namespace episcope

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/gui/document/document_controller.h"
-#include "app/session/save/known_files.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/known_files.h"
 #include "app/session/session.h"
 
 #include <QKeySequence>
@@ -21,6 +21,7 @@ class QMessageBox;
 namespace episcope {
 
 class AnnotationBar;
+class SegmentController;
 
 /// Saves, exports and imports scribbles in the background, and ensures that none are lost by
 /// leaving the light field. Files hold views as stored, also while a focus plane is applied
@@ -75,5 +76,18 @@ class AnnotationFiles : public QObject {
   int saving_ = 0;
   QPointer<QMessageBox> question_;
 };
+
+/// Asks where to write the segmentation of the current view or of all, as below.
+void ask_to_export_segmentation(const Workbench& bench, const SegmentController& segment);
+
+/// Writes labels and probabilities (.h5), or the labels of this view in their colours (.png), in
+/// the background. The user is told if the path has another suffix.
+void export_segmentation(const Workbench& bench, const SegmentController& segment,
+                         const QString& path);
+
+/// Asks for a folder and writes masks of every label there: of all views once they are segmented,
+/// else of this one.
+void ask_to_export_masks(const Workbench& bench, const SegmentController& segment);
+void export_masks(const Workbench& bench, const SegmentController& segment, const QString& folder);
 
 }  // namespace episcope

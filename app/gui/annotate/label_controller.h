@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "engine/core/light_field/label_info.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/label_review.h"
+#include "app/session/session.h"
+#include "engine/core/label_info.h"
 
 #include <QObject>
 
+#include <vector>
+
 namespace episcope {
 
+struct Edit;
 class LabelPalette;
 
 /// The labels that can be painted with: shows them, and adds, renames, recolours, removes and
@@ -40,6 +46,34 @@ class LabelController : public QObject {
   DocumentController& document_;
   LabelChoice& labels_;
   LabelPalette* palette_;
+};
+
+/// Which labels are shown and locked, how they are drawn, and how much of each is painted on the
+/// view.
+class LabelLookController : public QObject {
+  Q_OBJECT
+
+ public:
+  LabelLookController(const Workbench& bench, LabelPalette* palette);
+
+ private:
+  void addCommands();
+  void update(Parts parts);
+  void setHidden(int id, bool hides);
+  void showOnly(int id);
+  void setLocked(int id, bool locks);
+  void setDrawing(render::LabelDrawing drawing);
+  /// What undo or redo did to labels that are locked.
+  void tellLocked(const Edit& edit, bool is_undo);
+  /// Forgets the marks of labels that are gone.
+  void followLabels();
+  void count();
+  /// `all`: pixels of the view.
+  void showAmounts(const std::vector<LabelAmount>& amounts, double all);
+
+  Workbench bench_;
+  LabelPalette* palette_;
+  LatestJob count_job_;
 };
 
 }  // namespace episcope

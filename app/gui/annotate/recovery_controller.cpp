@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/recovery_controller.h"
 
-#include "app/gui/document/document_controller.h"
-#include "app/gui/frame/file_time.h"
-#include "app/gui/frame/frame.h"
-#include "app/gui/frame/leave_guards.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/opening/scene_opener.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/frame.h"
 #include "app/session/session.h"
 #include "engine/core/error.h"
 #include "widgets/controls/message_bar.h"
@@ -18,7 +17,7 @@
 namespace episcope {
 namespace {
 
-QString name_of(const LeftJournal& journal) {
+QString name_of(const RecoverableJournal& journal) {
   return QString::fromStdString(journal.owner.name);
 }
 
@@ -53,10 +52,10 @@ bool RecoveryController::isOpen(const JournalOwner& owner) const {
 }
 
 void RecoveryController::look() {
-  using Journals = std::vector<LeftJournal>;
+  using Journals = std::vector<RecoverableJournal>;
   job_.start<Journals>(
       [folder = document_.journalFolder()](const Progress&) {
-        return folder.empty() ? Journals() : left_journals(folder);
+        return folder.empty() ? Journals() : recoverable_journals(folder);
       },
       [this](Journals journals) {
         left_ = std::move(journals);
@@ -67,7 +66,7 @@ void RecoveryController::look() {
 
 void RecoveryController::offerNext() {
   if (left_.empty()) return;
-  const LeftJournal journal = left_.back();
+  const RecoverableJournal journal = left_.back();
   left_.pop_back();
   bar_->showMessage(Severity::Warning,
                     tr("Episcope ended unexpectedly while “%1” was being annotated (%2). Your work "
@@ -77,12 +76,12 @@ void RecoveryController::offerNext() {
                     {tr("Discard"), [this, journal] { discard(journal); }});
 }
 
-void RecoveryController::discard(const LeftJournal& journal) {
+void RecoveryController::discard(const RecoverableJournal& journal) {
   discard_journal(journal.path);
   offerNext();
 }
 
-void RecoveryController::recover(const LeftJournal& journal) {
+void RecoveryController::recover(const RecoverableJournal& journal) {
   const auto go_on = [this, journal] {
     if (document_.document() && isOpen(journal.owner)) {
       read(journal);
@@ -103,7 +102,7 @@ void RecoveryController::open(const JournalOwner& owner) {
   bench_.opener.open(QString::fromStdString(owner.source), std::move(then));
 }
 
-void RecoveryController::read(const LeftJournal& journal) {
+void RecoveryController::read(const RecoverableJournal& journal) {
   job_.start<std::shared_ptr<Found>>(
       [journal, light_field = session_.light_field()](const Progress&) {
         auto found = std::make_shared<Found>();
@@ -124,7 +123,7 @@ void RecoveryController::read(const LeftJournal& journal) {
       });
 }
 
-void RecoveryController::takeOver(const LeftJournal& journal, RecoveredAnnotation found,
+void RecoveryController::takeOver(const RecoverableJournal& journal, RecoveredAnnotation found,
                                   std::uint64_t sample_hash) {
   const LightFieldPtr light_field = session_.light_field();
   if (!light_field || !isOpen(journal.owner)) return;

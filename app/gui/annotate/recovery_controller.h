@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/gui/frame/jobs.h"
-#include "app/session/document/annotation_journal.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/annotation_journal.h"
 
 #include <QObject>
 
@@ -27,19 +27,19 @@ class RecoveryController : public QObject {
  private:
   [[nodiscard]] bool isOpen(const JournalOwner& owner) const;
   void offerNext();
-  void recover(const LeftJournal& journal);
+  void recover(const RecoverableJournal& journal);
   void open(const JournalOwner& owner);
-  void discard(const LeftJournal& journal);
-  void read(const LeftJournal& journal);
-  void takeOver(const LeftJournal& journal, RecoveredAnnotation found, std::uint64_t sample_hash);
+  void discard(const RecoverableJournal& journal);
+  void read(const RecoverableJournal& journal);
+  void takeOver(const RecoverableJournal& journal, RecoveredAnnotation found, std::uint64_t sample_hash);
   void refuse(const QString& sentence);
 
   Workbench bench_;
   Session& session_;
   DocumentController& document_;
   MessageBar* bar_;
-  std::vector<LeftJournal> left_;       // the one to be offered next comes last
-  std::optional<LeftJournal> awaited_;  // its light field is being opened
+  std::vector<RecoverableJournal> left_;       // the one to be offered next comes last
+  std::optional<RecoverableJournal> awaited_;  // its light field is being opened
   LatestJob job_;
 };
 

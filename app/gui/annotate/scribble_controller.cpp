@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/scribble_controller.h"
 
-#include "annotation/paint/propagate.h"
-#include "app/gui/annotate/annotate_section.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/stage/stage.h"
-#include "widgets/annotate/annotation_bar.h"
-#include "widgets/canvas/scribble_picture.h"
+#include "annotation/propagate.h"
+#include "app/gui/annotate/annotate_controller.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/frame.h"
+#include "widgets/canvas/canvas_text.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/panels/brush_panel.h"
 
 #include <algorithm>
 #include <utility>
@@ -20,7 +20,7 @@ ScribbleController::ScribbleController(const Workbench& bench, AnnotationBar* ba
       bench_(bench),
       session_(bench.session),
       document_(bench.document),
-      canvas_(bench.stage.canvas()),
+      canvas_(bench.viewer_area.canvas()),
       bar_(bar),
       carry_job_(this) {
   addCommand();
@@ -32,7 +32,7 @@ ScribbleController::ScribbleController(const Workbench& bench, AnnotationBar* ba
     show();
     carry();
   });
-  connect(&bench.stage, &Stage::previewChanged, this, &ScribbleController::show);
+  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, &ScribbleController::show);
   connect(bar_, &AnnotationBar::carriedEdited, this, &ScribbleController::setCarried);
   connect(bar_, &AnnotationBar::carriedByEdited, this, &ScribbleController::carry);
   session_.on_changed([this](Parts parts) { update(parts); });
@@ -71,7 +71,7 @@ QImage ScribbleController::picture(const PixelRect& rect) const {
 
 void ScribbleController::show() {
   const AnnotationDocument* document = std::as_const(document_).document();
-  if (!document || bench_.stage.isPreviewing()) {
+  if (!document || bench_.viewer_area.isPreviewing()) {
     canvas_->setScribbles({});
     return;
   }
@@ -80,7 +80,7 @@ void ScribbleController::show() {
 }
 
 void ScribbleController::showRect(ViewIndex view, const PixelRect& rect) {
-  if (view != session_.view() || bench_.stage.isPreviewing()) return;
+  if (view != session_.view() || bench_.viewer_area.isPreviewing()) return;
   // What is painted beside a pixel decides whether that is on a contour.
   const ScribbleLayer& layer = std::as_const(document_).document()->scribbles();
   const PixelRect wider{std::max(rect.y0 - 1, 0), std::max(rect.x0 - 1, 0),

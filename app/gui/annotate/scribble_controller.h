@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/gui/document/document_controller.h"
-#include "app/gui/frame/jobs.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
 
 #include <QObject>

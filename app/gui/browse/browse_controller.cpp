@@ -1,30 +1,81 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/browse/browse_controller.h"
 
-#include "app/gui/browse/disparity_at.h"
-#include "app/gui/browse/thumbnails.h"
-#include "app/gui/document/document_controller.h"
-#include "app/gui/frame/cancels.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/frame.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/stage/overlay.h"
-#include "app/gui/stage/stage.h"
-#include "engine/core/light_field/epi.h"
+#include "app/gui/browse/value_controller.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/frame.h"
+#include "engine/core/epi.h"
+#include "engine/core/image.h"
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
 #include "engine/render/shade.h"
-#include "widgets/browse/epi_pane.h"
-#include "widgets/browse/view_grid.h"
+#include "engine/render/tone.h"
+#include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/overlay_bar.h"
-#include "widgets/style/picture.h"
-#include "widgets/style/theme.h"
+#include "widgets/controls/picture.h"
+#include "widgets/controls/theme.h"
+#include "widgets/panels/overlay_bar.h"
+#include "widgets/panels/view_grid.h"
+
+#include <QAction>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace episcope {
 namespace {
+
+constexpr int kRgba = 4;
+
+// Mean of the pixels of `source` that fall into each pixel of the result.
+Image<std::uint8_t> shrink(const Image<std::uint8_t>& source, int factor) {
+  const int height = std::max(1, source.height() / factor);
+  const int width = std::max(1, source.width() / factor);
+  Image<std::uint8_t> result(height, width, kRgba);
+  const int rows = std::min(factor, source.height());
+  const int columns = std::min(factor, source.width());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      int sums[kRgba] = {};
+      for (int dy = 0; dy < rows; ++dy) {
+        const std::uint8_t* pixel = &source.at(y * rows + dy, x * columns);
+        for (int i = 0; i < columns * kRgba; ++i) sums[i % kRgba] += pixel[i];
+      }
+      for (int c = 0; c < kRgba; ++c) {
+        result.at(y, x, c) = static_cast<std::uint8_t>(sums[c] / (rows * columns));
+      }
+    }
+  }
+  return result;
+}
+
+// Small RGBA8 pictures of all views, row by row of the grid, each at most `width` by `height`
+// pixels and of the same aspect as the views: box means; brightened if a tone is given. Throws
+// Cancelled.
+std::vector<Image<std::uint8_t>> make_thumbnails(const LightField& light_field, int width,
+                                                 int height, const render::ToneTable* tone,
+                                                 const Progress& progress) {
+  const auto times_larger = [](int full, int small) {
+    return (full + small - 1) / std::max(1, small);
+  };
+  const int factor = std::max(
+      {1, times_larger(light_field.width(), width), times_larger(light_field.height(), height)});
+  std::vector<Image<std::uint8_t>> pictures;
+  const GridShape grid = light_field.grid();
+  for (int v = 0; v < grid.v; ++v) {
+    for (int u = 0; u < grid.u; ++u) {
+      progress.check();
+      pictures.push_back(shrink(render::shade_view(light_field, {v, u}, tone), factor));
+    }
+  }
+  return pictures;
+}
 
 constexpr double kUnknownReach = 20;  // px per view, of the focus slider
 
@@ -34,7 +85,7 @@ BrowseController::BrowseController(const Workbench& bench)
     : QObject(&bench.owner),
       bench_(bench),
       session_(bench.session),
-      stage_(bench.stage),
+      viewer_area_(bench.viewer_area),
       grid_(new ViewGrid(&bench.frame)),
       epi_job_(this),
       refocus_job_(this),
@@ -44,14 +95,14 @@ BrowseController::BrowseController(const Workbench& bench)
   connectCanvas();
   connectEpis();
   addCommands();
-  bench.commands.addBarWidget(BarSection::Look, stage_.overlayBar());
+  bench.commands.addBarWidget(BarSection::Look, viewer_area_.overlayBar());
   bench.cancels.add(CancelRank::Browsing, [this] { return endWhatIsInHand(); });
   connect(grid_, &ViewGrid::viewSelected, this, [this](ViewIndex view) {
-    if (!stage_.isPreviewing()) session_.set_view(view);
+    if (!viewer_area_.isPreviewing()) session_.set_view(view);
   });
-  connect(stage_.overlayBar(), &OverlayBar::focusChanged, this,
+  connect(viewer_area_.overlayBar(), &OverlayBar::focusChanged, this,
           [this](double focus_px) { session_.set_focus(focus_px); });
-  connect(&stage_, &Stage::previewChanged, this, &BrowseController::setPreviewing);
+  connect(&viewer_area_, &ViewerArea::previewChanged, this, &BrowseController::setPreviewing);
   connect(&bench.overlay, &Overlay::drawn, this, &BrowseController::showSlopes);  // of A or B
   connect(&bench.document, &DocumentController::replaced, this, &BrowseController::markPainted);
   connect(&bench.document, &DocumentController::changed, this, &BrowseController::markPainted);
@@ -59,16 +110,16 @@ BrowseController::BrowseController(const Workbench& bench)
 }
 
 void BrowseController::connectCanvas() {
-  ViewCanvas* canvas = stage_.canvas();
+  ViewCanvas* canvas = viewer_area_.canvas();
   connect(canvas, &ViewCanvas::crossHairRequested, this, [this](PixelIndex pixel) {
-    if (!stage_.isPreviewing()) session_.set_cross_hair(pixel);
+    if (!viewer_area_.isPreviewing()) session_.set_cross_hair(pixel);
   });
   connect(canvas, &ViewCanvas::focusRequested, this, &BrowseController::focusAt);
   connect(canvas, &ViewCanvas::centerRequested, this, &BrowseController::goToCenter);
   connect(canvas, &ViewCanvas::parallaxStarted, this,
           [this] { parallax_start_ = session_.view(); });
   connect(canvas, &ViewCanvas::parallaxDragged, this, [this](QPointF views) {
-    if (stage_.isPreviewing()) return;
+    if (viewer_area_.isPreviewing()) return;
     session_.set_view({parallax_start_.v + static_cast<int>(std::lround(views.y())),
                        parallax_start_.u + static_cast<int>(std::lround(views.x()))});
   });
@@ -79,15 +130,17 @@ void BrowseController::connectCanvas() {
 }
 
 void BrowseController::connectEpis() {
-  for (EpiPane* pane : {stage_.horizontalEpi(), stage_.verticalEpi()}) {
-    connect(stage_.canvas(), &ViewCanvas::transformChanged, pane, &EpiPane::setCanvasTransform);
-    connect(pane, &EpiPane::transformChanged, stage_.canvas(), &ViewCanvas::setCanvasTransform);
+  for (EpiPane* pane : {viewer_area_.horizontalEpi(), viewer_area_.verticalEpi()}) {
+    connect(viewer_area_.canvas(), &ViewCanvas::transformChanged, pane,
+            &EpiPane::setCanvasTransform);
+    connect(pane, &EpiPane::transformChanged, viewer_area_.canvas(),
+            &ViewCanvas::setCanvasTransform);
   }
-  connect(stage_.horizontalEpi(), &EpiPane::positionClicked, this, [this](int x, int u) {
+  connect(viewer_area_.horizontalEpi(), &EpiPane::positionClicked, this, [this](int x, int u) {
     session_.set_cross_hair({session_.cross_hair().y, x});
     session_.set_view({session_.view().v, u});
   });
-  connect(stage_.verticalEpi(), &EpiPane::positionClicked, this, [this](int y, int v) {
+  connect(viewer_area_.verticalEpi(), &EpiPane::positionClicked, this, [this](int y, int v) {
     session_.set_cross_hair({y, session_.cross_hair().x});
     session_.set_view({v, session_.view().u});
   });
@@ -109,8 +162,8 @@ void BrowseController::update(Parts parts) {
   } else if (parts.has(Part::Tone) && session_.scene()) {
     startThumbnails();
   }
-  if (parts.has(Part::Focus)) stage_.overlayBar()->setFocus(session_.focus_px());
-  if (stage_.isPreviewing()) return;
+  if (parts.has(Part::Focus)) viewer_area_.overlayBar()->setFocus(session_.focus_px());
+  if (viewer_area_.isPreviewing()) return;
   if (parts.has(Part::View)) grid_->setCurrent(session_.view());
   const Parts of_view = Part::Scene | Part::View | Part::Focus | Part::Tone;
   if (parts.has_any(of_view)) showView();
@@ -126,15 +179,15 @@ void BrowseController::showScene() {
   refocus_job_.drop();
   if (!light_field) {
     thumbnail_job_.drop();
-    stage_.canvas()->setOverlay({});
-    stage_.canvas()->setCaption({});
-    stage_.canvas()->setCrossHair(std::nullopt);
-    stage_.canvas()->showEmpty();
+    viewer_area_.canvas()->setOverlay({});
+    viewer_area_.canvas()->setCaption({});
+    viewer_area_.canvas()->setCrossHair(std::nullopt);
+    viewer_area_.canvas()->showEmpty();
     return;
   }
   showFocusReach();
   startThumbnails();
-  stage_.canvas()->zoomToFit();
+  viewer_area_.canvas()->zoomToFit();
 }
 
 void BrowseController::showFocusReach() {
@@ -143,7 +196,7 @@ void BrowseController::showFocusReach() {
   const double reach = range.length() > 0
                            ? std::ceil(std::clamp(known, 1.0, OverlayBar::kFarthestFocus))
                            : kUnknownReach;
-  stage_.overlayBar()->setFocusRange({-reach, reach});
+  viewer_area_.overlayBar()->setFocusRange({-reach, reach});
 }
 
 void BrowseController::markPainted() {
@@ -183,32 +236,32 @@ void BrowseController::showView() {
             render::shade_samples(render::refocus(*light_field, view, focus_px), tone.get()));
       },
       [this](const std::shared_ptr<Picture>& picture) {
-        if (!stage_.isPreviewing()) showPicture(to_qimage(std::move(*picture)));
+        if (!viewer_area_.isPreviewing()) showPicture(to_qimage(std::move(*picture)));
       });
 }
 
 void BrowseController::showPicture(const QImage& picture) {
-  stage_.canvas()->setPicture(picture);
-  stage_.canvas()->setCrossHair(session_.cross_hair());
+  viewer_area_.canvas()->setPicture(picture);
+  viewer_area_.canvas()->setCrossHair(session_.cross_hair());
 }
 
 void BrowseController::showEpis() {
   const LightFieldPtr light_field = session_.light_field();
   if (!light_field) {
     epi_job_.drop();
-    stage_.horizontalEpi()->setEpi({});
-    stage_.verticalEpi()->setEpi({});
-    stage_.horizontalEpi()->setCrossHair(std::nullopt, 0);
-    stage_.verticalEpi()->setCrossHair(std::nullopt, 0);
+    viewer_area_.horizontalEpi()->setEpi({});
+    viewer_area_.verticalEpi()->setEpi({});
+    viewer_area_.horizontalEpi()->setCrossHair(std::nullopt, 0);
+    viewer_area_.verticalEpi()->setCrossHair(std::nullopt, 0);
     return;
   }
   const ViewIndex view = session_.view();
   const PixelIndex pixel = session_.cross_hair();
   const double focus_px = session_.focus_px();
-  stage_.canvas()->setCrossHair(pixel);
+  viewer_area_.canvas()->setCrossHair(pixel);
   clearLinesOfOtherRows();
-  stage_.horizontalEpi()->setFocus(focus_px);
-  stage_.verticalEpi()->setFocus(focus_px);
+  viewer_area_.horizontalEpi()->setFocus(focus_px);
+  viewer_area_.verticalEpi()->setFocus(focus_px);
   const auto find = [light_field, view, pixel, focus_px, tone = tone_] {
     return EpiPictures{
         render::shade_samples(horizontal_epi(*light_field, view, pixel.y, focus_px), tone.get()),
@@ -228,10 +281,10 @@ void BrowseController::showEpis() {
 }
 
 void BrowseController::showEpis(EpiPictures epis, ViewIndex view, PixelIndex pixel) {
-  stage_.horizontalEpi()->setEpi(to_qimage(std::move(epis.horizontal)));
-  stage_.verticalEpi()->setEpi(to_qimage(std::move(epis.vertical)));
-  stage_.horizontalEpi()->setCrossHair(pixel.x, view.u);
-  stage_.verticalEpi()->setCrossHair(pixel.y, view.v);
+  viewer_area_.horizontalEpi()->setEpi(to_qimage(std::move(epis.horizontal)));
+  viewer_area_.verticalEpi()->setEpi(to_qimage(std::move(epis.vertical)));
+  viewer_area_.horizontalEpi()->setCrossHair(pixel.x, view.u);
+  viewer_area_.verticalEpi()->setCrossHair(pixel.y, view.v);
   showSlopes();
 }
 
@@ -242,9 +295,10 @@ void BrowseController::clearLinesOfOtherRows() {
   const std::pair horizontal(view.v, pixel.y);
   const std::pair vertical(view.u, pixel.x);
   if (std::exchange(horizontal_row_, horizontal) != horizontal) {
-    stage_.horizontalEpi()->clearMeasurement();
+    viewer_area_.horizontalEpi()->clearMeasurement();
   }
-  if (std::exchange(vertical_row_, vertical) != vertical) stage_.verticalEpi()->clearMeasurement();
+  if (std::exchange(vertical_row_, vertical) != vertical)
+    viewer_area_.verticalEpi()->clearMeasurement();
 }
 
 void BrowseController::showSlopes() {
@@ -257,14 +311,14 @@ void BrowseController::showSlopes() {
       estimate = disparities_at(*shown->estimate, session_.view(), session_.cross_hair());
     }
   }
-  for (EpiPane* pane : {stage_.horizontalEpi(), stage_.verticalEpi()}) {
+  for (EpiPane* pane : {viewer_area_.horizontalEpi(), viewer_area_.verticalEpi()}) {
     pane->setSlopes(estimate.front, truth.front);
     pane->setBackgroundSlopes(estimate.behind, truth.behind);
   }
 }
 
 void BrowseController::focusAt(PixelIndex pixel) {
-  if (!session_.scene() || stage_.isPreviewing()) return;
+  if (!session_.scene() || viewer_area_.isPreviewing()) return;
   std::optional<double> disparity;
   if (const EstimateEntry* shown = session_.side_a()) {
     disparity = disparity_at(shown->estimate->field, session_.view(), pixel);
@@ -281,7 +335,7 @@ void BrowseController::focusAt(PixelIndex pixel) {
 }
 
 void BrowseController::step(int dv, int du) {
-  if (!stage_.isPreviewing()) {
+  if (!viewer_area_.isPreviewing()) {
     session_.set_view({session_.view().v + dv, session_.view().u + du});
   }
 }
@@ -292,7 +346,7 @@ void BrowseController::jump(int dv, int du) {
 }
 
 void BrowseController::goToCenter() {
-  if (session_.scene() && !stage_.isPreviewing())
+  if (session_.scene() && !viewer_area_.isPreviewing())
     session_.set_view(session_.light_field()->center());
 }
 
@@ -301,7 +355,7 @@ void BrowseController::togglePlay() {
 }
 
 void BrowseController::stepFocus(double steps) {
-  stage_.overlayBar()->stepFocus(steps);
+  viewer_area_.overlayBar()->stepFocus(steps);
 }
 
 void BrowseController::resetFocus() {
@@ -310,7 +364,7 @@ void BrowseController::resetFocus() {
 
 void BrowseController::setRefocusing(bool refocuses) {
   refocuses_ = refocuses;
-  if (!stage_.isPreviewing()) showView();
+  if (!viewer_area_.isPreviewing()) showView();
 }
 
 bool BrowseController::endWhatIsInHand() {
@@ -318,11 +372,110 @@ bool BrowseController::endWhatIsInHand() {
     grid_->setPlaying(false);
     return true;
   }
-  const bool had_line =
-      stage_.horizontalEpi()->measuredDisparity() || stage_.verticalEpi()->measuredDisparity();
-  stage_.horizontalEpi()->clearMeasurement();
-  stage_.verticalEpi()->clearMeasurement();
+  const bool had_line = viewer_area_.horizontalEpi()->measuredDisparity() ||
+                        viewer_area_.verticalEpi()->measuredDisparity();
+  viewer_area_.horizontalEpi()->clearMeasurement();
+  viewer_area_.verticalEpi()->clearMeasurement();
   return had_line;
+}
+
+void BrowseController::addStep(const QString& id, const QString& text, const QString& tip, int dv,
+                               int du, Qt::Key key) {
+  bench_.commands.add({.id = "view." + id,
+                       .menu = Menu::Views,
+                       .text = text,
+                       .tip = tip,
+                       .keys = {QKeySequence(key)},
+                       .run = [this, dv, du] { step(dv, du); },
+                       .section = section::kWalk});
+  bench_.commands.add({.id = "view." + id + "_most",
+                       .menu = Menu::Views,
+                       .text = tr("%1, to the end").arg(text),
+                       .tip = tr("%1, at the end of the grid").arg(tip),
+                       .keys = {QKeySequence(Qt::ShiftModifier | key)},
+                       .run = [this, dv, du] { jump(dv, du); },
+                       .section = section::kWalk});
+}
+
+void BrowseController::addWalkCommands() {
+  addStep("left", tr("View to the left"), tr("Shows the view to the left"), 0, -1, Qt::Key_Left);
+  addStep("right", tr("View to the right"), tr("Shows the view to the right"), 0, 1, Qt::Key_Right);
+  addStep("up", tr("View above"), tr("Shows the view above"), -1, 0, Qt::Key_Up);
+  addStep("down", tr("View below"), tr("Shows the view below"), 1, 0, Qt::Key_Down);
+  bench_.commands.add({.id = "view.center",
+                       .menu = Menu::Views,
+                       .text = tr("Centre view"),
+                       .tip = tr("Shows the view in the middle of the grid"),
+                       .keys = {Qt::Key_Home},
+                       .run = [this] { goToCenter(); },
+                       .section = section::kWalk});
+  QAction* play = bench_.commands.add({.id = "view.play",
+                                       .menu = Menu::Views,
+                                       .text = tr("Play"),
+                                       .tip = tr("Plays the views one after the other, or pauses"),
+                                       .icon = "play",
+                                       .keys = {Qt::Key_Space},
+                                       .run = [this] { togglePlay(); },
+                                       .section = section::kWalk,
+                                       .scope = KeyScope::Viewer});
+  grid_->followTip(play);
+}
+
+void BrowseController::addZoom(const QString& id, const QString& text, const QString& tip,
+                               const QString& icon, const QList<QKeySequence>& keys,
+                               void (ViewCanvas::*zoom)()) {
+  bench_.commands.add({.id = "view." + id,
+                       .menu = Menu::View,
+                       .text = text,
+                       .tip = tip,
+                       .icon = icon,
+                       .keys = keys,
+                       .run = [this, zoom] { (viewer_area_.activeCanvas()->*zoom)(); },
+                       .section = section::kZoom});
+}
+
+void BrowseController::addZoomCommands() {
+  addZoom("zoom_in", tr("Zoom in"), tr("Enlarges the picture"), {},
+          {Qt::Key_Plus, Qt::Key_Equal, tr("Ctrl++")}, &ViewCanvas::zoomIn);
+  addZoom("zoom_out", tr("Zoom out"), tr("Shrinks the picture"), {}, {Qt::Key_Minus, tr("Ctrl+-")},
+          &ViewCanvas::zoomOut);
+  addZoom("fit", tr("Fit"), tr("Fits the whole picture into its pane"), "fit", {Qt::Key_K},
+          &ViewCanvas::zoomToFit);
+  addZoom("actual_size", tr("100 %"), tr("Shows each image pixel as one screen pixel"), {},
+          {tr("Ctrl+0")}, &ViewCanvas::zoomToActualSize);
+}
+
+void BrowseController::addFocusCommands() {
+  const auto add = [this](const QString& id, const QString& text, const QString& tip,
+                          const QKeySequence& key, std::function<void()> run) {
+    bench_.commands.add({.id = id,
+                         .menu = Menu::View,
+                         .text = text,
+                         .tip = tip,
+                         .keys = {key},
+                         .run = std::move(run),
+                         .section = section::kFocus});
+  };
+  add("view.focus_nearer", tr("Focus nearer"), tr("Moves the focus plane to larger disparities"),
+      tr("Ctrl+Alt+Up"), [this] { stepFocus(1); });
+  add("view.focus_farther", tr("Focus farther"), tr("Moves the focus plane to smaller disparities"),
+      tr("Ctrl+Alt+Down"), [this] { stepFocus(-1); });
+  add("view.focus_reset", tr("Focus at zero"), tr("Moves the focus plane back to zero disparity"),
+      tr("Ctrl+Alt+0"), [this] { resetFocus(); });
+  bench_.commands.add({.id = "view.refocus",
+                       .menu = Menu::View,
+                       .text = tr("Refocus the view"),
+                       .tip = tr("Refocuses the view too, as the mean of all views at the focus "
+                                 "plane; otherwise only the EPIs are sheared"),
+                       .run = [this] { setRefocusing(!refocuses_); },
+                       .section = section::kFocus,
+                       .checked = [this] { return refocuses_; }});
+}
+
+void BrowseController::addCommands() {
+  addWalkCommands();
+  addZoomCommands();
+  addFocusCommands();
 }
 
 }  // namespace episcope

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/gui/frame/jobs.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
 #include "engine/render/tone.h"
 
@@ -70,7 +70,7 @@ class BrowseController : public QObject {
 
   Workbench bench_;
   Session& session_;
-  Stage& stage_;
+  ViewerArea& viewer_area_;
   ViewGrid* grid_;
   bool refocuses_ = true;
   ViewIndex parallax_start_;

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/browse/focus_controller.h"
 
-#include "app/gui/document/document_controller.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/jobs.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/frame/queued_post.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/gui/stage/overlay.h"
-#include "app/gui/stage/stage.h"
-#include "app/session/scene/scene_range.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
+#include "app/session/scene_summary.h"
 #include "app/session/session.h"
-#include "engine/core/light_field/shear.h"
-#include "widgets/compare/overlay_bar.h"
+#include "engine/core/shear.h"
+#include "widgets/panels/overlay_bar.h"
 
 namespace episcope {
 
@@ -40,7 +39,7 @@ void FocusController::addCommands() {
                        .run = [this] { undo(); },
                        .section = section::kFocus,
                        .enabled = [this] { return canUndo(); }});
-  bench_.stage.overlayBar()->addFocusAction(apply);
+  bench_.viewer_area.overlayBar()->addFocusAction(apply);
 }
 
 bool FocusController::canApply() const {

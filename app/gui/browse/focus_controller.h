@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
+#include "app/gui/shell/workbench.h"
 #include "app/session/open_scene.h"
-#include "app/session/run/run_estimator.h"
-#include "engine/core/parallel/job_runner.h"
+#include "app/session/run_estimator.h"
+#include "engine/core/jobs.h"
 
 #include <QObject>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/gui/frame/jobs.h"
-#include "engine/cuda/device/cuda_device.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
+#include "engine/cuda/device.h"
 
 #include <QObject>
 

@@ -2,25 +2,21 @@
 #include "app/gui/capture/capture_controller.h"
 
 #include "app/gui/capture/capture_documents.h"
-#include "app/gui/capture/capture_files.h"
-#include "app/gui/capture/mesh_results.h"
 #include "app/gui/capture/mesh_shelf.h"
 #include "app/gui/capture/pair_marks.h"
 #include "app/gui/capture/photographs.h"
-#include "app/gui/capture/pose_text.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/dialogs.h"
-#include "app/gui/frame/frame.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/gui/stage/stage.h"
-#include "app/session/scene/gantry_scene.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/frame.h"
+#include "app/session/gantry_scene.h"
 #include "app/session/session.h"
-#include "engine/capture/pose/pairs_file.h"
+#include "engine/capture/alignment.h"
+#include "engine/capture/pose_file.h"
 #include "engine/core/error.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/capture/capture_objects.h"
-#include "widgets/capture/capture_panel.h"
+#include "widgets/panels/capture_panel.h"
 
 #include <QAction>
 #include <QCursor>
@@ -28,6 +24,7 @@
 #include <QFileInfo>
 #include <QKeyEvent>
 #include <QLocale>
+#include <QString>
 #include <QVBoxLayout>
 
 #include <array>
@@ -35,6 +32,41 @@
 #include <utility>
 
 namespace episcope {
+namespace {
+
+// Why there can be no pose; empty = there can.
+QString obstacle(const Session& session) {
+  if (!session.scene()) return CaptureController::tr("Open a light field first.");
+  if (!session.light_field()->info().camera.pinhole) {
+    return CaptureController::tr(
+        "This light field does not tell its focal length and centre in pixels, which a pose "
+        "needs. Rectify photographs with their calibrated lens; pairs are carried over.");
+  }
+  return {};
+}
+
+// What is known of the pose of the current object, or what it lacks.
+QString pose_text(const Session& session, const CaptureDocuments& documents) {
+  const QString missing = obstacle(session);
+  if (!missing.isEmpty()) return missing;
+  if (!documents.problem().isEmpty()) return documents.problem();
+  const CaptureObject* object = documents.now().work().object();
+  if (!object || !object->pose) {
+    return CaptureController::tr("%1 of at least 4 pairs; 10 are better.")
+        .arg(documents.now().pairs().size());
+  }
+  const capture::SolvedPose& pose = *object->pose;
+  QString text =
+      CaptureController::tr("Mean reprojection error %1 px; depth to ± %2 (unit of the mesh)")
+          .arg(pose.reprojection_error_px, 0, 'f', 2)
+          .arg(pose.delta_tz, 0, 'g', 3);
+  if (std::isfinite(pose.delta_tz_px)) {
+    text += CaptureController::tr(", ± %1 px of disparity").arg(pose.delta_tz_px, 0, 'f', 4);
+  }
+  return text + '.';
+}
+
+}  // namespace
 
 CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
     : QObject(&bench.owner),
@@ -45,7 +77,7 @@ CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
       photographs_(new Photographs(bench, *documents_, this)),
       results_(new MeshResults(bench, *documents_, *shelf_, this)) {
   tab->installEventFilter(this);
-  bench.stage.canvas()->installEventFilter(this);
+  bench.viewer_area.canvas()->installEventFilter(this);
   connect(documents_, &CaptureDocuments::changed, this, &CaptureController::show);
   connect(shelf_, &MeshShelf::changed, this, &CaptureController::showRead);
   connect(&bench.frame, &Frame::tabShown, this, [this](const QString& id) {
@@ -56,9 +88,9 @@ CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
     if (parts.has_any(Part::View | Part::CrossHair)) showNext();
     if (parts.has(Part::View)) showMarks();
   });
-  connect(bench.stage.canvas(), &ViewCanvas::cursorMoved, this, [this] {
-    if (!panel_ || bench_.stage.canvas()->marks().empty()) return;
-    const ViewCanvas& canvas = *bench_.stage.canvas();
+  connect(bench.viewer_area.canvas(), &ViewCanvas::cursorMoved, this, [this] {
+    if (!panel_ || bench_.viewer_area.canvas()->marks().empty()) return;
+    const ViewCanvas& canvas = *bench_.viewer_area.canvas();
     panel_->setHovered(canvas.markAt(canvas.mapFromGlobal(QCursor::pos())));
   });
 }
@@ -350,7 +382,7 @@ void CaptureController::showMarks() {
   const bool is_here = session.scene() && session.view() == session.light_field()->center();
   if (!is_here || !tab_->isVisible()) marks.on_view.clear();
   if (!mesh()) marks.on_mesh.clear();
-  bench_.stage.canvas()->setMarks(std::move(marks.on_view));
+  bench_.viewer_area.canvas()->setMarks(std::move(marks.on_view));
   panel_->setMarks(marks.on_mesh);
 }
 
@@ -376,6 +408,16 @@ bool CaptureController::eventFilter(QObject* watched, QEvent* event) {
     return true;
   }
   return QObject::eventFilter(watched, event);
+}
+
+std::optional<capture::SnappedPick> PickSnapper::snap(const LightFieldPtr& light_field,
+                                                      PixelIndex pixel) {
+  if (light_field_.lock() != light_field) {
+    grey_ = capture::grey_view(*light_field, light_field->center());
+    light_field_ = light_field;
+  }
+  return capture::snap_pick(
+      grey_.view(), {static_cast<double>(pixel.x), static_cast<double>(pixel.y)}, kReach_px);
 }
 
 }  // namespace episcope

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/gui/capture/pick_snapper.h"
-#include "app/session/capture/capture_work.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/capture_work.h"
+#include "engine/capture/snap_pick.h"
+#include "engine/core/indices.h"
+#include "engine/core/light_field.h"
 
 #include <QObject>
 #include <QString>
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,6 +27,20 @@ class MeshResults;
 class MeshShelf;
 class Photographs;
 struct ReadMesh;
+
+/// Moves picks in the centre view to the corner or blob beside them. Keeps the grey centre view of
+/// the last light field.
+class PickSnapper {
+ public:
+  static constexpr double kReach_px = 5;
+
+  [[nodiscard]] std::optional<capture::SnappedPick> snap(const LightFieldPtr& light_field,
+                                                         PixelIndex pixel);
+
+ private:
+  std::weak_ptr<const LightField> light_field_;
+  Image<float> grey_;
+};
 
 /// The Capture tab: objects with their meshes, picks on view and mesh, and what follows from them.
 class CaptureController : public QObject {

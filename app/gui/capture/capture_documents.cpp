@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/capture_documents.h"
 
+#include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/frame.h"
 #include "app/session/session.h"
+
+#include <QCoreApplication>
 
 #include <utility>
 
@@ -86,6 +90,23 @@ void CaptureDocuments::settle() {
   problem_ = QString::fromStdString(document.solve(field ? field->info().camera : CameraGrid()));
   bench_.session.set_capture(document.work());
   emit changed();
+}
+
+namespace {
+
+struct CaptureFilesText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::CaptureFiles)
+};
+
+}  // namespace
+
+bool is_new_light_field(const QString& path, Messages& messages) {
+  if (!has_suffix(path, {"h5"}, messages)) return false;
+  if (!std::filesystem::exists(path_of(path))) return true;
+  messages.fail(
+      CaptureFilesText::tr("%1 is there already; name a new file, so that no light field is lost")
+          .arg(path));
+  return false;
 }
 
 }  // namespace episcope

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/session/capture/capture_document.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/capture_document.h"
 
 #include <QObject>
 #include <QString>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <set>
 #include <string>
 
 namespace episcope {
+
+class Messages;
 
 /// What the user does in the Capture tab: a document for each open light field, which the session
 /// keeps with it. A light field that is opened after another goes on with its lens; what was
@@ -64,5 +67,9 @@ class CaptureDocuments : public QObject {
   Heir heir_;
   QString problem_;
 };
+
+/// Whether a light field can be written there: its name ends in .h5 and nothing has it yet, so that
+/// none is lost; if not, the user is told.
+[[nodiscard]] bool is_new_light_field(const QString& path, Messages& messages);
 
 }  // namespace episcope

@@ -1,19 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "engine/capture/mesh/triangle_mesh.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/capture_output.h"
+#include "engine/capture/triangle_mesh.h"
 #include "widgets/cloud/cloud_look.h"
 
 #include <QObject>
+#include <QString>
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace episcope {
+
+class CaptureDocuments;
+class MeshShelf;
+
+/// What meshes and their poses give: a result, ground truth, files of poses.
+class MeshResults : public QObject {
+  Q_OBJECT
+
+ public:
+  MeshResults(const Workbench& bench, const CaptureDocuments& documents, const MeshShelf& shelf,
+              QObject* parent);
+
+  /// The depth of all objects in the centre view becomes a result, in the place of the former.
+  void showOverView();
+  /// Writes the light field with the depth of all objects in all views.
+  void writeTruth(const QString& path);
+  /// The pose of the current object.
+  void savePose(const QString& path);
+
+ private:
+  /// All objects with mesh and pose. The user is told which are left out.
+  [[nodiscard]] std::vector<PosedMesh> posedMeshes() const;
+
+  Workbench bench_;
+  const CaptureDocuments& documents_;
+  const MeshShelf& shelf_;
+  std::map<std::uint64_t, int> results_;  // by OpenScene::id
+};
 
 /// A mesh that was read, and as the 3D view shows it.
 struct ReadMesh {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/pair_marks.h"
 
-#include "engine/capture/mesh/cluster_vertices.h"
-#include "engine/capture/pose/minimise_reprojection.h"
-#include "widgets/capture/mesh_cloud.h"
+#include "engine/capture/solve_pose.h"
+#include "engine/capture/triangle_mesh.h"
+#include "widgets/cloud/cloud_look.h"
 
 #include <cmath>
 #include <cstddef>

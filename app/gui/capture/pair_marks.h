@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/capture/mesh/triangle_mesh.h"
-#include "engine/capture/pose/solve_pose.h"
-#include "widgets/canvas/canvas_mark.h"
-#include "widgets/capture/capture_panel.h"
+#include "engine/capture/solve_pose.h"
+#include "engine/capture/triangle_mesh.h"
+#include "widgets/canvas/canvas_geometry.h"
 #include "widgets/cloud/cloud_look.h"
+#include "widgets/panels/capture_panel.h"
 
 #include <array>
 #include <functional>

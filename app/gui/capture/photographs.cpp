@@ -2,29 +2,71 @@
 #include "app/gui/capture/photographs.h"
 
 #include "app/gui/capture/capture_documents.h"
-#include "app/gui/capture/capture_files.h"
-#include "app/gui/capture/form_question.h"
-#include "app/gui/frame/dialogs.h"
-#include "app/gui/frame/jobs.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/session/capture/rectify_photographs.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
+#include "app/session/capture_output.h"
 #include "app/session/session.h"
-#include "engine/capture/demo/demo_folder.h"
-#include "engine/capture/pose/pairs_file.h"
+#include "engine/capture/demo_folder.h"
+#include "engine/capture/pose_file.h"
 #include "engine/core/error.h"
-#include "widgets/capture/photograph_steps.h"
-#include "widgets/style/number_text.h"
+#include "engine/core/parameter.h"
+#include "widgets/controls/parameter_form.h"
+#include "widgets/controls/text.h"
+#include "widgets/panels/capture_panel.h"
 
+#include <QDialog>
+#include <QDialogButtonBox>
 #include <QDir>
 #include <QFileInfo>
+#include <QPushButton>
+#include <QString>
+#include <QVBoxLayout>
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <utility>
+#include <vector>
+
+class QWidget;
 
 namespace episcope {
 namespace {
+
+/// Values that are asked for in a dialog that blocks nothing.
+struct FormQuestion {
+  QString name;  ///< Of the dialog, as an object.
+  QString title;
+  QString accept;  ///< Text of the button that goes on.
+  std::vector<ParameterDescription> parameters;
+  ParameterSet values{};  ///< To begin with, in place of defaults.
+};
+
+// `answer` is called with all values if the user goes on.
+void ask_for_values(QWidget* window, const FormQuestion& question,
+                    std::function<void(const ParameterSet&)> answer) {
+  auto* dialog = new QDialog(window);
+  dialog->setObjectName(question.name);
+  dialog->setWindowTitle(question.title);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  auto* form = new ParameterForm(dialog);
+  form->setParameters(question.parameters);
+  form->setValues(question.values);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, dialog);
+  auto* accept = buttons->addButton(question.accept, QDialogButtonBox::AcceptRole);
+  accept->setObjectName(question.name + ".accept");
+  accept->setDefault(true);
+  auto* layout = new QVBoxLayout(dialog);
+  layout->addWidget(form);
+  layout->addWidget(buttons);
+  QObject::connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
+  QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+  QObject::connect(dialog, &QDialog::accepted, window,
+                   [form, answer = std::move(answer)] { answer(form->values()); });
+  dialog->open();
+}
 
 namespace fs = std::filesystem;
 

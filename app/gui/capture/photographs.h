@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/session/scene/gantry_scene.h"
-#include "engine/capture/calibrate/calibrate.h"
-#include "engine/capture/demo/demo_scene.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/gantry_scene.h"
+#include "engine/capture/calibrate.h"
+#include "engine/capture/demo_folder.h"
 
 #include <QObject>
 #include <QString>

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/compare/compare_controller.h"
 
-#include "app/gui/frame/cancels.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/stage/overlay.h"
-#include "app/gui/stage/sample_text.h"
-#include "app/gui/stage/stage.h"
-#include "app/session/run/run_estimator.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
+#include "app/session/picture.h"
+#include "app/session/run_estimator.h"
+#include "engine/core/parallel.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/compare_bar.h"
-#include "widgets/compare/overlay_bar.h"
-#include "widgets/style/number_text.h"
+#include "widgets/controls/picture.h"
+#include "widgets/controls/text.h"
+#include "widgets/panels/compare_bar.h"
+#include "widgets/panels/overlay_bar.h"
+
+#include <QAction>
+#include <QActionGroup>
 
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -23,11 +29,6 @@ using render::Quantity;
 // Estimates have ids from 1.
 constexpr quint64 kViewTile = 0;
 constexpr quint64 kTruthTile = std::numeric_limits<quint64>::max();
-
-bool is_of_a_result(Quantity quantity) {
-  const render::Subject subject = render::info_of(quantity).subject;
-  return subject == render::Subject::Result || subject == render::Subject::Error;
-}
 
 QStringList value_text(const QuantityMap& map, int y, int x) {
   const auto value = map.value_at({y, x});
@@ -41,18 +42,18 @@ CompareController::CompareController(const Workbench& bench, CompareBar* bar)
       bench_(bench),
       session_(bench.session),
       overlay_(bench.overlay),
-      canvas_(bench.stage.canvas()),
-      wall_(bench.stage.wall()),
+      canvas_(bench.viewer_area.canvas()),
+      wall_(bench.viewer_area.wall()),
       bar_(bar),
       tile_job_(this) {
   addCommands();
   connectWall();
   bench.cancels.add(CancelRank::Comparing, [this] { return leave(); });
   connect(&overlay_, &Overlay::drawn, this, &CompareController::showMode);
-  connect(bench.stage.overlayBar(), &OverlayBar::opacityChanged, this,
+  connect(bench.viewer_area.overlayBar(), &OverlayBar::opacityChanged, this,
           &CompareController::showMode);
-  connect(&bench.stage, &Stage::singleViewRequested, this, &CompareController::leave);
-  connect(&bench.stage, &Stage::previewChanged, this, [this](bool is_previewing) {
+  connect(&bench.viewer_area, &ViewerArea::singleViewRequested, this, &CompareController::leave);
+  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, [this](bool is_previewing) {
     is_previewing ? showComparison(CompareMode::Single) : restore();
   });
   connect(canvas_, &ViewCanvas::wipeMoved, this, [this](double position) {
@@ -91,7 +92,7 @@ void CompareController::update(Parts parts) {
   const bool is_other_scene = parts.has(Part::Scene) && session_.scene();
   const bool is_other_mode = parts.has(Part::Display) &&
                              session_.place().comparison.mode != mode_ &&
-                             !bench_.stage.isPreviewing();
+                             !bench_.viewer_area.isPreviewing();
   if (is_other_scene || is_other_mode) {
     restore();
   } else if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Live) &&
@@ -158,7 +159,7 @@ void CompareController::showComparison(CompareMode mode) {
   if (mode != CompareMode::Single && overlay_.quantity() == Quantity::View) {
     overlay_.setQuantity(session_.side_a() ? Quantity::Disparity : Quantity::Truth);
   }
-  bench_.stage.setWallShown(has_wall);
+  bench_.viewer_area.setWallShown(has_wall);
   if (!has_wall) {
     entries_.clear();
     tile_job_.drop();
@@ -199,7 +200,7 @@ TileRequest CompareController::request(const std::optional<MapChoice>& choice) c
   if (!choice) return made;
   made.source = overlay_.sourceOf(*choice);
   made.shading = overlay_.shadingOf(choice->quantity);
-  made.opacity = bench_.stage.overlayBar()->opacity();
+  made.opacity = bench_.viewer_area.overlayBar()->opacity();
   return made;
 }
 
@@ -239,7 +240,7 @@ std::vector<CompareController::Entry> CompareController::everything() const {
   const EstimateEntry* shown = session_.shown();
   const EstimateEntry* compared = session_.compared();
   const Quantity quantity =
-      is_of_a_result(overlay_.quantity()) ? overlay_.quantity() : Quantity::Disparity;
+      is_of_result(overlay_.quantity()) ? overlay_.quantity() : Quantity::Disparity;
   for (const EstimateEntry& entry : session_.estimates()) {
     const bool is_compared = compared && compared->id == entry.id;
     MapChoice choice{quantity, entry.id, 0};
@@ -317,6 +318,143 @@ void CompareController::open(quint64 tile) {
     session_.show_estimate(static_cast<int>(tile));
   }
   setMode(CompareMode::Single);
+}
+
+using render::Quantity;
+using render::QuantityInfo;
+
+void CompareController::addOverlayCommands() {
+  for (const QuantityInfo& info : render::quantities()) {
+    const bool is_of_labels = info.subject == render::Subject::Segmentation;
+    if (is_of_labels || info.quantity == Quantity::Difference) continue;  // elsewhere
+    const Quantity quantity = info.quantity;
+    bench_.commands.add(
+        {.id = "overlay." + (quantity == Quantity::View ? QString("none") : QString(info.id)),
+         .menu = Menu::Compare,
+         .text = quantity_button(quantity),
+         .tip = quantity_tip(quantity),
+         .run = [this, quantity] { overlay_.setQuantity(quantity); },
+         .section = compare_section::kMaps,
+         .bar = info.has_button ? BarSection::Maps : BarSection::None,
+         .enabled = [this, quantity] { return overlay_.isAvailable(quantity); },
+         .checked = [this, quantity] { return overlay_.quantity() == quantity; }});
+  }
+}
+
+void CompareController::addChoiceCommands() {
+  bench_.commands.add({.id = "compare.next_map",
+                       .menu = Menu::Compare,
+                       .text = tr("Next map"),
+                       .tip = tr("Shows the next map over the view"),
+                       .keys = {Qt::Key_M},
+                       .run = [this] { overlay_.selectNextQuantity(); },
+                       .section = compare_section::kChoice});
+  bench_.commands.add(
+      {.id = "compare.flip",
+       .menu = Menu::Compare,
+       .text = tr("Flip to B"),
+       .tip = tr("Shows B, the compared result, while the key is held in the view or a list"),
+       .keys = {Qt::Key_Tab},
+       .run = [this] { overlay_.setFlipped(!overlay_.isFlipped()); },
+       .section = compare_section::kChoice,
+       .scope = KeyScope::Held,
+       .enabled = [this] { return session_.side_a() != nullptr; },
+       .hold =
+           [this](bool is_held) {
+             if (mode_ == CompareMode::Single || !is_held) overlay_.setFlipped(is_held);
+           }});
+  bench_.commands.hearHeldKeys(canvas_);
+}
+
+void CompareController::addPairCommands() {
+  bench_.commands.add(
+      {.id = "compare.difference",
+       .menu = Menu::Compare,
+       .text = tr("Difference A − B"),
+       .tip = tr("Shows A minus B, the result shown minus the one it is compared with"),
+       .icon = "difference",
+       .keys = {Qt::Key_D},
+       .run = [this] { toggleDifference(); },
+       .section = compare_section::kChoice,
+       .bar = BarSection::Compare,
+       .enabled = [this] { return session_.side_b() != nullptr; },
+       .checked = [this] { return overlay_.showsDifference(); }});
+  bench_.commands.add(
+      {.id = "compare.swap",
+       .menu = Menu::Compare,
+       .text = tr("Swap A and B"),
+       .tip = tr("Shows B and compares it with A"),
+       .icon = "swap",
+       .keys = {Qt::Key_QuoteLeft},
+       .run = [this] { session_.show_estimate(session_.compared()->id); },
+       .section = compare_section::kChoice,
+       .enabled = [this] { return !session_.live() && session_.compared() != nullptr; }});
+}
+
+void CompareController::addModeCommands() {
+  struct Row {
+    CompareMode mode;
+    QString id;
+    QString text;
+    QString tip;
+    Qt::Key key;
+    BarSection bar = BarSection::None;
+  };
+  for (const Row& row : std::initializer_list<Row>{
+           {CompareMode::Wipe, "wipe", tr("Wipe"),
+            tr("Shows A to the left and B to the right of a divider that can be dragged"),
+            Qt::Key_W},
+           {CompareMode::Sides, "sides", tr("Side by side"), tr("Shows A beside B"), Qt::Key_H},
+           {CompareMode::Wall, "tiles", tr("Tiles"),
+            tr("Shows the view, the ground truth and every result"), Qt::Key_G,
+            BarSection::Compare}}) {
+    bench_.commands.add({.id = "compare." + row.id,
+                         .menu = Menu::Compare,
+                         .text = row.text,
+                         .tip = row.tip,
+                         .icon = row.id,
+                         .keys = {row.key},
+                         .run = [this, mode = row.mode] { toggleMode(mode); },
+                         .section = compare_section::kModes,
+                         .bar = row.bar,
+                         .enabled = [this, mode = row.mode] { return isAvailable(mode); },
+                         .checked = [this, mode = row.mode] { return mode_ == mode; }});
+  }
+}
+
+void CompareController::addCommands() {
+  addOverlayCommands();
+  addModeCommands();
+  addChoiceCommands();
+  addPairCommands();
+  for (const char* id :
+       {"compare.wipe", "compare.sides", "compare.tiles", "compare.difference", "compare.swap"}) {
+    bar_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
+  }
+  connect(&overlay_, &Overlay::choiceChanged, &bench_.commands, &Commands::refresh);
+}
+
+bool is_same(const TileRequest& a, const TileRequest& b) {
+  return a.light_field == b.light_field && a.view == b.view && a.source == b.source &&
+         render::is_same(a.shading, b.shading) && a.opacity == b.opacity && a.tone == b.tone;
+}
+
+std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requests,
+                                            const Progress& progress) {
+  std::vector<TilePicture> pictures(requests.size());
+  // All tiles are of one scene.
+  const auto tone = requests.empty() ? nullptr : render::table_of(requests.front().tone);
+  parallel_for(static_cast<int>(requests.size()), progress, [&](int i) {
+    const TileRequest& request = requests[static_cast<std::size_t>(i)];
+    TilePicture& picture = pictures[static_cast<std::size_t>(i)];
+    if (request.source) picture.map = make_map(*request.source);
+    RgbaImage drawn = render::shade_view(*request.light_field, request.view, tone.get());
+    if (picture.map) {
+      drawn = blended(drawn, overlay_picture(*picture.map, request.shading), request.opacity);
+    }
+    picture.picture = to_qimage(std::move(drawn)).convertToFormat(QImage::Format_RGB32);
+  });
+  return pictures;
 }
 
 }  // namespace episcope

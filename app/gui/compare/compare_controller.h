@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/gui/compare/tile_pictures.h"
-#include "app/gui/frame/jobs.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/map_choice.h"
 #include "app/session/open_scene.h"
+#include "app/session/picture.h"
 #include "app/session/session.h"
-#include "widgets/style/side.h"
+#include "engine/core/progress.h"
+#include "widgets/controls/theme.h"
 
+#include <QImage>
 #include <QObject>
 
 #include <vector>
@@ -17,6 +20,27 @@ namespace episcope {
 class CompareBar;
 class TileWall;
 class ViewCanvas;
+
+/// A tile to be made: a view, with a map over it if there is one.
+struct TileRequest {
+  LightFieldPtr light_field;
+  ViewIndex view;
+  std::optional<MapSource> source;
+  render::Shading shading;
+  double opacity = 1;  ///< Of the map.
+  render::Tone tone{};
+};
+/// Whether two requests give the same picture.
+[[nodiscard]] bool is_same(const TileRequest& a, const TileRequest& b);
+
+struct TilePicture {
+  QImage picture;      ///< View and map in one, RGB32: quickly drawn.
+  QuantityMapPtr map;  ///< Null without a map.
+};
+
+/// For a worker. Throws Cancelled.
+[[nodiscard]] std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requests,
+                                                          const Progress& progress);
 
 /// Arranges results for comparison: wipe, side by side, or a wall of all.
 class CompareController : public QObject {
@@ -81,3 +105,13 @@ class CompareController : public QObject {
 };
 
 }  // namespace episcope
+
+namespace episcope::compare_section {
+
+// Sections of the menu Compare, in their order.
+inline constexpr int kMaps = 0;
+inline constexpr int kChoice = 1;
+inline constexpr int kRange = 2;
+inline constexpr int kModes = 3;
+
+}  // namespace episcope::compare_section

@@ -2,13 +2,13 @@
 #include "app/gui/compare/error_plot_controller.h"
 
 #include "app/gui/compare/region_controller.h"
-#include "app/gui/frame/frame.h"
-#include "app/gui/frame/panes.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/panes.h"
 #include "app/session/session.h"
-#include "engine/evaluation/metrics/part_score.h"
-#include "widgets/compare/error_plot_panel.h"
-#include "widgets/plot/line_plot.h"
-#include "widgets/style/number_text.h"
+#include "engine/evaluation/resolved_errors.h"
+#include "widgets/controls/line_plot.h"
+#include "widgets/controls/text.h"
+#include "widgets/panels/statistics_panel.h"
 
 #include <QLocale>
 

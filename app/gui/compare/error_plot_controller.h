@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/gui/frame/jobs.h"
-#include "app/session/judge/evaluation_cache.h"
-#include "app/session/parts.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/judge.h"
+#include "app/session/open_scene.h"
 
 #include <QObject>
 #include <QString>
@@ -16,9 +16,9 @@
 namespace episcope {
 
 class ErrorPlotPanel;
+struct EstimateEntry;
 class RegionController;
 class Session;
-struct EstimateEntry;
 
 /// The tab of errors by true disparity, of the shown result and of the one it is compared with, in
 /// the judged part of the view. Computed in the background, and only while the tab is shown.

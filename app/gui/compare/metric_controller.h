@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/gui/frame/jobs.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
-#include "engine/evaluation/metrics/part_score.h"
+#include "engine/evaluation/metrics.h"
+#include "engine/evaluation/resolved_errors.h"
+#include "widgets/panels/metric_table.h"
 
 #include <QObject>
 
@@ -15,9 +17,9 @@
 
 namespace episcope {
 
+struct MetricColumn;
 class MetricTable;
 class RegionController;
-struct MetricColumn;
 
 /// A result with the numbers that are known of it.
 struct Judged {
@@ -63,5 +65,11 @@ class MetricController : public QObject {
   std::vector<Scored> scored_;  // of the present part
   std::set<std::string> told_;
 };
+
+/// Header, tool tip and decimals of a metric, by its key in engine/evaluation.
+[[nodiscard]] MetricColumn metric_column(Protocol protocol, const std::string& key);
+
+/// Position of a metric in tables: the most important first, whatever the protocol.
+[[nodiscard]] int metric_rank(const std::string& key);
 
 }  // namespace episcope

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
+#include "app/gui/shell/workbench.h"
 
+#include <QObject>
 #include <QString>
 
+class QDialog;
+
 namespace episcope {
+
+class MoviePanel;
 
 /// Adds the commands that write pictures of what is shown.
 void add_picture_export(const Workbench& bench);
@@ -15,5 +20,24 @@ void save_picture(const Workbench& bench, const QString& path);
 
 /// Writes the map that is drawn over the view, by itself, as `episcope-cli show` does.
 void save_map_picture(const Workbench& bench, const QString& path);
+
+/// The dialog that writes movies of what is shown: MP4, WebM, GIF.
+class MovieExport : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit MovieExport(const Workbench& bench);
+
+  /// Writes what the dialog says, in the background.
+  void save(const QString& path);
+
+ private:
+  void open();
+  void ask();
+
+  Workbench bench_;
+  QDialog* dialog_;
+  MoviePanel* panel_;
+};
 
 }  // namespace episcope

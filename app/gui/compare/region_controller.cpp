@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/compare/region_controller.h"
 
-#include "app/gui/compare/compare_section.h"
-#include "app/gui/document/document_controller.h"
-#include "app/gui/document/label_choice.h"
-#include "app/gui/frame/cancels.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/dialogs.h"
-#include "app/gui/frame/jobs.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/stage/stage.h"
+#include "app/gui/compare/compare_controller.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
-#include "engine/io/beside/map_file.h"
-#include "widgets/canvas/outline.h"
-#include "widgets/canvas/tools/rectangle_tool.h"
+#include "engine/io/models/sidecar_maps/map_file.h"
+#include "widgets/canvas/canvas_geometry.h"
+#include "widgets/canvas/canvas_tool.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/region_bar.h"
+#include "widgets/panels/compare_bar.h"
 
 #include <QFileInfo>
 #include <QLocale>
@@ -62,7 +60,7 @@ RegionController::RegionController(const Workbench& bench, RegionBar* bar)
     if (now().pixels == JudgedPixels::Label) refresh();
   });
   bench.cancels.add(CancelRank::Stroke, [this] {
-    if (bench_.stage.canvas()->tool() != tool_) return false;
+    if (bench_.viewer_area.canvas()->tool() != tool_) return false;
     endRectangle();
     refresh();
     return true;
@@ -72,7 +70,7 @@ RegionController::RegionController(const Workbench& bench, RegionBar* bar)
 }
 
 RegionController::~RegionController() {
-  if (bench_.stage.canvas()->tool() == tool_) bench_.stage.canvas()->setTool(nullptr);
+  if (bench_.viewer_area.canvas()->tool() == tool_) bench_.viewer_area.canvas()->setTool(nullptr);
 }
 
 void RegionController::addCommands(RegionBar& bar) {
@@ -99,7 +97,7 @@ void RegionController::addCommands(RegionBar& bar) {
 
 void RegionController::connectTool() {
   connect(tool_, &RectangleTool::rectangleDragged, this, [this](const PixelRect& rectangle) {
-    bench_.stage.canvas()->setRegion(edges_of(clipped(rectangle)));
+    bench_.viewer_area.canvas()->setRegion(edges_of(clipped(rectangle)));
   });
   connect(tool_, &RectangleTool::rectangleCancelled, this, &RegionController::showOutline);
   connect(
@@ -130,8 +128,8 @@ PixelRect RegionController::clipped(PixelRect rectangle) const {
 }
 
 void RegionController::beginRectangle() {
-  bench_.stage.requestSingleView();
-  ViewCanvas* canvas = bench_.stage.canvas();
+  bench_.viewer_area.requestSingleView();
+  ViewCanvas* canvas = bench_.viewer_area.canvas();
   if (canvas->tool() != tool_) former_tool_ = canvas->tool();
   canvas->setTool(tool_);
   bench_.messages.hint(rectangle_hint());
@@ -139,7 +137,7 @@ void RegionController::beginRectangle() {
 
 void RegionController::endRectangle() {
   tool_->cancel();  // before it is taken away, which would end the gesture as a release does
-  ViewCanvas* canvas = bench_.stage.canvas();
+  ViewCanvas* canvas = bench_.viewer_area.canvas();
   if (canvas->tool() == tool_) canvas->setTool(former_tool_);
   former_tool_ = nullptr;
   bench_.messages.retract(rectangle_hint());
@@ -315,7 +313,7 @@ void RegionController::refresh() {
 void RegionController::showOutline() {
   const Session& session = bench_.session;
   const bool is_seen = region_ && session.view() == judged_view(*session.scene());
-  bench_.stage.canvas()->setRegion(is_seen ? outline_of(region_->view(), {}) : PixelEdges());
+  bench_.viewer_area.canvas()->setRegion(is_seen ? outline_of(region_->view(), {}) : PixelEdges());
 }
 
 QString RegionController::name() const {

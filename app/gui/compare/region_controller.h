@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/session/judge/judged_part.h"
-#include "app/session/parts.h"
-#include "engine/core/array/image.h"
-#include "engine/core/array/pixel_rect.h"
-#include "widgets/canvas/tools/canvas_tool.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/judge.h"
+#include "app/session/open_scene.h"
+#include "engine/core/image.h"
+#include "engine/core/indices.h"
+#include "widgets/canvas/canvas_tool.h"
 
 #include <QObject>
 #include <QString>

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/compare/statistics_controller.h"
 
-#include "app/gui/compare/compare_section.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/stage/overlay.h"
-#include "app/gui/stage/stage.h"
+#include "app/gui/compare/compare_controller.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
 #include "app/session/session.h"
-#include "engine/evaluation/metrics/error_maps.h"
-#include "engine/evaluation/metrics/region_metrics.h"
+#include "engine/evaluation/metrics.h"
+#include "engine/evaluation/region_metrics.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/color_bar.h"
-#include "widgets/compare/statistics_panel.h"
-#include "widgets/style/quantity_text.h"
+#include "widgets/controls/text.h"
+#include "widgets/panels/color_bar.h"
+#include "widgets/panels/statistics_panel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,11 +53,11 @@ Interval balanced(Interval range) {
 StatisticsController::StatisticsController(const Workbench& bench, StatisticsPanel* panel)
     : QObject(&bench.owner), bench_(bench), overlay_(bench.overlay), panel_(panel), job_(this) {
   addCommands();
-  const Stage& stage = bench.stage;
+  const ViewerArea& viewer_area = bench.viewer_area;
   connect(&overlay_, &Overlay::drawn, this, &StatisticsController::begin);
-  connect(stage.canvas(), &ViewCanvas::transformChanged, this, &StatisticsController::begin);
-  connect(stage.wall(), &TileWall::zoomChanged, this, &StatisticsController::begin);
-  connect(stage.colorBar(), &ColorBar::automaticRangeRequested, this,
+  connect(viewer_area.canvas(), &ViewCanvas::transformChanged, this, &StatisticsController::begin);
+  connect(viewer_area.wall(), &TileWall::zoomChanged, this, &StatisticsController::begin);
+  connect(viewer_area.colorBar(), &ColorBar::automaticRangeRequested, this,
           &StatisticsController::useAutomaticRange);
   connect(panel_, &StatisticsPanel::rangeEdited, &overlay_, [this](Interval range) {
     if (measured_by(choice_.quantity) == choice_.quantity) overlay_.setRange(range);
@@ -89,7 +89,7 @@ void StatisticsController::addCommands() {
                                       .keys = {Qt::Key_R},
                                       .run = [this] { overlay_.setRange(std::nullopt); },
                                       .section = compare_section::kRange});
-  bench_.stage.colorBar()->followTips(automatic, own);
+  bench_.viewer_area.colorBar()->followTips(automatic, own);
 }
 
 void StatisticsController::begin() {
@@ -98,7 +98,7 @@ void StatisticsController::begin() {
     statistics_.reset();
     return;
   }
-  const QRect seen = bench_.stage.pixelsInSight();
+  const QRect seen = bench_.viewer_area.pixelsInSight();
   const PixelRect region{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};
   const bool is_same = map_ == overlay_.map() && region == region_ && statistics_;
   map_ = overlay_.map();

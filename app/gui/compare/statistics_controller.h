@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/gui/frame/jobs.h"
-#include "app/session/picture/map_choice.h"
-#include "app/session/picture/quantity_map.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/map_choice.h"
+#include "app/session/quantity_map.h"
 #include "engine/render/region_statistics.h"
 
 #include <QObject>

@@ -2,31 +2,75 @@
 #include "app/gui/estimate/estimate_controller.h"
 
 #include "app/gui/estimate/live_controller.h"
-#include "app/gui/estimate/measured_range.h"
+#include "app/gui/estimate/method_runs.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/estimate/sweep_controller.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/frame.h"
-#include "app/gui/frame/job_cancel.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/session/run/command_line.h"
-#include "app/session/scene/gantry_scene.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/command_line.h"
+#include "app/session/gantry_scene.h"
+#include "app/session/session.h"
 #include "engine/disparity/registry.h"
-#include "widgets/controls/fitting_splitter.h"
-#include "widgets/estimate/method_panel.h"
-#include "widgets/estimate/result_list.h"
-#include "widgets/style/number_text.h"
+#include "widgets/controls/text.h"
+#include "widgets/controls/tool_button.h"
+#include "widgets/panels/method_panel.h"
+#include "widgets/panels/result_list.h"
 
 #include <QAbstractItemView>
 #include <QClipboard>
+#include <QCoreApplication>
 #include <QGuiApplication>
 #include <QInputDialog>
 
 #include <algorithm>
+#include <cmath>
 
 namespace episcope {
 namespace {
+
+std::vector<BatchDialog::Row> method_rows(const std::string& chosen) {
+  std::vector<BatchDialog::Row> rows;
+  for (const Estimator& each : registered_estimators()) {
+    rows.push_back({QString::fromStdString(each.info.id), QString::fromStdString(each.info.name),
+                    each.info.id == chosen});
+  }
+  return rows;
+}
+
+std::vector<BatchDialog::Row> scene_rows(const Session& session) {
+  std::vector<BatchDialog::Row> rows;
+  for (const OpenScene* each : session.scenes()) {
+    rows.push_back({QString::number(each->id), QString::fromStdString(each->name), true});
+  }
+  return rows;
+}
+
+EstimateRequest default_request(const std::string& method) {
+  return {method, {}, {.views = views_of(find_estimator(method).info.all_views)}};
+}
+
+// Asks for methods and open scenes and runs all of them. `form` holds the parameters of the method
+// that the form shows, which is proposed; the others run with their defaults.
+void ask_for_batch(const Workbench& bench, MethodRuns& runs, const RunRequest& form) {
+  auto* dialog =
+      new BatchDialog(method_rows(form.method), scene_rows(bench.session), &bench.window);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  QObject::connect(dialog, &QDialog::accepted, &runs, [bench, &runs, form, dialog] {
+    for (const QString& method : dialog->methods()) {
+      const std::string id = method.toStdString();
+      const EstimateRequest request = id == form.method ? request_of(form) : default_request(id);
+      for (const QString& scene : dialog->scenes()) {
+        if (const auto* open = bench.session.find_scene(scene.toULongLong())) {
+          runs.run(request, *open);
+        }
+      }
+    }
+  });
+  dialog->open();
+}
 
 constexpr const char* kFirstMethod = "epi_l";
 constexpr int kLeastResults = 150;  // height of a list of five
@@ -270,6 +314,198 @@ void EstimateController::reuse(const EstimateEntry& entry) {
   const Estimate& estimate = *entry.estimate;
   method_->setRequest(
       {estimate.method, estimate.parameters, estimate.field.disparity.grid().count() > 1});
+}
+
+namespace {
+
+// Sections of the menu.
+constexpr int kMethodSection = 0;
+constexpr int kResultSection = 1;
+
+}  // namespace
+
+void EstimateController::addCommands() {
+  const auto has_scene = [this] { return session_.scene() != nullptr; };
+  bench_.commands.add({.id = "estimate.run",
+                       .menu = Menu::Estimate,
+                       .text = tr("Run"),
+                       .tip = tr("Runs the chosen method with the parameters of the form"),
+                       .icon = "run",
+                       .keys = {Qt::Key_F5, tr("Ctrl+Return")},
+                       .run = [this] { run(); },
+                       .section = kMethodSection,
+                       .enabled = has_scene});
+  bench_.commands.add({.id = "estimate.batch",
+                       .menu = Menu::Estimate,
+                       .text = tr("Run on several…"),
+                       .tip = tr("Runs one or several methods on light fields that are open"),
+                       .keys = {tr("Shift+F5")},
+                       .run = [this] { ask_for_batch(bench_, runs_, method_->request()); },
+                       .section = kMethodSection,
+                       .enabled = has_scene});
+  bench_.commands.add({.id = "estimate.sweep",
+                       .menu = Menu::Estimate,
+                       .text = tr("Sweep parameters…"),
+                       .tip = tr("Runs the method with several values of one or two parameters"),
+                       .keys = {tr("Ctrl+Shift+F5")},
+                       .run = [this] { bench_.frame.showTab("sweep"); },
+                       .section = kMethodSection});
+  QAction* cancel = bench_.commands.add({.id = "estimate.cancel",
+                                         .menu = Menu::Estimate,
+                                         .text = tr("Cancel"),
+                                         .tip = tr("Cancels the current gesture, mode or job"),
+                                         .icon = "stop",
+                                         .keys = {Qt::Key_Escape},
+                                         .run = [&cancels = bench_.cancels] { cancels.cancel(); },
+                                         .section = kMethodSection});
+  QAction* copy = bench_.commands.add(
+      {.id = "estimate.copy_command",
+       .menu = Menu::Estimate,
+       .text = tr("Copy as command"),
+       .tip = tr("Copies the command line that runs the method with the parameters of the form"),
+       .icon = "copy",
+       .keys = {tr("Ctrl+Shift+C")},
+       .run = [this] { copyCommand(); },
+       .section = kMethodSection,
+       .enabled = has_scene});
+  method_->followTips(cancel, copy);
+  addResultCommands();
+  addNoteCommand();
+}
+
+void EstimateController::addNoteCommand() {
+  bench_.commands.add({.id = "estimate.note",
+                       .menu = Menu::Estimate,
+                       .text = tr("Note on result…"),
+                       .tip = tr("Writes a note on the shown result, kept with the project"),
+                       .keys = {tr("Ctrl+Alt+N")},
+                       .run = [this] { askForNote(*session_.shown()); },
+                       .section = kResultSection,
+                       .enabled = [this] { return session_.shown() != nullptr; }});
+}
+
+void EstimateController::addResultCommands() {
+  const auto has_result = [this] { return session_.shown() != nullptr; };
+  bench_.commands.add({.id = "estimate.next",
+                       .menu = Menu::Estimate,
+                       .text = tr("Next result"),
+                       .tip = tr("Shows the next result of the list"),
+                       .keys = {tr("Ctrl+PgDown")},
+                       .run = [this] { showNeighbour(1); },
+                       .section = kResultSection,
+                       .enabled = has_result});
+  bench_.commands.add({.id = "estimate.previous",
+                       .menu = Menu::Estimate,
+                       .text = tr("Previous result"),
+                       .tip = tr("Shows the previous result of the list"),
+                       .keys = {tr("Ctrl+PgUp")},
+                       .run = [this] { showNeighbour(-1); },
+                       .section = kResultSection,
+                       .enabled = has_result});
+  bench_.commands.add({.id = "estimate.remove",
+                       .menu = Menu::Estimate,
+                       .text = tr("Remove result"),
+                       .tip = tr("Removes the shown result from the list"),
+                       .icon = "trash",
+                       .keys = {tr("Ctrl+Delete")},
+                       .run = [this] { removeShown(); },
+                       .section = kResultSection,
+                       .enabled = has_result});
+  bench_.commands.add({.id = "estimate.restore",
+                       .menu = Menu::Estimate,
+                       .text = tr("Restore removed result"),
+                       .tip = tr("Brings back the result that was removed last"),
+                       .icon = "undo",
+                       .keys = {tr("Ctrl+Shift+Delete")},
+                       .run = [this] { restoreRemoved(); },
+                       .section = kResultSection,
+                       .enabled = [this] { return canRestore(); }});
+  bench_.commands.add({.id = "file.export",
+                       .menu = Menu::File,
+                       .text = tr("Export result…"),
+                       .tip = tr("Writes the shown result: HDF5, PFM, TIFF or PLY"),
+                       .icon = "export",
+                       .keys = {tr("Ctrl+E")},
+                       .run = [this] { ask_to_export(bench_, *session_.shown()); },
+                       .section = section::kExport,
+                       .bar = BarSection::Files,
+                       .enabled = has_result});
+  bench_.commands.add({.id = "file.export_submission",
+                       .menu = Menu::File,
+                       .text = tr("Export for submission…"),
+                       .tip = tr("Adds the shown result to a submission to the 2016 benchmark"),
+                       .icon = "export",
+                       .run = [this] { ask_to_submit(bench_, *session_.shown()); },
+                       .section = section::kExport,
+                       .enabled = has_result});
+}
+
+namespace {
+
+constexpr const char* kRange = "range";  // in the schema of every method
+constexpr double kLeastLength_px = 0.5;
+constexpr double kSteps = 100;       // per px
+constexpr int kMeasuredSection = 2;  // of the menu Estimate
+
+struct MeasuredRangeText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::MeasuredRange)
+};
+
+void take(const Workbench& bench, MethodPanel* panel, RangeEnd end) {
+  const EpiMeasurement* measured = current_of(bench.session.place().measured);
+  RunRequest request = panel->request();
+  const auto found = std::ranges::find(request.values, kRange, &ParameterSet::value_type::first);
+  if (!measured || found == request.values.end()) return;
+  const auto& chosen = std::get<IntervalOrAuto>(found->second);
+  const Interval range =
+      with_end(chosen ? *chosen : bench.session.known_range(), end, measured->disparity_px);
+  found->second = IntervalOrAuto(range);
+  panel->setRequest(request);
+  bench.messages.hint(MeasuredRangeText::tr("Disparity range of the next run: %1 … %2 px")
+                          .arg(number_text(range.min, 2), number_text(range.max, 2)));
+}
+
+}  // namespace
+
+Interval with_end(Interval range, RangeEnd end, double disparity_px) {
+  if (range.length() <= 0) range = {disparity_px, disparity_px};
+  if (end == RangeEnd::Lower) {
+    range.min = std::floor(disparity_px * kSteps) / kSteps;
+    if (range.max <= range.min) range.max = range.min + kLeastLength_px;
+  } else {
+    range.max = std::ceil(disparity_px * kSteps) / kSteps;
+    if (range.min >= range.max) range.min = range.max - kLeastLength_px;
+  }
+  return range;
+}
+
+void add_measured_range(const Workbench& bench, MethodPanel* panel) {
+  struct Row {
+    const char* id;
+    QString text;
+    QString tip;
+    RangeEnd end;
+  };
+  for (const Row& row : std::initializer_list<Row>{
+           {"estimate.range_from", MeasuredRangeText::tr("Range begins at the chosen measurement"),
+            MeasuredRangeText::tr(
+                "Makes the chosen measured line the lower end of the disparity range of the "
+                "method"),
+            RangeEnd::Lower},
+           {"estimate.range_to", MeasuredRangeText::tr("Range ends at the chosen measurement"),
+            MeasuredRangeText::tr(
+                "Makes the chosen measured line the upper end of the disparity range of the "
+                "method"),
+            RangeEnd::Upper}}) {
+    bench.commands.add(
+        {.id = row.id,
+         .menu = Menu::Estimate,
+         .text = row.text,
+         .tip = row.tip,
+         .run = [bench, panel, end = row.end] { take(bench, panel, end); },
+         .section = kMeasuredSection,
+         .enabled = [bench] { return current_of(bench.session.place().measured) != nullptr; }});
+  }
 }
 
 }  // namespace episcope

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
 #include "app/gui/estimate/method_runs.h"
-#include "app/session/parts.h"
-#include "app/session/run/run_estimator.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/open_scene.h"
+#include "app/session/run_estimator.h"
 #include "app/session/session.h"
+#include "engine/core/parameter.h"
 
 #include <QObject>
 
@@ -66,5 +67,13 @@ class EstimateController : public QObject {
   MethodRuns runs_;
   std::vector<Removed> removed_;  // the latest last
 };
+
+/// `range` with one end moved to a disparity. The other end stays; where it is not known or would
+/// not lie beyond, it is 0.5 px away. Rounded to 0.01 px, so that what is measured stays inside.
+enum class RangeEnd { Lower, Upper };
+[[nodiscard]] Interval with_end(Interval range, RangeEnd end, double disparity_px);
+
+/// Commands that make the chosen measurement an end of the range in the form of a method.
+void add_measured_range(const Workbench& bench, MethodPanel* panel);
 
 }  // namespace episcope

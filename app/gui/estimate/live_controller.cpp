@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/live_controller.h"
 
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/queued_post.h"
-#include "app/gui/stage/overlay.h"
-#include "app/gui/stage/stage.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
 #include "engine/disparity/registry.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/estimate/method_panel.h"
-#include "widgets/style/number_text.h"
+#include "widgets/controls/text.h"
+#include "widgets/panels/method_panel.h"
 
 #include <QAction>
 
@@ -21,18 +21,12 @@ namespace episcope {
 namespace {
 
 using render::Quantity;
-using render::Subject;
 
 constexpr int kRunSection = 0;  // of the menu Estimate
 
 QString time_text(double seconds) {
   return seconds < 1 ? LiveController::tr("%1 ms").arg(std::lround(1000 * seconds))
                      : LiveController::tr("%1 s").arg(number_text(seconds, 1));
-}
-
-bool is_of_a_result(Quantity quantity) {
-  const Subject subject = render::info_of(quantity).subject;
-  return subject == Subject::Result || subject == Subject::Error;
 }
 
 }  // namespace
@@ -45,9 +39,9 @@ LiveController::LiveController(const Workbench& bench, MethodPanel& method)
   addCommand();
   connect(&method_, &MethodPanel::liveToggled, this, &LiveController::setOn);
   connect(&method_, &MethodPanel::requestChanged, this, &LiveController::follow);
-  connect(bench.stage.canvas(), &ViewCanvas::transformChanged, this, &LiveController::follow);
-  connect(bench.stage.wall(), &TileWall::zoomChanged, this, &LiveController::follow);
-  connect(&bench.stage, &Stage::previewChanged, this, &LiveController::follow);
+  connect(bench.viewer_area.canvas(), &ViewCanvas::transformChanged, this, &LiveController::follow);
+  connect(bench.viewer_area.wall(), &TileWall::zoomChanged, this, &LiveController::follow);
+  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, &LiveController::follow);
   bench.session.on_changed([this](Parts parts) { update(parts); });
 }
 
@@ -94,8 +88,8 @@ void LiveController::update(Parts parts) {
 std::optional<LiveRequest> LiveController::request() const {
   const RunRequest form = method_.request();
   const Session& session = bench_.session;
-  if (!session.scene() || form.method.empty() || bench_.stage.isPreviewing()) return {};
-  const QRect seen = bench_.stage.pixelsInSight();
+  if (!session.scene() || form.method.empty() || bench_.viewer_area.isPreviewing()) return {};
+  const QRect seen = bench_.viewer_area.pixelsInSight();
   const PixelRect in_sight{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};
   const LightFieldPtr light_field = session.light_field();
   const PixelRect all{0, 0, light_field->height(), light_field->width()};
@@ -128,7 +122,7 @@ void LiveController::show() {
 }
 
 void LiveController::bringUp() {
-  if (std::exchange(is_up_, true) || is_of_a_result(bench_.overlay.quantity())) return;
+  if (std::exchange(is_up_, true) || is_of_result(bench_.overlay.quantity())) return;
   if (!before_) before_ = bench_.overlay.quantity();
   bench_.overlay.setQuantity(Quantity::Disparity);
 }
@@ -147,7 +141,7 @@ void LiveController::showStatus() {
 
 QString LiveController::status() const {
   if (!bench_.session.scene()) return tr("Live");
-  if (estimator_.stage() == LiveStage::Failed) {
+  if (estimator_.viewer_area() == LiveStage::Failed) {
     return tr("Live: %1").arg(with_minus(QString::fromStdString(estimator_.sentence())));
   }
   const auto coarse = estimator_.coarse_seconds();

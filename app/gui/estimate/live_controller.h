@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/session/live/live_estimator.h"
-#include "app/session/parts.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/live_estimator.h"
+#include "app/session/open_scene.h"
 #include "engine/render/quantity.h"
 
 #include <QObject>

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/method_runs.h"
 
-#include "app/gui/estimate/scene_source.h"
-#include "app/gui/frame/job_title.h"
-#include "app/gui/frame/jobs.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/opening/scene_opener.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
+#include "app/session/load_scene.h"
 #include "app/session/session.h"
-#include "engine/disparity/common/disparity_range.h"
+#include "engine/disparity/disparity_range.h"
 #include "engine/disparity/registry.h"
-#include "widgets/estimate/method_panel.h"
-#include "widgets/style/number_text.h"
+#include "widgets/controls/text.h"
+#include "widgets/panels/method_panel.h"
 
 #include <algorithm>
 #include <utility>
@@ -87,6 +86,18 @@ void MethodRuns::cancelClosed() {
   for (const auto& [job, scene] : runs_) {
     if (!bench_.session.find_scene(scene)) bench_.jobs.cancel(job);
   }
+}
+
+SceneSource scene_source(const OpenScene& scene, const std::filesystem::path& cache,
+                         bool needs_truth) {
+  if (scene.scene) return [loaded = scene.scene](const Progress&) { return loaded; };
+  LoadOptions options;
+  options.open = io::open_schema().parse(scene.reading);
+  options.cache_folder = cache;
+  options.needs_truth = needs_truth;
+  return [input = scene.input, options](const Progress& progress) {
+    return std::make_shared<const Scene>(load_scene(input, options, progress));
+  };
 }
 
 }  // namespace episcope

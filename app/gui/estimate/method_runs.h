@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
+#include "app/gui/shell/workbench.h"
 #include "app/session/open_scene.h"
-#include "app/session/run/run_estimator.h"
+#include "app/session/run_estimator.h"
+#include "engine/core/progress.h"
 
 #include <QObject>
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace episcope {
@@ -44,5 +48,13 @@ class MethodRuns : public QObject {
   Workbench bench_;
   std::map<quint64, std::uint64_t> runs_;  // jobs and the scenes they run on
 };
+
+/// Gives a worker an open scene: what is in memory, else it is read. Throws what `load_scene`
+/// throws.
+using SceneSource = std::function<std::shared_ptr<const Scene>(const Progress&)>;
+
+/// `cache` keeps built-in scenes. Without `needs_truth`, what is read may lack its ground truth.
+[[nodiscard]] SceneSource scene_source(const OpenScene& scene, const std::filesystem::path& cache,
+                                       bool needs_truth);
 
 }  // namespace episcope

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/result_export.h"
 
-#include "app/gui/frame/changed_file.h"
-#include "app/gui/frame/dialogs.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/opening/result_opener.h"
-#include "app/session/save/save_result.h"
+#include "app/gui/scene/scene_switcher.h"
+#include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/frame.h"
+#include "app/session/result_files.h"
 #include "app/session/session.h"
-#include "engine/io/maps/submission_folder.h"
+#include "engine/io/models/external_result.h"
 
 #include <QCoreApplication>
 
@@ -18,7 +17,7 @@
 namespace episcope {
 namespace {
 
-struct Text {
+struct ResultExportText {
   Q_DECLARE_TR_FUNCTIONS(episcope::ResultExport)
 };
 
@@ -36,8 +35,9 @@ Write writer_of(const Workbench& bench, const EstimateEntry& entry,
   }
   const ViewIndex view = bench.session.view();
   if (!result->contains(view)) {
-    bench.messages.hint(Text::tr("%1 has no map of this view: go to the centre view (Home) first.")
-                            .arg(QString::fromStdString(entry.name)));
+    bench.messages.hint(
+        ResultExportText::tr("%1 has no map of this view: go to the centre view (Home) first.")
+            .arg(QString::fromStdString(entry.name)));
     return nullptr;
   }
   return [file, result, view, light_field = bench.session.light_field(),
@@ -71,9 +71,10 @@ void ask_to_export(const Workbench& bench, const EstimateEntry& entry) {
   ask_where_to_save(
       &bench.window,
       {.name = "export_result",
-       .title = Text::tr("Export %1").arg(QString::fromStdString(entry.name)),
-       .filter = Text::tr("Result, all views (*.h5);;Map of this view (*.pfm);;Map of this view "
-                          "(*.tiff);;Point cloud of this view (*.ply)"),
+       .title = ResultExportText::tr("Export %1").arg(QString::fromStdString(entry.name)),
+       .filter = ResultExportText::tr(
+           "Result, all views (*.h5);;Map of this view (*.pfm);;Map of this view "
+           "(*.tiff);;Point cloud of this view (*.ply)"),
        .proposal = QString::fromStdString(scene + "_" + entry.estimate->method + ".h5")},
       [bench, id = entry.id](const QString& path) {
         if (const auto* found = bench.session.find_estimate(id)) export_result(bench, *found, path);
@@ -100,7 +101,8 @@ void export_result(const Workbench& bench, const EstimateEntry& entry, const QSt
       .of_reloading = {}};
   if (is_result(path)) {
     answers.reload = [bench, path] { bench.results.open(path); };
-    answers.of_reloading = Text::tr("Reloading adds what is in the file to the list of results.");
+    answers.of_reloading =
+        ResultExportText::tr("Reloading adds what is in the file to the list of results.");
   }
   ask_about_changed_file(&bench.window, path, answers);
 }
@@ -108,7 +110,7 @@ void export_result(const Workbench& bench, const EstimateEntry& entry, const QSt
 void ask_to_submit(const Workbench& bench, const EstimateEntry& entry) {
   ask_for_folder(&bench.window,
                  {.name = "export_submission",
-                  .title = Text::tr("Folder of the submission that %1 goes into")
+                  .title = ResultExportText::tr("Folder of the submission that %1 goes into")
                                .arg(QString::fromStdString(entry.name))},
                  [bench, id = entry.id](const QString& path) {
                    if (const auto* found = bench.session.find_estimate(id)) {
@@ -121,8 +123,9 @@ void submit_result(const Workbench& bench, const EstimateEntry& entry, const QSt
   const LightFieldPtr light_field = bench.session.light_field();
   const ViewIndex center = light_field->center();
   if (!entry.estimate->contains(center)) {
-    bench.messages.hint(Text::tr("%1 has no map of the centre view, which is submitted.")
-                            .arg(QString::fromStdString(entry.name)));
+    bench.messages.hint(
+        ResultExportText::tr("%1 has no map of the centre view, which is submitted.")
+            .arg(QString::fromStdString(entry.name)));
     return;
   }
   const std::string scene = light_field->info().name;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/sweep_runs.h"
 
-#include "app/gui/estimate/scene_source.h"
-#include "app/gui/frame/job_title.h"
-#include "app/gui/frame/jobs.h"
-#include "app/gui/frame/queued_post.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/gui/opening/scene_switcher.h"
+#include "app/gui/estimate/method_runs.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/scene/scene_switcher.h"
+#include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/bench/workbench.h"
-#include "app/session/sweep/sweep.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/sweep.h"
 
 #include <QObject>
 

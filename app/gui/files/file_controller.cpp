@@ -1,27 +1,157 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/files/file_controller.h"
 
-#include "app/gui/files/builtin_dialog.h"
-#include "app/gui/files/recent_inputs.h"
-#include "app/gui/files/save_forms.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/dialogs.h"
-#include "app/gui/frame/messages.h"
-#include "app/gui/opening/result_opener.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/gui/stage/stage.h"
+#include "annotation/exchange.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/scene/scene_switcher.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
+#include "app/session/load_scene.h"
 #include "app/session/session.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/parameter_form.h"
+#include "widgets/controls/text.h"
+#include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QAction>
+#include <QCoreApplication>
+#include <QDialog>
+#include <QDialogButtonBox>
 #include <QDropEvent>
+#include <QFileInfo>
+#include <QLabel>
+#include <QListWidget>
 #include <QMenu>
 #include <QMimeData>
+#include <QPushButton>
+#include <QSettings>
 #include <QUrl>
+#include <QVBoxLayout>
 
 #include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+class QLabel;
+class QListWidget;
 
 namespace episcope {
+namespace {
+
+/// Lists the built-in scenes; of the random one, asks for seed and kind. Double click or Return
+/// opens one.
+class BuiltinDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  explicit BuiltinDialog(QWidget* parent);
+
+  /// What a command line opens: "demo:random?seed=7&kind=thin".
+  [[nodiscard]] QString input() const;
+
+ private:
+  void listScenes();
+  void showChosen();
+  [[nodiscard]] QString scene() const;
+
+  QListWidget* scenes_;
+  ParameterForm* form_;
+  QLabel* written_;
+};
+
+constexpr int kBuiltinWidth = 620;
+constexpr double kLargestSeed = 999;
+
+std::vector<ParameterDescription> random_parameters() {
+  const scenes::RenderOptions defaults;
+  ParameterDescription seed{
+      .key = "seed",
+      .label = QT_TRANSLATE_NOOP("episcope::Schema", "Seed"),
+      .help = QT_TRANSLATE_NOOP("episcope::Schema", "Each number is another scene"),
+      .unit = "",
+      .default_value = static_cast<int>(defaults.seed),
+      .min = 0,
+      .max = kLargestSeed,
+  };
+  ParameterDescription kind{
+      .key = "kind",
+      .label = QT_TRANSLATE_NOOP("episcope::Schema", "Kind"),
+      .help = QT_TRANSLATE_NOOP("episcope::Schema", "What the scene is made of; any is a mixture"),
+      .unit = "",
+      .default_value = scenes::random_kind_name(defaults.kind),
+      .choices = scenes::random_kind_names(),
+  };
+  return {std::move(seed), std::move(kind)};
+}
+
+BuiltinDialog::BuiltinDialog(QWidget* parent)
+    : QDialog(parent),
+      scenes_(new QListWidget(this)),
+      form_(new ParameterForm(this)),
+      written_(new QLabel(this)) {
+  setObjectName("builtin");
+  setWindowTitle(tr("Built-in scenes"));
+  scenes_->setObjectName("builtin.scenes");
+  scenes_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::Column, scenes_));
+  listScenes();
+  form_->setParameters(random_parameters());
+  written_->setObjectName("builtin.written");
+  written_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  written_->setPalette(theme::text_palette(theme::muted_text(palette())));
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+  auto* open = buttons->addButton(tr("Open"), QDialogButtonBox::AcceptRole);
+  open->setObjectName("builtin.open");
+  open->setDefault(true);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(scenes_, 1);
+  layout->addWidget(form_);
+  layout->addWidget(written_);
+  layout->addWidget(buttons);
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(scenes_, &QListWidget::itemDoubleClicked, this, &QDialog::accept);
+  connect(scenes_, &QListWidget::currentItemChanged, this, &BuiltinDialog::showChosen);
+  connect(form_, &ParameterForm::valuesChanged, this, &BuiltinDialog::showChosen);
+  scenes_->setCurrentRow(0);
+  resize(kBuiltinWidth, sizeHint().height());
+}
+
+void BuiltinDialog::listScenes() {
+  for (const scenes::BuiltinSceneInfo& info : builtin_inputs()) {
+    auto* item = new QListWidgetItem(QString::fromStdString(info.id), scenes_);
+    item->setData(AsideDelegate::kAsideRole, schema_text(info.summary));
+    item->setToolTip(schema_text(info.summary));
+  }
+}
+
+void BuiltinDialog::showChosen() {
+  form_->setEnabled(scene() == scenes::kRandomScene);
+  written_->setText(tr("On a command line: %1").arg(input()));
+}
+
+QString BuiltinDialog::scene() const {
+  const QListWidgetItem* item = scenes_->currentItem();
+  return item ? item->text() : QString();
+}
+
+QString BuiltinDialog::input() const {
+  const QString id = scene();
+  if (id != scenes::kRandomScene) return "demo:" + id;
+  scenes::RenderOptions options;
+  const ParameterSet values = form_->values();
+  options.seed = static_cast<unsigned>(std::get<int>(values.at(0).second));
+  options.kind = scenes::random_kind_of(std::get<std::string>(values.at(1).second)).value();
+  return "demo:" + QString::fromStdString(scenes::builtin_text(id.toStdString(), options));
+}
+
+}  // namespace
 
 FileController::FileController(const Workbench& bench)
     : QObject(&bench.owner), bench_(bench), recent_menu_(new QMenu(&bench.window)) {
@@ -215,7 +345,7 @@ void FileController::fillRecentMenu() {
 
 void FileController::showInvitation() {
   const QString key = bench_.commands.keyText("file.open");
-  bench_.stage.canvas()->setEmptyHint(
+  bench_.viewer_area.canvas()->setEmptyHint(
       !bench_.session.scenes().empty() ? tr("Choose one in the list at the upper left.")
       : key.isEmpty()
           ? tr("Open a light field, or drop a file or a folder here.")
@@ -239,6 +369,131 @@ bool FileController::eventFilter(QObject* watched, QEvent* event) {
   return true;
 }
 
+namespace {
+
+constexpr const char* kKey = "recent";
+constexpr int kMostRecent = 10;
+
+}  // namespace
+
+QStringList recent_inputs() {
+  return QSettings().value(kKey).toStringList();
+}
+
+void remember_recent(const QString& input) {
+  QStringList recent = recent_inputs();
+  recent.removeAll(input);
+  recent.prepend(input);
+  QSettings().setValue(kKey, recent.mid(0, kMostRecent));
+}
+
+void forget_recent() {
+  QSettings().remove(kKey);
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SaveFormsText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::SaveForms)
+};
+
+/// What a user calls a form; its name in the engine if it has no other.
+QString title_of(const io::Writer& writer) {
+  const std::pair<const char*, QString> titles[] = {
+      {"archive", SaveFormsText::tr("Archive file (HDF5)")},
+      {"benchmark", SaveFormsText::tr("Folder of the 2016 benchmark")},
+      {"grid", SaveFormsText::tr("Folder of images")},
+      {"npy", SaveFormsText::tr("NumPy array")},
+      {"npz", SaveFormsText::tr("NumPy arrays with truth and labels")},
+      {"mat", SaveFormsText::tr("MATLAB file of the Light Field Toolbox")},
+      {"eslf", SaveFormsText::tr("Picture of lenslets (ESLF)")}};
+  for (const auto& [id, title] : titles) {
+    if (writer.id == std::string_view(id)) return title;
+  }
+  return QString::fromUtf8(writer.name);
+}
+
+/// Whether a file is the light field that is open, or lies in its folder already.
+bool is_open_light_field(const fs::path& path, const fs::path& input) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return false;
+  return fs::equivalent(path, input, ignored) ||
+         (fs::is_directory(input, ignored) && fs::equivalent(path.parent_path(), input, ignored));
+}
+
+/// The scene with what is painted now in place of what was read.
+Scene scene_to_save(const Workbench& bench) {
+  Scene scene = *bench.session.scene();
+  if (bench.document.document() == nullptr) return scene;
+  bench.document.endStroke();
+  scene.scribbles = scribbles_of(*bench.document.document());
+  return scene;
+}
+
+QString joined_sentences(const QString& first, const std::vector<std::string>& others) {
+  QString text = first;
+  for (const std::string& sentence : others) text += ' ' + QString::fromStdString(sentence);
+  return text;
+}
+
+}  // namespace
+
+QMenu* make_save_menu(const Workbench& bench) {
+  auto* menu = new QMenu(&bench.window);
+  for (const io::Writer& writer : io::writers()) {
+    QAction* action = menu->addAction(SaveFormsText::tr("%1…").arg(title_of(writer)), &bench.owner,
+                                      [bench, &writer] { ask_to_save_light_field(bench, writer); });
+    action->setObjectName(QString("file.save_as.%1").arg(writer.id));
+  }
+  return menu;
+}
+
+void ask_to_save_light_field(const Workbench& bench, const io::Writer& writer) {
+  const LightFieldPtr light_field = bench.session.light_field();
+  if (!light_field) return;
+  const QString name = QString::fromStdString(light_field->info().name);
+  const QString suffix = writer.writes_folder() ? QString() : QString(writer.suffixes.front());
+  ask_where_to_save(
+      &bench.window,
+      {.name = "save_light_field",
+       .title = SaveFormsText::tr("Save %1: %2").arg(name, title_of(writer)),
+       .filter = writer.writes_folder() ? SaveFormsText::tr("New folders (*)")
+                                        : QString("%1 (*%2)").arg(title_of(writer), suffix),
+       .proposal = name + '_' + writer.id + suffix},
+      [bench, &writer](const QString& path) { save_light_field(bench, writer, path); });
+}
+
+void save_light_field(const Workbench& bench, const io::Writer& writer, const QString& path) {
+  if (!bench.session.scene()) return;
+  const fs::path file = path.toStdString();
+  if (!writer.writes_folder() && !writer.has_suffix_of(file)) {
+    bench.messages.warn(SaveFormsText::tr("%1 was not written: its name must end in %2.")
+                            .arg(QFileInfo(path).fileName(), writer.suffixes.front()));
+    return;
+  }
+  if (is_open_light_field(file, bench.session.input())) {
+    bench.messages.warn(
+        SaveFormsText::tr("%1 was not written: it belongs to the light field that is open; "
+                          "choose another name.")
+            .arg(QFileInfo(path).fileName()));
+    return;
+  }
+  auto scene = std::make_shared<const Scene>(scene_to_save(bench));
+  bench.jobs.start<std::vector<std::string>>(
+      Lane::Export, SaveFormsText::tr("Writing %1").arg(QFileInfo(path).fileName()),
+      [scene, file, &writer](const Progress& progress) {
+        writer.write(file, *scene, progress);
+        return io::left_out(writer, *scene);
+      },
+      [&messages = bench.messages, path](const std::vector<std::string>& losses) {
+        if (losses.empty()) return messages.written(path);
+        messages.hint(joined_sentences(SaveFormsText::tr("Written: %1.").arg(path), losses));
+      });
+}
+
 }  // namespace episcope
 
+#include "file_controller.moc"
 #include "moc_file_controller.cpp"

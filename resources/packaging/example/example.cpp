@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Opens a light field, runs a method, writes the disparity: example lf.h5 out.h5
 #include "engine/disparity/registry.h"
-#include "engine/io/maps/result_file.h"
-#include "engine/io/open/open.h"
+#include "engine/io/models/result_file.h"
+#include "engine/io/open.h"
 
 int main(int argc, char** argv) {
   using namespace episcope;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/document/exchange.h"
-#include "annotation/paint/stroke.h"
+#include "annotation/brush.h"
+#include "annotation/exchange.h"
 #include "engine/core/error.h"
 #include "tests/annotation/random_edits.h"
 #include "tests/test_main.h"

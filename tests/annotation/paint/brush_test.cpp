@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/paint/brush.h"
-#include "engine/core/array/image.h"
+#include "annotation/brush.h"
 #include "engine/core/error.h"
+#include "engine/core/image.h"
 #include "tests/annotation/drawn_region.h"
 #include "tests/test_main.h"
 

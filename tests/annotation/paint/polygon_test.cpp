@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/paint/polygon.h"
+#include "annotation/brush.h"
 
 #include "engine/core/error.h"
 #include "tests/annotation/drawn_region.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/paint/propagate.h"
+#include "annotation/propagate.h"
 #include "engine/core/error.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"

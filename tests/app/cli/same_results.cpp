@@ -2,7 +2,7 @@
 // same_results A.h5 B.h5 ROWS COLUMNS: ends with 0 if two result files of a light field of so many
 // views hold the same maps, bit by bit, and say the same of where they come from, but for the
 // seconds; else with 1 and what differs.
-#include "engine/io/maps/result_file.h"
+#include "engine/io/models/result_file.h"
 
 #include <cstdlib>
 #include <cstring>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // write_map MAP.pfm OUT.h5 VIEWS DATASET…: an HDF5 file as other programs write them, with the map
 // in each dataset named: [y][x] if VIEWS is 0, else [v][u][y][x] with VIEWS × VIEWS equal maps.
-#include "engine/io/durable/atomic_file.h"
-#include "engine/io/hdf5/hdf5_file.h"
-#include "engine/io/maps/pfm.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/pfm.h"
 
 #include <cstdlib>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/document/document_controller.h"
-#include "app/gui/segment/segment_controller.h"
+#include "app/gui/annotate/segment_controller.h"
+#include "app/gui/scene/document_controller.h"
 #include "tests/app/gui/window_fixture.h"
 
 #include <QColor>

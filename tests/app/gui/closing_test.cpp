@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The window may be closed at any moment; whatever runs ends with it.
 #include "app/gui/compare/compare_controller.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/jobs.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
@@ -64,7 +64,8 @@ void ClosingTest::whileTheNextSceneLoads() {
   f->window.bench().opener.open(f->writeScene("slant", mediumOptions()));
 
   // The preview of the next scene over the former one.
-  QTRY_VERIFY_WITH_TIMEOUT(f->window.bench().stage.canvas()->picture().width() == 256, kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f->window.bench().viewer_area.canvas()->picture().width() == 256,
+                           kPatience);
   f.reset();
   QCoreApplication::processEvents(QEventLoop::AllEvents);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/frame/jobs.h"
+#include "app/gui/shell/jobs.h"
 
 #include <future>
 #include <memory>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/main_window.h"
 
-#include "app/gui/frame/job_cancel.h"
+#include "app/gui/shell/jobs.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/annotate/segment_panel.h"
-#include "widgets/browse/info_panel.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/overlay_bar.h"
 #include "widgets/controls/job_panel.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/info_panel.h"
+#include "widgets/panels/overlay_bar.h"
+#include "widgets/panels/segment_panel.h"
 
 #include <QAction>
 #include <QScrollArea>
@@ -60,7 +60,7 @@ class MainWindowTest : public QObject {
 void MainWindowTest::emptyWindow_saysWhatToDo() {
   WindowFixture f;
 
-  QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Empty);
+  QCOMPARE(f.window.bench().viewer_area.canvas()->state(), ViewCanvas::State::Empty);
   QVERIFY(!f.window.bench().commands.find("estimate.run")->isEnabled());
   QVERIFY(!f.window.bench().commands.find("overlay.error")->isEnabled());
   QVERIFY(f.window.findChild<SegmentPanel*>()->state().isEmpty());  // nothing to segment
@@ -80,7 +80,7 @@ void MainWindowTest::formOfTheFirstMethod_isSeenWhole() {
 void MainWindowTest::escape_cancelsTheRun() {
   WindowFixture f;
   f.openSmall();
-  auto* canvas = f.window.bench().stage.canvas();
+  auto* canvas = f.window.bench().viewer_area.canvas();
   canvas->setFocus();
   f.window.activateWindow();
   begin_run_that_waits(f);
@@ -126,11 +126,11 @@ void MainWindowTest::largerWindow_givesItsRoomToTheView() {
   f.openSmall();
   const int side = f.window.findChild<InfoPanel*>()->width();
   const int tabs = f.window.findChild<QTabWidget*>()->width();
-  const int view = f.window.bench().stage.canvas()->width();
+  const int view = f.window.bench().viewer_area.canvas()->width();
 
   f.window.resize(2560, 1440);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().stage.canvas()->width() > view + 1000, kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().viewer_area.canvas()->width() > view + 1000, kPatience);
   QCOMPARE(f.window.findChild<InfoPanel*>()->width(), side);
   QCOMPARE(f.window.findChild<QTabWidget*>()->width(), tabs);
 }
@@ -138,7 +138,7 @@ void MainWindowTest::largerWindow_givesItsRoomToTheView() {
 void MainWindowTest::smallWindow_showsEveryButton() {
   WindowFixture f;
   f.openSmall();
-  f.window.bench().stage.overlayBar()->setFocusRange({-30, 30});  // wide numbers
+  f.window.bench().viewer_area.overlayBar()->setFocusRange({-30, 30});  // wide numbers
   for (int job = 0; job < 10; ++job) f.window.findChild<JobPanel*>()->addJob(100 + job, "EPI_L");
   f.window.resize(1280, 800);
   QCoreApplication::processEvents();

@@ -2,16 +2,16 @@
 // The way of a user, by mouse and keys: opens a light field, adds labels, paints, undoes across
 // views, carries to all views, segments, saves, and finds the same in another window.
 #include "app/gui/annotate/scribble_controller.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/jobs.h"
-#include "app/gui/segment/segment_controller.h"
-#include "app/gui/stage/overlay.h"
-#include "engine/evaluation/metrics/label_accuracy.h"
+#include "app/gui/annotate/segment_controller.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/jobs.h"
+#include "engine/evaluation/label_quality.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/annotate/label_palette.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/label_palette.h"
 
 #include <QAction>
 #include <QApplication>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/app/gui/window_fixture.h"
 
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/jobs.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/gui/project/autosave.h"
-#include "app/gui/segment/segment_controller.h"
-#include "engine/io/archive/write_scene.h"
+#include "app/gui/annotate/segment_controller.h"
+#include "app/gui/files/autosave.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/jobs.h"
+#include "engine/io/formats/write_scene.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QAbstractButton>
@@ -65,7 +65,7 @@ void WindowFixture::openScene(const std::string& id, const scenes::RenderOptions
 
 void WindowFixture::openSmall(const std::string& id) {
   openScene(id, smallOptions());
-  QTRY_COMPARE_WITH_TIMEOUT(window.bench().stage.canvas()->picture().size(), QSize(96, 96),
+  QTRY_COMPARE_WITH_TIMEOUT(window.bench().viewer_area.canvas()->picture().size(), QSize(96, 96),
                             kPatience);
 }
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/document/document_controller.h"
-#include "app/gui/document/label_choice.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/frame.h"
-#include "app/gui/frame/jobs.h"
 #include "app/gui/main_window.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/gui/stage/overlay.h"
-#include "app/gui/stage/stage.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
 #include "engine/scenes/builtin.h"
 #include "tests/patience.h"
@@ -51,7 +50,7 @@ class WindowFixture {
   /// Whether the view has its final labels, and nothing is on its way that would give others.
   [[nodiscard]] bool isSegmented();
 
-  [[nodiscard]] ViewCanvas* canvas() const { return window.bench().stage.canvas(); }
+  [[nodiscard]] ViewCanvas* canvas() const { return window.bench().viewer_area.canvas(); }
   /// Runs a command, which must be enabled.
   void trigger(const char* id);
   /// Types a key with the focus on the view.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/app/kills/quota.h"
 
-#include "engine/io/durable/file_size_limit.h"
+#include "engine/io/base/files.h"
 
 #include <fcntl.h>
 #include <linux/filter.h>

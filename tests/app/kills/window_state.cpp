@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/app/kills/window_state.h"
 
-#include "app/gui/document/document_controller.h"
+#include "app/gui/files/autosave.h"
 #include "app/gui/main_window.h"
-#include "app/gui/opening/scene_switcher.h"
-#include "app/gui/project/autosave.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/scene_switcher.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotate/document_digest.h"
 

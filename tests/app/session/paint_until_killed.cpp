@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paints random strokes into a journal, and says after each step that it is done, until it is
 // killed. Usage: paint_until_killed <folder> <seed>.
-#include "app/session/document/annotation_journal.h"
+#include "app/session/annotation_journal.h"
 #include "tests/annotation/random_edits.h"
 
 #include <cstdio>

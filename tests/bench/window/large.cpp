@@ -4,7 +4,7 @@
 #include "tests/bench/window/event_ages.h"
 #include "tests/bench/window/process.h"
 #include "tests/bench/window/use.h"
-#include "widgets/browse/epi_pane.h"
+#include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QElapsedTimer>
@@ -50,9 +50,9 @@ void estimate_all(WindowFixture& f) {
 
 void measure_large(const char* file) {
   WindowFixture f;
-  const Stage& stage = f.window.bench().stage;
+  const ViewerArea& viewer_area = f.window.bench().viewer_area;
   // Rows have a height of their own only once there is an EPI.
-  const double none = stage.horizontalEpi()->rowExtent();
+  const double none = viewer_area.horizontalEpi()->rowExtent();
   QElapsedTimer clock;
   clock.start();
   f.window.bench().opener.open(file);
@@ -62,8 +62,8 @@ void measure_large(const char* file) {
   print("opened", clock);
   (void)QTest::qWaitFor(
       [&] {
-        return stage.horizontalEpi()->rowExtent() != none &&
-               stage.verticalEpi()->rowExtent() != none;
+        return viewer_area.horizontalEpi()->rowExtent() != none &&
+               viewer_area.verticalEpi()->rowExtent() != none;
       },
       kHour_ms);
   print("EPIs live", clock);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/estimate/estimate_controller.h"
-#include "app/gui/project/autosave.h"
-#include "app/gui/project/project_guard.h"
+#include "app/gui/files/autosave.h"
+#include "app/gui/files/project_guard.h"
 #include "tests/app/gui/paint_stroke.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/bench/window/process.h"

@@ -2,17 +2,17 @@
 #include "tests/bench/window/use.h"
 
 #include "app/gui/compare/compare_controller.h"
-#include "app/gui/document/label_choice.h"
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/method_runs.h"
-#include "app/gui/opening/scene_switcher.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/scene_switcher.h"
 #include "engine/disparity/registry.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/bench/window/event_ages.h"
 #include "tests/bench/window/process.h"
 #include "tests/bench/window/timed_application.h"
 #include "tests/widgets/pictures.h"
-#include "widgets/browse/epi_pane.h"
+#include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
 
@@ -109,7 +109,7 @@ class User {
     void (User::*run)(int);
   };
   Session& session() { return f_.window.bench().session; }
-  ViewCanvas* canvas() { return f_.window.bench().stage.activeCanvas(); }
+  ViewCanvas* canvas() { return f_.window.bench().viewer_area.activeCanvas(); }
 
   void keepRunning(int number) {
     if (f_.window.bench().jobs.count(Lane::Estimate) > 0) return;
@@ -128,7 +128,7 @@ class User {
   void zoom(int number) { test::turn_wheel(*canvas(), {200, 180}, number % 64 < 32 ? 1 : -1); }
   void focus(int number) { session().set_focus(0.05 * (number % 40) - 1); }
   void measure(int number) {
-    EpiPane* epi = f_.window.bench().stage.horizontalEpi();
+    EpiPane* epi = f_.window.bench().viewer_area.horizontalEpi();
     if (!epi->isVisible()) return;
     const QPoint from(epi->width() / 2, 4);
     QTest::mousePress(epi, Qt::LeftButton, {}, from);

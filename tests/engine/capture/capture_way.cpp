@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/engine/capture/capture_way.h"
 
-#include "engine/capture/calibrate/sharpness.h"
-#include "engine/capture/demo/demo_folder.h"
-#include "engine/capture/demo/pattern_photograph.h"
-#include "engine/capture/demo/scan_mesh.h"
+#include "engine/capture/calibrate.h"
+#include "engine/capture/demo_folder.h"
+#include "engine/capture/photograph.h"
+#include "engine/capture/scan_mesh.h"
 
 #include "tests/engine/capture/exact_rays.h"
 

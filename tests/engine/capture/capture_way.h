@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/capture/calibrate/calibrate.h"
-#include "engine/capture/demo/demo_scene.h"
-#include "engine/capture/depth/visible_depth.h"
-#include "engine/capture/pose/solve_pose.h"
-#include "engine/capture/rectify/rectify.h"
+#include "engine/capture/calibrate.h"
+#include "engine/capture/demo_folder.h"
+#include "engine/capture/rectify.h"
+#include "engine/capture/solve_pose.h"
+#include "engine/capture/visible_depth.h"
 
 #include <optional>
 

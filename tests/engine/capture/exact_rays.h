@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/capture/depth/view_surface.h"
+#include "engine/capture/view_surface.h"
 
 #include <optional>
 

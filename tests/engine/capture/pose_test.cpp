@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/capture/pose/minimise_reprojection.h"
-#include "engine/capture/pose/pairs_file.h"
-#include "engine/capture/pose/pose_file.h"
-#include "engine/capture/pose/solve_pose.h"
+#include "engine/capture/pose_file.h"
+#include "engine/capture/solve_pose.h"
 #include "engine/core/error.h"
 
 #include "tests/test_main.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the confidence of EPI_L says, and that a result depends on nothing but its input.
-#include "engine/disparity/epi/epi_l.h"
-#include "engine/disparity/epi/epi_s.h"
+#include "engine/disparity/epi_l.h"
+#include "engine/disparity/epi_s.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What every estimator must guarantee to callers that run it by name: data-driven over the
 // registry.
-#include "engine/disparity/common/estimator.h"
+#include "engine/disparity/estimator.h"
 
 #include "engine/core/error.h"
 #include "engine/core/version.h"
-#include "engine/cuda/device/cuda_device.h"
+#include "engine/cuda/device.h"
 #include "engine/disparity/registry.h"
 #include "tests/cpu_time.h"
 #include "tests/engine/disparity/light_fields.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Facts of geometry: what must hold of any disparity estimate, before any number is compared.
-#include "engine/disparity/epi/epi_l.h"
+#include "engine/disparity/epi_l.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

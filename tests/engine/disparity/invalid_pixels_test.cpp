@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What every method makes of views that are dark in part, or altogether.
-#include "engine/disparity/common/estimator.h"
+#include "engine/disparity/estimator.h"
 #include "engine/disparity/registry.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels of every instruction set give the same maps. A process uses one set for all its life,
 // so this program runs itself with another and compares.
-#include "engine/core/parallel/isa.h"
-#include "engine/disparity/epi/epi_c.h"
-#include "engine/disparity/epi/epi_l.h"
-#include "engine/disparity/epi/epi_s.h"
-#include "engine/disparity/layers/epi_two_layer.h"
-#include "engine/disparity/stereo/stereo_global.h"
-#include "engine/disparity/stereo/stereo_local.h"
+#include "engine/core/isa.h"
+#include "engine/disparity/epi_c.h"
+#include "engine/disparity/epi_l.h"
+#include "engine/disparity/epi_s.h"
+#include "engine/disparity/epi_two_layer.h"
+#include "engine/disparity/stereo.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/disparity_field.h"
-#include "engine/core/light_field/light_field.h"
-#include "engine/core/light_field/scene.h"
+#include "engine/core/disparity_field.h"
+#include "engine/core/light_field.h"
+#include "engine/core/scene.h"
 
 #include <functional>
 #include <string>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One channel counts as three equal ones (channel_weight.h): gray scenes have no color to tell
+// One channel counts as three equal ones (channel_weight): gray scenes have no color to tell
 // surfaces apart, but no threshold is another there.
-#include "engine/disparity/common/smoothness_weights.h"
-#include "engine/disparity/plane/even_views.h"
-#include "engine/disparity/plane/jump_labeling.h"
-#include "engine/disparity/plane/local_caps.h"
+#include "engine/disparity/denoise.h"
+#include "engine/disparity/photometric_correction.h"
+#include "engine/disparity/plane_labeling.h"
 #include "engine/disparity/registry.h"
+#include "engine/disparity/visible_costs.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/error.h"
-#include "engine/core/light_field/high_res_truth.h"
+#include "engine/core/ground_truth.h"
 #include "tests/engine/evaluation/judged_maps.h"
 
 #include <functional>

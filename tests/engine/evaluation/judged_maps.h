@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/evaluation/metrics/metrics.h"
+#include "engine/evaluation/metrics.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/scene.h"
-#include "engine/io/hdf5/hdf5_file.h"
-#include "engine/io/order/view_order.h"
+#include "engine/core/scene.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/models/order/view_order.h"
 
 #include <functional>
 

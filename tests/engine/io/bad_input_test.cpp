@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/maps/pfm.h"
-#include "engine/io/maps/ply.h"
-#include "engine/io/maps/result_file.h"
-#include "engine/io/open/open.h"
-#include "engine/io/write/writer.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/pfm.h"
+#include "engine/io/base/ply.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/io/models/result_file.h"
+#include "engine/io/open.h"
+#include "engine/io/write.h"
 #include "tests/cpu_time.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/broken/broken.h"
@@ -17,11 +17,11 @@
 
 #include <QTemporaryDir>
 
-#include <sys/resource.h>
-#include <unistd.h>
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace episcope::in_bad_input_test {
 

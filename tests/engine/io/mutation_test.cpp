@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/grid/grid_with_gaps.h"
-#include "engine/io/open/open.h"
-#include "engine/io/write/writer.h"
+#include "engine/io/models/names/view_files.h"
+#include "engine/io/open.h"
+#include "engine/io/write.h"
 #include "tests/cpu_time.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/engine/io/memory_use.h"

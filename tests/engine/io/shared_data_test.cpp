@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/open/open.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 

@@ -2,8 +2,8 @@
 #include "engine/labeling/consistency.h"
 
 #include "engine/core/error.h"
-#include "engine/labeling/rays/boundary_weights.h"
-#include "engine/labeling/rays/edge_probability.h"
+#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/ray_labeling.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 

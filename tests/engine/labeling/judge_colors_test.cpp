@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/judge_colors.h"
+#include "engine/labeling/reweight_by_color.h"
 
 #include "tests/test_main.h"
 

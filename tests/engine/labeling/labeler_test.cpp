@@ -2,7 +2,7 @@
 #include "engine/labeling/labeler.h"
 
 #include "engine/core/error.h"
-#include "engine/cuda/device/cuda_device.h"
+#include "engine/cuda/device.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 

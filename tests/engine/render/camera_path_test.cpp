@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/render/camera_path.h"
+#include "engine/render/movie.h"
 #include "tests/test_main.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/scenes/request.h"
+#include "engine/scenes/builtin.h"
 
 #include "engine/core/error.h"
 #include "tests/test_main.h"

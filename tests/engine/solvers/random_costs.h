@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/image.h"
-#include "engine/core/array/volume.h"
+#include "engine/core/image.h"
+#include "engine/core/volume.h"
 
 #include <algorithm>
 #include <functional>

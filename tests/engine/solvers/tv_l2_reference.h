@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/solvers/tv_l2/tv_l2.h"
+#include "engine/solvers/tv_l2.h"
 
 #include <cmath>
 #include <vector>

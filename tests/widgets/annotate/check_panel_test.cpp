@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/annotate/check_panel.h"
 #include "tests/window_test_main.h"
+#include "widgets/panels/label_review_panel.h"
 
 #include <QHeaderView>
 #include <QTreeWidget>

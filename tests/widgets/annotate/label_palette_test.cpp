@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/annotate/label_palette.h"
 #include "tests/window_test_main.h"
+#include "widgets/panels/label_palette.h"
 
 #include <QHeaderView>
 #include <QLabel>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/browse/epi_pane.h"
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
+#include "widgets/canvas/epi_pane.h"
 
 #include <QSignalSpy>
 

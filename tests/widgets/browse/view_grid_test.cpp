@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/browse/view_grid.h"
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/view_grid_cells.h"
-#include "widgets/style/theme.h"
+#include "widgets/controls/theme.h"
+#include "widgets/panels/view_grid.h"
 
 #include <QComboBox>
 #include <QSignalSpy>

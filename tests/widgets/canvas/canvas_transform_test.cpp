@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/canvas/canvas_transform.h"
 #include "tests/test_main.h"
+#include "widgets/canvas/canvas_geometry.h"
 
 namespace episcope::in_canvas_transform_test {
 

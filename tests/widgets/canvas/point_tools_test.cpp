@@ -2,9 +2,8 @@
 // Tools of single places, driven with the mouse on a canvas.
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
-#include "widgets/canvas/tools/fill_tool.h"
-#include "widgets/canvas/tools/point_tool.h"
-#include "widgets/canvas/tools/rectangle_tool.h"
+#include "widgets/canvas/canvas_tool.h"
+#include "widgets/canvas/stroke_tool.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QSignalSpy>

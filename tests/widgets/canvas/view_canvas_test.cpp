@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/canvas/view_canvas.h"
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/canvas_text.h"
-#include "widgets/style/picture.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/picture.h"
 
 #include <QPainter>
 #include <QSignalSpy>

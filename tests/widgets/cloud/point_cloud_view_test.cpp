@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/cloud/point_cloud_view.h"
 #include "tests/window_test_main.h"
 #include "widgets/cloud/point_cloud_panel.h"
-#include "widgets/style/theme.h"
+#include "widgets/cloud/point_cloud_view.h"
+#include "widgets/controls/theme.h"
 
 #include <QMainWindow>
 #include <QSignalSpy>

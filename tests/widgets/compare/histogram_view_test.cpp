@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/compare/histogram_view.h"
 #include "tests/window_test_main.h"
+#include "widgets/panels/statistics_panel.h"
 
-#include "widgets/compare/statistics_panel.h"
-#include "widgets/style/theme.h"
+#include "widgets/controls/theme.h"
 
 #include <QSignalSpy>
 

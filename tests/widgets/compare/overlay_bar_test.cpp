@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/compare/overlay_bar.h"
 #include "tests/window_test_main.h"
-#include "widgets/compare/color_bar.h"
-#include "widgets/controls/color_ramp.h"
+#include "widgets/panels/color_bar.h"
+#include "widgets/panels/overlay_bar.h"
 
 #include <QComboBox>
 #include <QDoubleSpinBox>

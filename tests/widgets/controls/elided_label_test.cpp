@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/controls/elided_label.h"
 #include "tests/window_test_main.h"
-
-#include "widgets/controls/parts_label.h"
+#include "widgets/controls/labels.h"
 
 namespace episcope::in_elided_label_test {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/controls/number_spin.h"
 #include "tests/window_test_main.h"
+#include "widgets/controls/number_spin.h"
 
-#include "widgets/style/number_text.h"
+#include "widgets/controls/text.h"
 
 #include <QLineEdit>
 #include <QSignalSpy>

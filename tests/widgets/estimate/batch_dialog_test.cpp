@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/estimate/batch_dialog.h"
 #include "tests/window_test_main.h"
+#include "widgets/panels/method_panel.h"
 
 #include <QListWidget>
 #include <QPushButton>

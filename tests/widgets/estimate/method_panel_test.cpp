@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/estimate/method_panel.h"
 #include "tests/window_test_main.h"
-#include "widgets/estimate/parameter_form.h"
+#include "widgets/controls/parameter_form.h"
+#include "widgets/panels/method_panel.h"
 
 #include <QCheckBox>
 #include <QComboBox>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/estimate/parameter_form.h"
-#include "engine/core/parameter/schema.h"
+#include "engine/core/schema.h"
 #include "tests/window_test_main.h"
-#include "widgets/controls/number_scale.h"
+#include "widgets/controls/number_spin.h"
+#include "widgets/controls/parameter_form.h"
 
 #include <QCheckBox>
 #include <QComboBox>

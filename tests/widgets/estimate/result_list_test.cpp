@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/estimate/result_list.h"
+#include "widgets/panels/result_list.h"
 
 #include "tests/window_test_main.h"
 

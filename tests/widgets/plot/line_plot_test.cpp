@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/plot/line_plot.h"
 #include "tests/window_test_main.h"
+#include "widgets/controls/line_plot.h"
 
 #include "tests/widgets/pictures.h"
-#include "widgets/plot/series_look.h"
-#include "widgets/style/theme.h"
+#include "widgets/controls/theme.h"
 
 #include <QSignalSpy>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/benchmark/report/published.h"
+#include "app/benchmark/published.h"
 
-#include "app/benchmark/report/report_files.h"
-#include "app/benchmark/report/report_json.h"
+#include "app/benchmark/report.h"
 #include "tests/test_main.h"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/benchmark/report/published.h"
-#include "app/benchmark/run/benchmark.h"
+#include "app/benchmark/benchmark.h"
+#include "app/benchmark/published.h"
 #include "engine/disparity/registry.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/open/open.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/io/open.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"
 

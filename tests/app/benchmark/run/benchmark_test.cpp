@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/benchmark/run/benchmark.h"
+#include "app/benchmark/benchmark.h"
 
-#include "app/benchmark/report/html_page.h"
-#include "app/benchmark/report/report_files.h"
-#include "app/benchmark/run/run_log.h"
-#include "app/benchmark/run/workload.h"
-#include "app/session/judge/judge.h"
+#include "app/benchmark/html_page.h"
+#include "app/benchmark/report.h"
+#include "app/benchmark/run_log.h"
+#include "app/session/judge.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
-#include "engine/evaluation/tables/parameter_search.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/evaluation/parameter_search.h"
+#include "engine/io/models/result_file.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"
 

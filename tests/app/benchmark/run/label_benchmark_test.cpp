@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/benchmark/report/html_page.h"
-#include "app/benchmark/report/report_files.h"
-#include "app/benchmark/run/benchmark.h"
+#include "app/benchmark/benchmark.h"
+#include "app/benchmark/html_page.h"
+#include "app/benchmark/report.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"
 

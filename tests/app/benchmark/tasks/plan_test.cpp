@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/benchmark/tasks/plan.h"
+#include "app/benchmark/plan.h"
 
-#include "app/benchmark/run/run_log.h"
-#include "app/benchmark/tasks/bundle.h"
-#include "app/benchmark/tasks/task.h"
+#include "app/benchmark/run_log.h"
+#include "app/benchmark/task.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "tests/app/session/tiny_scene.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/arguments/arguments.h"
+#include "app/cli/arguments.h"
 
-#include "app/cli/arguments/parameter_options.h"
-#include "app/cli/arguments/usage_error.h"
-#include "engine/disparity/common/run_options.h"
+#include "app/cli/parameter_options.h"
+#include "engine/disparity/estimator.h"
 #include "engine/disparity/registry.h"
-#include "engine/io/open/open_options.h"
+#include "engine/io/models/open_options.h"
 #include "engine/labeling/labeler.h"
 #include "tests/test_main.h"
 

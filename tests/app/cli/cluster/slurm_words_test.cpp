@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/cluster/run_program.h"
-#include "app/cli/cluster/slurm.h"
+#include "app/cli/slurm.h"
 #include "engine/core/error.h"
 #include "tests/test_main.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/output/json.h"
+#include "app/cli/output.h"
 #include "tests/test_main.h"
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
@@ -12,10 +14,7 @@ class JsonTest : public QObject {
   Q_OBJECT
  private slots:
   void interval_hasNoDigitsBeyondSinglePrecision() {
-    const auto end = [](double value) {
-      const auto ends = std::get<Json::Array>(interval_json({value, 2}).value());
-      return std::get<double>(ends.front().value());
-    };
+    const auto end = [](double value) { return interval_json({value, 2}).front().get<double>(); };
     QCOMPARE(end(static_cast<double>(1.2F)), 1.2);
     QCOMPARE(end(static_cast<double>(-0.1F)), -0.1);
     QCOMPARE(end(0.5), 0.5);

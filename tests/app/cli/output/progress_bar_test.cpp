@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/output/progress_bar.h"
+#include "app/cli/job.h"
 #include "tests/test_main.h"
 
 namespace episcope::in_progress_bar_test {

@@ -3,11 +3,11 @@
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/result_export.h"
 #include "engine/disparity/registry.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/io/models/result_file.h"
 #include "tests/app/gui/agreement/command_line.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/estimate/method_panel.h"
+#include "widgets/panels/method_panel.h"
 
 #include <QClipboard>
 #include <QDir>

@@ -3,7 +3,7 @@
 #include "tests/app/gui/agreement/command_line.h"
 #include "tests/app/gui/agreement/sample_scene.h"
 #include "tests/window_test_main.h"
-#include "widgets/compare/metric_table.h"
+#include "widgets/panels/metric_table.h"
 
 #include <QJsonArray>
 #include <QJsonDocument>

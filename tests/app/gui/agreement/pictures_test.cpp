@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pictures that the window exports are those of `show`, pixel for pixel.
+#include "app/gui/annotate/annotation_files.h"
+#include "app/gui/annotate/segment_controller.h"
 #include "app/gui/compare/picture_export.h"
-#include "app/gui/segment/segment_controller.h"
-#include "app/gui/segment/segmentation_export.h"
 #include "tests/app/gui/agreement/command_line.h"
 #include "tests/app/gui/agreement/sample_scene.h"
 #include "tests/window_test_main.h"

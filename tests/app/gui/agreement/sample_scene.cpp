@@ -2,9 +2,9 @@
 #include "tests/app/gui/agreement/sample_scene.h"
 
 #include "app/gui/estimate/result_export.h"
-#include "app/session/run/command_line.h"
-#include "app/session/scene/scene_range.h"
-#include "engine/io/archive/write_scene.h"
+#include "app/session/command_line.h"
+#include "app/session/scene_summary.h"
+#include "engine/io/formats/write_scene.h"
 
 #include <QDir>
 #include <QFile>

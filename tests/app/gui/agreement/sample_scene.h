@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/estimate.h"
-#include "engine/core/light_field/scene.h"
+#include "engine/core/estimate.h"
+#include "engine/core/scene.h"
 #include "tests/app/gui/window_fixture.h"
 
 #include <QMetaType>

@@ -3,14 +3,14 @@
 #include "app/gui/annotate/annotate_controller.h"
 
 #include "app/gui/annotate/scribble_controller.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/opening/scene_opener.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/shell/commands.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
-#include "widgets/annotate/label_palette.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/panels/label_palette.h"
 
 #include <QAction>
 #include <QApplication>
@@ -368,10 +368,10 @@ void AnnotateTest::preview_cannotBePainted() {
   Annotating f;
   f.trigger("annotate.add_label");
 
-  f.window.bench().stage.showPreview(QImage(96, 96, QImage::Format_RGB32), "being read");
+  f.window.bench().viewer_area.showPreview(QImage(96, 96, QImage::Format_RGB32), "being read");
   f.drag({40, 20}, {40, 60});
   QVERIFY(f.document().scribbles().painted_views().empty());
-  f.window.bench().stage.endPreview();
+  f.window.bench().viewer_area.endPreview();
   f.window.bench().session.set_view(Annotating::kCenter);  // the drag was parallax
   QCoreApplication::processEvents();
   f.drag({40, 20}, {40, 60});
@@ -384,10 +384,10 @@ void AnnotateTest::whileTheFirstIsRead_theHintSaysSo() {
   QVERIFY2(hint->text().startsWith("Open "), qPrintable(hint->text()));
   QVERIFY(!f.window.findChild<LabelPalette*>()->isEnabled());
 
-  f.window.bench().stage.showPreview(QImage(96, 96, QImage::Format_RGB32), "being read");
+  f.window.bench().viewer_area.showPreview(QImage(96, 96, QImage::Format_RGB32), "being read");
   QVERIFY2(hint->text().contains("still loading"), qPrintable(hint->text()));
 
-  f.window.bench().stage.endPreview();
+  f.window.bench().viewer_area.endPreview();
   QVERIFY(hint->text().startsWith("Open "));
 }
 

@@ -2,12 +2,12 @@
 // What is painted goes to files, and is not lost by leaving it.
 #include "app/gui/annotate/annotation_files.h"
 
-#include "annotation/document/exchange.h"
-#include "annotation/paint/stroke.h"
-#include "app/gui/frame/jobs.h"
-#include "app/gui/opening/scene_switcher.h"
+#include "annotation/brush.h"
+#include "annotation/exchange.h"
+#include "app/gui/scene/scene_switcher.h"
+#include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
-#include "engine/io/labels/scribble_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"

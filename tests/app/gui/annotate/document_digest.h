@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/document/document.h"
+#include "annotation/document.h"
 
 #include <QByteArray>
 #include <QCryptographicHash>

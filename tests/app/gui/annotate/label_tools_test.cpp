@@ -3,11 +3,11 @@
 #include "app/gui/annotate/annotate_controller.h"
 
 #include "app/gui/annotate/scribble_controller.h"
-#include "app/session/project/project_file.h"
-#include "app/session/project/session_project.h"
+#include "app/session/project_file.h"
+#include "app/session/project_store.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/window_test_main.h"
-#include "widgets/canvas/tools/polygon_tool.h"
+#include "widgets/canvas/outline_tool.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
 

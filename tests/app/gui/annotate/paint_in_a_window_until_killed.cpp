@@ -3,11 +3,11 @@
 // how many steps the document has and what it looks like.
 // Usage: paint_in_a_window_until_killed <folder of journals> <light field> <folder of settings>
 #include "app/gui/annotate/annotate_controller.h"
-#include "app/gui/document/document_controller.h"
-#include "app/gui/frame/commands.h"
+#include "app/gui/files/autosave.h"
 #include "app/gui/main_window.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/gui/project/autosave.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/shell/commands.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotate/document_digest.h"
 #include "tests/app/gui/paint_stroke.h"

@@ -5,9 +5,9 @@
 
 #include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/annotation_files.h"
-#include "app/gui/document/document_controller.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/opening/scene_opener.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/shell/commands.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotate/document_digest.h"
 #include "tests/app/gui/window_fixture.h"
@@ -104,7 +104,7 @@ void RecoveryTest::killedWindow_losesAtMostTheStrokeInProgress() {
   // It can be undone, and a journal of its own has taken the place of the one that was left.
   f.window.bench().commands.find("annotate.undo")->trigger();
   QCOMPARE(document.history().applied_count(), painted.steps - 1);
-  QVERIFY(left_journals(f.window.bench().document.journalFolder()).empty());
+  QVERIFY(recoverable_journals(f.window.bench().document.journalFolder()).empty());
   f.window.bench().document.discardChanges();
 }
 
@@ -118,7 +118,7 @@ void RecoveryTest::discardedJournal_isGone() {
   button(f, "message.other")->click();
 
   QVERIFY(!f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
-  QVERIFY(left_journals(f.window.bench().document.journalFolder()).empty());
+  QVERIFY(recoverable_journals(f.window.bench().document.journalFolder()).empty());
   QVERIFY(!f.window.isWindowModified());
 }
 
@@ -129,7 +129,7 @@ void RecoveryTest::journalThatCannotBeKeptAnew_stays() {
   f.window.bench().frame.start();
   QTRY_VERIFY(f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
   const std::filesystem::path folder = f.window.bench().document.journalFolder();
-  QCOMPARE(left_journals(folder).size(), 1U);
+  QCOMPARE(recoverable_journals(folder).size(), 1U);
   QFile file(f.path("file"));
   QVERIFY(file.open(QIODevice::WriteOnly));
   f.window.bench().document.setJournalFolder(f.path("file/no folder").toStdString());
@@ -137,7 +137,7 @@ void RecoveryTest::journalThatCannotBeKeptAnew_stays() {
   button(f, "message.action")->click();
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), kPatience);
-  QCOMPARE(left_journals(folder).size(), 1U);
+  QCOMPARE(recoverable_journals(folder).size(), 1U);
   f.window.bench().document.discardChanges();
 }
 

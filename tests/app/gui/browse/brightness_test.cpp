@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dark views are brightened for display, and for display only.
-#include "app/gui/browse/tone_controller.h"
-#include "app/gui/opening/scene_switcher.h"
-#include "engine/io/archive/write_scene.h"
+#include "app/gui/browse/value_controller.h"
+#include "app/gui/scene/scene_switcher.h"
+#include "engine/io/formats/write_scene.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/value_bar.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/value_bar.h"
 
 #include <QDir>
 #include <QDoubleSpinBox>
@@ -85,11 +85,11 @@ void BrightnessTest::exposure_doublesTheBrightness() {
   Dark f;
   f.trigger("view.tone");
   const double before = f.brightness();
-  const QImage epi = f.window.bench().stage.grab().toImage();
+  const QImage epi = f.window.bench().viewer_area.grab().toImage();
 
   f.set("tone.exposure", 1);
   QTRY_VERIFY(std::abs(f.brightness() - 2 * before) < 0.05 * before);
-  QVERIFY(f.window.bench().stage.grab().toImage() != epi);
+  QVERIFY(f.window.bench().viewer_area.grab().toImage() != epi);
   f.set("tone.gamma", 2);
   QTRY_VERIFY(f.brightness() > 3 * before);
   f.set("tone.black", 0.2);  // every sample is darker

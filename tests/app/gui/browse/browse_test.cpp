@@ -2,11 +2,11 @@
 #include "app/gui/browse/info_controller.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/epi_pane.h"
-#include "widgets/browse/value_bar.h"
-#include "widgets/browse/view_grid_cells.h"
+#include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/style/theme.h"
+#include "widgets/controls/theme.h"
+#include "widgets/panels/value_bar.h"
+#include "widgets/panels/view_grid.h"
 
 #include <QLabel>
 #include <QWheelEvent>
@@ -92,7 +92,7 @@ void BrowseTest::gpu_isAskedForOnAWorker() {
 void BrowseTest::measuredLine_belongsToItsRow() {
   WindowFixture f;
   f.openSmall();
-  auto* epi = f.window.bench().stage.horizontalEpi();
+  auto* epi = f.window.bench().viewer_area.horizontalEpi();
   const QPoint middle = epi->rect().center();
   QTest::mousePress(epi, Qt::LeftButton, {}, middle - QPoint(10, 20));
   QTest::mouseMove(epi, middle + QPoint(10, 20));
@@ -129,7 +129,7 @@ void BrowseTest::wheelWithAltOrCtrl_movesTheFocusPlane() {
 void BrowseTest::arrows_changeTheView() {
   WindowFixture f;
   f.openSmall();
-  auto* canvas = f.window.bench().stage.canvas();
+  auto* canvas = f.window.bench().viewer_area.canvas();
   const Session& session = f.window.bench().session;
   canvas->setFocus();
   f.window.activateWindow();
@@ -151,10 +151,10 @@ void BrowseTest::arrows_changeTheView() {
 void BrowseTest::click_movesTheCrossHairAndTheEpis() {
   WindowFixture f;
   f.openSmall();
-  auto* epi = f.window.bench().stage.horizontalEpi();
+  auto* epi = f.window.bench().viewer_area.horizontalEpi();
   const QImage before = epi->grab().toImage();
 
-  click_pixel(f.window.bench().stage.canvas(), {20, 33});
+  click_pixel(f.window.bench().viewer_area.canvas(), {20, 33});
 
   QVERIFY(f.window.bench().session.cross_hair() == (PixelIndex{20, 33}));
   QTRY_VERIFY_WITH_TIMEOUT(epi->grab().toImage() != before, kPatience);
@@ -166,7 +166,7 @@ void BrowseTest::shiftClick_focusesAtThePixel() {
   const double truth =
       f.window.bench().session.scene()->truth->field.view({4, 4}).disparity.at(20, 33);
 
-  click_pixel(f.window.bench().stage.canvas(), {20, 33}, Qt::ShiftModifier);
+  click_pixel(f.window.bench().viewer_area.canvas(), {20, 33}, Qt::ShiftModifier);
 
   QCOMPARE(f.window.bench().session.focus_px(), truth);
 }
@@ -175,7 +175,7 @@ void BrowseTest::valuesAtTheCursor_areRead() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  auto* canvas = f.window.bench().stage.canvas();
+  auto* canvas = f.window.bench().viewer_area.canvas();
 
   QTest::mouseMove(canvas, canvas->positionOf({20, 33}).toPoint());
 

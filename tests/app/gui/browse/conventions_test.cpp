@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/frame/commands.h"
 #include "app/gui/main_window.h"
-#include "app/gui/opening/remembered_conventions.h"
-#include "app/gui/opening/scene_opener.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/shell/commands.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/info_panel.h"
+#include "widgets/panels/info_panel.h"
 
 #include <QAction>
 #include <QApplication>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/browse/focus_controller.h"
 
-#include "app/gui/document/document_controller.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/frame/jobs.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/overlay_bar.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/overlay_bar.h"
 
 #include <QAction>
 #include <QClipboard>
@@ -113,7 +113,7 @@ void FocusTest::appliedFocus_keepsThePlace() {
   QVERIFY(f.session().view() == kView);
   QVERIFY(f.session().cross_hair() == kPixel);
   QCOMPARE(f.session().focus_px(), 0.0);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.overlayBar()->focus(), 0.0, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().viewer_area.overlayBar()->focus(), 0.0, kPatience);
   QTRY_VERIFY_WITH_TIMEOUT(!f.action("view.focus_apply")->isEnabled(), kPatience);
 }
 

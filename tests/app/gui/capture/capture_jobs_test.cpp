@@ -2,8 +2,8 @@
 // What is read and computed for the Capture tab while other light fields are opened and closed.
 #include "app/gui/capture/mesh_shelf.h"
 #include "app/gui/capture/photographs.h"
-#include "app/session/scene/gantry_scene.h"
-#include "engine/capture/demo/demo_folder.h"
+#include "app/session/gantry_scene.h"
+#include "engine/capture/demo_folder.h"
 #include "tests/app/gui/capture/capturing.h"
 #include "tests/app/gui/held_lane.h"
 #include "tests/window_test_main.h"

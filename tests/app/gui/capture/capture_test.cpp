@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/capture/capture_controller.h"
 #include "app/gui/capture/photographs.h"
-#include "app/gui/capture/pick_snapper.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/gui/stage/stage.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/scene/viewer_area.h"
 #include "app/session/session.h"
-#include "engine/capture/pose/pose_file.h"
-#include "engine/io/open/open.h"
+#include "engine/capture/pose_file.h"
+#include "engine/io/open.h"
 #include "tests/app/gui/capture/capturing.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
@@ -92,7 +92,7 @@ class CaptureTest : public QObject {
     Capturing f;
     f.openMesh();
     f.importPairs(8);
-    const ViewCanvas& canvas = *f.window.bench().stage.canvas();
+    const ViewCanvas& canvas = *f.window.bench().viewer_area.canvas();
     QCOMPARE(canvas.marks().size(), std::size_t{8});
     const capture::PointPair& third = f.capture().pairs()[2];
     QCOMPARE(canvas.marks()[2].name, QString("p3"));

@@ -4,11 +4,11 @@
 // Usage: capture_until_killed <state folder> <light field> <lens> <mesh>
 #include "app/gui/capture/capture_controller.h"
 #include "app/gui/capture/photographs.h"
-#include "app/gui/document/document_controller.h"
-#include "app/gui/frame/frame.h"
+#include "app/gui/files/autosave.h"
 #include "app/gui/main_window.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/gui/project/autosave.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/shell/frame.h"
 #include "app/session/session.h"
 #include "tests/patience.h"
 

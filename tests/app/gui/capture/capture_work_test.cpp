@@ -2,11 +2,11 @@
 // What is done in the Capture tab is one document: undone, kept in projects, recovered after a
 // crash.
 #include "app/gui/capture/photographs.h"
-#include "app/gui/project/autosave.h"
-#include "app/gui/project/project_controller.h"
-#include "engine/capture/camera/camera_file.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/open/open.h"
+#include "app/gui/files/autosave.h"
+#include "app/gui/files/project_controller.h"
+#include "engine/capture/camera.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/io/open.h"
 #include "tests/app/gui/capture/capturing.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"

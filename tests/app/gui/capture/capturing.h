@@ -2,11 +2,11 @@
 #pragma once
 
 #include "app/gui/capture/capture_controller.h"
-#include "engine/capture/demo/scan_mesh.h"
-#include "engine/capture/mesh/mesh_file.h"
-#include "engine/capture/pose/pairs_file.h"
+#include "engine/capture/mesh_file.h"
+#include "engine/capture/pose_file.h"
+#include "engine/capture/scan_mesh.h"
 #include "tests/app/gui/window_fixture.h"
-#include "widgets/controls/elided_label.h"
+#include "widgets/controls/labels.h"
 
 #include <QLabel>
 #include <QTest>

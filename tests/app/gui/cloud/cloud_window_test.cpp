@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The 3D view in the window that ships, on a display.
-#include "app/gui/cloud/cloud_controller.h"
-#include "app/gui/frame/panes.h"
+#include "app/gui/browse/cloud_controller.h"
+#include "app/gui/shell/panes.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/cloud/point_cloud_panel.h"
-#include "widgets/style/theme.h"
+#include "widgets/controls/theme.h"
 
 #include <QAction>
 #include <QCheckBox>

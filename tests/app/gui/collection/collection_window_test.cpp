@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/time_bar.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/collection/scene_list.h"
-#include "widgets/collection/scene_panel.h"
+#include "widgets/panels/scene_panel.h"
 
 #include <QComboBox>
 #include <QDir>

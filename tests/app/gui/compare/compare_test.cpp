@@ -2,18 +2,17 @@
 #include "app/gui/compare/compare_controller.h"
 
 #include "app/gui/compare/statistics_controller.h"
-#include "app/gui/frame/commands.h"
+#include "app/gui/shell/commands.h"
 #include "tests/app/gui/compare/compared.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/epi_pane.h"
-#include "widgets/browse/value_bar.h"
+#include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/color_bar.h"
-#include "widgets/compare/histogram_view.h"
-#include "widgets/compare/metric_table.h"
-#include "widgets/compare/statistics_panel.h"
-#include "widgets/style/side.h"
+#include "widgets/controls/theme.h"
+#include "widgets/panels/color_bar.h"
+#include "widgets/panels/metric_table.h"
+#include "widgets/panels/statistics_panel.h"
+#include "widgets/panels/value_bar.h"
 
 #include <QClipboard>
 #include <QComboBox>
@@ -109,7 +108,7 @@ void CompareTest::sideBySide_showsAAndB() {
 void CompareTest::flip_marksWhichOneIsSeen() {
   Compared f({0.0F, 0.5F});
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
-  EpiPane* epi = f.window.bench().stage.horizontalEpi();
+  EpiPane* epi = f.window.bench().viewer_area.horizontalEpi();
   const QImage of_a = f.canvas()->grab().toImage();
   const QImage epi_of_a = epi->grab().toImage();
   const QRect badge(0, 0, 26, 26);
@@ -186,7 +185,7 @@ void CompareTest::difference_isOfAAndB() {
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.valueAt({48, 48}).has_value(), kPatience);
   QVERIFY(std::abs(*f.window.bench().overlay.valueAt({48, 48}) - 0.75) < 1e-5);
-  QVERIFY(f.window.bench().stage.colorBar()->range() ==
+  QVERIFY(f.window.bench().viewer_area.colorBar()->range() ==
           (Interval{-0.2, 0.2}));  // a range of its own
 }
 
@@ -267,11 +266,11 @@ void CompareTest::statistics_areOfWhatIsInSight() {
 void CompareTest::automaticRange_isThatOfWhatIsInSight() {
   Compared f({0.25F});
   f.window.bench().overlay.setQuantity(render::Quantity::SignedError);
-  const Interval own = f.window.bench().stage.colorBar()->range();
+  const Interval own = f.window.bench().viewer_area.colorBar()->range();
 
   f.key(Qt::Key_A);
 
-  const ColorBar* bar = f.window.bench().stage.colorBar();
+  const ColorBar* bar = f.window.bench().viewer_area.colorBar();
   // Zero stays in the middle.
   QTRY_VERIFY_WITH_TIMEOUT(std::abs(bar->range().max - 0.25) < 0.01, kPatience);
   QVERIFY(std::abs(bar->range().min - -0.25) < 0.01);

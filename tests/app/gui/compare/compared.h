@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/frame/commands.h"
+#include "app/gui/shell/commands.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/tile_wall.h"
@@ -27,7 +27,7 @@ class Compared : public WindowFixture {
       QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), static_cast<int>(offsets.size()),
                                 kPatience);
     }();
-    window.bench().stage.canvas()->setFocus();
+    window.bench().viewer_area.canvas()->setFocus();
   }
 
   int add(float offset) {
@@ -44,7 +44,7 @@ class Compared : public WindowFixture {
   }
 
   Session& session() { return window.bench().session; }
-  TileWall* wall() { return window.bench().stage.wall(); }
+  TileWall* wall() { return window.bench().viewer_area.wall(); }
   void key(Qt::Key key) {
     window.activateWindow();  // shortcuts are heard in the active window only
     QVERIFY(QTest::qWaitForWindowActive(&window));

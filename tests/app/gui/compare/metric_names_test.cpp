@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/compare/metric_names.h"
+#include "app/gui/compare/metric_controller.h"
 
 #include "tests/engine/evaluation/high_res_maps.h"
 #include "tests/window_test_main.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/compare/movie_export.h"
-#include "app/gui/stage/overlay.h"
+#include "app/gui/compare/picture_export.h"
+#include "app/gui/scene/overlay.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/movie_panel.h"
+#include "widgets/panels/movie_panel.h"
 
 #include <QApplication>
 #include <QCheckBox>

@@ -2,14 +2,14 @@
 // The judged part of the view and errors by disparity, driven in the window that ships.
 #include "app/gui/compare/region_controller.h"
 
-#include "app/gui/opening/scene_switcher.h"
-#include "app/session/project/project_file.h"
-#include "app/session/project/session_project.h"
+#include "app/gui/scene/scene_switcher.h"
+#include "app/session/project_file.h"
+#include "app/session/project_store.h"
 #include "tests/app/gui/compare/compared.h"
-#include "widgets/compare/metric_table.h"
-#include "widgets/compare/region_bar.h"
+#include "widgets/controls/line_plot.h"
 #include "widgets/controls/message_bar.h"
-#include "widgets/plot/line_plot.h"
+#include "widgets/panels/compare_bar.h"
+#include "widgets/panels/metric_table.h"
 
 #include <QComboBox>
 #include <QImage>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/compare/compare_controller.h"
-#include "app/gui/frame/commands.h"
+#include "app/gui/shell/commands.h"
 #include "tests/app/gui/compare/compared.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/tile_wall.h"

@@ -3,8 +3,8 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/color_bar.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/color_bar.h"
 
 #include <QAction>
 #include <QClipboard>
@@ -50,12 +50,12 @@ void OverlayTest::errorOverlay_isOneClickAway() {
   f.runAndWait();
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
   const QImage before = f.window.bench().overlay.picture();
-  const QImage canvas_before = f.window.bench().stage.canvas()->grab().toImage();
+  const QImage canvas_before = f.window.bench().viewer_area.canvas()->grab().toImage();
 
   click_action(f.window, "overlay.error");
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.picture() != before, kPatience);
-  QVERIFY(f.window.bench().stage.canvas()->grab().toImage() != canvas_before);
+  QVERIFY(f.window.bench().viewer_area.canvas()->grab().toImage() != canvas_before);
   QVERIFY(f.window.bench().commands.find("overlay.error")->isChecked());
 }
 
@@ -64,7 +64,7 @@ void OverlayTest::rangeOfASignedMap_hasZeroInTheMiddle() {
   f.openSmall();
   f.runAndWait();
   click_action(f.window, "overlay.error");
-  auto* most = f.window.bench().stage.colorBar()->findChild<QDoubleSpinBox*>("colorBar.max");
+  auto* most = f.window.bench().viewer_area.colorBar()->findChild<QDoubleSpinBox*>("colorBar.max");
   QVERIFY(most);
 
   most->setValue(0.75);
@@ -78,7 +78,7 @@ void OverlayTest::heldTab_flips() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  auto* canvas = f.window.bench().stage.canvas();
+  auto* canvas = f.window.bench().viewer_area.canvas();
   canvas->setFocus();
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
   const QImage before = f.window.bench().overlay.picture();
@@ -94,7 +94,7 @@ void OverlayTest::hugeTruth_leavesTheLayoutAlone() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  const int width = f.window.bench().stage.canvas()->width();
+  const int width = f.window.bench().viewer_area.canvas()->width();
   auto scene = std::make_shared<Scene>(
       scenes::render_builtin("edge", WindowFixture::smallOptions(), Progress()));
   auto truth = std::make_shared<GroundTruth>();
@@ -110,7 +110,7 @@ void OverlayTest::hugeTruth_leavesTheLayoutAlone() {
   QVERIFY(focus->maximum() <= 100);
   const auto* max = f.window.findChild<QLabel*>("statistics.max");
   QTRY_VERIFY2_WITH_TIMEOUT(max->text().startsWith("1e"), qPrintable(max->text()), kPatience);
-  QCOMPARE(f.window.bench().stage.canvas()->width(), width);
+  QCOMPARE(f.window.bench().viewer_area.canvas()->width(), width);
 }
 
 void OverlayTest::savedPicture_isTheShownOne() {
@@ -123,7 +123,7 @@ void OverlayTest::savedPicture_isTheShownOne() {
 
   const QImage saved = QImage(f.path("view.png")).convertToFormat(QImage::Format_RGB888);
   QCOMPARE(saved,
-           f.window.bench().stage.canvas()->picture().convertToFormat(QImage::Format_RGB888));
+           f.window.bench().viewer_area.canvas()->picture().convertToFormat(QImage::Format_RGB888));
 }
 
 void OverlayTest::failedExport_isTold() {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What was computed is not lost by mistake.
 #include "app/gui/estimate/estimate_controller.h"
-#include "app/gui/opening/result_opener.h"
-#include "app/gui/opening/scene_switcher.h"
-#include "app/gui/project/project_guard.h"
-#include "app/session/project/project_file.h"
-#include "engine/io/maps/result_file.h"
+#include "app/gui/files/project_guard.h"
+#include "app/gui/scene/scene_switcher.h"
+#include "app/session/project_file.h"
+#include "engine/io/models/result_file.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/compare/metric_table.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/metric_table.h"
 
 #include <QAction>
 #include <QApplication>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/result_export.h"
-#include "app/gui/opening/result_opener.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/maps/pfm.h"
-#include "engine/io/maps/result_file.h"
-#include "engine/io/maps/submission_folder.h"
+#include "app/gui/scene/scene_switcher.h"
+#include "engine/io/base/pfm.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/io/models/external_result.h"
+#include "engine/io/models/result_file.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/value_bar.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/value_bar.h"
 
 #include <QAction>
 #include <QClipboard>

@@ -2,7 +2,7 @@
 // What a sweep says where there is nothing to plot.
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/plot/line_plot.h"
+#include "widgets/controls/line_plot.h"
 
 #include <QComboBox>
 #include <QFontMetrics>

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps, driven in the window that ships.
-#include "app/gui/frame/job_cancel.h"
-#include "app/gui/opening/scene_switcher.h"
-#include "app/gui/project/project_controller.h"
-#include "app/gui/project/project_guard.h"
+#include "app/gui/files/project_controller.h"
+#include "app/gui/files/project_guard.h"
+#include "app/gui/scene/scene_switcher.h"
+#include "app/gui/shell/jobs.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/line_plot.h"
 #include "widgets/controls/message_bar.h"
-#include "widgets/estimate/method_panel.h"
-#include "widgets/estimate/parameter_form.h"
-#include "widgets/plot/line_plot.h"
-#include "widgets/sweep/sweep_panel.h"
+#include "widgets/controls/parameter_form.h"
+#include "widgets/panels/method_panel.h"
+#include "widgets/panels/sweep_panel.h"
 
 #include <QCheckBox>
 #include <QComboBox>

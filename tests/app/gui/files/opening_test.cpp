@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/files/recent_inputs.h"
-#include "app/gui/frame/messages.h"
-#include "app/session/scene/builtin_inputs.h"
+#include "app/gui/files/file_controller.h"
+#include "app/gui/shell/frame.h"
+#include "app/session/load_scene.h"
 #include "engine/core/error.h"
 #include "tests/app/gui/held_lane.h"
 #include "tests/app/gui/window_fixture.h"
@@ -9,7 +9,7 @@
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/number_spin.h"
-#include "widgets/estimate/parameter_form.h"
+#include "widgets/controls/parameter_form.h"
 
 #include <QAction>
 #include <QComboBox>
@@ -75,7 +75,7 @@ void OpeningTest::openedFile_isShown() {
   WindowFixture f;
   f.openSmall();
 
-  QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture);
+  QCOMPARE(f.window.bench().viewer_area.canvas()->state(), ViewCanvas::State::Picture);
   QVERIFY2(f.window.windowTitle().contains("edge"), qPrintable(f.window.windowTitle()));
 }
 
@@ -90,8 +90,8 @@ void OpeningTest::folderOfASingleLightField_opensIt() {
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene() != nullptr, kScenePatience);
   QCOMPARE(QString::fromStdString(f.window.bench().session.light_field()->info().source), file);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture,
-                            kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().viewer_area.canvas()->state(),
+                            ViewCanvas::State::Picture, kPatience);
 }
 
 void OpeningTest::readAgain_showsWhatWasWrittenMeanwhile() {
@@ -176,7 +176,7 @@ void OpeningTest::brokenFile_isToldAndKeepsTheScene() {
                             kPatience);
   QVERIFY(messages->isVisible());
   QCOMPARE(f.window.bench().session.scene(), scene);
-  QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture);
+  QCOMPARE(f.window.bench().viewer_area.canvas()->state(), ViewCanvas::State::Picture);
 }
 
 void OpeningTest::brokenFile_isForgottenOnceAnotherIsOpen() {
@@ -225,8 +225,8 @@ void OpeningTest::brokenFile_withoutScene_isDrawnAsError() {
 
   f.window.bench().opener.open("/no/such/place");
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Failed,
-                            kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().viewer_area.canvas()->state(),
+                            ViewCanvas::State::Failed, kPatience);
 }
 
 void OpeningTest::failureOfAnotherJob_isNotThatOfOpening() {
@@ -361,8 +361,8 @@ void OpeningTest::closedScene_leavesTheEmptyWindow() {
 
   f.window.bench().commands.find("file.close")->trigger();
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Empty,
-                            kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().viewer_area.canvas()->state(),
+                            ViewCanvas::State::Empty, kPatience);
   QCOMPARE(f.window.windowTitle(), QString("Episcope"));
 }
 

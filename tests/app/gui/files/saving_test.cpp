@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/files/save_forms.h"
-#include "engine/io/open/open.h"
+#include "app/gui/files/file_controller.h"
+#include "engine/io/open.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/frame/commands.h"
+#include "app/gui/shell/commands.h"
 
-#include "app/gui/help/theme_choice.h"
+#include "app/gui/shell/appearance.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/view_grid.h"
-#include "widgets/browse/view_grid_cells.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/estimate/method_panel.h"
-#include "widgets/style/theme.h"
+#include "widgets/controls/theme.h"
+#include "widgets/panels/method_panel.h"
+#include "widgets/panels/view_grid.h"
 
 #include <QAction>
 #include <QKeySequenceEdit>
@@ -235,7 +234,7 @@ void CommandsTest::palette_findsAndRunsACommand() {
   QVERIFY(all > 1);
   QTest::keyClick(edit, Qt::Key_Return);
 
-  auto* canvas = f.window.bench().stage.canvas();
+  auto* canvas = f.window.bench().viewer_area.canvas();
   QTRY_COMPARE_WITH_TIMEOUT(canvas->canvasTransform().scale, 1 / canvas->devicePixelRatioF(),
                             kPatience);
 }
@@ -275,7 +274,7 @@ void CommandsTest::changedKey_worksIsShownAndRemembered() {
   const QAction* action = f.window.bench().commands.find("view.fit");
   QCOMPARE(action->shortcut(), QKeySequence("Ctrl+Alt+J"));
   QVERIFY2(action->toolTip().contains("Ctrl+Alt+J"), qPrintable(action->toolTip()));
-  auto* canvas = f.window.bench().stage.canvas();
+  auto* canvas = f.window.bench().viewer_area.canvas();
   canvas->zoomIn();
   f.window.activateWindow();
   QTest::keyClick(canvas, Qt::Key_J, Qt::ControlModifier | Qt::AltModifier);
@@ -352,7 +351,7 @@ void CommandsTest::keyOfAnotherCommand_isNamedAndTakenOnlyWhenAsked() {
 
 void CommandsTest::emptyCanvas_namesTheKeyThatOpens() {
   WindowFixture f;
-  const auto drawn = [&f] { return f.window.bench().stage.canvas()->grab().toImage(); };
+  const auto drawn = [&f] { return f.window.bench().viewer_area.canvas()->grab().toImage(); };
   const QImage own = drawn();
 
   f.window.bench().commands.setKeys("file.open", {QKeySequence("Ctrl+Alt+J")});

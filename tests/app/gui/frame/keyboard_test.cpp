@@ -3,7 +3,7 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/overlay_bar.h"
+#include "widgets/panels/overlay_bar.h"
 
 #include <QAbstractItemView>
 #include <QApplication>

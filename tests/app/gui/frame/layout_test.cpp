@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nothing moves under the mouse, and everything fits the screen.
-#include "app/gui/frame/messages.h"
+#include "app/gui/shell/frame.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/value_bar.h"
 #include "widgets/canvas/canvas_text.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/job_panel.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/value_bar.h"
 
 #include <QAction>
 #include <QDialog>

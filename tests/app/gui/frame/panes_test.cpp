@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Panes can be sized, torn off, and come back; the window remembers it.
-#include "app/gui/frame/panes.h"
+#include "app/gui/shell/panes.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/epi_pane.h"
+#include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
@@ -35,7 +35,7 @@ void drag_handle(QSplitter& splitter, QPoint by) {
 
 /// Whether the horizontal EPI is as wide as the view, and right below it.
 bool is_epi_aligned(const WindowFixture& f) {
-  const EpiPane& epi = *f.window.bench().stage.horizontalEpi();
+  const EpiPane& epi = *f.window.bench().viewer_area.horizontalEpi();
   return f.canvas()->mapTo(&f.window, QPoint()).x() == epi.mapTo(&f.window, QPoint()).x() &&
          f.canvas()->width() == epi.width();
 }
@@ -64,7 +64,7 @@ class PanesTest : public QObject {
 void PanesTest::epis_canBeOfAnyHeight() {
   WindowFixture f;
   f.openSmall();
-  auto& epi = *f.window.bench().stage.horizontalEpi();
+  auto& epi = *f.window.bench().viewer_area.horizontalEpi();
   const int height = epi.height();
 
   drag_handle(splitter(f.window, "split.rows"), {0, -200});
@@ -77,13 +77,13 @@ void PanesTest::epis_canBeOfAnyHeight() {
 void PanesTest::view_andItsEpiStayAligned() {
   WindowFixture f;
   f.openSmall();
-  auto& stage = f.window.bench().stage;
+  auto& viewer_area = f.window.bench().viewer_area;
   const auto is_aligned = [&f] { return is_epi_aligned(f); };
   QVERIFY(is_aligned());
-  const int width = stage.verticalEpi()->width();
+  const int width = viewer_area.verticalEpi()->width();
 
   drag_handle(splitter(f.window, "split.upper"), {-120, 0});
-  QVERIFY(stage.verticalEpi()->width() > width + 80);
+  QVERIFY(viewer_area.verticalEpi()->width() > width + 80);
   QTRY_VERIFY(is_aligned());
   drag_handle(splitter(f.window, "split.lower"), {60, 0});
   QVERIFY(is_aligned());
@@ -111,7 +111,7 @@ void PanesTest::view_andItsEpiStayAligned_inEverySize() {
 void PanesTest::epis_canBeTornOff_andComeBack() {
   WindowFixture f;
   f.openSmall();
-  auto* epi = f.window.bench().stage.horizontalEpi();
+  auto* epi = f.window.bench().viewer_area.horizontalEpi();
   const int height = f.canvas()->height();
   const int epi_height = epi->height();
 
@@ -173,7 +173,7 @@ void PanesTest::tornOffPane_hearsTheKeysOfTheViewer() {
   WindowFixture f;
   f.openSmall();
   f.trigger("panes.epi.vertical");
-  auto* epi = f.window.bench().stage.verticalEpi();
+  auto* epi = f.window.bench().viewer_area.verticalEpi();
   epi->window()->activateWindow();
   QVERIFY(QTest::qWaitForWindowActive(epi->window()));
 
@@ -186,9 +186,9 @@ void PanesTest::tornOffPane_hearsTheKeysOfTheViewer() {
 void PanesTest::layout_isRememberedAndReset() {
   WindowFixture f;
   f.openSmall();
-  const int first = f.window.bench().stage.horizontalEpi()->height();
+  const int first = f.window.bench().viewer_area.horizontalEpi()->height();
   drag_handle(splitter(f.window, "split.rows"), {0, -150});
-  const int dragged = f.window.bench().stage.horizontalEpi()->height();
+  const int dragged = f.window.bench().viewer_area.horizontalEpi()->height();
   QVERIFY(dragged > first + 100);
   f.trigger("panes.epi.vertical");
   f.window.bench().frame.showTab("cloud");
@@ -200,16 +200,16 @@ void PanesTest::layout_isRememberedAndReset() {
   other.resize(1280, 800);
   other.show();
   other.start(f.path("edge/lf.h5"));
-  const Stage& stage = other.bench().stage;
-  QTRY_COMPARE(stage.horizontalEpi()->height(), dragged);
-  QVERIFY(stage.verticalEpi()->window() != &other);
+  const ViewerArea& viewer_area = other.bench().viewer_area;
+  QTRY_COMPARE(viewer_area.horizontalEpi()->height(), dragged);
+  QVERIFY(viewer_area.verticalEpi()->window() != &other);
   QVERIFY(other.bench().frame.panes().isTorn("tab.cloud"));
   QTRY_VERIFY(other.findChild<QWidget*>("pointCloudPanel")->isVisible());
   QVERIFY(!other.bench().frame.arePanelsShown());
 
   QVERIFY(other.bench().commands.trigger("panes.reset"));
-  QTRY_COMPARE(stage.horizontalEpi()->height(), first);
-  QCOMPARE(stage.verticalEpi()->window(), &other);
+  QTRY_COMPARE(viewer_area.horizontalEpi()->height(), first);
+  QCOMPARE(viewer_area.verticalEpi()->window(), &other);
   QVERIFY(!other.bench().frame.panes().isTorn("tab.cloud"));
   QVERIFY(other.bench().frame.arePanelsShown());
   QTRY_COMPARE_WITH_TIMEOUT(other.bench().jobs.count(), 0, kScenePatience);
@@ -234,27 +234,27 @@ void PanesTest::panes_areStackedBelowTheTabs_andComeBack() {
 
   f.key(Qt::Key_F7, Qt::ShiftModifier);
   f.key(Qt::Key_F8, Qt::ShiftModifier);
-  auto& stage = f.window.bench().stage;
+  auto& viewer_area = f.window.bench().viewer_area;
   QCOMPARE(stack->count(), 3);
-  QVERIFY(stage.verticalEpi()->isVisible() && !stage.horizontalEpi()->isVisible());
+  QVERIFY(viewer_area.verticalEpi()->isVisible() && !viewer_area.horizontalEpi()->isVisible());
   QVERIFY(!compare->isVisible());
   QVERIFY(f.window.height() <= 800);  // what finds no room is scrolled
   // A vertical EPI lies on its side there, where there is more room to the right.
-  auto& vertical = *stage.verticalEpi();
+  auto& vertical = *viewer_area.verticalEpi();
   QVERIFY(vertical.width() > vertical.height());
   QCOMPARE(vertical.rowExtent(), vertical.height() / 9.0);
   frame.showTab("compare");
-  QVERIFY(compare->isVisible() && !stage.verticalEpi()->isVisible());
+  QVERIFY(compare->isVisible() && !viewer_area.verticalEpi()->isVisible());
 
   f.key(Qt::Key_F7, Qt::ShiftModifier);
-  QTRY_VERIFY(stage.horizontalEpi()->isVisible());
-  QVERIFY(!stack->isAncestorOf(stage.horizontalEpi()));
+  QTRY_VERIFY(viewer_area.horizontalEpi()->isVisible());
+  QVERIFY(!stack->isAncestorOf(viewer_area.horizontalEpi()));
   emit stack->tabCloseRequested(stack->currentIndex());
   QCOMPARE(tabs->indexOf(compare), place);
   QCOMPARE(frame.shownTab(), QString("compare"));
   f.trigger("panes.stack.epi.vertical");
   QVERIFY(!stack->isVisible());
-  QTRY_VERIFY(stage.verticalEpi()->isVisible());
+  QTRY_VERIFY(viewer_area.verticalEpi()->isVisible());
   QTRY_COMPARE(vertical.rowExtent(), vertical.width() / 9.0);
 }
 
@@ -276,7 +276,7 @@ void PanesTest::stack_takesHalfOfTheColumn_whereThereIsRoom() {
 void PanesTest::stackedPane_mayBeTornOff() {
   WindowFixture f;
   f.openSmall();
-  auto* epi = f.window.bench().stage.horizontalEpi();
+  auto* epi = f.window.bench().viewer_area.horizontalEpi();
   f.trigger("panes.stack.epi.horizontal");
   f.trigger("panes.epi.horizontal");
   QVERIFY(epi->isVisible() && epi->window() != &f.window);
@@ -307,7 +307,7 @@ void PanesTest::stack_isRememberedAndReset() {
   QTRY_VERIFY2(std::abs(stack->height() - height) < 10,
                qPrintable(QString::number(stack->height())));
   QVERIFY(other.bench().frame.panes().isStacked("tab.compare"));
-  QVERIFY(stack->isAncestorOf(other.bench().stage.verticalEpi()));
+  QVERIFY(stack->isAncestorOf(other.bench().viewer_area.verticalEpi()));
 
   QVERIFY(other.bench().commands.trigger("panes.reset"));
   QCOMPARE(stack->count(), 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Questions stay legible, whatever the names in them.
-#include "app/gui/frame/question_box.h"
+#include "app/gui/shell/dialogs.h"
 #include "tests/window_test_main.h"
 
 #include <QLabel>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/help/language_choice.h"
+#include "app/gui/shell/appearance.h"
 
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/compare/metric_table.h"
-#include "widgets/controls/elided_label.h"
+#include "widgets/controls/labels.h"
+#include "widgets/panels/metric_table.h"
 
 #include <QAbstractButton>
 #include <QAction>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lines measured in EPIs and kept, by mouse and keys on the window that ships.
-#include "app/gui/measure/measure_controller.h"
+#include "app/gui/browse/measure_controller.h"
 
-#include "app/gui/estimate/measured_range.h"
-#include "app/session/project/project_file.h"
-#include "app/session/project/session_project.h"
+#include "app/gui/estimate/estimate_controller.h"
+#include "app/session/project_file.h"
+#include "app/session/project_store.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/epi_pane.h"
+#include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/estimate/method_panel.h"
+#include "widgets/panels/method_panel.h"
 
 #include <QAction>
 #include <QApplication>
@@ -39,8 +39,8 @@ class Measuring : public WindowFixture {
     QTest::mouseRelease(epi, Qt::LeftButton, {}, middle + end);
     QVERIFY(epi->measuredDisparity());
   }
-  EpiPane* horizontal() { return window.bench().stage.horizontalEpi(); }
-  EpiPane* vertical() { return window.bench().stage.verticalEpi(); }
+  EpiPane* horizontal() { return window.bench().viewer_area.horizontalEpi(); }
+  EpiPane* vertical() { return window.bench().viewer_area.verticalEpi(); }
   void keep() { key(Qt::Key_K, Qt::ControlModifier); }
   Session& session() { return window.bench().session; }
   const Measurements& measured() { return session().place().measured; }

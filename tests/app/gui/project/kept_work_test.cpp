@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Segmentations, comparisons and notes stay with their scene, and with the project.
+#include "app/gui/annotate/segment_controller.h"
 #include "app/gui/compare/compare_controller.h"
-#include "app/gui/segment/segment_controller.h"
-#include "app/session/project/project_file.h"
+#include "app/session/project_file.h"
 #include "tests/app/gui/project/working.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/estimate/result_list.h"
+#include "widgets/panels/result_list.h"
 
 #include <QDialog>
 #include <QPlainTextEdit>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several light fields are open at once, and none loses what was done on it.
-#include "app/gui/frame/job_cancel.h"
+#include "app/gui/shell/jobs.h"
 #include "tests/app/gui/project/working.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/controls/elided_label.h"
 #include "widgets/controls/job_panel.h"
+#include "widgets/controls/labels.h"
 #include "widgets/controls/message_bar.h"
 
 #include <QComboBox>
@@ -258,13 +258,13 @@ void ProjectTest::memoryBudget_keepsResultsOnDisk() {
 
 void ProjectTest::list_saysWhatIsBeingOpened() {
   Working f;
-  Stage& stage = f.window.bench().stage;
+  ViewerArea& viewer_area = f.window.bench().viewer_area;
   QCOMPARE(list_of(f)->placeholderText(), QString("nothing is open"));
 
-  stage.showPreview(QImage(20, 20, QImage::Format_RGB32), "edge");
+  viewer_area.showPreview(QImage(20, 20, QImage::Format_RGB32), "edge");
   QCOMPARE(list_of(f)->placeholderText(), QString("opening …"));
 
-  stage.endPreview();
+  viewer_area.endPreview();
   QCOMPARE(list_of(f)->placeholderText(), QString("nothing is open"));
 }
 

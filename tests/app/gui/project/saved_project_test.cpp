@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several light fields are one piece of work, which is saved, opened and moved as one.
-#include "app/session/project/project_file.h"
-#include "app/session/project/stored_project.h"
+#include "app/session/project_file.h"
+#include "app/session/project_store.h"
 #include "tests/app/gui/project/working.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/controls/elided_label.h"
+#include "widgets/controls/labels.h"
 #include "widgets/controls/message_bar.h"
 
 #include <QComboBox>

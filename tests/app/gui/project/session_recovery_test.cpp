@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What was open when the program was killed comes back, all of it.
-#include "app/gui/project/session_recovery.h"
+#include "app/gui/files/session_recovery.h"
 
-#include "app/session/project/workspace.h"
+#include "app/session/workspace.h"
 #include "tests/app/gui/project/working.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
@@ -154,7 +154,7 @@ void SessionRecoveryTest::discardedSession_isGone() {
 
   f.bar()->findChild<QPushButton*>("message.other")->click();
 
-  QVERIFY(left_workspaces((state.path() + "/sessions").toStdString()).empty());
+  QVERIFY(orphaned_workspaces((state.path() + "/sessions").toStdString()).empty());
 }
 
 void SessionRecoveryTest::leftWindow_leavesNothingBehind() {
@@ -178,7 +178,7 @@ void SessionRecoveryTest::runningSession_isNotOffered() {
   f.estimate();
   QTRY_VERIFY(f.autosave().isIdle());
 
-  QVERIFY(left_workspaces((state.path() + "/sessions").toStdString()).empty());
+  QVERIFY(orphaned_workspaces((state.path() + "/sessions").toStdString()).empty());
 }
 
 }  // namespace episcope::in_session_recovery_test

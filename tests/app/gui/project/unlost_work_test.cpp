@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a project holds and the window cannot show stays in it; what was done counts as work.
 #include "app/gui/annotate/annotation_files.h"
-#include "app/session/project/project_file.h"
-#include "app/session/project/stored_project.h"
+#include "app/session/project_file.h"
+#include "app/session/project_store.h"
 #include "tests/app/gui/project/working.h"
 #include "tests/window_test_main.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/document/document_controller.h"
 #include "app/gui/estimate/estimate_controller.h"
-#include "app/gui/opening/scene_switcher.h"
-#include "app/gui/project/autosave.h"
-#include "app/gui/project/project_controller.h"
-#include "app/gui/project/project_guard.h"
+#include "app/gui/files/autosave.h"
+#include "app/gui/files/project_controller.h"
+#include "app/gui/files/project_guard.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/scene_switcher.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 

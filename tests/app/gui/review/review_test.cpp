@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks labels in the window that ships, by mouse and keys: regions in doubt, islands and holes,
 // labels over the views, smooth boundaries, masks.
-#include "app/gui/review/review_controller.h"
-#include "app/gui/segment/segmentation_export.h"
-#include "app/session/labels/segmentation.h"
+#include "app/gui/annotate/annotation_files.h"
+#include "app/gui/annotate/label_review.h"
+#include "app/session/segmentation.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/window_test_main.h"
-#include "widgets/annotate/check_panel.h"
-#include "widgets/annotate/epi_strip_view.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/number_spin.h"
+#include "widgets/panels/label_review_panel.h"
 
 #include <QComboBox>
 #include <QDialog>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The edge weights that lie beside a light field, in the window that ships.
-#include "app/gui/frame/commands.h"
-#include "app/gui/segment/segment_controller.h"
-#include "app/gui/stage/overlay.h"
-#include "engine/io/archive/companions.h"
-#include "engine/io/open/open.h"
+#include "app/gui/annotate/segment_controller.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/shell/commands.h"
+#include "engine/io/formats/companions.h"
+#include "engine/io/open.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/annotate/segment_panel.h"
+#include "widgets/panels/segment_panel.h"
 
 #include "widgets/controls/message_bar.h"
 

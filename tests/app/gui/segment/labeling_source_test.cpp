@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/segment/labeling_source.h"
+#include "app/gui/annotate/labeling_source.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Segments in the window that ships, from what is painted with the mouse.
-#include "app/gui/frame/cancels.h"
-#include "app/gui/segment/segment_controller.h"
-#include "app/gui/segment/segmentation_export.h"
-
 #include "app/gui/annotate/annotation_files.h"
+#include "app/gui/annotate/segment_controller.h"
+#include "app/gui/shell/commands.h"
+
 #include "app/gui/compare/picture_export.h"
-#include "app/gui/frame/commands.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/gui/project/project_controller.h"
-#include "app/gui/stage/overlay.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/labels/segmentation_file.h"
+#include "app/gui/files/project_controller.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/scene/scene_opener.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/io/models/segmentation_file.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/app/gui/held_lane.h"
 #include "tests/window_test_main.h"
-#include "widgets/annotate/segment_panel.h"
-#include "widgets/compare/color_bar.h"
+#include "widgets/panels/color_bar.h"
+#include "widgets/panels/segment_panel.h"
 
 #include <QAction>
 #include <QSignalSpy>
@@ -319,7 +317,7 @@ void SegmentTest::mapOfLabels_isNotShownOverAnotherLightField() {
   f.openSmall("edge");
 
   QTRY_COMPARE(f.window.bench().overlay.quantity(), Quantity::View);
-  QVERIFY(f.window.bench().stage.colorBar()->isHidden());
+  QVERIFY(f.window.bench().viewer_area.colorBar()->isHidden());
 }
 
 void SegmentTest::labelsOfAProject_haveNoProbabilities() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/capture/capture_document.h"
-#include "app/session/project/capture_json.h"
+#include "app/session/capture_document.h"
+#include "app/session/capture_work.h"
 #include "engine/core/error.h"
 #include "tests/test_main.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ground truth of a mesh as a reader of the archive sees it: by HDF5 alone, with the names, shapes
 // and attributes of the archive, and nothing of ours.
-#include "app/session/capture/mesh_truth.h"
-#include "engine/io/archive/write_scene.h"
+#include "app/session/capture_output.h"
+#include "engine/io/formats/write_scene.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 

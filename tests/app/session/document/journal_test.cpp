@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/document/annotation_journal.h"
-#include "app/session/document/journal_records.h"
+#include "app/session/annotation_journal.h"
 #include "engine/core/error.h"
 #include "tests/annotation/random_edits.h"
 #include "tests/patience.h"
@@ -203,18 +202,18 @@ class JournalTest : public QObject {
     write(folder() / "later.journal", {1, 2, 3}, 3);  // of a later program, perhaps
     write(folder() / "empty.journal", {}, 0);
 
-    const auto left = left_journals(folder());
+    const auto left = recoverable_journals(folder());
 
     QCOMPARE(left.size(), std::size_t{1});
     QCOMPARE(left[0].path, path_of_dead);
     QCOMPARE(left[0].owner.source, std::string("b.h5"));
     QVERIFY(same(read_journal(left[0].path).document, dead));
     discard_journal(left[0].path);
-    QVERIFY(left_journals(folder()).empty());
+    QVERIFY(recoverable_journals(folder()).empty());
     QVERIFY(std::filesystem::exists(held.path()));
     QVERIFY(std::filesystem::exists(folder() / "later.journal"));
     QVERIFY(!std::filesystem::exists(folder() / "empty.journal"));
-    QVERIFY(left_journals(folder() / "none").empty());
+    QVERIFY(recoverable_journals(folder() / "none").empty());
   }
 
   void recoveredDocument_goesOnWithItsHistory() {
@@ -247,13 +246,13 @@ class JournalTest : public QObject {
       while (program.canReadLine() ? program.readLine().toInt() < 40 * (round + 1)
                                    : program.waitForReadyRead(kPatience)) {
       }
-      QVERIFY(left_journals(folder()).empty());  // it is alive
+      QVERIFY(recoverable_journals(folder()).empty());  // it is alive
       ::kill(static_cast<pid_t>(program.processId()), SIGKILL);
       QVERIFY(program.waitForFinished());
       QCOMPARE(program.exitStatus(), QProcess::CrashExit);
       const int done = last_number(program.readAllStandardOutput(), 40 * (round + 1));
 
-      const auto left = left_journals(folder());
+      const auto left = recoverable_journals(folder());
       QCOMPARE(left.size(), std::size_t{1});
       const RecoveredAnnotation found = read_journal(left[0].path);
 

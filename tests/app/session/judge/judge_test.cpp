@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/judge/judge.h"
+#include "app/session/judge.h"
 
-#include "app/session/run/read_result.h"
+#include "app/session/result_files.h"
 #include "engine/core/error.h"
-#include "engine/io/maps/pfm.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/io/base/pfm.h"
+#include "engine/io/models/result_file.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"
 

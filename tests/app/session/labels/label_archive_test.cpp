@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/labels/label_archive.h"
+#include "app/session/labeling_inputs.h"
 
 #include "engine/core/error.h"
-#include "engine/io/archive/companions.h"
-#include "engine/io/labels/probability_samples.h"
+#include "engine/io/formats/companions.h"
+#include "engine/io/models/segmentation_file.h"
 #include "engine/labeling/labeler.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/labels/live_labeler.h"
+#include "app/session/live_labeler.h"
 
-#include "annotation/document/exchange.h"
+#include "annotation/exchange.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/app/session/turned_loop.h"
 #include "tests/patience.h"

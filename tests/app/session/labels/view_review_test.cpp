@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is told and written of labels, without a window.
-#include "app/session/labels/view_review.h"
+#include "app/session/label_review.h"
 
-#include "app/session/labels/save_masks.h"
-#include "app/session/picture/label_strip.h"
+#include "app/session/segmentation_files.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 

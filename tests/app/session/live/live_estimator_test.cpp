@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/live/live_estimator.h"
+#include "app/session/live_estimator.h"
 
 #include "app/session/session.h"
 #include "engine/disparity/registry.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/project/project_file.h"
-#include "app/session/project/own_folders.h"
+#include "app/session/project_file.h"
 
-#include "app/session/project/moved_inputs.h"
-#include "app/session/project/workspace.h"
+#include "app/session/project_store.h"
+#include "app/session/workspace.h"
 #include "engine/core/error.h"
 #include "tests/test_main.h"
 
@@ -322,14 +321,14 @@ void ProjectFileTest::leftWorkspace_isOfferedOnceNobodyHoldsIt() {
   const std::filesystem::path root = folder.path().toStdString();
   auto held = std::make_unique<Workspace>(root);
   write_project(held->project_file(), sample(root));
-  QVERIFY(left_workspaces(root).empty());
+  QVERIFY(orphaned_workspaces(root).empty());
 
   held.reset();
-  const auto left = left_workspaces(root);
+  const auto left = orphaned_workspaces(root);
   QCOMPARE(left.size(), 1U);
   QCOMPARE(left[0].project.scenes.size(), 2U);
   const auto taken = Workspace::take_over(left[0].folder);
-  QVERIFY(left_workspaces(root).empty());
+  QVERIFY(orphaned_workspaces(root).empty());
   taken->remove();
   QVERIFY(!std::filesystem::exists(left[0].folder));
 }

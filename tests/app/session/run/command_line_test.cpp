@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/run/command_line.h"
+#include "app/session/command_line.h"
 
 #include "engine/disparity/registry.h"
-#include "engine/io/open/open_options.h"
+#include "engine/io/models/open_options.h"
 #include "tests/test_main.h"
 
 namespace episcope::in_command_line_test {

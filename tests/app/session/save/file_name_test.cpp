@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/save/file_name.h"
+#include "app/session/known_files.h"
 
-#include "app/session/project/project_file.h"
+#include "app/session/project_file.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

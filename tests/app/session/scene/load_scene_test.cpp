@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/scene/load_scene.h"
-#include "app/session/scene/gantry_scene.h"
+#include "app/session/gantry_scene.h"
+#include "app/session/load_scene.h"
 
-#include "app/session/scene/collections.h"
-#include "app/session/scene/scene_cache.h"
-#include "app/session/scene/scribble_place.h"
+#include "app/session/collections.h"
+#include "app/session/user_folders.h"
 #include "engine/core/error.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/labels/scribble_file.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/scene/scene_range.h"
+#include "app/session/scene_summary.h"
 
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/space/space_scene.h"
-#include "engine/capture/mesh/mesh_file.h"
+#include "app/session/point_clouds.h"
+#include "engine/capture/mesh_file.h"
 #include "engine/core/error.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"
@@ -18,8 +18,8 @@ std::shared_ptr<const DisparityField> field_of(const EstimatePtr& estimate) {
   return {estimate, &estimate->field};
 }
 
-SpaceRequest request_of(const Scene& scene, float offset) {
-  SpaceRequest request;
+PointCloudRequest request_of(const Scene& scene, float offset) {
+  PointCloudRequest request;
   request.light_field = scene.light_field;
   request.view = scene.light_field->center();
   request.sources.push_back({field_of(shifted_truth(scene, offset))});
@@ -38,9 +38,9 @@ class SpaceSceneTest : public QObject {
  private slots:
   void points_areAllOfTheView_inItsColours() {
     const auto scene = tiny_scene();
-    const SpaceRequest request = request_of(*scene, 0);
+    const PointCloudRequest request = request_of(*scene, 0);
 
-    const SpaceScene made = make_space_scene(request, Progress());
+    const PointClouds made = make_point_clouds(request, Progress());
 
     QCOMPARE(made.parts.size(), std::size_t(1));
     QCOMPARE(made.parts[0].all.positions.size(), std::size_t(64 * 64));
@@ -55,11 +55,11 @@ class SpaceSceneTest : public QObject {
     options.grid = {1, 1};
     options.height = options.width = 640;
     const Scene scene = scenes::render_builtin("edge", options, Progress());
-    SpaceRequest request = request_of(scene, 0);
+    PointCloudRequest request = request_of(scene, 0);
 
-    const SpaceScene points = make_space_scene(request, Progress());
+    const PointClouds points = make_point_clouds(request, Progress());
     request.jump_px = 0.1;
-    const SpaceScene surface = make_space_scene(request, Progress());
+    const PointClouds surface = make_point_clouds(request, Progress());
 
     QCOMPARE(points.parts[0].all.positions.size(), std::size_t(640 * 640));
     QCOMPARE(points.parts[0].few.positions.size(), std::size_t(214 * 214));
@@ -70,12 +70,12 @@ class SpaceSceneTest : public QObject {
 
   void sources_standBesideEachOther() {
     const auto scene = tiny_scene();
-    SpaceRequest request = request_of(*scene, 0);
+    PointCloudRequest request = request_of(*scene, 0);
     request.sources.push_back({truth_of(*scene)});
 
-    const SpaceScene over = make_space_scene(request, Progress());
+    const PointClouds over = make_point_clouds(request, Progress());
     request.is_beside = true;
-    const SpaceScene beside = make_space_scene(request, Progress());
+    const PointClouds beside = make_point_clouds(request, Progress());
 
     QVERIFY(over.parts[0].all.positions == over.parts[1].all.positions);
     const auto left = robust_bounds(beside.parts[0].all);
@@ -86,12 +86,12 @@ class SpaceSceneTest : public QObject {
 
   void colours_areOneEachOrThoseOfAMap() {
     const auto scene = tiny_scene();
-    SpaceRequest request = request_of(*scene, 0);
+    PointCloudRequest request = request_of(*scene, 0);
     request.sources.push_back({truth_of(*scene)});
-    request.coloring = SpaceColoring::Source;
+    request.coloring = PointCloudColoring::Source;
 
-    const SpaceScene each = make_space_scene(request, Progress());
-    request.coloring = SpaceColoring::Map;
+    const PointClouds each = make_point_clouds(request, Progress());
+    request.coloring = PointCloudColoring::Map;
     request.shading = {render::color_map("grey"), {-1, 1}};
     MapSource map;
     map.quantity = render::Quantity::Truth;
@@ -99,7 +99,7 @@ class SpaceSceneTest : public QObject {
     map.light_field = scene->light_field;
     map.truth = scene->truth;
     request.sources[0].map = map;
-    const SpaceScene mapped = make_space_scene(request, Progress());
+    const PointClouds mapped = make_point_clouds(request, Progress());
 
     QCOMPARE(each.parts[0].all.colors[5][0], kSourceColors[0][0]);
     QCOMPARE(each.parts[1].all.colors[5][2], kSourceColors[1][2]);
@@ -112,11 +112,11 @@ class SpaceSceneTest : public QObject {
 
   void distances_areToTheReference() {
     const auto scene = tiny_scene();
-    SpaceRequest request = request_of(*scene, 0.05F);
-    request.coloring = SpaceColoring::Distance;
+    PointCloudRequest request = request_of(*scene, 0.05F);
+    request.coloring = PointCloudColoring::Distance;
     request.reference = truth_of(*scene);
 
-    const SpaceScene made = make_space_scene(request, Progress());
+    const PointClouds made = make_point_clouds(request, Progress());
 
     QVERIFY(made.distance.has_value());
     QVERIFY(made.distance->median > 0);
@@ -126,20 +126,20 @@ class SpaceSceneTest : public QObject {
 
   void savedScene_isReadAsAMesh() {
     const auto scene = tiny_scene();
-    SpaceRequest request = request_of(*scene, 0);
+    PointCloudRequest request = request_of(*scene, 0);
     request.sources.push_back({truth_of(*scene)});
     request.is_beside = true;
     request.jump_px = 0.1;
-    const SpaceScene made = make_space_scene(request, Progress());
+    const PointClouds made = make_point_clouds(request, Progress());
     const QTemporaryDir folder;
     const std::filesystem::path file = folder.filePath("scene.ply").toStdString();
 
-    save_space_scene(file, made.parts);
+    save_point_clouds(file, made.parts);
     const auto mesh = capture::read_mesh(file, Progress());
 
     QCOMPARE(mesh.faces.size(),
              made.parts[0].all.triangles.size() + made.parts[1].all.triangles.size());
-    QVERIFY_THROWS_EXCEPTION(InvalidInput, save_space_scene(file, {}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, save_point_clouds(file, {}));
   }
 
   void stopRequest_isHeard() {
@@ -148,7 +148,7 @@ class SpaceSceneTest : public QObject {
     stop.request_stop();
 
     QVERIFY_THROWS_EXCEPTION(
-        Cancelled, (void)make_space_scene(request_of(*scene, 0), Progress(stop.get_token(), {})));
+        Cancelled, (void)make_point_clouds(request_of(*scene, 0), Progress(stop.get_token(), {})));
   }
 };
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/sweep/sweep.h"
+#include "app/session/sweep.h"
 #include "tests/test_main.h"
 
-#include "app/session/judge/judge.h"
-#include "app/session/sweep/sweep_list.h"
-#include "app/session/sweep/sweep_table.h"
-#include "app/session/sweep/sweep_values.h"
+#include "app/session/judge.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "tests/app/session/tiny_scene.h"

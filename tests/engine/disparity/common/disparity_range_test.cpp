@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/common/disparity_range.h"
+#include "engine/disparity/disparity_range.h"
 
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
-#include "engine/disparity/tensor/structure_tensor.h"
-#include "engine/scenes/request.h"
+#include "engine/disparity/structure_tensor.h"
+#include "engine/scenes/builtin.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/common/even_brightness.h"
+#include "engine/disparity/even_brightness.h"
 
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"

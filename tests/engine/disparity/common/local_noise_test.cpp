@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/common/local_noise.h"
+#include "engine/disparity/view_samples.h"
 
-#include "engine/core/array/quantile.h"
+#include "engine/core/numbers.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/common/matching_cost.h"
+#include "engine/disparity/matching_cost.h"
 
 #include "engine/core/error.h"
 #include "tests/engine/disparity/light_fields.h"

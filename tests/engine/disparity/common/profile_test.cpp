@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ten methods of the paper, tuned and as published.
-#include "engine/disparity/common/profile.h"
+#include "engine/disparity/estimator.h"
 
 #include "engine/disparity/registry.h"
 #include "engine/scenes/builtin.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/common/relative_samples.h"
+#include "engine/disparity/view_samples.h"
 
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/common/run_options.h"
+#include "engine/disparity/estimator.h"
 
-#include "engine/disparity/common/estimator.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

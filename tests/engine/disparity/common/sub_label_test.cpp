@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/common/sub_label.h"
+#include "engine/disparity/global_labeling.h"
 #include "tests/test_main.h"
 
 #include <cmath>

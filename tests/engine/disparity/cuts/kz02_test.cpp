@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/cuts/kz02.h"
+#include "engine/disparity/kz02.h"
 
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/cuts/multi_camera_energy.h"
+#include "engine/disparity/multi_camera_energy.h"
 
-#include "engine/disparity/common/matching_cost.h"
-#include "engine/disparity/cuts/label_expansion.h"
+#include "engine/disparity/kz02.h"
+#include "engine/disparity/matching_cost.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/epi/epi_c.h"
+#include "engine/disparity/epi_c.h"
 
-#include "engine/disparity/epi/epi_s.h"
-#include "engine/solvers/ordering/ordering_terms.h"
+#include "engine/disparity/epi_s.h"
+#include "engine/solvers/ordering_terms.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

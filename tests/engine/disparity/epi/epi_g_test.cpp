@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/epi/epi_g.h"
+#include "engine/disparity/epi_g.h"
 
-#include "engine/disparity/epi/epi_s.h"
+#include "engine/disparity/epi_s.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/epi/side_choice.h"
+#include "engine/disparity/line_check.h"
 
-#include "engine/disparity/epi/line_residuals.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

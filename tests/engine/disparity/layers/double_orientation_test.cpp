@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/layers/double_layers.h"
+#include "engine/disparity/double_orientation.h"
 
 #include "engine/core/error.h"
 #include "tests/engine/disparity/light_fields.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/layers/epi_two_layer.h"
+#include "engine/disparity/epi_two_layer.h"
 
-#include "engine/disparity/common/disparity_range.h"
-#include "engine/disparity/epi/epi_s.h"
-#include "engine/disparity/layers/layer_range.h"
-#include "engine/scenes/recipes/sensor_noise.h"
-#include "engine/scenes/request.h"
+#include "engine/disparity/disparity_range.h"
+#include "engine/disparity/epi_s.h"
+#include "engine/disparity/layer_decision.h"
+#include "engine/scenes/builtin.h"
+#include "engine/scenes/sensor.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

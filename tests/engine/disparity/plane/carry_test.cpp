@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/plane/carry.h"
+#include "engine/disparity/propagate_planes.h"
 
 #include "engine/core/error.h"
-#include "engine/disparity/epi/epi_c.h"
-#include "engine/disparity/plane/plane_pm.h"
+#include "engine/disparity/epi_c.h"
+#include "engine/disparity/plane_pm.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

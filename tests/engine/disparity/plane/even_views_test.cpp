@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/plane/even_views.h"
+#include "engine/disparity/photometric_correction.h"
 
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/plane/plane_pm.h"
+#include "engine/disparity/plane_pm.h"
 
-#include "engine/disparity/stereo/stereo_global.h"
+#include "engine/disparity/stereo.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/plane/silhouette_median.h"
+#include "engine/disparity/plane_labeling.h"
 
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/stereo/stereo_global.h"
+#include "engine/disparity/stereo.h"
 
-#include "engine/disparity/stereo/stereo_local.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stereo methods ST_AV_L, ST_CH_L, ST_AV_S and ST_CH_S on scenes whose truth is known.
 #include "engine/disparity/registry.h"
-#include "engine/disparity/stereo/stereo_local.h"
+#include "engine/disparity/stereo.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

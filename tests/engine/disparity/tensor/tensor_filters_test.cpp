@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/tensor/tensor_filters.h"
+#include "engine/disparity/structure_tensor.h"
 #include "tests/test_main.h"
 
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/order/view_axes.h"
+#include "engine/io/models/order/view_axes.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/archive_folder.h"
 #include "tests/engine/io/synthetic_scene.h"

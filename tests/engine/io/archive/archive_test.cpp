@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/archive/companions.h"
-#include "engine/io/archive/write_scene.h"
+#include "engine/io/formats/companions.h"
+#include "engine/io/formats/write_scene.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/archive_folder.h"
 #include "tests/engine/io/synthetic_scene.h"

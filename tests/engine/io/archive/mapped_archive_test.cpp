@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Light fields that are large beside the budget stay in their file, and are the same.
-#include "engine/core/array/memory_budget.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/arrays/write_arrays.h"
+#include "engine/core/memory.h"
+#include "engine/io/formats/write_arrays.h"
+#include "engine/io/formats/write_scene.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/archive_folder.h"
 #include "tests/engine/io/synthetic_scene.h"

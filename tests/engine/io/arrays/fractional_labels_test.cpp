@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/arrays/npy_file.h"
-#include "engine/io/hdf5/hdf5_file.h"
-#include "engine/io/open/open.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/npy.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/arrays/inflate_stream.h"
+#include "engine/io/base/zip.h"
 
 #include "tests/test_main.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/arrays/npy_file.h"
 #include "engine/core/error.h"
+#include "engine/io/base/npy.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

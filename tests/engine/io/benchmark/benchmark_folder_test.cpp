@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/maps/pfm.h"
-#include "engine/io/open/open.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/pfm.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/beside/archived_map.h"
+#include "engine/io/models/sidecar_maps/map_file.h"
 
 #include "engine/core/error.h"
-#include "engine/io/arrays/npy_file.h"
-#include "engine/io/arrays/npy_header.h"
+#include "engine/io/base/npy.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/beside/find_maps.h"
+#include "engine/io/models/sidecar_maps/find_maps.h"
 #include "tests/test_main.h"
 
-#include <fmt/format.h>
 #include <QTemporaryDir>
+#include <fmt/format.h>
 
 #include <fstream>
 

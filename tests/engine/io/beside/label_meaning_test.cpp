@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/beside/label_meaning.h"
-#include "engine/io/beside/class_table.h"
-#include "engine/io/beside/map_file.h"
+#include "engine/io/models/sidecar_maps/map_file.h"
+#include "engine/io/models/sidecar_maps/sidecar_labels.h"
 #include "tests/test_main.h"
 
 #include <algorithm>

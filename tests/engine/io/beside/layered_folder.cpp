@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/engine/io/beside/layered_folder.h"
 
-#include "engine/io/arrays/npy_file.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/open/open.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/npy.h"
+#include "engine/io/open.h"
 
 #include <fmt/format.h>
 

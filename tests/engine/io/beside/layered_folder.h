@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/scene.h"
-#include "engine/io/open/open_options.h"
+#include "engine/core/scene.h"
+#include "engine/io/models/open_options.h"
 
 #include <QTemporaryDir>
 

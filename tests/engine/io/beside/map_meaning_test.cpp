@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/beside/depth_fit.h"
-#include "engine/io/beside/map_scale.h"
-#include "engine/io/beside/near_side.h"
+#include "engine/io/models/sidecar_maps/disparity_units.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/test_main.h"
 

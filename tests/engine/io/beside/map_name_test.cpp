@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/beside/map_name.h"
+#include "engine/io/models/sidecar_maps/map_name.h"
 #include "tests/test_main.h"
 
 namespace episcope::in_map_name_test {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/beside/resampled_map.h"
-#include "engine/io/beside/text_map.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/mosaic/split_mosaic.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/formats/mosaic_layout.h"
+#include "engine/io/models/sidecar_maps/map_file.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"

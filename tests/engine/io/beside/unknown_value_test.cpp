@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/beside/unknown_value.h"
+#include "engine/io/models/sidecar_maps/infer_units.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 

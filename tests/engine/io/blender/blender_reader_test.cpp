@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/collection/scan_folder.h"
+#include "engine/io/formats/collection.h"
+#include "engine/io/formats/write_scene.h"
 #include "tests/engine/io/blender/rendered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"

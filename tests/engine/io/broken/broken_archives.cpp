@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/maps/result_file.h"
+#include "engine/io/models/result_file.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/broken/broken.h"
 #include "tests/engine/io/synthetic_scene.h"

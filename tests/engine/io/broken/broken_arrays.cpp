@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/arrays/write_arrays.h"
+#include "engine/io/formats/write_arrays.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/engine/io/broken/broken.h"
 #include "tests/engine/io/synthetic_scene.h"

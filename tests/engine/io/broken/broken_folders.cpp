@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/durable/checksum.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/maps/pfm.h"
+#include "engine/io/base/append_log.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/pfm.h"
+#include "engine/io/formats/write_scene.h"
 #include "tests/engine/io/broken/broken.h"
 #include "tests/engine/io/synthetic_scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/durable/append_log.h"
+#include "engine/io/base/append_log.h"
 
 #include "engine/core/error.h"
 #include "tests/test_main.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/durable/temporary_name.h"
+#include "engine/io/base/atomic_file.h"
 
-#include "engine/io/durable/atomic_file.h"
-#include "engine/io/durable/atomic_folder.h"
 #include "tests/test_main.h"
 
 #include <QDir>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/frames/frames_reader.h"
+#include "engine/io/formats/frames_reader.h"
 
 #include "engine/core/error.h"
-#include "engine/io/durable/checksum.h"
-#include "engine/io/frames/film.h"
-#include "engine/io/frames/tiff_pages.h"
-#include "engine/io/movie/movie_file.h"
-#include "engine/io/open/open.h"
+#include "engine/io/base/append_log.h"
+#include "engine/io/formats/film.h"
+#include "engine/io/formats/movie.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/frames/described_tiff.h"
 #include "tests/engine/io/order/layered_scene.h"
 #include "tests/test_main.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/frames/stated_pages.h"
+#include "engine/io/formats/frames_reader.h"
 
 #include "tests/test_main.h"
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/grid/exif_orientation.h"
+#include "engine/io/base/image_orientation.h"
 
-#include "engine/io/grid/image_header.h"
+#include "engine/io/base/image_file.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/test_main.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <zlib.h>
 
 #include <cmath>
 #include <fstream>

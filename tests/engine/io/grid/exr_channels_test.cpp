@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/grid/decode_image.h"
+#include "engine/io/base/image_file.h"
 #include "tests/engine/io/grid/exr_file.h"
 #include "tests/test_main.h"
 

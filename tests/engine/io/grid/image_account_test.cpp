@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/grid/decode_image.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/open/folder_account.h"
-#include "engine/io/open/open.h"
-#include "engine/io/open/undecided.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/io/models/file_usage.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/grid/part_of_grid.h"
-#include "engine/io/grid/pattern_preview.h"
-#include "engine/io/open/undecided.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/models/names/view_files.h"
+#include "engine/io/models/names/views_folder.h"
+#include "engine/io/models/open_options.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"

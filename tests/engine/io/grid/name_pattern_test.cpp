@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/grid/name_pattern.h"
+#include "engine/io/models/names/name_pattern.h"
 
 #include "engine/core/error.h"
-#include "engine/io/grid/pattern_preview.h"
+#include "engine/io/models/names/views_folder.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

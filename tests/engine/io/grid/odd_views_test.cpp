@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/grid/decode_image.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/grid/image_grid_probe.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/formats/image_grid.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/test_main.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/open/open.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
-#include <fmt/format.h>
 #include <QTemporaryDir>
+#include <fmt/format.h>
 
 namespace episcope::in_row_folders_test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/grid/view_folders.h"
 #include "engine/core/error.h"
-#include "engine/io/grid/image_file.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/models/names/view_folders.h"
 #include "tests/engine/io/beside/layered_folder.h"
 #include "tests/test_main.h"
 

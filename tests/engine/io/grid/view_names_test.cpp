@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/grid/view_names.h"
+#include "engine/io/models/names/view_names.h"
 
 #include "engine/core/error.h"
-#include "engine/io/grid/view_group.h"
 #include "tests/test_main.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // Groups of many datasets, as new versions of HDF5 store them, are refused when they are damaged:
 // in order of names the library released a table of them that it had not filled.
 #include "engine/core/error.h"
-#include "engine/io/hdf5/hdf5_file.h"
-#include "engine/io/open/open.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/open.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

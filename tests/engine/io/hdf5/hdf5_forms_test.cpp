@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/hdf5/hdf5_file.h"
-#include "engine/io/open/open.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/engine/io/hdf5/one_dataset.h"
 
-#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/base/hdf5_file.h"
 
 #include <QTest>
 

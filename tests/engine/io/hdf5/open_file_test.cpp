@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Inputs of one HDF5 file share its opening and the list of what it holds, but never those of a
 // file that has taken its place.
-#include "engine/io/durable/atomic_file.h"
-#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/hdf5_file.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

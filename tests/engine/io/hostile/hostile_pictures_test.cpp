@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/grid/claimed_pixels.h"
-#include "engine/io/grid/decode_image.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/image_header.h"
 #include "tests/test_main.h"
 
 #include <opencv2/core.hpp>

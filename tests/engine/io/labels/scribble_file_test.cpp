@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/labels/scribble_file.h"
 #include "engine/core/error.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/labels/scribble_pictures.h"
-#include "engine/io/labels/true_labels.h"
-#include "engine/io/open/open.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/io/models/scribble_file.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"

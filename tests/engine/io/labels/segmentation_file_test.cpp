@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/labels/segmentation_file.h"
+#include "engine/io/models/segmentation_file.h"
 
 #include "engine/core/error.h"
-#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/base/hdf5_file.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/maps/float_samples.h"
+#include "engine/io/base/sample_range.h"
 
 #include "tests/test_main.h"
 

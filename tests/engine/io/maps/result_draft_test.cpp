@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/maps/result_draft.h"
+#include "engine/io/models/result_draft.h"
 
 #include "engine/core/error.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/io/models/result_file.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

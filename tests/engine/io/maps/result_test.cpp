@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/core/version.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/hdf5/hdf5_file.h"
-#include "engine/io/maps/pfm.h"
-#include "engine/io/maps/ply.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/pfm.h"
+#include "engine/io/base/ply.h"
+#include "engine/io/models/result_file.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

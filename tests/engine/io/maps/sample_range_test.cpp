@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/maps/sample_range.h"
+#include "engine/io/base/sample_range.h"
 
 #include "engine/core/error.h"
-#include "engine/io/arrays/npy_file.h"
-#include "engine/io/open/open.h"
+#include "engine/io/base/npy.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/arrays/array_files.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/maps/submission_folder.h"
 #include "engine/core/error.h"
-#include "engine/io/maps/foreign_result.h"
-#include "engine/io/maps/pfm.h"
+#include "engine/io/base/pfm.h"
+#include "engine/io/models/external_result.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>
@@ -31,7 +30,7 @@ class SubmissionFolderTest : public QObject {
     }
 
     QVERIFY(io::submission_problems(path(), io::benchmark_scenes()).empty());
-    const Estimate cotton = io::read_foreign_result(path(), {9, 9}, "cotton");
+    const Estimate cotton = io::read_external_result(path(), {9, 9}, "cotton");
     QCOMPARE(cotton.seconds, 0.125);
     QCOMPARE(cotton.field.disparity.view({4, 4}).at(3, 3), 0.5F);
   }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Blocks of 8 px, as JPEG leaves them, are neither lenslets nor views.
 #include "engine/core/error.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/mosaic/write_eslf.h"
-#include "engine/io/open/open.h"
-#include "engine/io/open/undecided.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/open.h"
+#include "engine/io/write.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/grid/decode_png.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/grid/image_size.h"
-#include "engine/io/mosaic/write_eslf.h"
-#include "engine/io/open/open.h"
-#include "engine/io/open/reader.h"
-#include "engine/io/open/undecided.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/image_header.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/models/reader.h"
+#include "engine/io/open.h"
+#include "engine/io/write.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/movie/movie_file.h"
+#include "engine/io/formats/movie.h"
 
 #include "engine/core/error.h"
 #include "tests/engine/io/movie/read_movie.h"

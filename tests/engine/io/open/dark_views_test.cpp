@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/archive/write_scene.h"
-#include "engine/io/labels/scribble_file.h"
-#include "engine/io/open/assemble_scene.h"
-#include "engine/io/open/open.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/io/models/assemble_scene.h"
+#include "engine/io/models/scribble_file.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/open/foreign_form.h"
+#include "engine/io/open.h"
 
 #include "engine/core/error.h"
-#include "engine/io/open/open.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/open/open_options.h"
+#include "engine/io/models/open_options.h"
 
 #include "engine/core/error.h"
-#include "engine/io/open/reader.h"
+#include "engine/io/models/reader.h"
 #include "tests/test_main.h"
 
 #include <set>

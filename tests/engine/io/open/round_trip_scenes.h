@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/io/write/writer.h"
+#include "engine/io/write.h"
 
 #include <functional>
 #include <string>

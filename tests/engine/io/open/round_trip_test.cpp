@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/open/open.h"
-#include "engine/io/write/writer.h"
+#include "engine/io/open.h"
+#include "engine/io/write.h"
 #include "tests/engine/io/open/round_trip_scenes.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"

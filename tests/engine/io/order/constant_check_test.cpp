@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/order/constant_check.h"
-#include "engine/io/order/order_check.h"
+#include "engine/io/models/order/order_check.h"
+#include "engine/io/models/order/warp_check.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/order/line_matches.h"
+#include "engine/io/models/order/line_matches.h"
 
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/order/line_motion.h"
+#include "engine/io/models/order/view_axes.h"
 
 #include "tests/engine/io/order/layered_scene.h"
 #include "tests/test_main.h"

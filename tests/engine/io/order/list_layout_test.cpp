@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/order/list_layout.h"
 #include "engine/core/error.h"
+#include "engine/io/models/order/list_layout.h"
 #include "tests/engine/io/order/layered_scene.h"
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/features/disparity_slope.h"
+#include "engine/labeling/pixel_features.h"
 
 #include "tests/test_main.h"
 

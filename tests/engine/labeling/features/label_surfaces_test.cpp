@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/features/label_surfaces.h"
+#include "engine/labeling/label_surfaces.h"
 #include "tests/test_main.h"
 
 #include <cmath>

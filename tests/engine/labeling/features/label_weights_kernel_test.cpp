@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/features/label_weights_kernel.h"
+#include "engine/labeling/feature_kernel.h"
 
 #include "tests/test_main.h"
 

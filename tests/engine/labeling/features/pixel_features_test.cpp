@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/features/pixel_features.h"
+#include "engine/labeling/pixel_features.h"
 
 #include "engine/core/error.h"
 #include "tests/test_main.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/forest/forest.h"
+#include "engine/labeling/forest.h"
 
 #include "engine/core/error.h"
-#include "engine/labeling/forest/flat_tree.h"
 #include "tests/test_main.h"
 
 #include <opencv2/ml.hpp>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/rays/disparity_trust.h"
+#include "engine/labeling/edge_probability.h"
 
-#include "engine/labeling/rays/edge_probability.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/rays/line_smoothing.h"
+#include "engine/labeling/line_smoothing.h"
 
 #include "engine/labeling/consistency.h"
-#include "engine/labeling/rays/ray_lines.h"
 #include "tests/engine/labeling/rays/noisy_case.h"
 #include "tests/test_main.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/labeling/rays/edge_probability.h"
-#include "engine/labeling/rays/regularizer.h"
+#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/regularizer.h"
 #include "engine/scenes/builtin.h"
 #include "tests/engine/labeling/noisy_labels.h"
 

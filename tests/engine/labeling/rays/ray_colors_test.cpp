@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/rays/ray_colors.h"
+#include "engine/labeling/ray_targets.h"
 
 #include "tests/test_main.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/rays/regularizer.h"
+#include "engine/labeling/regularizer.h"
 
 #include "engine/core/error.h"
 #include "engine/labeling/consistency.h"
-#include "engine/labeling/rays/edge_probability.h"
-#include "engine/labeling/rays/kept_solver.h"
-#include "engine/labeling/rays/label_costs.h"
-#include "engine/labeling/rays/ray_colors.h"
+#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/ray_labeling.h"
+#include "engine/labeling/ray_targets.h"
+#include "engine/labeling/solve_views.h"
 #include "engine/scenes/builtin.h"
 #include "tests/cpu_time.h"
 #include "tests/engine/labeling/rays/noisy_case.h"

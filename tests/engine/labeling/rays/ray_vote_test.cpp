@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/rays/ray_vote.h"
+#include "engine/labeling/ray_vote.h"
 
-#include "engine/labeling/rays/changed_rays.h"
 #include "tests/engine/labeling/rays/noisy_case.h"
 #include "tests/test_main.h"
 

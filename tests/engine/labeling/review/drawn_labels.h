@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/image.h"
+#include "engine/core/image.h"
 
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/review/label_doubts.h"
+#include "engine/labeling/label_review.h"
 
 #include "engine/core/error.h"
 #include "tests/test_main.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/review/label_pieces.h"
+#include "engine/labeling/label_review.h"
 
 #include "tests/engine/labeling/review/drawn_labels.h"
 #include "tests/test_main.h"

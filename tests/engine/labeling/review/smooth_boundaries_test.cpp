@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/review/smooth_boundaries.h"
+#include "engine/labeling/label_review.h"
 
 #include "engine/core/error.h"
 #include "tests/test_main.h"

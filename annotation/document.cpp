@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "annotation/document.h"
+
+#include "engine/core/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+bool fits(const LabelRun& run, const ScribbleLayer& layer) {
+  return run.length > 0 && run.y < layer.height() && run.x + run.length <= layer.width();
+}
+
+PixelRegion pixels_of(ImageView<const std::uint8_t> image, std::uint8_t label) {
+  PixelRegion region;
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* row = image.row(y);
+    for (int x = 0; x < image.width; ++x) {
+      if (row[x] != label) continue;
+      const int begin = x;
+      while (x < image.width && row[x] == label) ++x;
+      region.push_back({y, begin, x});
+    }
+  }
+  return region;
+}
+
+}  // namespace
+
+AnnotationDocument::AnnotationDocument(GridShape grid, int height, int width,
+                                       std::size_t history_bytes)
+    : AnnotationDocument(LabelSet(), ScribbleLayer(grid, height, width), history_bytes) {}
+
+AnnotationDocument::AnnotationDocument(LabelSet labels, ScribbleLayer scribbles,
+                                       std::size_t history_bytes, double smoothing_px)
+    : labels_(std::move(labels)),
+      scribbles_(std::move(scribbles)),
+      boundary_smoothing_px_(smoothing_px),
+      history_(history_bytes) {}
+
+template <class Change>
+void AnnotationDocument::edit_labels(EditKind kind, const Change& change) {
+  LabelSet changed = labels_;
+  change(changed);
+  PendingEdit edit(*this, kind);
+  edit.set_labels(std::move(changed));
+  edit.commit();
+}
+
+int AnnotationDocument::add_label(const std::string& name, std::optional<Rgb> color) {
+  int id = 0;
+  edit_labels(EditKind::AddLabel, [&](LabelSet& labels) { id = labels.add(name, color); });
+  return id;
+}
+
+void AnnotationDocument::rename_label(int id, const std::string& name) {
+  edit_labels(EditKind::RenameLabel, [&](LabelSet& labels) { labels.rename(id, name); });
+}
+
+void AnnotationDocument::recolor_label(int id, Rgb color) {
+  edit_labels(EditKind::RecolorLabel, [&](LabelSet& labels) { labels.recolor(id, color); });
+}
+
+void AnnotationDocument::remove_label(int id) {
+  LabelSet changed = labels_;
+  changed.remove(id);
+  PendingEdit edit(*this, EditKind::RemoveLabel);
+  for (const ViewIndex view : scribbles_.painted_views()) {
+    edit.paint(view, pixels_of(scribbles_.view(view), static_cast<std::uint8_t>(id)), {0, {}});
+  }
+  edit.set_labels(std::move(changed));
+  edit.commit();
+}
+
+void AnnotationDocument::set_boundary_smoothing(double smoothing_px) {
+  require_idle();
+  const double rounded = std::round(std::clamp(smoothing_px, 0.0, kMaxSmoothing_px) * 100) / 100;
+  if (rounded == boundary_smoothing_px_) return;
+  Edit edit{EditKind::SmoothBoundaries, {}, {}, SmoothingEdit{boundary_smoothing_px_, rounded}};
+  put(edit, EditSide::After);
+  keep(std::move(edit));
+}
+
+DocumentChange AnnotationDocument::undo() {
+  require_idle();
+  const Edit* edit = history_.next_undo();
+  if (!edit) return {};
+  DocumentChange change = put(*edit, EditSide::Before);
+  history_.undo();
+  tell(DocumentStep::Undone, edit);
+  return change;
+}
+
+DocumentChange AnnotationDocument::redo() {
+  require_idle();
+  const Edit* edit = history_.next_redo();
+  if (!edit) return {};
+  DocumentChange change = put(*edit, EditSide::After);
+  history_.redo();
+  tell(DocumentStep::Redone, edit);
+  return change;
+}
+
+DocumentChange AnnotationDocument::apply(const Edit& edit) {
+  require_idle();
+  require_fitting(edit);
+  DocumentChange change = put(edit, EditSide::After);
+  keep(edit);
+  return change;
+}
+
+void AnnotationDocument::mark_saved() {
+  require_idle();
+  saved_state_ = state();
+  tell(DocumentStep::Saved, nullptr);
+}
+
+void AnnotationDocument::require_idle() const {
+  if (is_editing_) {
+    throw InvalidInput("an edit is in progress; commit or revert it first");
+  }
+}
+
+void AnnotationDocument::require_fitting(const Edit& edit) const {
+  for (const ViewEdit& part : edit.views) {
+    const bool is_sound =
+        scribbles_.grid().contains(part.view) &&
+        std::ranges::all_of(part.runs, [&](const LabelRun& run) { return fits(run, scribbles_); });
+    if (!is_sound) {
+      throw InvalidInput(fmt::format("an edit of view ({}) does not fit {}×{} views of {}×{} px",
+                                     view_text(part.view), scribbles_.grid().v, scribbles_.grid().u,
+                                     scribbles_.height(), scribbles_.width()));
+    }
+  }
+}
+
+DocumentChange AnnotationDocument::put(const Edit& edit, EditSide side) {
+  DocumentChange change;
+  for (const ViewEdit& part : edit.views) {
+    put_labels(part, side, scribbles_);
+    change.views.push_back({part.view, part.rect});
+  }
+  if (edit.labels) {
+    labels_ = side == EditSide::After ? edit.labels->after : edit.labels->before;
+    change.has_new_labels = true;
+  }
+  if (edit.smoothing) {
+    boundary_smoothing_px_ =
+        side == EditSide::After ? edit.smoothing->after : edit.smoothing->before;
+    change.has_new_smoothing = true;
+  }
+  return change;
+}
+
+void AnnotationDocument::keep(Edit edit) {
+  if (!observer_) {
+    history_.push(std::move(edit));
+    return;
+  }
+  const Edit kept = edit;  // The history may forget it at once.
+  history_.push(std::move(edit));
+  tell(DocumentStep::Edited, &kept);
+}
+
+void AnnotationDocument::tell(DocumentStep step, const Edit* edit) const {
+  if (observer_) observer_({step, edit});
+}
+
+PendingEdit::PendingEdit(AnnotationDocument& document, EditKind kind)
+    : document_(&document), kind_(kind) {
+  document.require_idle();
+  document.is_editing_ = true;
+}
+
+PendingEdit::~PendingEdit() {
+  if (document_) revert();
+}
+
+PendingEdit::Touched& PendingEdit::touch(ViewIndex view) {
+  const auto [place, is_new] = touched_.try_emplace({view.v, view.u});
+  if (is_new) {
+    // The whole view, once: copying a megabyte is cheaper than determining what will be painted.
+    const ImageView<const std::uint8_t> now = document_->scribbles_.view(view);
+    place->second.before =
+        Image<std::uint8_t>(document_->scribbles_.height(), document_->scribbles_.width());
+    if (!now.empty()) std::copy_n(now.data, now.size(), place->second.before.data());
+  }
+  return place->second;
+}
+
+PixelRect PendingEdit::paint(ViewIndex view, const PixelRegion& region, const Ink& ink) {
+  if (ink.label != 0 && !document_->labels_.contains(ink.label)) {
+    throw InvalidInput(fmt::format("there is no label {} to paint with", ink.label));
+  }
+  PixelRect dirty;
+  if (region.empty() && document_->scribbles_.view(view).empty()) return dirty;
+  const ImageView<std::uint8_t> image = document_->scribbles_.writable_view(view);
+  Touched& touched = touch(view);
+  for (const PixelSpan& span : region) {
+    std::uint8_t* row = image.row(span.y);
+    if (ink.kept.none()) {
+      std::fill(row + span.x0, row + span.x1, ink.label);
+    } else {
+      const auto may_change = [&ink](std::uint8_t label) { return !ink.kept[label]; };
+      std::replace_if(row + span.x0, row + span.x1, may_change, ink.label);
+    }
+    dirty.include(span.rect());
+  }
+  touched.rect.include(dirty);
+  return dirty;
+}
+
+void PendingEdit::set_labels(LabelSet labels) {
+  if (!labels_before_) labels_before_ = document_->labels_;
+  document_->labels_ = std::move(labels);
+}
+
+bool PendingEdit::commit() {
+  AnnotationDocument& document = *std::exchange(document_, nullptr);
+  Edit edit{kind_, {}, {}};
+  for (const auto& [place, touched] : touched_) {
+    const ViewIndex view{place.first, place.second};
+    ViewEdit part =
+        difference(view, touched.before.view(), document.scribbles_.view(view), touched.rect);
+    if (!part.runs.empty()) edit.views.push_back(std::move(part));
+  }
+  if (labels_before_ && !(*labels_before_ == document.labels_)) {
+    edit.labels = LabelSetEdit{std::move(*labels_before_), document.labels_};
+  }
+  document.is_editing_ = false;
+  const bool has_change = !edit.empty();
+  if (has_change) document.keep(std::move(edit));
+  return has_change;
+}
+
+void PendingEdit::revert() {
+  for (const auto& [place, touched] : touched_) {
+    const ImageView<std::uint8_t> image =
+        document_->scribbles_.writable_view({place.first, place.second});
+    std::copy_n(touched.before.data(), touched.before.size(), image.data);
+  }
+  if (labels_before_) document_->labels_ = std::move(*labels_before_);
+  document_->is_editing_ = false;
+}
+
+}  // namespace episcope

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "annotation/edit.h"
+#include "annotation/history.h"
+#include "annotation/label_set.h"
+#include "annotation/scribble_layer.h"
+
+#include <bitset>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// What a step of the history changed, so that a window can redraw it and show the view.
+struct DocumentChange {
+  struct Part {
+    ViewIndex view;
+    PixelRect rect;
+  };
+  std::vector<Part> views;  ///< In the order of the grid.
+  bool has_new_labels = false;
+  bool has_new_smoothing = false;
+  [[nodiscard]] bool empty() const {
+    return views.empty() && !has_new_labels && !has_new_smoothing;
+  }
+};
+
+/// What happened to the document. `edit` is the one made, undone or redone.
+enum class DocumentStep : std::uint8_t { Edited, Undone, Redone, Saved };
+struct DocumentEvent {
+  DocumentStep step = DocumentStep::Edited;
+  const Edit* edit = nullptr;  ///< Null for Saved.
+};
+
+/// What a user paints on a light field: labels, scribbles on every view, and their history. Pixels
+/// change only through PendingEdit and Stroke, one edit at a time; while one is in progress, every
+/// other change throws InvalidInput.
+class AnnotationDocument {
+ public:
+  static constexpr std::size_t kHistoryBytes = std::size_t{64} << 20;
+
+  static constexpr double kMaxSmoothing_px = 10;
+
+  /// Throws InvalidInput as ScribbleLayer does.
+  AnnotationDocument(GridShape grid, int height, int width,
+                     std::size_t history_bytes = kHistoryBytes);
+  /// A document with initial content, as read from a file; that cannot be undone.
+  AnnotationDocument(LabelSet labels, ScribbleLayer scribbles,
+                     std::size_t history_bytes = kHistoryBytes, double smoothing_px = 0);
+
+  /// How far the boundaries of segments learnt from it are smoothed (smooth_boundaries), in px.
+  [[nodiscard]] double boundary_smoothing_px() const { return boundary_smoothing_px_; }
+  /// One edit, as those below; rounded to 0.01 px and clamped to [0, kMaxSmoothing_px].
+  void set_boundary_smoothing(double smoothing_px);
+
+  [[nodiscard]] const LabelSet& labels() const { return labels_; }
+  [[nodiscard]] const ScribbleLayer& scribbles() const { return scribbles_; }
+  [[nodiscard]] const History<Edit>& history() const { return history_; }
+
+  /// Each is one edit; a change to the same value is dropped. Throw InvalidInput as LabelSet does.
+  int add_label(const std::string& name = {}, std::optional<Rgb> color = std::nullopt);
+  void rename_label(int id, const std::string& name);
+  void recolor_label(int id, Rgb color);
+  /// Also erases everything painted with it, on all views.
+  void remove_label(int id);
+
+  /// Undoes the last edit, or redoes it; an empty change if there is none.
+  DocumentChange undo();
+  DocumentChange redo();
+  /// Applies an edit that was recorded on a document in the same state. Throws InvalidInput,
+  /// changing nothing, if it does not fit.
+  DocumentChange apply(const Edit& edit);
+
+  /// The state of the document, see History.
+  [[nodiscard]] std::uint64_t state() const { return history_.state(); }
+  [[nodiscard]] std::uint64_t saved_state() const { return saved_state_; }
+  [[nodiscard]] bool has_unsaved_changes() const { return state() != saved_state_; }
+  /// Marks the current state as saved.
+  void mark_saved();
+  /// Marks every state of this document as unsaved.
+  void forget_saved() { saved_state_ = kNoState; }
+
+  /// Called after each step, before the call that made it returns; an exception of the observer
+  /// reaches that caller, while the step remains. One observer; an empty function for none.
+  using Observer = std::function<void(const DocumentEvent&)>;
+  void set_observer(Observer observer) { observer_ = std::move(observer); }
+
+ private:
+  friend class PendingEdit;
+  static constexpr std::uint64_t kNoState = UINT64_MAX;
+
+  void require_idle() const;
+  void require_fitting(const Edit& edit) const;
+  DocumentChange put(const Edit& edit, EditSide side);
+  void keep(Edit edit);
+  void tell(DocumentStep step, const Edit* edit) const;
+  template <class Change>
+  void edit_labels(EditKind kind, const Change& change);
+
+  LabelSet labels_;
+  ScribbleLayer scribbles_;
+  double boundary_smoothing_px_ = 0;
+  History<Edit> history_;
+  std::uint64_t saved_state_ = 0;
+  bool is_editing_ = false;
+  Observer observer_;
+};
+
+/// A set of ids of labels; 0 stands for unpainted pixels.
+using LabelIds = std::bitset<LabelSet::kMaxId + 1>;
+
+/// All ids but one.
+[[nodiscard]] inline LabelIds all_labels_but(std::uint8_t id) {
+  return LabelIds().set().reset(id);
+}
+
+/// The label to paint, and which pixels it may change.
+struct Ink {
+  std::uint8_t label = 0;  ///< 0 erases.
+  LabelIds kept{};         ///< Pixels that have one of these stay as they are.
+};
+
+/// An edit in progress: what it paints appears in the document at once, and is reverted if the edit
+/// is destroyed before `commit`. At most one per document, which must outlive it.
+class PendingEdit {
+ public:
+  /// Throws InvalidInput if another edit is in progress.
+  PendingEdit(AnnotationDocument& document, EditKind kind);
+  ~PendingEdit();
+  PendingEdit(const PendingEdit&) = delete;
+  PendingEdit& operator=(const PendingEdit&) = delete;
+
+  /// Paints a region that lies within the view, with a label of the set. Returns the rectangle that
+  /// may have changed. Throws InvalidInput for a view outside the grid or an unknown label.
+  PixelRect paint(ViewIndex view, const PixelRegion& region, const Ink& ink);
+  void set_labels(LabelSet labels);
+
+  /// Ends the edit and adds it to the history as one step, unless it changed nothing. Returns
+  /// whether there was a change.
+  bool commit();
+
+ private:
+  struct Touched {
+    Image<std::uint8_t> before;
+    PixelRect rect;
+  };
+  [[nodiscard]] Touched& touch(ViewIndex view);
+  void revert();
+
+  AnnotationDocument* document_;  ///< Null once ended.
+  EditKind kind_;
+  std::map<std::pair<int, int>, Touched> touched_;  ///< By (v, u).
+  std::optional<LabelSet> labels_before_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/benchmark/scene_runs.h"
+
+#include "app/benchmark/run_log.h"
+#include "app/benchmark/scene_files.h"
+#include "app/session/judge.h"
+#include "app/session/label_review.h"
+#include "app/session/run_estimator.h"
+#include "app/session/scene_summary.h"
+#include "engine/core/error.h"
+#include "engine/evaluation/benchmark_tables.h"
+#include "engine/evaluation/parameter_search.h"
+#include "engine/io/base/json.h"
+#include "engine/io/models/result_file.h"
+
+#include <fmt/format.h>
+
+#include <new>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+void take(Verdict verdict, BenchmarkResult& result) {
+  result.vmv2013 = std::move(verdict.vmv2013);
+  result.benchmark2016 = std::move(verdict.benchmark2016);
+  result.notes.insert(result.notes.end(), verdict.notes.begin(), verdict.notes.end());
+  result.problem = std::move(verdict.problem);
+}
+
+void fail(BenchmarkResult& result, const std::string& problem) {
+  result.problem = problem;
+  result.has_failed = true;
+}
+
+}  // namespace
+
+SceneRuns::SceneRuns(const BenchmarkOptions& options, const LoadedScene& open)
+    : options_(options), open_(open), labels_(open.scene, open.name) {}
+
+std::string SceneRuns::key(const BenchmarkRun& run) const {
+  return record_key(run,
+                    run.kind == RunKind::Labels ? open_.labels_fingerprint : open_.fingerprint);
+}
+
+BenchmarkRecord SceneRuns::make(const PlannedRun& planned, const Progress& progress) {
+  progress.step("starting");
+  BenchmarkRecord record{key(planned.run), open_.input, planned.run, {}, {}};
+  record.result.entry = planned.run.method;
+  record.result.scene = open_.name;
+  record.result.has_all_views = planned.run.views == ViewSelection::All;
+  try {
+    if (planned.run.kind == RunKind::Labels) {
+      labels_.run(options_.labels[planned.index], options_.folder, progress, record);
+    } else {
+      run_and_judge(options_.methods[planned.index], progress, record);
+    }
+  } catch (const Error& error) {
+    fail(record.result, error.what());
+  } catch (const std::bad_alloc&) {
+    fail(record.result, "not enough memory");
+  }
+  progress.check();
+  return record;
+}
+
+std::vector<std::string> SceneRuns::judge_and_write(const EstimatePtr& center,
+                                                    BenchmarkResult& result,
+                                                    const Progress& progress) const {
+  Verdict verdict = judge_by_both(*center, open_.scene, progress);
+  const EvaluationPtr evaluation = verdict.evaluation;
+  take(std::move(verdict), result);
+  return write_pictures(options_.folder, open_.name, center, result.entry, evaluation, open_.range);
+}
+
+void SceneRuns::run_and_judge(const Estimator& method, const Progress& progress,
+                              BenchmarkRecord& record) {
+  BenchmarkResult& result = record.result;
+  EstimatePtr estimate = run_estimator(*open_.scene.light_field, method,
+                                       {record.run.method,
+                                        record.run.parameters,
+                                        {.views = record.run.views, .device = record.run.device}},
+                                       progress.part(0, 0.95))
+                             .estimate;
+  result.seconds = estimate->seconds;
+  result.notes = estimate->notes;
+  progress.step("evaluating");
+  if (record.run.kind == RunKind::Search) {
+    take(judge_by_errors(*estimate, open_.scene, progress), result);
+    return;
+  }
+  const auto center =
+      std::make_shared<const Estimate>(center_of(*estimate, open_.scene.light_field->center()));
+  estimate = nullptr;
+  record.files = judge_and_write(center, result, progress.part(0.95, 0.95));
+  record.files.push_back(map_file(open_.name, result.entry));
+  io::write_result(options_.folder / record.files.back(), *center, progress.part(0.95, 1));
+}
+
+std::string LoadedScene::whole_fingerprint() const {
+  return labels_fingerprint.empty() ? fingerprint : text_fingerprint(labels_fingerprint);
+}
+
+LoadedScene open_benchmark_scene(const BenchmarkOptions& options, const std::string& input,
+                                 const SceneLoader& load, const std::set<std::string>& taken,
+                                 const Progress& progress) {
+  LoadedScene open{load(input, progress), {}, input, {}, {}, {}};
+  open.name = unused_name(open.scene.light_field->info().name, taken);
+  open.fingerprint = scene_fingerprint(open.scene);
+  if (!options.labels.empty()) {
+    open.labels_fingerprint = open.fingerprint + label_fingerprint(open.scene);
+  }
+  open.range = known_disparity_range(open.scene);
+  return open;
+}
+
+void require_unchanged(const LoadedScene& open, const std::string& whole_fingerprint) {
+  if (open.whole_fingerprint() == whole_fingerprint) return;
+  throw InvalidInput(open.input +
+                     ": the scene has changed since the plan was made; make the plan again with "
+                     "--plan or --slurm, which keeps what is still valid");
+}
+
+std::string unused_name(const std::string& wanted, const std::set<std::string>& taken) {
+  std::string name = wanted;
+  for (int copy = 2; taken.contains(name); ++copy) name = fmt::format("{}-{}", wanted, copy);
+  return name;
+}
+
+namespace {
+
+BenchmarkRun table_run(const Estimator& method, const BenchmarkOptions& options) {
+  const bool all = method.info.all_views && options.views == ViewSelection::All;
+  const ViewSelection views = all ? ViewSelection::All : ViewSelection::Center;
+  return plan_run(method, {}, {.views = views, .device = options.device}, RunKind::Table);
+}
+
+}  // namespace
+
+std::vector<PlannedRun> planned_runs(const BenchmarkOptions& options) {
+  std::vector<PlannedRun> runs;
+  const std::vector<Estimator>& methods = options.methods;
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    runs.push_back({table_run(methods[i], options), i});
+  }
+  for (std::size_t i = 0; i < options.labels.size(); ++i) {
+    runs.push_back({plan_label_run(options.labels[i]), i});
+  }
+  for (std::size_t i = 0; options.has_search && i < methods.size(); ++i) {
+    for (ParameterSet& point : search_grid(methods[i].parameters)) {
+      runs.push_back(
+          {plan_run(methods[i], point, {.views = ViewSelection::Center, .device = options.device},
+                    RunKind::Search),
+           i, std::move(point)});
+    }
+  }
+  return runs;
+}
+
+namespace {
+
+// Raised when the same parameters give other labels.
+constexpr int kRevision = 1;
+
+void require_strokes(const Scene& scene, const std::string& name) {
+  if (!scene.scribbles.empty()) return;
+  throw InvalidInput(name + " has no strokes beside it; paint some in the window and save them");
+}
+
+}  // namespace
+
+std::string label_entry(const LabelerParameters& parameters) {
+  return name_of(parameters.features) + "-" + name_of(parameters.regularizer);
+}
+
+BenchmarkRun plan_label_run(const LabelerParameters& parameters) {
+  return {RunKind::Labels, label_entry(parameters), kRevision, labeler_schema().values(parameters),
+          ViewSelection::All};
+}
+
+std::string label_fingerprint(const Scene& scene) {
+  Fingerprint fingerprint;
+  for (const ViewScribbles& painted : scene.scribbles.views) {
+    fingerprint.add(view_text(painted.view));
+    fingerprint.add_image(painted.labels.view());
+  }
+  for (int i = 0; i < scene.truth->labels.grid().count(); ++i) {
+    fingerprint.add_image(scene.truth->labels.view(scene.truth->labels.view_at(i)));
+  }
+  const DisparityField& field = scene.truth->field;
+  for (int i = 0; i < field.disparity.grid().count(); ++i) {
+    fingerprint.add_image(field.disparity.view(field.disparity.view_at(i)));
+  }
+  return fingerprint.text();
+}
+
+LabelRuns::LabelRuns(const Scene& scene, std::string name)
+    : scene_(scene), name_(std::move(name)) {}
+
+const LabelingDisparity& LabelRuns::disparity_for(const LabelerParameters& parameters,
+                                                  const Progress& progress) {
+  auto& disparity = parameters.features == FeatureSet::ImageTruth ? truth_ : estimate_;
+  if (!disparity) disparity = find_labeling_disparity(scene_, parameters, {}, progress);
+  return *disparity;
+}
+
+void LabelRuns::run(const LabelerParameters& parameters, const std::filesystem::path& folder,
+                    const Progress& progress, BenchmarkRecord& record) {
+  require_strokes(scene_, name_);
+  const LabelingDisparity& disparity = disparity_for(parameters, progress.part(0, 0.2));
+  const LightField& light_field = *scene_.light_field;
+  Labeler labeler(scene_.light_field, disparity.field, find_edge_probabilities(scene_, progress),
+                  disparity.confidence());
+  const auto labeling = std::make_shared<const Labeling>(labeler.label(
+      scene_.scribbles, parameters, {{0, 0}, light_field.grid()}, progress.part(0.2, 0.95)));
+  progress.step("evaluating");
+  const LabelingScores scores =
+      judge_labeling(labeling->labels, light_field.center(), scene_.truth->labels, *scene_.truth,
+                     disparity.field.get(), progress.part(0.95, 1));
+  BenchmarkResult& result = record.result;
+  result.seconds = labeling->seconds;
+  result.labels = label_metrics(scores.all_views, scores.view, scores.consistency);
+  if (!scores.all_views.all.share()) result.problem = name_ + " has no true labels of all views";
+  record.files = write_label_pictures(folder, name_, scene_, labeling, result.entry);
+}
+
+}  // namespace episcope

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/benchmark/benchmark.h"
+#include "app/benchmark/run_log.h"
+#include "app/session/labeling_inputs.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/labeling/labeler.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// A scene of a benchmark while it is in memory.
+struct LoadedScene {
+  Scene scene;
+  std::string name;   ///< Unique in the benchmark.
+  std::string input;  ///< As it was asked for.
+  std::string fingerprint;
+  std::string labels_fingerprint;  ///< With all that labels depend on; empty unless wanted.
+  Interval range;
+
+  /// 16 hexadecimal digits that change with all that the runs of a benchmark depend on.
+  [[nodiscard]] std::string whole_fingerprint() const;
+};
+
+/// Opens an input; its name differs from all that are `taken`. Throws what `load` throws.
+[[nodiscard]] LoadedScene open_benchmark_scene(const BenchmarkOptions& options,
+                                               const std::string& input, const SceneLoader& load,
+                                               const std::set<std::string>& taken,
+                                               const Progress& progress);
+
+/// Throws InvalidInput if the scene is not the one that had this fingerprint when a plan was made.
+void require_unchanged(const LoadedScene& open, const std::string& whole_fingerprint);
+
+/// `wanted`, with a number behind it if that is taken.
+[[nodiscard]] std::string unused_name(const std::string& wanted,
+                                      const std::set<std::string>& taken);
+
+/// A run that a benchmark makes on every scene.
+struct PlannedRun {
+  BenchmarkRun run;
+  std::size_t index = 0;  ///< Of the method, for labels of the way, in the options.
+  ParameterSet point{};   ///< Of a search: the parameters that are searched.
+};
+
+/// All runs on a scene: methods for the tables, ways to label, then point by point the search of
+/// each method. Searches need a true disparity.
+[[nodiscard]] std::vector<PlannedRun> planned_runs(const BenchmarkOptions& options);
+
+/// The name of a way to label: "image+estimate-rayspace".
+[[nodiscard]] std::string label_entry(const LabelerParameters& parameters);
+
+/// Labels of all views with these parameters.
+[[nodiscard]] BenchmarkRun plan_label_run(const LabelerParameters& parameters);
+
+/// Changes with what labels and their scores depend on besides `scene_fingerprint`: the strokes,
+/// and true labels and disparity of all views.
+[[nodiscard]] std::string label_fingerprint(const Scene& scene);
+
+/// Labels the views of one scene from its strokes, in several ways; borrows the scene. The
+/// disparity that they share is estimated once, when it is first needed.
+class LabelRuns {
+ public:
+  LabelRuns(const Scene& scene, std::string name);
+
+  /// Labels all views, judges them, and writes pictures of the labels of the centre view and of
+  /// what is wrong below `folder`; score, seconds without the disparity, and files go into the
+  /// record. Throws InvalidInput without strokes or what the features need, IoError, Cancelled.
+  void run(const LabelerParameters& parameters, const std::filesystem::path& folder,
+           const Progress& progress, BenchmarkRecord& record);
+
+ private:
+  [[nodiscard]] const LabelingDisparity& disparity_for(const LabelerParameters& parameters,
+                                                       const Progress& progress);
+
+  const Scene& scene_;
+  std::string name_;
+  std::optional<LabelingDisparity> estimate_, truth_;
+};
+
+/// Makes the runs of a benchmark on one scene; borrows both.
+class SceneRuns {
+ public:
+  SceneRuns(const BenchmarkOptions& options, const LoadedScene& open);
+
+  /// Names the result of a run on this scene (`record_key`).
+  [[nodiscard]] std::string key(const BenchmarkRun& run) const;
+
+  /// Runs, judges and, unless it is a point of a search, writes map and pictures. What fails is the
+  /// problem of the result. Throws Cancelled.
+  [[nodiscard]] BenchmarkRecord make(const PlannedRun& planned, const Progress& progress);
+
+  /// Judges the centre view by both protocols and writes its pictures, which are returned. Throws
+  /// IoError, Cancelled.
+  std::vector<std::string> judge_and_write(const EstimatePtr& center, BenchmarkResult& result,
+                                           const Progress& progress) const;
+
+ private:
+  void run_and_judge(const Estimator& method, const Progress& progress, BenchmarkRecord& record);
+
+  const BenchmarkOptions& options_;
+  const LoadedScene& open_;
+  LabelRuns labels_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/input.h"
+
+#include "app/cli/arguments.h"
+#include "app/session/collections.h"
+#include "app/session/command_line.h"
+#include "app/session/load_scene.h"
+#include "app/session/result_files.h"
+#include "engine/core/error.h"
+#include "engine/io/formats/sequence_reader.h"
+#include "engine/io/models/reader.h"
+#include "engine/io/models/result_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace episcope::cli {
+namespace {
+
+/// Options that nothing came of.
+void warn_of_ignored(const ParameterSet& given, Scene& scene) {
+  const std::string& id = scene.light_field->info().reading.reader;
+  const io::Reader* reader = io::reader_named(id);
+  const std::string name = reader ? reader->name : "a built-in scene";
+  for (const auto& [key, value] : given) {
+    if (key == Reading::kFocus || (reader && reader->has_option(key))) continue;
+    scene.convention.warnings.push_back(
+        fmt::format("--{} is ignored, because this is {}.", key, name));
+  }
+}
+
+}  // namespace
+
+void declare_read_options(Arguments& arguments, ReadOptions& options) {
+  arguments.heading("Reading");
+  options.options.declare(arguments, io::open_schema().descriptions());
+}
+
+bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments, JobOptions& job,
+                   ReadOptions& read) {
+  declare_job_options(parser, job);
+  declare_read_options(parser, read);
+  return parser.parse(arguments);
+}
+
+void check_builtin_scene(const std::string& id) {
+  std::vector<std::string> ids;
+  for (const auto& scene : builtin_inputs()) ids.push_back(scene.id);
+  const std::string scene = id.substr(0, id.find('?'));
+  if (std::ranges::find(ids, scene) == ids.end()) throw unknown_name("built-in scene", scene, ids);
+  try {
+    require_builtin_input(id);
+  } catch (const InvalidInput& error) {
+    throw UsageError(error.what());
+  }
+}
+
+void check_input(const std::string& input) {
+  const std::string builtin = builtin_scene_id(input);
+  std::error_code ignored;
+  if (!builtin.empty()) return check_builtin_scene(builtin);
+  if (std::filesystem::exists(input, ignored)) return;
+  throw IoError(input, "there is no such file or folder; check the path");
+}
+
+Scene load_input(const std::string& input, const ReadOptions& options, const Progress& progress) {
+  return load_input(input, io::open_schema().parse(options.options.values()), options.needs_truth,
+                    progress);
+}
+
+Scene load_input(const std::string& input, io::OpenOptions open, bool needs_truth,
+                 const Progress& progress) {
+  const std::string builtin = builtin_scene_id(input);
+  if (!builtin.empty()) check_builtin_scene(builtin);
+  const ParameterSet given = io::given_options(open);
+  const LoadOptions load{
+      .open = std::move(open), .cache_folder = default_cache_folder(), .needs_truth = needs_truth};
+  progress.step("reading " + std::filesystem::path(input).filename().string());
+  Scene scene = load_scene(input, load, progress.part(0, builtin.empty() ? 1 : 0.9));
+  warn_of_ignored(given, scene);
+  if (!builtin.empty()) store_in_cache(input, scene, load.cache_folder, progress.part(0.9, 1));
+  return scene;
+}
+
+namespace {
+
+/// Options of `reading`, the focus plane left aside, that `other` was not read with, as on the
+/// command line: " --flip=u".
+std::string options_missing_in(const Reading& other, const Reading& reading) {
+  ParameterSet options = reading.options;
+  std::erase_if(options, [&other](const auto& option) {
+    return option.first == Reading::kFocus || std::ranges::count(other.options, option) > 0;
+  });
+  return reading_options_text(options);
+}
+
+}  // namespace
+
+NamedReading reading_of(const std::string& result) {
+  return {result, io::read_reading(result)};
+}
+
+Scene load_input_of(const NamedReading& result, const std::string& input,
+                    const ReadOptions& options, const Progress& progress) {
+  return load_input(
+      input, options_for_result(result.file, result.reading, input, options.options.values()),
+      options.needs_truth, progress);
+}
+
+void note_other_source(const Estimate& estimate, const LightField& light_field, Job& job) {
+  if (!is_of_other_samples(estimate, light_field)) return;
+  const Reading& own = estimate.reading;
+  const Reading& other = light_field.info().reading;
+  std::string how;
+  if (const std::string more = options_missing_in(other, own); !more.empty()) {
+    how = "; its own were read with" + more;
+  } else if (const std::string less = options_missing_in(own, other); !less.empty()) {
+    how = "; its own were read without" + less;
+  }
+  job.note("the result was estimated from other samples than those of " + light_field.info().name +
+           how);
+}
+
+void note_other_options(const NamedReading& first, const NamedReading& second, Job& job) {
+  const auto tell = [&job](const NamedReading& one, const NamedReading& other) {
+    const std::string options = options_missing_in(other.reading, one.reading);
+    if (options.empty()) return;
+    job.note("the light field of " + one.file + " was read with" + options + ", that of " +
+             other.file + " was not");
+  };
+  if (first.reading.reader.empty() || second.reading.reader.empty()) return;
+  tell(first, second);
+  tell(second, first);
+}
+
+namespace {
+
+std::vector<io::CollectionEntry> entries_at(const std::string& input, const ReadOptions& options,
+                                            const Progress& progress) {
+  const io::OpenOptions open = io::open_schema().parse(options.options.values());
+  return collection_at(input, open, default_cache_folder(), progress);
+}
+
+/// How many frames an INPUT has; 0 if it is no sequence.
+int frames_of(const std::string& input, const io::OpenOptions& options) {
+  if (reader_of(input, options) != io::kSequenceReader) return 0;
+  const io::FoundReader found = io::find_reader(input, options);
+  return found.reader->probe(found.path, options).frames;
+}
+
+/// An INPUT that stands for itself.
+io::CollectionEntry single(const std::string& input, const io::OpenOptions& options) {
+  const std::string builtin = builtin_scene_id(input);
+  return {.path = input,
+          .name = builtin.empty() ? io::scene_name(input) : builtin_input_name(builtin),
+          .reader = {},
+          .probe = {.frames = frames_of(input, options)}};
+}
+
+void add_frames(const io::CollectionEntry& entry, const std::string& name,
+                std::vector<SceneInput>& scenes) {
+  const auto digits = std::to_string(entry.probe.frames - 1).size();
+  for (int frame = 0; frame < entry.probe.frames; ++frame) {
+    scenes.push_back(
+        {entry.path.string(), fmt::format("{}_frame_{:0{}}", name, frame, digits), frame});
+  }
+}
+
+/// What an INPUT stands for.
+std::vector<io::CollectionEntry> entries_of(const std::string& input, const ReadOptions& options,
+                                            const Progress& progress) {
+  check_input(input);
+  std::vector<io::CollectionEntry> entries = entries_at(input, options, progress);
+  if (entries.empty()) {
+    entries.push_back(single(input, io::open_schema().parse(options.options.values())));
+  }
+  return entries;
+}
+
+std::vector<SceneInput> named(const std::vector<io::CollectionEntry>& all, Frames frames) {
+  const std::vector<std::string> names = unique_names(all);
+  std::vector<SceneInput> scenes;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (frames == Frames::All && all[i].probe.frames > 0) {
+      add_frames(all[i], names[i], scenes);
+    } else {
+      scenes.push_back({all[i].path.string(), names[i]});
+    }
+  }
+  return scenes;
+}
+
+}  // namespace
+
+std::vector<SceneInput> scene_inputs(const std::vector<std::string>& inputs,
+                                     const ReadOptions& options, Frames frames,
+                                     const Progress& progress) {
+  std::vector<io::CollectionEntry> all;
+  for (const std::string& input : inputs) {
+    std::ranges::move(entries_of(input, options, progress), std::back_inserter(all));
+  }
+  return named(all, frames);
+}
+
+std::vector<SceneInput> scene_inputs_and_failed(const std::vector<std::string>& inputs,
+                                                const ReadOptions& options, Frames frames,
+                                                const Progress& progress) {
+  std::vector<io::CollectionEntry> all;
+  for (const std::string& input : inputs) {
+    try {
+      std::ranges::move(entries_of(input, options, progress), std::back_inserter(all));
+    } catch (const IoError&) {
+      all.push_back({.path = input, .name = io::scene_name(input), .reader = {}, .probe = {}});
+    }
+  }
+  return named(all, frames);
+}
+
+bool is_collection(const std::string& input, const ReadOptions& options, const Progress& progress) {
+  return !entries_at(input, options, progress).empty();
+}
+
+}  // namespace episcope::cli

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/cli/job.h"
+#include "app/cli/parameter_options.h"
+#include "engine/core/estimate.h"
+#include "engine/core/light_field.h"
+#include "engine/core/scene.h"
+#include "engine/io/models/open_options.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::cli {
+
+/// The options by which every verb reads an INPUT (io::open_schema).
+struct ReadOptions {
+  ParameterOptions options;
+  bool needs_truth = true;  ///< Whether truth and labels are wanted.
+};
+
+void declare_read_options(Arguments& arguments, ReadOptions& options);
+
+/// Declares the options that every verb with an INPUT has, after its own, and parses. Returns and
+/// throws as `Arguments::parse`.
+[[nodiscard]] bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
+                                 JobOptions& job, ReadOptions& read);
+
+/// Throws UsageError for an unknown id, naming the nearest.
+void check_builtin_scene(const std::string& id);
+
+/// Refuses an INPUT that cannot be there, before anything is done. Throws UsageError for an unknown
+/// built-in scene, IoError for a path that does not exist.
+void check_input(const std::string& input);
+
+/// Opens an INPUT of the command line. Built-in scenes are kept in the user's cache folder.
+/// Throws UsageError for an unknown built-in scene or a bad option, IoError, Cancelled.
+[[nodiscard]] Scene load_input(const std::string& input, const ReadOptions& options,
+                               const Progress& progress);
+/// The same with options of another origin.
+[[nodiscard]] Scene load_input(const std::string& input, io::OpenOptions open, bool needs_truth,
+                               const Progress& progress);
+
+/// How the light field of a result or of labels was read.
+struct NamedReading {
+  std::string file;
+  Reading reading;
+};
+
+/// What a result file says of its own. Throws IoError if it is an HDF5 file and damaged.
+[[nodiscard]] NamedReading reading_of(const std::string& result);
+
+/// Opens the light field that a result or labels are compared with, so that both are of the same
+/// views: as the file says that its own was read (focus plane, order of views, …), where `options`
+/// say nothing. Throws as `load_input`, and IoError, naming what to change, if `options` contradict
+/// the file.
+[[nodiscard]] Scene load_input_of(const NamedReading& result, const std::string& input,
+                                  const ReadOptions& options, const Progress& progress);
+
+/// Notes that the estimate was made from other samples than those of the light field, if so, and
+/// which reading options may explain it.
+void note_other_source(const Estimate& estimate, const LightField& light_field, Job& job);
+
+/// Notes reading options, the focus plane left aside, that one of two results has and the other has
+/// not, if both say how their light field was read.
+void note_other_options(const NamedReading& first, const NamedReading& second, Job& job);
+
+/// One light field of many.
+struct SceneInput {
+  std::string input;           ///< What opens it.
+  std::string name;            ///< That no other of them has, for files.
+  std::optional<int> frame{};  ///< Of a sequence, if its frames are taken one by one.
+};
+
+/// Whether a sequence stands for its frames, or for the one that the reading options name.
+enum class Frames { One, All };
+
+/// The light fields that the INPUTs stand for: a folder that is no light field itself stands for
+/// those below it, and a sequence for its frames if that is wanted. Throws UsageError for an
+/// unknown built-in scene, IoError for a path that does not exist, Cancelled.
+[[nodiscard]] std::vector<SceneInput> scene_inputs(const std::vector<std::string>& inputs,
+                                                   const ReadOptions& options, Frames frames,
+                                                   const Progress& progress);
+
+/// The same, for runs of which one that fails does not stop the others: an INPUT that cannot be
+/// read stands for itself, so that opening it says why.
+[[nodiscard]] std::vector<SceneInput> scene_inputs_and_failed(
+    const std::vector<std::string>& inputs, const ReadOptions& options, Frames frames,
+    const Progress& progress);
+
+/// Whether an INPUT is a folder that is no light field itself but holds some.
+[[nodiscard]] bool is_collection(const std::string& input, const ReadOptions& options,
+                                 const Progress& progress);
+
+}  // namespace episcope::cli

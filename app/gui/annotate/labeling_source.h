@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/shell/jobs.h"
+#include "app/session/labeling_inputs.h"
+#include "app/session/session.h"
+#include "engine/labeling/labeler.h"
+#include "widgets/panels/segment_panel.h"
+
+#include <QObject>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// Finds the disparity for a segmentation: of all views, since labels are carried through them all.
+/// By default it takes the shown result, else the newest one that covers all views, else runs a
+/// method once, in the background.
+class LabelingSource : public QObject {
+  Q_OBJECT
+
+ public:
+  /// What is chosen besides the ids of results.
+  enum Choice { Automatic = 0, None = -1, Truth = -2 };
+
+  LabelingSource(Session& session, Jobs& jobs, QObject* parent);
+
+  void choose(int choice);
+  [[nodiscard]] int choice() const { return choice_; }
+  [[nodiscard]] std::vector<SegmentPanel::Source> sources() const;
+  /// What the features ask for; without a field if there is none (yet).
+  [[nodiscard]] LabelingDisparity find(FeatureSet features) const;
+  /// Begins to estimate what is missing, unless that was tried already while this scene is in
+  /// memory, something is chosen, or a run is under way that may give it.
+  void provide();
+  /// Whether a disparity is on its way.
+  [[nodiscard]] bool isComing() const;
+
+ signals:
+  /// What is found, or what can be chosen, may be another.
+  void changed();
+
+ private:
+  void update(Parts parts);
+  void leaveGone();
+  [[nodiscard]] LabelingDisparity fieldOf(const EstimateEntry* entry) const;
+  [[nodiscard]] LabelingDisparity automatic() const;
+  [[nodiscard]] LabelingDisparity truth() const;
+  [[nodiscard]] bool coversAll(const DisparityField& field) const;
+
+  Session& session_;
+  Jobs& jobs_;
+  int choice_ = Automatic;
+  // Estimated for labels alone, by scene; without a field as long as it is not there.
+  std::map<std::uint64_t, LabelingDisparity> own_;
+};
+
+/// The edge weights that lie beside the light field, read in the background when a scene is opened:
+/// boundaries between labels go by them instead of computed ones.
+class EdgeSource : public QObject {
+  Q_OBJECT
+
+ public:
+  EdgeSource(Session& session, QObject* parent);
+
+  /// Of all views; null if there are none, or not yet.
+  [[nodiscard]] std::shared_ptr<const ViewStack<float>> edges() const;
+  /// What edges are taken from, as a sentence.
+  [[nodiscard]] QString origin() const;
+
+ signals:
+  /// Edges are there.
+  void changed();
+  /// They could not be read: a sentence for the user.
+  void failed(const QString& sentence);
+
+ private:
+  struct Read {
+    std::shared_ptr<const ViewStack<float>> edges;
+    std::string failure;
+  };
+  void read();
+  void take(const Read& read);
+
+  Session& session_;
+  std::shared_ptr<const ViewStack<float>> edges_;
+  std::uint64_t generation_ = 0;  // of the session that they belong to
+  LatestJob read_job_;
+};
+
+}  // namespace episcope

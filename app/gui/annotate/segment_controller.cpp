@@ -1,0 +1,588 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/annotate/segment_controller.h"
+
+#include "app/gui/annotate/annotation_files.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
+#include "widgets/controls/text.h"
+#include "widgets/panels/segment_panel.h"
+
+#include <QAction>
+
+#include <utility>
+
+namespace episcope {
+namespace {
+
+QString percent(double share) {
+  return QString::number(100 * share, 'f', 1) + " %";
+}
+
+// Labels that a project kept have no probabilities.
+bool has_map_in(const Labeling& labeling, render::Quantity quantity, ViewIndex view) {
+  const bool is_of_probabilities =
+      quantity == render::Quantity::Probability || quantity == render::Quantity::Uncertainty;
+  return is_of_probabilities ? labeling.probabilities.contains(view)
+                             : labeling.labels.contains(view);
+}
+
+}  // namespace
+
+SegmentController::SegmentController(const Workbench& bench, SegmentPanel* panel)
+    : QObject(&bench.owner),
+      bench_(bench),
+      session_(bench.session),
+      document_(bench.document),
+      jobs_(bench.jobs),
+      panel_(panel),
+      source_(bench.session, bench.jobs, this),
+      edges_(bench.session, this),
+      score_job_(this),
+      live_(queued_post(this), [this] { followLabeler(); }) {
+  addCommands();
+  connectDocument();
+  connectPanel();
+  bench.overlay.setProvider(render::Subject::Segmentation, this);
+  bench.cancels.add(CancelRank::LiveSegmentation, [this] { return cancel(); });
+  connect(&jobs_, &Jobs::removed, this, [this] {
+    if (is_live_ || is_wanted_) source_.provide();
+  });
+  session_.on_changed([this](Parts parts) { update(parts); });
+  showState();
+}
+
+SegmentController::~SegmentController() {
+  bench_.overlay.setProvider(render::Subject::Segmentation, nullptr);
+}
+
+void SegmentController::connectDocument() {
+  connect(&document_, &DocumentController::replaced, this, &SegmentController::noteInput);
+  connect(&document_, &DocumentController::changed, this,
+          [this](const DocumentChange& change) { change.views.empty() ? publish() : noteInput(); });
+  connect(&bench_.labels, &LabelChoice::changed, this, &SegmentController::publish);
+  connect(&source_, &LabelingSource::changed, this, [this] {
+    panel_->setSources(source_.sources(), source_.choice());
+    const bool is_same =
+        live_.has_input() &&
+        live_.input()->disparity == source_.find(live_.input()->parameters.features).field;
+    is_same ? showState() : noteInput();
+  });
+  connect(&edges_, &EdgeSource::changed, this, &SegmentController::noteInput);
+  connect(&edges_, &EdgeSource::failed, &bench_.messages, &Messages::hint);
+}
+
+void SegmentController::connectPanel() {
+  panel_->setParameters(labeler_schema().descriptions());
+  panel_->setSources(source_.sources(), source_.choice());
+  connect(panel_, &SegmentPanel::sourceEdited, this, [this] { source_.choose(panel_->source()); });
+  connect(panel_, &SegmentPanel::parametersEdited, this, &SegmentController::noteInput);
+  connect(panel_, &SegmentPanel::smoothingEdited, this, &SegmentController::smoothBoundaries);
+  connect(panel_, &SegmentPanel::keepsAllViewsEdited, this, &SegmentController::followLabeler);
+}
+
+std::optional<Segmentation> SegmentController::segmentation() const {
+  LabelingPtr labeling = live_.labeling(session_.view());
+  const AnnotationDocument* document = std::as_const(document_).document();
+  if (!labeling || !document || !live_.has_input()) return std::nullopt;
+  return Segmentation{std::move(labeling), document->labels().labels(),
+                      labeler_schema().values(possible_parameters(*live_.input())),
+                      live_.input()->light_field->info().reading, finish()};
+}
+
+bool SegmentController::has_map(render::Quantity quantity) const {
+  if (!live_.has_input()) return false;
+  if (quantity == render::Quantity::Edges) return true;
+  if (quantity == render::Quantity::WrongLabels && !session_.true_labels()) return false;
+  const LabelingPtr labeling = live_.labeling(session_.view());
+  return labeling && has_map_in(*labeling, quantity, session_.view());
+}
+
+bool SegmentController::awaits_map(render::Quantity quantity) const {
+  if (quantity == render::Quantity::WrongLabels && !session_.true_labels()) return false;
+  if (isComing()) return true;
+  // Kept labels come once there is a document; in another view there may be labels already.
+  const bool is_restored = restored_ == session_.generation();
+  const LabelingPtr here =
+      is_restored ? live_.labeling(session_.view()) : session_.labels().labeling;
+  return here ? has_map_in(*here, quantity, session_.view()) : is_restored && live_.has_labels();
+}
+
+// Whether labels are on their way, from strokes or a file.
+bool SegmentController::isComing() const {
+  const bool lacks_strokes = live_.state() == LiveState::Hint || live_.state() == LiveState::Failed;
+  const KeptLabels& kept = session_.labels();
+  return live_.is_running() || is_wanted_ || (is_live_ && !lacks_strokes) || isSegmentingAll() ||
+         (!kept.labeling && !kept.file.empty());
+}
+
+QString SegmentController::title(render::Quantity quantity) const {
+  const LabelInfo* label = bench_.labels.info();
+  if (quantity != render::Quantity::Probability || !label) return {};
+  return tr("probability of “%1”").arg(QString::fromStdString(label->name));
+}
+
+std::optional<MapSource> SegmentController::map_source(render::Quantity quantity,
+                                                       ViewIndex view) const {
+  const AnnotationDocument* document = std::as_const(document_).document();
+  if (!document || !live_.has_input()) return std::nullopt;
+  MapSource source;
+  source.quantity = quantity;
+  source.view = view;
+  source.light_field = session_.light_field();
+  // What a map does not need would have it made again whenever that changes.
+  if (quantity == render::Quantity::Edges) {
+    source.edges = live_.input()->edges;
+    source.edge_disparity = live_.input()->disparity;
+    return source;
+  }
+  source.labeling = live_.labeling(view);
+  if (quantity == render::Quantity::Segmentation) {
+    source.label_infos = document->labels().labels();
+    source.label_style = session_.label_style();
+  }
+  if (quantity == render::Quantity::Segmentation || quantity == render::Quantity::WrongLabels) {
+    source.finish = finish();
+  }
+  if (quantity == render::Quantity::Probability) source.label = bench_.labels.current();
+  if (quantity == render::Quantity::WrongLabels) source.true_labels = session_.true_labels();
+  if (!reason_against(source).empty()) return std::nullopt;
+  return source;
+}
+
+double SegmentController::smoothing() const {
+  const AnnotationDocument* document = std::as_const(document_).document();
+  return document ? document->boundary_smoothing_px() : 0;
+}
+
+LabelFinish SegmentController::finish() const {
+  // Without smoothing nothing else matters: nothing is made again after a stroke.
+  if (smoothing() == 0 || !live_.has_input()) return {};
+  return {smoothing(), live_.input()->scribbles};
+}
+
+void SegmentController::smoothBoundaries(double smoothing_px) {
+  document_.edit([smoothing_px](AnnotationDocument& document) {
+    document.set_boundary_smoothing(smoothing_px);
+  });
+}
+
+LabelerParameters SegmentController::parameters() const {
+  return labeler_schema().parse(panel_->parameters());
+}
+
+void SegmentController::update(Parts parts) {
+  if (parts.has(Part::Scenes)) endAllViewsOfClosed();
+  if (parts.has(Part::Scene)) return;  // the document tells of it
+  if (parts.has(Part::View)) {
+    if (is_live_) begin();
+    publish();
+  } else if (parts.has(Part::TrueLabels)) {
+    score();
+  }
+}
+
+// Whatever the labels go by is another now.
+void SegmentController::noteInput() {
+  const AnnotationDocument* document = std::as_const(document_).document();
+  if (!document || !session_.scene()) {
+    live_.clear();
+    is_wanted_ = false;
+  } else {
+    LabelingInput input;
+    input.light_field = session_.light_field();
+    input.parameters = parameters();
+    const LabelingDisparity disparity = source_.find(input.parameters.features);
+    input.disparity = disparity.field;
+    input.confidence = disparity.confidence();
+    input.edges = edges_.edges();
+    input.scribbles = std::make_shared<const ScribbleLayer>(document->scribbles());
+    live_.set_input(std::move(input));
+    restore();
+    if (is_live_ || is_wanted_) begin();
+  }
+  publish();
+}
+
+void SegmentController::begin() {
+  if (!live_.has_input()) return;
+  if (!live_.input()->disparity) source_.provide();
+  live_.label(session_.view());
+  if (live_.is_running()) clock_.start();
+  endWish();
+}
+
+// Labels made of images alone are not yet those that were asked for.
+void SegmentController::endWish() {
+  if (!live_.is_running() && (live_.input()->disparity || !source_.isComing())) is_wanted_ = false;
+}
+
+void SegmentController::setLive(bool is_live) {
+  is_live_ = is_live;
+  if (is_live) {
+    wants_to_show_ = true;
+    begin();
+  } else {
+    live_.cancel();
+  }
+  publish();
+}
+
+void SegmentController::updateNow() {
+  if (!live_.has_input()) {
+    bench_.messages.hint(tr("Open a light field first."));
+    return;
+  }
+  is_wanted_ = wants_to_show_ = true;
+  begin();
+  publish();
+}
+
+bool SegmentController::cancel() {
+  if (!live_.is_running()) return false;
+  is_wanted_ = false;
+  live_.cancel();
+  showState();
+  return true;
+}
+
+void SegmentController::followLabeler() {
+  const LabelingPtr labeling = live_.labeling(session_.view());
+  if (labeling && labeling != shown_labeling_)
+    seconds_ = static_cast<double>(clock_.elapsed()) / 1000;
+  endWish();
+  publish();
+  const bool is_done = live_.state() == LiveState::Idle && live_.is_up_to_date(session_.view());
+  if (is_done) keep(labeling, *live_.input());
+  if (is_live_ && is_done && panel_->keepsAllViews() && tried_all_ != live_.input() &&
+      labeling->labels.grid().count() == 1) {
+    segmentAllViews();
+  }
+}
+
+// Tells the overlay of what is there now.
+void SegmentController::publish() {
+  shown_labeling_ = live_.labeling(session_.view());
+  const bool showed_labels = showsLabels();
+  bench_.overlay.updateProvided();
+  // Where nothing is painted yet, live labels are shown once there are some.
+  if (is_live_ && showed_labels && !showsLabels()) wants_to_show_ = true;
+  if (shown_labeling_ && std::exchange(wants_to_show_, false)) showLabels();
+  score();
+  showState();
+}
+
+// Requested labels are shown.
+void SegmentController::showLabels() {
+  if (!showsLabels()) bench_.overlay.setQuantity(render::Quantity::Segmentation);
+}
+
+bool SegmentController::showsLabels() const {
+  return render::info_of(bench_.overlay.quantity()).subject == render::Subject::Segmentation;
+}
+
+QString SegmentController::missing() const {
+  if (live_.state() == LiveState::Hint || live_.state() == LiveState::Failed) {
+    return QString::fromStdString(live_.sentence());
+  }
+  if (!live_.has_input() || live_.input()->disparity) return {};
+  if (live_.input()->parameters.features == FeatureSet::ImageTruth) {
+    return tr(
+        "There is no ground-truth disparity for all views: labels are based on the images alone.");
+  }
+  if (source_.isComing() && (is_live_ || live_.labeling(session_.view()))) {
+    return tr("Labels are based on the images alone until the disparity is estimated.");
+  }
+  return {};
+}
+
+SegmentController::State SegmentController::state() const {
+  const QString seconds = tr("%1 s").arg(seconds_, 0, 'f', 1);
+  switch (live_.state()) {
+    case LiveState::Training:
+      return {tr("training …"), ChipMood::Busy};
+    case LiveState::Labeling:
+      return {tr("labelling …"), ChipMood::Busy};
+    case LiveState::Refining:
+      return {tr("refining … %1").arg(seconds), ChipMood::Busy};
+    case LiveState::Hint:
+      return {tr("waiting"), ChipMood::Hint};
+    case LiveState::Failed:
+      return {tr("failed"), ChipMood::Failed};
+    case LiveState::Idle:
+    case LiveState::OutOfDate:
+      break;
+  }
+  if (!session_.scene()) return {{}, ChipMood::Quiet};
+  if (!live_.labeling(session_.view())) return {tr("idle"), ChipMood::Quiet};
+  if (!live_.is_up_to_date(session_.view())) return {tr("out of date"), ChipMood::Stale};
+  return {tr("idle · %1").arg(seconds), ChipMood::Quiet};
+}
+
+void SegmentController::showState() {
+  const State shown = state();
+  panel_->setState(
+      shown.text, shown.mood,
+      tr("State of the segmentation of this view, and how long it took.") + '\n' + edges_.origin());
+  panel_->setSmoothing(smoothing());
+  const QString sentence = missing();
+  panel_->setNote(sentence.isEmpty() ? scores_ : sentence);
+  bench_.commands.refresh();
+}
+
+void SegmentController::score() {
+  const Scored now{live_.labeling(session_.view()), session_.true_labels(), session_.view(),
+                   finish()};
+  if (now == scored_) return;
+  scored_ = now;
+  scores_.clear();
+  score_job_.drop();
+  if (!now.labeling) return;
+  score_job_.start<LabelingScores>(
+      [now, scene = session_.scene(),
+       disparity = live_.input()->disparity](const Progress& progress) {
+        static const ViewStack<std::int32_t> kNone;
+        return judge_labeling(finished_labels(*now.labeling, now.finish, progress.part(0, 0.3)),
+                              now.view, now.truth ? *now.truth : kNone, *scene->truth,
+                              disparity.get(), progress.part(0.3, 1));
+      },
+      [this](const LabelingScores& scores) { showScores(scores); });
+}
+
+void SegmentController::showScores(const LabelingScores& scores) {
+  QStringList parts;
+  const auto of_view = scores.view.all.share();
+  const auto of_all = scores.all_views.all.share();
+  const auto overlap = scores.view.all.mean_overlap();
+  const auto near = scores.view.boundaries.share();
+  if (of_view) parts << tr("correct: %1 of this view").arg(percent(*of_view));
+  if (near) parts << tr("%1 near boundaries").arg(percent(*near));
+  if (overlap) parts << tr("mean IoU %1").arg(percent(*overlap));
+  if (of_all) parts << tr("%1 of all").arg(percent(*of_all));
+  if (scores.consistency) parts << tr("consistent: %1").arg(percent(*scores.consistency));
+  scores_ = parts.join(", ");
+  showState();
+}
+
+void SegmentController::segmentAllViews() {
+  if (!live_.has_input()) return;
+  const auto input = live_.input();
+  if (!input->disparity) source_.provide();
+  tried_all_ = input;
+  wants_to_show_ = true;
+  const std::uint64_t scene = session_.generation();
+  quint64& job = all_views_[scene];
+  jobs_.cancel(job);
+  job = jobs_.start<LabelingPtr>(
+      Lane::Label, job_title(tr("Segment all views"), session_),
+      [input](const Progress& progress) { return label_all_views(*input, progress); },
+      [this, input, scene, infos = std::as_const(document_).document()->labels().labels()](
+          const LabelingPtr& labeling) {
+        if (input->light_field == session_.light_field()) {
+          finishAll(labeling, input);
+        } else {
+          session_.set_labels(scene, {labeling, infos, hash_of(*input->scribbles), {}});
+        }
+      });
+  jobs_.setScene(job, scene);
+}
+
+bool SegmentController::isSegmentingAll() const {
+  const auto job = all_views_.find(session_.generation());
+  return job != all_views_.end() && jobs_.find(job->second);
+}
+
+void SegmentController::finishAll(const LabelingPtr& labeling,
+                                  const std::shared_ptr<const LabelingInput>& input) {
+  keep(labeling, *input);
+  live_.take(labeling, input);
+  seconds_ = labeling->seconds;
+  publish();
+}
+
+void SegmentController::endAllViewsOfClosed() {
+  for (auto each = all_views_.begin(); each != all_views_.end();) {
+    const bool is_open = session_.find_scene(each->first) != nullptr;
+    if (!is_open) jobs_.cancel(each->second);
+    each = is_open ? std::next(each) : all_views_.erase(each);
+  }
+}
+
+// The newest final labels stay with the scene; those of a view never in the place of those of all.
+void SegmentController::keep(const LabelingPtr& labeling, const LabelingInput& input) {
+  const KeptLabels& kept = session_.labels();
+  const bool keeps_all = kept.covers_many() || (!kept.labeling && !kept.file.empty());
+  if (labeling->is_draft || labeling == kept.labeling) return;
+  if (labeling->labels.grid().count() == 1 && keeps_all) return;
+  session_.set_labels(session_.generation(),
+                      {labeling,
+                       std::as_const(document_).document()->labels().labels(),
+                       hash_of(*input.scribbles),
+                       {}});
+}
+
+// Once for each time a scene is shown.
+void SegmentController::restore() {
+  const std::uint64_t scene = session_.generation();
+  if (std::exchange(restored_, scene) == scene) return;
+  const KeptLabels& kept = session_.labels();
+  if (kept.labeling) {
+    adopt(kept);
+  } else if (!kept.file.empty()) {
+    jobs_.start<LabelingPtr>(
+        Lane::Load, tr("Reading labels"),
+        [file = kept.file](const Progress& progress) { return read_kept_labels(file, progress); },
+        [this, scene](const LabelingPtr& labeling) {
+          if (scene != session_.generation() || session_.labels().labeling) return;
+          KeptLabels read = session_.labels();
+          read.labeling = labeling;
+          session_.set_labels(scene, read);
+          adopt(read);
+        });
+  }
+}
+
+void SegmentController::adopt(const KeptLabels& kept) {
+  const auto& labels = kept.labeling->labels;
+  const LightField& light_field = *session_.light_field();
+  if (!live_.has_input() || labels.height() != light_field.height() ||
+      labels.width() != light_field.width() || !labels.contains(session_.view())) {
+    return;
+  }
+  // What was painted since makes them out of date.
+  const bool is_of_now = hash_of(*live_.input()->scribbles) == kept.strokes;
+  live_.take(kept.labeling,
+             is_of_now ? live_.input() : std::make_shared<const LabelingInput>(*live_.input()));
+  publish();
+}
+
+namespace {
+
+using render::Quantity;
+
+// Sections of the menu.
+constexpr int kSegmentSection = 0;
+constexpr int kSegmentMapSection = 1;
+
+}  // namespace
+
+void SegmentController::addRunCommands() {
+  const auto has_input = [this] { return live_.has_input(); };
+  bench_.commands.add({.id = "segment.live",
+                       .menu = Menu::Segmentation,
+                       .text = tr("Live"),
+                       .tip = tr("Segments the view again after every stroke"),
+                       .icon = "live",
+                       .keys = {Qt::Key_L},
+                       .run = [this] { setLive(!is_live_); },
+                       .section = kSegmentSection,
+                       .enabled = has_input,
+                       .checked = [this] { return is_live_; }});
+  bench_.commands.add({.id = "segment.update",
+                       .menu = Menu::Segmentation,
+                       .text = tr("Update now"),
+                       .tip = tr("Segments this view from the scribbles"),
+                       .icon = "run",
+                       .keys = {Qt::Key_U},
+                       .run = [this] { updateNow(); },
+                       .section = kSegmentSection,
+                       .enabled = has_input});
+  bench_.commands.add({.id = "segment.all",
+                       .menu = Menu::Segmentation,
+                       .text = tr("Segment all views"),
+                       .tip = tr("Segments all views, with labels that agree along the rays"),
+                       .icon = "tiles",
+                       .keys = {tr("Shift+U")},
+                       .run = [this] { segmentAllViews(); },
+                       .section = kSegmentSection,
+                       .enabled = has_input});
+}
+
+void SegmentController::addExportCommands() {
+  bench_.commands.add(
+      {.id = "segment.export",
+       .menu = Menu::Segmentation,
+       .text = tr("Export segmentation…"),
+       .tip = tr("Writes labels and probabilities as HDF5, or the labels of this view as PNG"),
+       .icon = "export",
+       .run = [this] { ask_to_export_segmentation(bench_, *this); },
+       .section = kSegmentSection,
+       .enabled = [this] { return segmentation().has_value(); }});
+  bench_.commands.add(
+      {.id = "segment.export_masks",
+       .menu = Menu::Segmentation,
+       .text = tr("Export masks…"),
+       .tip = tr("Writes a black and white PNG of every label in every segmented view to a folder"),
+       .icon = "export",
+       .run = [this] { ask_to_export_masks(bench_, *this); },
+       .section = kSegmentSection,
+       .enabled = [this] { return segmentation().has_value(); }});
+}
+
+void SegmentController::addSmoothingCommands() {
+  constexpr double kStep_px = 0.5;
+  bench_.commands.add(
+      {.id = "segment.smoother",
+       .menu = Menu::Segmentation,
+       .text = tr("Smoother boundaries"),
+       .tip = tr("Smooths the boundaries of all labels by half a pixel more; can be undone"),
+       .keys = {tr("Shift+S")},
+       .run = [this] { smoothBoundaries(smoothing() + kStep_px); },
+       .section = kSegmentSection,
+       .enabled = [this] { return live_.has_input(); }});
+  bench_.commands.add({.id = "segment.less_smooth",
+                       .menu = Menu::Segmentation,
+                       .text = tr("Less smooth boundaries"),
+                       .tip = tr("Smooths the boundaries of all labels by half a pixel less"),
+                       .run = [this] { smoothBoundaries(smoothing() - kStep_px); },
+                       .section = kSegmentSection,
+                       .enabled = [this] { return smoothing() > 0; }});
+}
+
+void SegmentController::addOverlayCommands() {
+  struct Row {
+    const char* id;
+    Quantity quantity;
+    QList<QKeySequence> keys{};
+  };
+  for (const Row& row :
+       std::initializer_list<Row>{{"segment.show", Quantity::Segmentation, {Qt::Key_S}},
+                                  {"segment.probability", Quantity::Probability, {Qt::Key_P}},
+                                  {"segment.uncertainty", Quantity::Uncertainty},
+                                  {"segment.edges", Quantity::Edges},
+                                  {"segment.wrong", Quantity::WrongLabels}}) {
+    Overlay& overlay = bench_.overlay;
+    const Quantity quantity = row.quantity;
+    QAction* action = bench_.commands.add(
+        {.id = row.id,
+         .menu = Menu::Segmentation,
+         .text = quantity_button(quantity),
+         .tip = quantity_tip(quantity),
+         .keys = row.keys,
+         .run =
+             [&overlay, quantity] {
+               const bool is_shown = overlay.quantity() == quantity;
+               overlay.setQuantity(is_shown ? Quantity::View : quantity);
+             },
+         .section = kSegmentMapSection,
+         .enabled = [&overlay, quantity] { return overlay.isAvailable(quantity); },
+         .checked = [&overlay, quantity] { return overlay.quantity() == quantity; }});
+    panel_->addOverlay(action, QString("button.%1").arg(row.id));
+  }
+}
+
+void SegmentController::addCommands() {
+  addRunCommands();
+  addExportCommands();
+  addSmoothingCommands();
+  addOverlayCommands();
+  for (const char* id : {"segment.live", "segment.update", "segment.all", "segment.export"}) {
+    panel_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
+  }
+}
+
+}  // namespace episcope
+
+#include "moc_segment_controller.cpp"

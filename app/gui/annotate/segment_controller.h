@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/annotate/labeling_source.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/overlay.h"
+#include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/label_review.h"
+#include "app/session/live_labeler.h"
+#include "app/session/segmentation.h"
+#include "app/session/session.h"
+
+#include <QElapsedTimer>
+#include <QObject>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+namespace episcope {
+
+/// Segments from scribbles while painting continues: the current view, live or on request, and all
+/// views as a job. Shows the state and the quality of the labels, and provides the overlay with
+/// maps of the segmentation.
+class SegmentController : public QObject, public MapProvider {
+  Q_OBJECT
+
+ public:
+  SegmentController(const Workbench& bench, SegmentPanel* panel);
+  ~SegmentController() override;
+
+  /// Live: every change of the document, the view or the settings gives new labels.
+  void setLive(bool is_live);
+  [[nodiscard]] bool isLive() const { return is_live_; }
+  /// Labels of this view, once.
+  void updateNow();
+  /// Labels of all views, as a job that goes on while other scenes are shown.
+  void segmentAllViews();
+  /// Ends what is under way for this view; false if nothing is.
+  bool cancel();
+
+  [[nodiscard]] const LiveLabeler& labeler() const { return live_; }
+  /// Of the scene that is shown.
+  [[nodiscard]] bool isSegmentingAll() const;
+  /// Labels that cover the current view, as files hold them; nothing without.
+  [[nodiscard]] std::optional<Segmentation> segmentation() const;
+  /// Boundaries of all labels; one step of the history.
+  void smoothBoundaries(double smoothing_px);
+
+  [[nodiscard]] bool has_map(render::Quantity quantity) const override;
+  [[nodiscard]] bool awaits_map(render::Quantity quantity) const override;
+  [[nodiscard]] QString title(render::Quantity quantity) const override;
+  [[nodiscard]] std::optional<MapSource> map_source(render::Quantity quantity,
+                                                    ViewIndex view) const override;
+
+ private:
+  void addCommands();
+  void addRunCommands();
+  void addOverlayCommands();
+  void addSmoothingCommands();
+  void addExportCommands();
+  void connectDocument();
+  void connectPanel();
+  struct Scored {
+    LabelingPtr labeling;
+    TrueLabelsPtr truth;
+    ViewIndex view;
+    LabelFinish finish;
+    friend bool operator==(const Scored&, const Scored&) = default;
+  };
+  struct State {
+    QString text;
+    ChipMood mood;
+  };
+
+  [[nodiscard]] bool isComing() const;
+  void update(Parts parts);
+  void noteInput();
+  void begin();
+  void endWish();
+  void finishAll(const LabelingPtr& labeling, const std::shared_ptr<const LabelingInput>& input);
+  void endAllViewsOfClosed();
+  void followLabeler();
+  void publish();
+  void keep(const LabelingPtr& labeling, const LabelingInput& input);
+  void restore();
+  void adopt(const KeptLabels& kept);
+  [[nodiscard]] State state() const;
+  void showState();
+  void score();
+  void showLabels();
+  [[nodiscard]] bool showsLabels() const;
+  void showScores(const LabelingScores& scores);
+  [[nodiscard]] LabelerParameters parameters() const;
+  [[nodiscard]] LabelFinish finish() const;
+  [[nodiscard]] double smoothing() const;
+  [[nodiscard]] QString missing() const;
+
+  Workbench bench_;
+  Session& session_;
+  DocumentController& document_;
+  Jobs& jobs_;
+  SegmentPanel* panel_;
+  LabelingSource source_;
+  EdgeSource edges_;
+  bool is_live_ = false;
+  bool wants_to_show_ = false;
+  bool is_wanted_ = false;  // an update was asked for that is not there yet
+  QElapsedTimer clock_;     // since the labels that are on their way were asked for
+  double seconds_ = 0;      // that the newest ones took
+  QString scores_;
+  Scored scored_;
+  LabelingPtr shown_labeling_;
+  std::shared_ptr<const LabelingInput> tried_all_;
+  std::map<std::uint64_t, quint64> all_views_;  // the newest job of each scene
+  std::uint64_t restored_ = 0;                  // scene whose kept labels were brought back
+  LatestJob score_job_;
+  LiveLabeler live_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/shell/workbench.h"
+#include "app/session/epi_measurement.h"
+#include "app/session/open_scene.h"
+
+#include <QKeySequence>
+#include <QObject>
+#include <QString>
+
+namespace episcope {
+
+class EpiPane;
+class MeasurePanel;
+
+/// The disparities that were measured by lines in EPIs and are kept: lists them, goes back to them,
+/// focuses on them and writes them.
+class MeasureController : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit MeasureController(const Workbench& bench);
+
+  /// Keeps the line that was drawn last.
+  void keep();
+  /// Goes to one of the list and draws its line.
+  void choose(int index);
+
+ private:
+  struct Row {
+    const char* id;
+    QString text;
+    QString tip;
+    QKeySequence key;
+    const char* icon;
+    void (MeasureController::*run)();
+  };
+  void addCommands();
+  void addCommand(const Row& row);
+  void connectPanel();
+  void update(Parts parts);
+  void show();
+  void showLine();
+  void rename(int index, const QString& name);
+  void remove(int index);
+  void removeCurrent();
+  void nameCurrent();
+  void focusOnCurrent();
+  void copy();
+  void save();
+  [[nodiscard]] std::string csv() const;
+  [[nodiscard]] EpiPane* pane(EpiDirection direction) const;
+  [[nodiscard]] const Measurements& measured() const;
+  [[nodiscard]] QString nextName() const;
+
+  Workbench bench_;
+  MeasurePanel* panel_;
+  EpiDirection drawn_ = EpiDirection::Horizontal;  // of the line that was drawn last
+};
+
+}  // namespace episcope

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/shell/workbench.h"
+#include "app/session/open_scene.h"
+#include "app/session/workspace.h"
+#include "engine/core/jobs.h"
+
+#include <QObject>
+#include <QTimer>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+
+/// Keeps the open scenes and every result in a workspace, so that a crash loses none: results as
+/// soon as they are there, the rest soon after. What is painted has journals of its own.
+class Autosave : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Autosave(const Workbench& bench);
+  /// The workspace stays, unless the window was closed with nothing to lose.
+  ~Autosave() override;
+
+  /// Where workspaces are, the user's own folder at first; empty = nothing is kept.
+  void setRoot(std::filesystem::path root) { root_ = std::move(root); }
+  [[nodiscard]] const std::filesystem::path& root() const { return root_; }
+  /// Goes on with a workspace that was left, and is left as it is until the scenes of it are open;
+  /// the present one is removed. Throws IoError.
+  void takeOver(const std::filesystem::path& folder);
+  /// The user's own file of what is open; empty = none yet.
+  void setProjectFile(std::filesystem::path file);
+  [[nodiscard]] const std::filesystem::path& projectFile() const { return project_file_; }
+  /// Whether all that is open is kept.
+  [[nodiscard]] bool isIdle() const { return !is_writing_ && !is_due_; }
+
+ signals:
+  void projectFileChanged();
+
+ private:
+  /// What was written, also where the rest could not be.
+  struct Kept {
+    std::vector<std::pair<int, std::filesystem::path>> results;  ///< Estimates and their files.
+    struct Labels {
+      std::uint64_t scene = 0;
+      LabelingPtr labeling;
+      std::filesystem::path file;
+    };
+    std::vector<Labels> labels;
+  };
+  static void write_all(Project project, const std::filesystem::path& file, Kept& kept,
+                        const Progress& progress);
+  void keepLabels(const Kept::Labels& kept);
+
+  void follow(Parts parts);
+  void schedule();
+  void write();
+  bool makeWorkspace();
+  void finish(const Outcome<bool>& outcome, const Kept& kept);
+
+  Workbench bench_;
+  std::filesystem::path root_;
+  std::filesystem::path project_file_;
+  std::unique_ptr<Workspace> workspace_;
+  std::map<std::uint64_t, std::filesystem::path> label_files_;  // of scenes, written here
+  bool is_writing_ = false;
+  bool is_due_ = false;
+  bool is_over_ = false;  // the window was closed
+  bool has_failed_ = false;
+  QTimer later_;
+  std::unique_ptr<JobRunner> runner_;
+};
+
+}  // namespace episcope

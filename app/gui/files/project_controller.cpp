@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/files/project_controller.h"
+
+#include "app/gui/files/autosave.h"
+#include "app/gui/files/session_recovery.h"
+#include "app/gui/scene/document_controller.h"
+#include "app/gui/scene/scene_opener.h"
+#include "app/gui/scene/scene_switcher.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
+#include "app/session/open_scene.h"
+#include "app/session/project_file.h"
+#include "app/session/project_store.h"
+
+#include <QFileInfo>
+#include <QPushButton>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+// The results of a scene, in the order in which they were made: also those that cannot be read.
+std::string results_text(const OpenScene& scene) {
+  std::map<int, std::string> lines;
+  for (const auto* entries : {&scene.estimates, &scene.unread}) {
+    for (const EstimateEntry& entry : *entries) lines[entry.id] = entry.name + ' ' + entry.note;
+  }
+  std::string text;
+  for (const auto& [id, line] : lines) text += std::to_string(id) + ' ' + line + '\n';
+  return text;
+}
+
+// The documents with the files of the project that hold them.
+std::vector<EditedDocument> stored_in(const Project& project,
+                                      std::vector<EditedDocument> documents) {
+  for (EditedDocument& each : documents) {
+    const auto scene = std::ranges::find(project.scenes, each.scene, &ProjectScene::id);
+    if (scene != project.scenes.end()) each.stored = scene->strokes;
+  }
+  return documents;
+}
+
+}  // namespace
+
+ProjectController::ProjectController(const Workbench& bench, Autosave& autosave)
+    : QObject(&bench.owner), bench_(bench), autosave_(autosave) {
+  addCommands();
+  connect(&bench.opener, &SceneOpener::isProject, this, &ProjectController::open);
+  connect(&bench.scenes, &SceneSwitcher::notFound, this, &ProjectController::locate);
+}
+
+void ProjectController::addCommands() {
+  const auto has_scene = [this] { return !bench_.session.scenes().empty(); };
+  // Scribbles go to their own file, as other programs read it, until there is a project.
+  bench_.commands.add({.id = "file.save",
+                       .menu = Menu::File,
+                       .text = tr("Save"),
+                       .tip = tr("Saves the project; without one, the scribbles"),
+                       .icon = "save",
+                       .keys = {QKeySequence::Save},
+                       .run =
+                           [this] {
+                             if (file().isEmpty()) {
+                               bench_.commands.trigger("file.save_scribbles");
+                             } else {
+                               save();
+                             }
+                           },
+                       .section = section::kProject,
+                       .enabled = has_scene});
+  bench_.commands.add({.id = "file.save_project",
+                       .menu = Menu::File,
+                       .text = tr("Save project as…"),
+                       .tip = tr("Saves all open light fields with their results and scribbles "
+                                 "as a project"),
+                       .icon = "save",
+                       .keys = {tr("Ctrl+Alt+S")},
+                       .run = [this] { saveAs(); },
+                       .section = section::kProject,
+                       .enabled = has_scene});
+}
+
+QString ProjectController::file() const {
+  return QString::fromStdString(autosave_.projectFile().string());
+}
+
+void ProjectController::setFile(const QString& path) {
+  autosave_.setProjectFile(path.toStdString());
+  known_.note(path.toStdString());
+  bench_.commands.refresh();
+}
+
+std::string ProjectController::content() const {
+  std::string text;
+  for (const OpenScene* scene : bench_.session.scenes()) {
+    text += scene->input + '\n' + results_text(*scene);
+    if (!scene->labels.empty()) text += std::to_string(scene->labels.strokes) + '\n';
+    text += work_text(scene->place);
+  }
+  for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
+    text += "sweep " + std::to_string(sweep.id);
+    for (const SweepScene& scene : sweep.scenes) text += ' ' + std::to_string(scene.points.size());
+    text += '\n';
+  }
+  return text;
+}
+
+bool ProjectController::hasChanged() const {
+  return !file().isEmpty() && content() != saved_content_;
+}
+
+void ProjectController::open(const QString& path) {
+  bench_.guards.leave(Leaving::Session, [this, path] { read(path); });
+}
+
+void ProjectController::read(const QString& path) {
+  using Read = std::shared_ptr<ReadProject>;
+  bench_.jobs.start<Read>(
+      Lane::Open, tr("Opening %1").arg(QFileInfo(path).fileName()),
+      [path](const Progress&) {
+        auto read = std::make_shared<ReadProject>();
+        read->project = read_project(path.toStdString());
+        read_strokes(*read);
+        const OwnFolders own(path.toStdString());
+        for (auto& [place, strokes] : read->strokes) forget_file_elsewhere(strokes.owner, own);
+        return read;
+      },
+      [this, path](const Read& read) {
+        show_project(bench_, std::move(*read), ProjectOrigin::File);
+        saved_content_ = content();
+        setFile(path);
+      });
+}
+
+QString ProjectController::suggestion() const {
+  if (!file().isEmpty()) return file();
+  const auto scenes = bench_.session.scenes();
+  return QString::fromStdString(scenes.empty() ? "project" : scenes.front()->name) + kProjectSuffix;
+}
+
+void ProjectController::save(std::function<void()> then) {
+  file().isEmpty() ? saveAs(std::move(then)) : saveTo(file(), std::move(then));
+}
+
+void ProjectController::saveAs(std::function<void()> then) {
+  ask_where_to_save(&bench_.window,
+                    {.name = "save_project",
+                     .title = tr("Save project"),
+                     .filter = tr("Projects (*.episcope)"),
+                     .proposal = suggestion()},
+                    [this, then = std::move(then)](const QString& path) { saveTo(path, then); });
+}
+
+void ProjectController::saveTo(const QString& path, std::function<void()> then) {
+  if (!known_.has_changed(path.toStdString())) {
+    write(path, std::move(then));
+    return;
+  }
+  ask_about_changed_file(&bench_.window, path,
+                         {.overwrite = [this, path, then] { write(path, then); },
+                          .elsewhere = [this, then] { saveAs(then); },
+                          .reload = [this, path] { read(path); },
+                          .of_reloading = tr("Reloading replaces what is open here.")});
+}
+
+void ProjectController::write(const QString& path, std::function<void()> then) {
+  bench_.document.endStroke();
+  Project project = project_of(bench_.session);
+  project.sweeps = bench_.scenes.sweeps().all();
+  const std::vector<EditedDocument> documents = bench_.document.editedDocuments();
+  for (const EditedDocument& each : documents) {
+    const auto scene = std::ranges::find(project.scenes, each.scene, &ProjectScene::id);
+    if (scene != project.scenes.end()) scene->strokes = each.journal;
+  }
+  bench_.jobs.start<Project>(
+      Lane::Export, tr("Saving %1").arg(QFileInfo(path).fileName()),
+      [path, project](const Progress& progress) {
+        return store_project(path.toStdString(), project, progress);
+      },
+      [this, path, documents, content = content(), then = std::move(then)](const Project& written) {
+        bench_.document.noteKept(stored_in(written, documents));
+        saved_content_ = content;
+        noteSaved(path, written);
+        if (then) then();
+      });
+}
+
+void ProjectController::noteSaved(const QString& path, const Project& written) {
+  for (const ProjectScene& scene : written.scenes) {
+    bench_.session.set_labels_file(scene.id, scene.labels.labeling, scene.labels.file);
+    bench_.session.set_unread_strokes(scene.id, scene.unread_strokes);
+    for (const ProjectResult& result : scene.results) {
+      bench_.session.set_kept(result.id, result.file);
+      bench_.session.mark_saved(result.id);
+    }
+  }
+  for (const Sweep& sweep : written.sweeps) bench_.scenes.sweeps().mark_saved(sweep);
+  setFile(path);
+  bench_.messages.written(path);
+}
+
+void ProjectController::locate(quint64 scene) {
+  const OpenScene* missing = bench_.session.find_scene(scene);
+  if (!missing) return;
+  const QString input = QString::fromStdString(missing->input);
+  auto* box = new_question_box(
+      &bench_.window,
+      {.name = "moved_light_field",
+       .title = tr("Light field not found"),
+       .text = tr("“%1” is no longer at %2. Where is it now? Others that were moved with it are "
+                  "then found as well.")
+                   .arg(QString::fromStdString(missing->name), input)});
+  const auto add = [&](const char* name, const QString& text, auto ask) {
+    QPushButton* button = box->addButton(text, QMessageBox::AcceptRole);
+    button->setObjectName(name);
+    connect(button, &QPushButton::clicked, this, [this, scene, ask, title = box->windowTitle()] {
+      ask(&bench_.window, {.name = "locate_light_field", .title = title},
+          [this, scene](const QString& path) { move(scene, path); });
+    });
+  };
+  add("moved_light_field.file", tr("Choose file…"), ask_for_file);
+  add("moved_light_field.folder", tr("Choose folder…"), ask_for_folder);
+  box->open();
+}
+
+void ProjectController::move(quint64 scene, const QString& input) {
+  const OpenScene* moved = bench_.session.find_scene(scene);
+  if (!moved) return;
+  const MovedFolder folder = moved_folder(moved->input, input.toStdString());
+  bench_.scenes.showMoved(scene, input.toStdString(), [this, scene, input, folder] {
+    bench_.session.set_input(scene, input.toStdString());
+    for (const OpenScene* each : bench_.session.scenes()) {
+      const std::string found = moved_input(each->input, folder);
+      if (!found.empty()) bench_.session.set_input(each->id, found);
+    }
+  });
+}
+
+}  // namespace episcope
+
+#include "moc_project_controller.cpp"

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/shell/workbench.h"
+#include "app/session/known_files.h"
+
+#include <QObject>
+#include <QString>
+
+#include <functional>
+#include <string>
+
+namespace episcope {
+
+class Autosave;
+struct Project;
+
+/// Opens and saves projects.
+class ProjectController : public QObject {
+  Q_OBJECT
+
+ public:
+  ProjectController(const Workbench& bench, Autosave& autosave);
+
+  /// In the place of all that is open, once nothing of that would be lost.
+  void open(const QString& path);
+  /// To its file, else to one that is asked for. `then` is called after success.
+  void save(std::function<void()> then = nullptr);
+  void saveAs(std::function<void()> then = nullptr);
+  /// Asks first if another program wrote the file meanwhile.
+  void saveTo(const QString& path, std::function<void()> then);
+  /// Empty if there is none yet.
+  [[nodiscard]] QString file() const;
+  /// Whether the project has a file, which does not hold the scenes and results that are open.
+  [[nodiscard]] bool hasChanged() const;
+
+ private:
+  void addCommands();
+  void read(const QString& path);
+  void write(const QString& path, std::function<void()> then);
+  void noteSaved(const QString& path, const Project& written);
+  void setFile(const QString& path);
+  [[nodiscard]] QString suggestion() const;
+  [[nodiscard]] std::string content() const;
+  void locate(quint64 scene);
+  void move(quint64 scene, const QString& input);
+
+  Workbench bench_;
+  Autosave& autosave_;
+  KnownFiles known_;
+  std::string saved_content_;  // what it holds
+};
+
+}  // namespace episcope

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/scene/viewer_area.h"
+
+#include "app/gui/shell/panes.h"
+#include "widgets/canvas/epi_pane.h"
+#include "widgets/canvas/tile_wall.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/theme.h"
+#include "widgets/panels/color_bar.h"
+#include "widgets/panels/overlay_bar.h"
+
+#include <QApplication>
+#include <QEvent>
+#include <QSplitter>
+#include <QStackedLayout>
+#include <QVBoxLayout>
+
+#include <functional>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+// Of the view and of the EPIs, until the user drags between them.
+constexpr int kCanvasWidth = 600;
+constexpr int kCanvasHeight = 500;
+constexpr int kEpiWidth = 145;  // and of the legend under it
+constexpr int kEpiHeight = 92;
+
+/// Tells of each new size once its parts are in their places.
+class ToldSplitter : public QSplitter {
+ public:
+  explicit ToldSplitter(std::function<void()> resized)
+      : QSplitter(Qt::Horizontal), resized_(std::move(resized)) {}
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QSplitter::resizeEvent(event);
+    resized_();
+  }
+
+ private:
+  std::function<void()> resized_;
+};
+
+// The legend is as wide as the vertical EPI above it.
+void align(QSplitter& lower, const QSplitter& upper, const QWidget& vertical_epi) {
+  if (vertical_epi.isVisible()) lower.setSizes(upper.sizes());
+}
+
+/// Holds the place of a pane, also while that is elsewhere.
+QWidget* make_place(QWidget* pane) {
+  auto* place = new QWidget;
+  auto* layout = new QVBoxLayout(place);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(pane);
+  return place;
+}
+
+QWidget* make_legend(ColorBar* color_bar, QWidget* parent) {
+  // Its place is kept while nothing is drawn over the view, so that the view does not jump.
+  QSizePolicy policy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  policy.setRetainSizeWhenHidden(true);
+  color_bar->setSizePolicy(policy);
+  auto* legend = new QWidget(parent);
+  auto* layout = new QVBoxLayout(legend);
+  layout->setContentsMargins(theme::kSpacing, 0, theme::kSpacing, 0);
+  layout->addStretch(1);
+  layout->addWidget(color_bar);
+  layout->addStretch(1);
+  return legend;
+}
+
+}  // namespace
+
+ViewerArea::ViewerArea(QWidget* parent)
+    : QWidget(parent),
+      canvas_(new ViewCanvas(this)),
+      wall_(new TileWall(this)),
+      horizontal_epi_(new EpiPane(Qt::Horizontal, this)),
+      vertical_epi_(new EpiPane(Qt::Vertical, this)),
+      color_bar_(new ColorBar(this)),
+      overlay_bar_(new OverlayBar(this)),
+      rows_(new QSplitter(Qt::Vertical, this)),
+      upper_(new QSplitter(Qt::Horizontal)),
+      // At once, so that no frame shows them out of line: the upper row has its size by then.
+      lower_(new ToldSplitter([this] { align(*lower_, *upper_, *vertical_place_); })),
+      vertical_place_(make_place(vertical_epi_)),
+      horizontal_place_(make_place(horizontal_epi_)),
+      legend_(make_legend(color_bar_, this)) {
+  overlay_bar_->setSelectorVisible(false);  // the tool bar has a button for each
+  arrange();
+  alignColumns();
+}
+
+void ViewerArea::arrange() {
+  auto* center = new QWidget;
+  center_ = new QStackedLayout(center);
+  center_->addWidget(canvas_);
+  center_->addWidget(wall_);
+  upper_->addWidget(center);
+  upper_->addWidget(vertical_place_);
+  lower_->addWidget(horizontal_place_);
+  lower_->addWidget(legend_);
+  rows_->addWidget(upper_);
+  rows_->addWidget(lower_);
+  rows_->setSizes({kCanvasHeight, kEpiHeight});
+  rows_->setObjectName("split.rows");
+  upper_->setObjectName("split.upper");
+  lower_->setObjectName("split.lower");
+  for (QSplitter* splitter : {rows_, upper_, lower_}) {
+    splitter->setChildrenCollapsible(false);
+    splitter->setHandleWidth(4);
+    splitter->setStretchFactor(0, 1);  // what a larger window gives belongs to the view
+    splitter->setStretchFactor(1, 0);
+    if (splitter != rows_) splitter->setSizes({kCanvasWidth, kEpiWidth});
+  }
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(rows_);
+}
+
+void ViewerArea::alignColumns() {
+  connect(lower_, &QSplitter::splitterMoved, this, [this] { upper_->setSizes(lower_->sizes()); });
+  vertical_place_->installEventFilter(this);
+}
+
+// Whatever changed its width, the legend follows.
+bool ViewerArea::eventFilter(QObject* watched, QEvent* event) {
+  const bool is_sized = event->type() == QEvent::Resize || event->type() == QEvent::Show;
+  if (watched == vertical_place_ && is_sized) {
+    QMetaObject::invokeMethod(
+        this, [this] { align(*lower_, *upper_, *vertical_place_); }, Qt::QueuedConnection);
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+void ViewerArea::addPanesTo(Panes& panes) {
+  const auto add = [&panes](const QString& id, EpiPane* pane, QWidget* place) {
+    panes.add({id, pane->accessibleName(), pane, [pane, place] {
+                 place->layout()->addWidget(pane);
+                 pane->show();
+               }});
+  };
+  add("epi.horizontal", horizontal_epi_, horizontal_place_);
+  add("epi.vertical", vertical_epi_, vertical_place_);
+  connect(&panes, &Panes::changed, this, &ViewerArea::fitPlaces);
+}
+
+// The horizontal EPI is as wide as the view: the legend moves below where nothing is above it.
+void ViewerArea::fitPlaces() {
+  const bool has_vertical = vertical_place_->isAncestorOf(vertical_epi_);
+  vertical_epi_->setMayLie(!has_vertical);
+  vertical_place_->setVisible(has_vertical && center_->currentWidget() == canvas_);
+  horizontal_place_->setVisible(horizontal_place_->isAncestorOf(horizontal_epi_));
+  QSplitter* legend_place = has_vertical ? lower_ : rows_;
+  if (legend_->parentWidget() != legend_place) legend_place->addWidget(legend_);
+  lower_->setVisible(has_vertical || !horizontal_place_->isHidden());
+}
+
+void ViewerArea::showInCenter(QWidget* widget) {
+  const bool has_focus = canvas_->hasFocus() || wall_->hasFocus() ||
+                         wall_->isAncestorOf(QApplication::focusWidget()) ||
+                         (guest_ && (guest_ == QApplication::focusWidget() ||
+                                     guest_->isAncestorOf(QApplication::focusWidget())));
+  center_->setCurrentWidget(widget);
+  fitPlaces();
+  if (has_focus) widget->setFocus();
+}
+
+void ViewerArea::setWallShown(bool is_shown) {
+  const bool is_new = !std::exchange(is_wall_shown_, is_shown) && is_shown;
+  if (guest_ && is_new) emit guestDismissed();
+  if (!guest_) showInCenter(is_shown ? static_cast<QWidget*>(wall_) : canvas_);
+}
+
+bool ViewerArea::isWallShown() const {
+  return is_wall_shown_;
+}
+
+void ViewerArea::setGuest(QWidget* guest) {
+  center_->addWidget(guest);
+  guest_ = guest;
+  showInCenter(guest);
+}
+
+void ViewerArea::releaseGuest() {
+  if (!guest_) return;
+  showInCenter(is_wall_shown_ ? static_cast<QWidget*>(wall_) : canvas_);
+  center_->removeWidget(guest_);
+  guest_->hide();
+  guest_ = nullptr;
+}
+
+QWidget* ViewerArea::keyboardHome() const {
+  return guest_ ? guest_.data() : activeCanvas();
+}
+
+ViewCanvas* ViewerArea::activeCanvas() const {
+  return isWallShown() && wall_->active() ? wall_->active() : canvas_;
+}
+
+QRect ViewerArea::pixelsInSight() const {
+  return activeCanvas()->visiblePixels();
+}
+
+void ViewerArea::showPreview(const QImage& picture, const QString& caption) {
+  canvas_->setOverlay({});
+  canvas_->setScribbles({});
+  canvas_->setCrossHair(std::nullopt);
+  horizontal_epi_->setEpi({});
+  vertical_epi_->setEpi({});
+  canvas_->setPicture(picture);
+  canvas_->setCaption(caption);
+  if (!std::exchange(is_previewing_, true)) emit previewChanged(true);
+}
+
+void ViewerArea::endPreview() {
+  if (std::exchange(is_previewing_, false)) emit previewChanged(false);
+}
+
+}  // namespace episcope
+
+#include "moc_viewer_area.cpp"

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/shell/frame.h"
+
+#include "app/gui/shell/panes.h"
+#include "widgets/canvas/canvas_text.h"
+#include "widgets/controls/message_bar.h"
+#include "widgets/controls/theme.h"
+
+#include <QEvent>
+#include <QMenu>
+#include <QSplitter>
+#include <QTabBar>
+#include <QTabWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <QtMath>
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+constexpr int kColumnWidth = 205;
+constexpr int kStageWidth = 720;
+constexpr int kTabsWidth = 372;
+
+QString pane_id(const QString& tab) {
+  return "tab." + tab;
+}
+
+// Tabs that do not fit are scrolled; here are all of them, also those that wait.
+QToolButton* make_list_of_tabs(Frame& frame, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  button->setObjectName("tabs.list");
+  button->setAccessibleName(Frame::tr("All tabs"));
+  button->setToolTip(Frame::tr("All tabs"));
+  button->setArrowType(Qt::DownArrow);
+  button->setAutoRaise(true);
+  button->setFocusPolicy(Qt::NoFocus);
+  auto* menu = new QMenu(button);
+  QObject::connect(menu, &QMenu::aboutToShow, &frame, [&frame, menu] {
+    menu->clear();
+    for (const Tab& tab : frame.tabs()) {
+      QAction* action =
+          menu->addAction(tab.title, &frame, [&frame, id = tab.id] { frame.showTab(id); });
+      action->setCheckable(true);
+      action->setChecked(frame.panes().isSeen(pane_id(tab.id)));
+    }
+  });
+  // No menu of the button's own, whose arrow would stand beside this one.
+  QObject::connect(button, &QToolButton::clicked, menu, [button, menu] {
+    menu->popup(button->mapToGlobal(QPoint(0, button->height())));
+  });
+  return button;
+}
+
+// A tab comes to the front, at its place among those that are there.
+void put_in_book(QTabWidget& book, const std::vector<Tab>& tabs, const QString& id) {
+  int place = 0;
+  for (const Tab& each : tabs) {
+    if (each.id == id) {
+      book.setCurrentIndex(book.insertTab(place, each.widget, each.title));
+      return;
+    }
+    if (book.indexOf(each.widget) >= 0) ++place;
+  }
+}
+
+// The tabs, and below them those that the user puts there.
+QSplitter* make_books(QTabWidget* tabs, TabStack* stack, QWidget* parent) {
+  auto* split = new QSplitter(Qt::Vertical, parent);
+  split->setObjectName("split.side");
+  split->setChildrenCollapsible(false);
+  for (QTabWidget* book : {tabs, static_cast<QTabWidget*>(stack)}) {
+    split->addWidget(book);
+    split->setStretchFactor(split->indexOf(book), 1);
+  }
+  return split;
+}
+
+}  // namespace
+
+Frame::Frame(QWidget* parent)
+    : QWidget(parent),
+      viewer_(new QWidget(this)),
+      column_(new QSplitter(Qt::Vertical, viewer_)),
+      browser_(new QSplitter(Qt::Horizontal, viewer_)),
+      floating_(new Floating(*viewer_)),
+      panes_(new Panes(*this)) {
+  viewer_->setObjectName("viewer");
+  column_->setObjectName("split.column");
+  column_->setChildrenCollapsible(false);
+  browser_->setObjectName("split.browser");
+  browser_->addWidget(column_);
+  browser_->setStretchFactor(0, 0);
+  auto* viewer_layout = new QVBoxLayout(viewer_);
+  viewer_layout->setContentsMargins(0, 0, 0, 0);
+  viewer_layout->addWidget(browser_);
+
+  side_ = new QWidget(this);
+  book_ = new QTabWidget(side_);
+  book_->setObjectName("tabs");
+  book_->setDocumentMode(true);
+  book_->setUsesScrollButtons(true);
+  book_->tabBar()->setElideMode(Qt::ElideNone);
+  // A neighbour nobody asked for might be one that lets the mouse paint.
+  book_->tabBar()->setSelectionBehaviorOnRemove(QTabBar::SelectPreviousTab);
+  book_->setCornerWidget(make_list_of_tabs(*this, book_), Qt::TopRightCorner);
+  auto* stack = new TabStack(side_);
+  panes_->setStack(stack);
+  right_ = new QVBoxLayout(side_);
+  right_->setContentsMargins(theme::kSpacing / 2, 0, theme::kSpacing / 2, 0);
+  right_->addWidget(make_books(book_, stack, side_), 1);
+
+  auto* split = new QSplitter(Qt::Horizontal, this);
+  split->setObjectName("split.tabs");
+  split->addWidget(viewer_);
+  split->addWidget(side_);
+  split->setStretchFactor(0, 1);
+  split->setStretchFactor(1, 0);
+  split->setSizes({kColumnWidth + kStageWidth, kTabsWidth});
+  split->setChildrenCollapsible(false);
+
+  rows_ = new QVBoxLayout(this);
+  rows_->setContentsMargins(0, 0, 0, 0);
+  rows_->setSpacing(2);
+  rows_->addWidget(split, 1);
+  connect(book_, &QTabWidget::currentChanged, this, [this] { emit tabShown(shownTab()); });
+  connect(panes_, &Panes::changed, this, [this](const QString& id) {
+    for (const Tab& tab : tabs_) {
+      if (pane_id(tab.id) == id && panes_->isSeen(id)) emit tabShown(tab.id);
+    }
+  });
+  book_->tabBar()->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(book_->tabBar(), &QTabBar::customContextMenuRequested, this,
+          [this](QPoint at) { askWhereTabGoes(book_->tabBar()->tabAt(at), at); });
+  connect(book_->tabBar(), &QTabBar::tabBarDoubleClicked, this, [this](int index) {
+    if (const Tab* tab = tabOf(book_->widget(index))) panes_->tear(pane_id(tab->id));
+  });
+}
+
+void Frame::askWhereTabGoes(int index, const QPoint& at) {
+  const Tab* tab = tabOf(book_->widget(index));
+  if (!tab) return;
+  QMenu menu(this);
+  menu.addAction(tr("In a window of its own"), this,
+                 [this, id = pane_id(tab->id)] { panes_->tear(id); });
+  menu.addAction(tr("Below the other tabs"), this,
+                 [this, id = pane_id(tab->id)] { panes_->stack(id); });
+  menu.exec(book_->tabBar()->mapToGlobal(at));
+}
+
+void Frame::addToColumn(QWidget* widget, bool stretches) {
+  const int place = stretches ? column_->count() : fixed_count_++;
+  column_->insertWidget(place, widget);
+  column_->setStretchFactor(place, stretches ? 1 : 0);
+}
+
+void Frame::setViewerArea(QWidget* viewer_area) {
+  browser_->addWidget(viewer_area);
+  floating_->setArea(viewer_area);
+  browser_->setStretchFactor(1, 1);  // what a larger window gives belongs to the view
+  browser_->setSizes({kColumnWidth, kStageWidth});
+}
+
+void Frame::addTab(const Tab& tab) {
+  tabs_.push_back(tab);
+  addPane(tab);
+  if (tab.waits) {
+    // Not among the others, invisible: behind an invisible last one, Qt scrolls too far.
+    tab.widget->setParent(side_);
+    tab.widget->hide();
+  } else {
+    book_->addTab(tab.widget, tab.title);
+  }
+}
+
+void Frame::addPane(const Tab& tab) {
+  panes_->add({pane_id(tab.id), tab.title, tab.widget,
+               [this, id = tab.id] { put_in_book(*book_, tabs_, id); }});
+}
+
+const Tab* Frame::tabOf(const QWidget* widget) const {
+  const auto found = std::ranges::find(tabs_, widget, &Tab::widget);
+  return widget && found != tabs_.end() ? &*found : nullptr;
+}
+
+void Frame::addToTab(const QString& id, QWidget* widget) {
+  const auto found = std::ranges::find(tabs_, id, &Tab::id);
+  if (found != tabs_.end() && found->room) found->room->addWidget(widget);
+}
+
+void Frame::addUnderTabs(QWidget* widget) {
+  right_->addWidget(widget);
+}
+
+void Frame::addLine(Line line, QWidget* widget) {
+  lines_[line] = widget;
+  const auto place = std::distance(lines_.begin(), lines_.find(line));
+  rows_->insertWidget(1 + static_cast<int>(place), widget);
+}
+
+void Frame::addFloating(QWidget* widget) {
+  floating_->add(widget);
+}
+
+void Frame::setPanelsShown(bool are_shown) {
+  column_->setVisible(are_shown);
+  side_->setVisible(are_shown);
+}
+
+bool Frame::arePanelsShown() const {
+  return !side_->isHidden();
+}
+
+// Who asks for a tab wants to see it.
+void Frame::showTab(const QString& id) {
+  const auto found = std::ranges::find(tabs_, id, &Tab::id);
+  if (found != tabs_.end() && panes_->isTorn(pane_id(id))) {
+    panes_->tear(pane_id(id));  // raises its window
+    return;
+  }
+  setPanelsShown(true);
+  if (found == tabs_.end()) return;
+  if (panes_->isStacked(pane_id(id))) return panes_->stack(pane_id(id));
+  if (book_->indexOf(found->widget) < 0) return put_in_book(*book_, tabs_, id);
+  book_->setCurrentWidget(found->widget);
+}
+
+QString Frame::shownTab() const {
+  const Tab* tab = tabOf(book_->currentWidget());
+  return tab ? tab->id : QString();
+}
+
+namespace {
+
+constexpr int kWidest = 760;  // longer lines are hard to read
+
+int height_of(const QWidget& widget, int width) {
+  return widget.hasHeightForWidth() ? widget.heightForWidth(width) : widget.sizeHint().height();
+}
+
+}  // namespace
+
+Floating::Floating(QWidget& parent) : QObject(&parent), parent_(parent) {
+  setArea(&parent);
+}
+
+void Floating::setArea(QWidget* area) {
+  area_ = area;
+  area->installEventFilter(this);
+  place();
+}
+
+void Floating::add(QWidget* widget) {
+  const bool was_hidden = widget->isHidden();
+  widget->setParent(&parent_);
+  widget->setVisible(!was_hidden);
+  widget->installEventFilter(this);
+  widgets_.emplace_back(widget);
+  place();
+}
+
+bool Floating::eventFilter(QObject* watched, QEvent* event) {
+  switch (event->type()) {
+    case QEvent::Resize:
+    case QEvent::Move:
+      if (watched == area_) place();
+      break;
+    case QEvent::Show:
+    case QEvent::Hide:
+    case QEvent::LayoutRequest:
+      if (watched != area_) place();
+      break;
+    default:
+      break;
+  }
+  return false;
+}
+
+void Floating::place() {
+  if (!area_) return;
+  const int width = std::min(kWidest, area_->width() - 2 * theme::kMargin);
+  const int top = qCeil(caption_depth(QFontMetricsF(parent_.font()))) + theme::kSpacing;
+  QPoint corner = area_->mapTo(&parent_, QPoint((area_->width() - width) / 2, top));
+  for (QWidget* widget : widgets_) {
+    if (!widget || widget->isHidden()) continue;
+    const int height = height_of(*widget, width);
+    widget->setGeometry(QRect(corner, QSize(width, height)));
+    widget->raise();
+    corner.ry() += height + theme::kSpacing;
+  }
+}
+
+Messages::Messages(Frame& frame) : bar_(new MessageBar(&frame)) {
+  frame.addFloating(bar_);
+}
+
+void Messages::hint(const QString& sentence) {
+  bar_->showMessage(Severity::Info, sentence);
+}
+
+void Messages::success(const QString& sentence) {
+  bar_->showMessage(Severity::Success, sentence);
+}
+
+void Messages::warn(const QString& sentence) {
+  bar_->showMessage(Severity::Warning, sentence);
+}
+
+void Messages::fail(const QString& sentence) {
+  bar_->showMessage(Severity::Error, sentence);
+}
+
+void Messages::written(const QString& path) {
+  success(tr("Written: %1").arg(path));
+}
+
+void Messages::offer(const QString& sentence, const QString& button, std::function<void()> run) {
+  bar_->showMessage(Severity::Info, sentence, {button, std::move(run)});
+}
+
+void Messages::dismiss() {
+  bar_->dismiss();
+}
+
+bool Messages::isShown(const QString& sentence) const {
+  return !bar_->isHidden() && bar_->text() == sentence;
+}
+
+void Messages::retract(const QString& sentence) {
+  if (isShown(sentence)) bar_->dismiss();
+}
+
+}  // namespace episcope
+
+#include "moc_frame.cpp"

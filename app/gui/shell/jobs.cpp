@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/shell/jobs.h"
+
+#include "app/gui/shell/frame.h"
+#include "app/session/session.h"
+#include "widgets/controls/job_panel.h"
+#include "widgets/controls/text.h"
+
+#include <QMetaObject>
+#include <QObject>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+constexpr std::chrono::milliseconds kTimeBetweenProgress{100};
+
+}  // namespace
+
+QString failure_sentence(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const std::bad_alloc&) {
+    return Jobs::tr("There is not enough memory. Close other programs or remove results.");
+  } catch (const std::exception& error) {
+    return QString::fromUtf8(error.what());
+  } catch (...) {
+    return Jobs::tr("An unknown error occurred.");
+  }
+}
+
+Jobs::Jobs(QObject* parent) : QObject(parent) {
+  for (auto& each : runners_) each = std::make_unique<JobRunner>(queued_post(this));
+  progress_.setSingleShot(true);
+  connect(&progress_, &QTimer::timeout, this, &Jobs::tellProgress);
+}
+
+Jobs::~Jobs() = default;
+
+quint64 Jobs::add(const QString& title, Lane lane) {
+  jobs_[++last_id_] = {.lane = lane, .title = title};
+  emit added(last_id_, title);
+  return last_id_;
+}
+
+void Jobs::attach(quint64 id, JobId runner_id) {
+  jobs_[id].runner_id = runner_id;
+}
+
+void Jobs::report(quint64 id, const ProgressState& state) {
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return;
+  Job& job = found->second;
+  if (!job.clock.isValid()) job.clock.start();
+  job.fraction = state.fraction;
+  job.news = state;
+  if (!progress_.isActive()) tellProgress();
+}
+
+// Methods report more often than anybody reads, and each report is painted.
+void Jobs::tellProgress() {
+  bool has_told = false;
+  for (auto& [id, job] : jobs_) {
+    const auto news = std::exchange(job.news, std::nullopt);
+    if (!news) continue;
+    emit progressed(id, news->fraction, schema_text(news->step));
+    has_told = true;
+  }
+  if (has_told) progress_.start(kTimeBetweenProgress);
+}
+
+void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
+  const QString title = jobs_[id].title;
+  jobs_.erase(id);
+  emit removed(id);
+  if (failure) emit failed(tr("%1 failed: %2").arg(title, failure_sentence(failure)), id);
+}
+
+void Jobs::cancel(quint64 id) {
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return;
+  found->second.is_cancelling = true;
+  runner(found->second.lane).cancel(found->second.runner_id);
+  emit cancelling(id);
+}
+
+void Jobs::finishEarly(quint64 id) {
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return;
+  runner(found->second.lane).finish(found->second.runner_id);
+  emit finishing(id);
+}
+
+void Jobs::cancelLane(Lane lane) {
+  for (const auto& [id, job] : jobs_) {
+    if (job.lane == lane) cancel(id);
+  }
+}
+
+std::optional<Jobs::Running> Jobs::find(quint64 id) const {
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return std::nullopt;
+  const Job& job = found->second;
+  const double seconds = job.clock.isValid() ? static_cast<double>(job.clock.elapsed()) / 1000 : 0;
+  return Running{id, job.title, seconds, job.fraction, job.is_cancelling};
+}
+
+std::optional<Jobs::Running> Jobs::newest(std::uint64_t scene) const {
+  const auto found = std::find_if(jobs_.rbegin(), jobs_.rend(), [scene](const auto& each) {
+    return each.second.scene == scene || each.second.scene == 0;
+  });
+  return found == jobs_.rend() ? std::nullopt : find(found->first);
+}
+
+int Jobs::count(Lane lane) const {
+  return static_cast<int>(std::count_if(jobs_.begin(), jobs_.end(),
+                                        [&](const auto& job) { return job.second.lane == lane; }));
+}
+
+LatestJob::LatestJob(QObject* context) : runner_(queued_post(context)) {}
+
+JobCancel::JobCancel(const Session& session, Jobs& jobs, Messages& messages, QObject* parent)
+    : QObject(parent), session_(session), jobs_(jobs), messages_(messages) {
+  connect(&jobs_, &Jobs::removed, this, [this](quint64 id) {
+    if (id == asked_) messages_.retract(question_);
+  });
+}
+
+bool JobCancel::cancelNewest() {
+  const auto job = jobs_.newest(session_.generation());
+  if (job) cancel({job->id});
+  return job.has_value();
+}
+
+void JobCancel::cancel(const std::vector<quint64>& ids) {
+  const auto longest = longestOf(ids);
+  if (!longest) return;
+  if (longest->seconds < worth_asking_s_) {
+    for (const quint64 id : ids) jobs_.cancel(id);
+  } else if (asked_ == longest->id && messages_.isShown(question_)) {
+    end(ids, *longest);
+  } else {
+    ask(ids, *longest);
+  }
+}
+
+// Of those that are not being cancelled.
+std::optional<Jobs::Running> JobCancel::longestOf(const std::vector<quint64>& ids) const {
+  std::optional<Jobs::Running> longest;
+  for (const quint64 id : ids) {
+    const auto job = jobs_.find(id);
+    if (!job || job->is_cancelling) continue;
+    if (!longest || job->seconds > longest->seconds) longest = job;
+  }
+  return longest;
+}
+
+void JobCancel::ask(const std::vector<quint64>& ids, const Jobs::Running& longest) {
+  asked_ = longest.id;
+  question_ = tr("%1 is at %2 %. Cancel again to end it.")
+                  .arg(longest.title)
+                  .arg(std::lround(100 * longest.fraction));
+  messages_.offer(question_, tr("Cancel it"), [this, ids] {
+    if (const auto job = longestOf(ids)) end(ids, *job);
+  });
+}
+
+void JobCancel::end(const std::vector<quint64>& ids, const Jobs::Running& longest) {
+  for (const quint64 id : ids) jobs_.cancel(id);
+  messages_.hint(
+      tr("%1 was cancelled at %2 %.").arg(longest.title).arg(std::lround(100 * longest.fraction)));
+}
+
+void show_jobs(Jobs& jobs, JobCancel& cancel, Frame& frame, Messages& messages) {
+  auto* panel = new JobPanel(&frame);
+  frame.addUnderTabs(panel);
+  QObject::connect(&jobs, &Jobs::added, panel, &JobPanel::addJob);
+  QObject::connect(&jobs, &Jobs::endsEarly, panel, &JobPanel::setIterative);
+  QObject::connect(&jobs, &Jobs::progressed, panel, &JobPanel::setProgress);
+  QObject::connect(&jobs, &Jobs::cancelling, panel, &JobPanel::setCancelling);
+  QObject::connect(&jobs, &Jobs::finishing, panel, &JobPanel::setFinishing);
+  QObject::connect(&jobs, &Jobs::removed, panel, &JobPanel::removeJob);
+  QObject::connect(panel, &JobPanel::cancelRequested, &cancel,
+                   [&cancel](quint64 id) { cancel.cancel({id}); });
+  QObject::connect(panel, &JobPanel::finishRequested, &jobs, &Jobs::finishEarly);
+  QObject::connect(&jobs, &Jobs::failed, &messages, &Messages::fail);
+}
+
+JobRunner::Post queued_post(QObject* context) {
+  return [context](std::function<void()> closure) {
+    QMetaObject::invokeMethod(context, std::move(closure), Qt::QueuedConnection);
+  };
+}
+
+}  // namespace episcope
+
+#include "moc_jobs.cpp"

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/scheduling.h"
+#include "app/session/session.h"
+#include "engine/core/jobs.h"
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+class QObject;
+
+namespace episcope {
+
+class Frame;
+class Messages;
+class Session;
+
+/// Jobs of one lane run one after the other, those of different lanes side by side. A light field
+/// or a project that is opened ends what else is being opened, and nothing in other lanes.
+enum class Lane {
+  Open,     ///< Light fields and projects.
+  Load,     ///< What belongs to a light field: results, meshes, masks, labels.
+  Capture,  ///< Light fields that are made of photographs.
+  Estimate,
+  Label,
+  Export,
+  List,
+  Count
+};
+
+/// Every background job that a user sees: start, progress, cancellation, end and failure, in all
+/// lanes, with unique ids.
+class Jobs : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Jobs(QObject* parent = nullptr);
+  ~Jobs() override;
+
+  /// Runs `work(progress) -> T` in the background. `done(value)` is called on success; `ended` in
+  /// every case after it. Failures are reported by `failed`, in one place for all jobs.
+  template <class T>
+  quint64 start(Lane lane, const QString& title, std::function<T(const Progress&)> work,
+                std::function<void(T)> done, std::function<void()> ended = nullptr) {
+    const quint64 id = add(title, lane);
+    attach(id,
+           runner(lane).start<T>(
+               [work = std::move(work)](const Progress& progress) {
+                 lower_thread_priority();
+                 return work(progress);
+               },
+               [this, id, done = std::move(done), ended = std::move(ended)](Outcome<T> outcome) {
+                 if (outcome.value) done(std::move(*outcome.value));
+                 finish(id, outcome.failure);
+                 if (ended) ended();
+               },
+               [this, id](const ProgressState& state) { report(id, state); }));
+    return id;
+  }
+
+  /// A job that waits or runs.
+  struct Running {
+    quint64 id = 0;
+    QString title;
+    double seconds = 0;   ///< Since it told of progress first.
+    double fraction = 0;  ///< Of it that is done.
+    bool is_cancelling = false;
+  };
+
+  /// Notes that a job can end early with what it has.
+  void setIterative(quint64 id) { emit endsEarly(id); }
+  /// Notes which light field a job is of (OpenScene::id); until then it is of none.
+  void setScene(quint64 id, std::uint64_t scene) { jobs_[id].scene = scene; }
+  /// Ignored for an unknown id.
+  void cancel(quint64 id);
+  void cancelLane(Lane lane);
+  /// Asks a job for the best result so far (Progress::finish_requested); not all jobs have one.
+  void finishEarly(quint64 id);
+  /// Nothing for an unknown id.
+  [[nodiscard]] std::optional<Running> find(quint64 id) const;
+  /// The job begun last among those of a light field and of none.
+  [[nodiscard]] std::optional<Running> newest(std::uint64_t scene) const;
+  [[nodiscard]] int count() const { return static_cast<int>(jobs_.size()); }
+  [[nodiscard]] int count(Lane lane) const;
+
+ signals:
+  void added(quint64 id, const QString& title);
+  void endsEarly(quint64 id);
+  void progressed(quint64 id, double fraction, const QString& viewer_area);
+  void cancelling(quint64 id);
+  void finishing(quint64 id);
+  void removed(quint64 id);
+  /// A sentence for the user, of a job that is no longer there.
+  void failed(const QString& sentence, quint64 id);
+
+ private:
+  struct Job {
+    Lane lane;
+    JobId runner_id = 0;
+    QString title;
+    std::optional<ProgressState> news{};  // not yet told
+    std::uint64_t scene = 0;
+    QElapsedTimer clock{};
+    double fraction = 0;
+    bool is_cancelling = false;
+  };
+  [[nodiscard]] JobRunner& runner(Lane lane) { return *runners_[static_cast<std::size_t>(lane)]; }
+  quint64 add(const QString& title, Lane lane);
+  void attach(quint64 id, JobId runner_id);
+  void report(quint64 id, const ProgressState& state);
+  void tellProgress();
+  void finish(quint64 id, const std::exception_ptr& failure);
+
+  std::map<quint64, Job> jobs_;
+  quint64 last_id_ = 0;
+  QTimer progress_;  // Runs for a while after progress was told.
+  std::array<std::unique_ptr<JobRunner>, static_cast<std::size_t>(Lane::Count)> runners_;
+};
+
+/// What went wrong, as a sentence for the user.
+[[nodiscard]] QString failure_sentence(const std::exception_ptr& failure);
+
+/// A quick background computation of which only the newest matters: a new start drops the former.
+class LatestJob {
+ public:
+  /// `context` must outlive this.
+  explicit LatestJob(QObject* context);
+
+  /// `done(value)` is called unless the job was dropped, cancelled or failed.
+  template <class T>
+  void start(std::function<T(const Progress&)> work, std::function<void(T)> done) {
+    drop();
+    runner_.start<T>(
+        [work = std::move(work)](const Progress& progress) {
+          lower_thread_priority();
+          return work(progress);
+        },
+        [this, number = number_, done = std::move(done)](Outcome<T> outcome) {
+          if (number == number_ && outcome.value) done(std::move(*outcome.value));
+        });
+  }
+  void drop() {
+    ++number_;
+    runner_.cancel_all();
+  }
+
+ private:
+  std::uint64_t number_ = 0;
+  JobRunner runner_;
+};
+
+/// How the user ends jobs, by the cancel key or by a button. One that took long already is asked
+/// for in a message, and ended if that is wanted again while the message is seen.
+class JobCancel : public QObject {
+  Q_OBJECT
+
+ public:
+  JobCancel(const Session& session, Jobs& jobs, Messages& messages, QObject* parent);
+
+  /// Ends the newest job of the light field that is shown, or of none. Returns whether there was
+  /// such a job.
+  bool cancelNewest();
+  /// Ends all of them, or asks for the one among them that has run longest.
+  void cancel(const std::vector<quint64>& ids);
+  /// Jobs that ran for less time are ended at once: 10 s unless set.
+  void setWorthAsking(double seconds) { worth_asking_s_ = seconds; }
+
+ private:
+  [[nodiscard]] std::optional<Jobs::Running> longestOf(const std::vector<quint64>& ids) const;
+  void ask(const std::vector<quint64>& ids, const Jobs::Running& longest);
+  void end(const std::vector<quint64>& ids, const Jobs::Running& longest);
+
+  const Session& session_;
+  Jobs& jobs_;
+  Messages& messages_;
+  double worth_asking_s_ = 10;
+  quint64 asked_ = 0;  // job that was asked for last,
+  QString question_;   // by this sentence
+};
+
+/// "EPI_S · still_life": several light fields may be open.
+[[nodiscard]] inline QString job_title(const QString& what, const OpenScene& scene) {
+  return QStringLiteral("%1 · %2").arg(what, QString::fromStdString(scene.name));
+}
+
+/// The same, of the light field that is shown.
+[[nodiscard]] inline QString job_title(const QString& what, const Session& session) {
+  const OpenScene* scene = session.find_scene(session.generation());
+  return scene == nullptr ? what : job_title(what, *scene);
+}
+
+/// Shows the jobs under the tabs, with their buttons, and tells the user of those that failed.
+void show_jobs(Jobs& jobs, JobCancel& cancel, Frame& frame, Messages& messages);
+
+/// Posts closures through the event loop of the thread of `context`, from any thread; dropped when
+/// `context` is destroyed. Whoever posts must have ended before `context` is.
+[[nodiscard]] JobRunner::Post queued_post(QObject* context);
+
+}  // namespace episcope

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "annotation/document.h"
+#include "engine/io/base/append_log.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// Which light field a journal belongs to.
+struct JournalOwner {
+  std::string name;               ///< Short, for the question whether to recover.
+  std::string source;             ///< What opens the light field again.
+  std::uint64_t sample_hash = 0;  ///< LightField::sample_hash.
+  double focus_px = 0;            ///< Focus plane to bake in after opening (shear.h).
+  std::string file{};             ///< Where the document was saved last; empty = nowhere yet.
+  friend bool operator==(const JournalOwner&, const JournalOwner&) = default;
+};
+
+/// Keeps every step of a document in a file of `folder`, so that what was painted outlives a crash:
+/// a step is in the file when the call that made it returns, and on the disk soon after. The file
+/// stays when the journal is destroyed; `finish` removes it. At most two times the size of the
+/// document with its history and kSlackBytes are kept.
+class AnnotationJournal {
+ public:
+  static constexpr std::uintmax_t kSlackBytes = std::uintmax_t{4} << 20;
+
+  /// Begins a journal with the document as it is, and observes it from now on: no other observer
+  /// may be set. The document must outlive the journal. Makes the folder. Throws IoError.
+  AnnotationJournal(const std::filesystem::path& folder, JournalOwner owner,
+                    AnnotationDocument& document);
+  ~AnnotationJournal();
+  AnnotationJournal(const AnnotationJournal&) = delete;
+  AnnotationJournal& operator=(const AnnotationJournal&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::uintmax_t byte_size() const { return log_->byte_size(); }
+  /// The document was saved to another file, or its light field moved. Throws IoError.
+  void set_owner(JournalOwner owner);
+  /// Waits until everything is on the disk. Throws IoError.
+  void flush() { log_->flush(); }
+  /// Ends the journal and removes the file: the session ended normally.
+  void finish();
+
+ private:
+  void record(const DocumentEvent& event);
+  void rewrite();
+
+  std::filesystem::path path_;
+  JournalOwner owner_;
+  AnnotationDocument* document_;
+  std::optional<io::AppendLog> log_;
+  std::uintmax_t first_bytes_ = 0;  ///< Of the file when it was last written anew.
+};
+
+/// What a crashed session left behind.
+struct RecoveredAnnotation {
+  JournalOwner owner;
+  AnnotationDocument document;  ///< With its history.
+};
+
+/// Reads a journal: the document after the last complete step. Throws IoError if not even the
+/// initial document can be read.
+[[nodiscard]] RecoveredAnnotation read_journal(const std::filesystem::path& path);
+
+struct RecoverableJournal {
+  std::filesystem::path path;
+  JournalOwner owner;
+  std::filesystem::file_time_type last_change;
+};
+
+/// Journals in `folder` whose session crashed with unsaved changes, the latest first. Those of
+/// running sessions are skipped, and those that cannot be read; those with nothing unsaved are
+/// removed.
+[[nodiscard]] std::vector<RecoverableJournal> recoverable_journals(const std::filesystem::path& folder);
+
+/// Removes a journal that the user does not want or that was recovered.
+void discard_journal(const std::filesystem::path& path);
+
+/// The document painted on a light field, with the journal that survives a crash. The journal
+/// begins with the first edit, so that merely looking leaves no file.
+class Annotation {
+ public:
+  /// Keeps journals in `folder`; none if that is empty.
+  Annotation(AnnotationDocument document, JournalOwner owner, std::filesystem::path folder);
+  Annotation(const Annotation&) = delete;
+  Annotation& operator=(const Annotation&) = delete;
+
+  [[nodiscard]] AnnotationDocument& document() { return document_; }
+  [[nodiscard]] const AnnotationDocument& document() const { return document_; }
+
+  /// LightField::sample_hash for a journal that is begun later; until then it is unknown, 0.
+  void set_sample_hash(std::uint64_t hash) { owner_.sample_hash = hash; }
+  /// Where the document was saved last; a later crash does not forget it. Throws IoError if the
+  /// journal cannot be written.
+  void set_file(const std::string& file);
+  [[nodiscard]] const std::string& file() const { return owner_.file; }
+  /// What opens the light field now, which was moved. Throws IoError likewise.
+  void set_source(const std::string& source);
+  /// Begins the journal unless it is there, or is not wanted. To be called before each edit. Throws
+  /// IoError if it cannot be kept: then there will be none.
+  void keep_journal();
+  [[nodiscard]] bool has_journal() const { return journal_.has_value(); }
+  /// Precondition: there is one.
+  [[nodiscard]] const std::filesystem::path& journal_path() const { return journal_->path(); }
+  /// Abandons the journal, which can no longer be written.
+  void drop_journal();
+  /// The session ended normally or its changes were discarded: the journal is removed.
+  void finish();
+
+ private:
+  AnnotationDocument document_;
+  JournalOwner owner_;
+  std::filesystem::path folder_;
+  std::optional<AnnotationJournal> journal_;
+};
+
+/// What a journal of a document as it is now holds: the owner, the document before the oldest edit
+/// of the history, then the steps that lead to the present state.
+[[nodiscard]] std::vector<io::LogRecord> journal_records(const JournalOwner& owner,
+                                                         const AnnotationDocument& document);
+
+/// The document that the records lead to, up to the first invalid one. Throws InvalidInput if one
+/// of the first two is.
+[[nodiscard]] RecoveredAnnotation replay(const std::vector<io::LogRecord>& records);
+
+/// A journal of a session that ended unexpectedly, with or without unsaved changes.
+struct OrphanedJournal {
+  std::filesystem::path path;
+  std::filesystem::file_time_type last_change;
+};
+
+/// Journals in `folder` that no running session holds, the latest first.
+[[nodiscard]] std::vector<OrphanedJournal> orphaned_journals(const std::filesystem::path& folder);
+
+}  // namespace episcope

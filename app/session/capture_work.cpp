@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/capture_work.h"
+
+#include "app/session/result_files.h"
+#include "engine/core/error.h"
+#include "engine/core/schema.h"
+#include "engine/io/base/json.h"
+#include "engine/io/models/result_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+
+namespace episcope {
+
+const CaptureObject* CaptureWork::object() const {
+  const bool is_there = current >= 0 && current < static_cast<int>(objects.size());
+  return is_there ? &objects[static_cast<std::size_t>(current)] : nullptr;
+}
+
+CaptureLens lens_of(const capture::Calibration& calibration) {
+  CaptureLens lens{.camera = calibration.camera};
+  for (const capture::PatternPhotograph& each : calibration.photographs) {
+    lens.photographs.push_back(
+        {std::filesystem::path(each.name).filename().string(), each.rms, each.problem});
+  }
+  return lens;
+}
+
+std::string solve_poses(CaptureWork& work, const CameraGrid& camera) {
+  std::string problem;
+  for (CaptureObject& object : work.objects) {
+    object.pose.reset();
+    if (!camera.pinhole || object.pairs.size() < 4) continue;
+    try {
+      object.pose = capture::solve_pose(object.pairs, camera);
+    } catch (const InvalidInput& error) {
+      if (&object == work.object()) problem = error.what();
+    }
+  }
+  return problem;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+std::string absolute_path(const Json& text, const fs::path& project) {
+  return (project.parent_path() / text.get<std::string>()).lexically_normal().string();
+}
+
+// What cannot be told is left out: JSON has no numbers for it.
+void put(Json& json, const char* key, double value) {
+  if (std::isfinite(value)) json[key] = value;
+}
+
+Json camera_json(const capture::LensCamera& camera) {
+  return {{"size_px", {camera.width, camera.height}},
+          {"focal_px", {camera.focal_x, camera.focal_y}},
+          {"center_px", {camera.center_x, camera.center_y}},
+          {"distortion", camera.distortion},
+          {"error_px", camera.rms}};
+}
+
+capture::LensCamera camera_of(const Json& json) {
+  capture::LensCamera camera;
+  camera.width = io::int_of(json.at("size_px").at(0));
+  camera.height = io::int_of(json.at("size_px").at(1));
+  camera.focal_x = json.at("focal_px").at(0);
+  camera.focal_y = json.at("focal_px").at(1);
+  camera.center_x = json.at("center_px").at(0);
+  camera.center_y = json.at("center_px").at(1);
+  json.at("distortion").get_to(camera.distortion);
+  camera.rms = json.at("error_px");
+  return camera;
+}
+
+Json lens_json(const CaptureLens& lens, const fs::path& project) {
+  Json json = camera_json(lens.camera);
+  if (!lens.file.empty()) json["file"] = source_text(lens.file, project);
+  for (const CalibratedPhotograph& each : lens.photographs) {
+    Json photograph{{"name", each.name}};
+    if (each.problem.empty()) photograph["error_px"] = each.rms;
+    if (!each.problem.empty()) photograph["left_out"] = each.problem;
+    json["photographs"].push_back(photograph);
+  }
+  return json;
+}
+
+CaptureLens lens_from(const Json& json, const fs::path& project) {
+  CaptureLens lens{.camera = camera_of(json)};
+  if (json.contains("file")) lens.file = absolute_path(json.at("file"), project);
+  for (const Json& each : json.value("photographs", Json::array())) {
+    lens.photographs.push_back(
+        {each.at("name"), each.value("error_px", 0.0), each.value("left_out", "")});
+  }
+  return lens;
+}
+
+template <class P>
+Json settings_json(const Schema<P>& schema, const P& value) {
+  return io::parameters_json(schema.values(value));
+}
+
+// Settings that a later program wrote otherwise are those of a new light field.
+template <class P>
+P settings_of(const Schema<P>& schema, const Json& json) {
+  try {
+    return schema.parse(io::parameters_from(json));
+  } catch (const InvalidInput&) {
+    return {};
+  }
+}
+
+Json rows_json(const RowAlignment& rows) {
+  return {{"before_px", {rows.before.median, rows.before.percentile_95}},
+          {"after_px", {rows.after.median, rows.after.percentile_95}}};
+}
+
+RowAlignment rows_of(const Json& json) {
+  const Json& before = json.at("before_px");
+  const Json& after = json.at("after_px");
+  return {{before.at(0), before.at(1)}, {after.at(0), after.at(1)}};
+}
+
+Json pairs_json(const CaptureObject& object) {
+  Json pairs = Json::array();
+  for (std::size_t i = 0; i < object.pairs.size(); ++i) {
+    const capture::PointPair& each = object.pairs[i];
+    pairs.push_back({{"name", each.name},
+                     {"pixel", {each.x_px, each.y_px}},
+                     {"point", {each.point.x, each.point.y, each.point.z}}});
+    if (each.is_locked) pairs.back()["locked"] = true;
+    if (!object.pose) continue;
+    put(pairs.back(), "off_px", object.pose->pairs[i].residual_px);
+    if (object.pose->pairs[i].is_outlier) pairs.back()["wrong"] = true;
+  }
+  return pairs;
+}
+
+Json pose_json(const capture::SolvedPose& solved) {
+  Json json{{"rotation", solved.pose.rotation}, {"translation", solved.pose.translation}};
+  put(json, "reprojection_error_px", solved.reprojection_error_px);
+  put(json, "delta_tz", solved.delta_tz);
+  put(json, "delta_tz_px", solved.delta_tz_px);
+  return json;
+}
+
+capture::SolvedPose pose_of(const Json& json, const Json& pairs) {
+  capture::SolvedPose solved;
+  json.at("rotation").get_to(solved.pose.rotation);
+  json.at("translation").get_to(solved.pose.translation);
+  solved.reprojection_error_px = json.value("reprojection_error_px", kUnknown);
+  solved.delta_tz = json.value("delta_tz", kUnknown);
+  solved.delta_tz_px = json.value("delta_tz_px", kUnknown);
+  for (const Json& each : pairs) {
+    solved.pairs.push_back({each.value("off_px", kUnknown), each.value("wrong", false)});
+  }
+  return solved;
+}
+
+Json object_json(const CaptureObject& object, const fs::path& project) {
+  Json json{{"name", object.name}};
+  if (!object.mesh.empty()) json["mesh"] = source_text(object.mesh, project);
+  json["pairs"] = pairs_json(object);
+  if (object.pose) json["pose"] = pose_json(*object.pose);
+  return json;
+}
+
+CaptureObject object_of(const Json& json, const fs::path& project) {
+  CaptureObject object;
+  object.name = json.value("name", "1");
+  if (json.contains("mesh")) object.mesh = absolute_path(json.at("mesh"), project);
+  for (const Json& each : json.at("pairs")) {
+    const Json& point = each.at("point");
+    object.pairs.push_back({each.at("name"),
+                            each.at("pixel").at(0),
+                            each.at("pixel").at(1),
+                            {point.at(0), point.at(1), point.at(2)},
+                            each.value("locked", false)});
+  }
+  if (json.contains("pose")) object.pose = pose_of(json.at("pose"), json.at("pairs"));
+  return object;
+}
+
+// Of a program that knew one object only.
+CaptureWork former_work_of(const Json& json, const fs::path& project) {
+  CaptureWork work;
+  work.objects.push_back(object_of(json, project));
+  CaptureObject& object = work.objects[0];
+  if (!object.mesh.empty()) object.name = fs::path(object.mesh).stem().string();
+  return work;
+}
+
+}  // namespace
+
+std::string capture_to_json(const CaptureWork& work, const fs::path& project) {
+  Json json = Json::object();
+  if (work.lens) json["lens"] = lens_json(*work.lens, project);
+  json["pattern"] = settings_json(capture::pattern_schema(), work.pattern);
+  json["rectify"] = settings_json(capture::rectify_schema(), work.rectify);
+  if (work.rows) json["rows"] = rows_json(*work.rows);
+  json["objects"] = Json::array();
+  for (const CaptureObject& each : work.objects) {
+    json["objects"].push_back(object_json(each, project));
+  }
+  json["current"] = work.current;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+CaptureWork capture_from_json(const std::string& text, const fs::path& project) {
+  const auto json = io::parse_json<Json>(text);
+  if (!json.contains("objects")) return former_work_of(json, project);
+  CaptureWork work;
+  if (json.contains("lens")) work.lens = lens_from(json.at("lens"), project);
+  work.pattern = settings_of(capture::pattern_schema(), json.at("pattern"));
+  work.rectify = settings_of(capture::rectify_schema(), json.at("rectify"));
+  if (json.contains("rows")) work.rows = rows_of(json.at("rows"));
+  for (const Json& each : json.at("objects")) work.objects.push_back(object_of(each, project));
+  const int last = static_cast<int>(work.objects.size()) - 1;
+  work.current = std::clamp(io::int_of(json.at("current")), 0, std::max(last, 0));
+  return work;
+}
+
+}  // namespace episcope

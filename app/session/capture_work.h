@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/capture/calibrate.h"
+#include "engine/capture/camera.h"
+#include "engine/capture/pattern.h"
+#include "engine/capture/rectify.h"
+#include "engine/capture/solve_pose.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// A photograph of the calibration pattern.
+struct CalibratedPhotograph {
+  std::string name;       ///< Of the file, without its folder.
+  double rms = 0;         ///< Reprojection error in px, if it was used.
+  std::string problem{};  ///< Why it was left out; empty = used.
+  friend bool operator==(const CalibratedPhotograph&, const CalibratedPhotograph&) = default;
+};
+
+/// A lens, and where it is known from.
+struct CaptureLens {
+  capture::LensCamera camera;
+  std::string file{};  ///< It was read from; empty = it was calibrated.
+  std::vector<CalibratedPhotograph> photographs{};
+  friend bool operator==(const CaptureLens&, const CaptureLens&) = default;
+};
+
+/// How well the rows of a light field were aligned that was made of photographs.
+struct RowAlignment {
+  capture::RowErrors before;
+  capture::RowErrors after;
+  friend bool operator==(const RowAlignment&, const RowAlignment&) = default;
+};
+
+/// A thing before the cameras.
+struct CaptureObject {
+  std::string name;    ///< No other has it.
+  std::string mesh{};  ///< File; empty = none was opened.
+  std::vector<capture::PointPair> pairs{};
+  /// That follows from the pairs; nothing = there is none, or it was not computed yet.
+  std::optional<capture::SolvedPose> pose{};
+
+  /// What the user did; the pose follows from it.
+  friend bool operator==(const CaptureObject& a, const CaptureObject& b) {
+    return a.name == b.name && a.mesh == b.mesh && a.pairs == b.pairs;
+  }
+};
+
+/// All that a user does on the way from photographs to ground truth, of one light field.
+struct CaptureWork {
+  std::optional<CaptureLens> lens{};
+  capture::Pattern pattern{};          ///< To calibrate with next,
+  capture::RectifyOptions rectify{};   ///< and to rectify with; of a rectified one, as it was.
+  std::optional<RowAlignment> rows{};  ///< Of a light field that was rectified.
+  std::vector<CaptureObject> objects{};
+  int current = 0;  ///< The object that is worked on.
+
+  [[nodiscard]] bool empty() const { return *this == CaptureWork(); }
+  /// The current object; null = there are none.
+  [[nodiscard]] const CaptureObject* object() const;
+  friend bool operator==(const CaptureWork&, const CaptureWork&) = default;
+};
+
+/// What is kept of a calibration.
+[[nodiscard]] CaptureLens lens_of(const capture::Calibration& calibration);
+
+/// Computes the pose of every object from 4 pairs on. Returns why the current one has none, empty
+/// if that is only for lack of pairs. `camera` without a pinhole: there are no poses.
+std::string solve_poses(CaptureWork& work, const CameraGrid& camera);
+
+/// What a project file holds of CaptureWork, as JSON: the lens with its photographs, settings,
+/// rows, and objects with pairs and poses. Files are named relative to the folder of `project`
+/// where that is possible.
+[[nodiscard]] std::string capture_to_json(const CaptureWork& work,
+                                          const std::filesystem::path& project);
+
+/// Reads it back; also the form of earlier versions, which had one object and no lens. Throws
+/// nlohmann's exception or InvalidInput for what is no such JSON.
+[[nodiscard]] CaptureWork capture_from_json(const std::string& json,
+                                            const std::filesystem::path& project);
+
+}  // namespace episcope

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/error.h"
+#include "engine/core/image.h"
+#include "engine/core/progress.h"
+#include "engine/io/formats/collection.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+using OnEntry = std::function<void(const io::CollectionEntry&)>;
+
+/// Every light field below `folder` (io::find_light_fields). What their headers told is kept in
+/// `cache_folder`, of the collections that were listed last; empty = nothing is kept. Throws
+/// IoError, Cancelled.
+[[nodiscard]] std::vector<io::CollectionEntry> list_collection(
+    const std::filesystem::path& folder, const std::filesystem::path& cache_folder,
+    const OnEntry& on_entry, const Progress& progress);
+
+/// The light fields below `input` if it is a folder that holds some and is none itself; else empty.
+/// Those that cannot be opened are among them. Throws IoError, Cancelled.
+[[nodiscard]] std::vector<io::CollectionEntry> collection_at(
+    const std::string& input, const io::OpenOptions& options,
+    const std::filesystem::path& cache_folder, const Progress& progress);
+
+/// A folder that was to be opened as a light field holds several.
+class IsCollection : public IoError {
+ public:
+  IsCollection(const std::filesystem::path& folder, std::size_t count);
+};
+
+/// A name for each entry that no other has, for files made from them: that of the scene, after
+/// those of as many folders around it as it takes, joined by "_".
+[[nodiscard]] std::vector<std::string> unique_names(
+    const std::vector<io::CollectionEntry>& entries);
+
+/// Longer side of thumbnails at most, px.
+inline constexpr int kThumbnailSide = 160;
+
+/// The centre view, RGB, scaled down by the means of areas. Kept as a PNG in `cache_folder`, which
+/// holds those of the last few thousand light fields; empty = none is kept. Reads no more than it
+/// must: as a rule the centre view alone. Throws IoError, Cancelled.
+[[nodiscard]] Image<std::uint8_t> scene_thumbnail(const io::CollectionEntry& entry,
+                                                  const std::filesystem::path& cache_folder,
+                                                  const Progress& progress);
+
+}  // namespace episcope

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/command_line.h"
+
+#include "engine/disparity/registry.h"
+#include "engine/io/models/open_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace episcope {
+namespace {
+
+// As texts: files tell one "auto" from another no more.
+bool is_default(const std::vector<ParameterDescription>& descriptions, const std::string& key,
+                const ParameterValue& value) {
+  return std::any_of(
+      descriptions.begin(), descriptions.end(), [&](const ParameterDescription& description) {
+        return description.key == key && to_text(description.default_value) == to_text(value);
+      });
+}
+
+}  // namespace
+
+std::string shell_quoted(const std::string& word) {
+  const auto is_plain = [](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return std::isalnum(code) || code >= 0x80 ||
+           std::string("_-./:,+=@%").find(c) != std::string::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+ParameterSet changed_parameters(const std::string& method, const ParameterSet& values) {
+  std::vector<ParameterDescription> descriptions;
+  for (const Estimator& estimator : registered_estimators()) {
+    if (estimator.info.id == method) descriptions = described_under(estimator.parameters, values);
+  }
+  ParameterSet changed;
+  for (const auto& [key, value] : values) {
+    if (!is_default(descriptions, key, value)) changed.emplace_back(key, value);
+  }
+  return changed;
+}
+
+std::string options_text(const ParameterSet& options,
+                         const std::vector<ParameterDescription>& descriptions) {
+  std::string text;
+  for (const auto& [key, value] : options) {
+    const auto found = std::ranges::find(descriptions, key, &ParameterDescription::key);
+    const bool is_bare =
+        found != descriptions.end() && found->is_toggle && value == ParameterValue(true);
+    // "=" keeps a value that begins with a minus from being read as an option.
+    text += is_bare ? fmt::format(" --{}", key)
+                    : fmt::format(" --{}={}", key, shell_quoted(to_text(value)));
+  }
+  return text;
+}
+
+std::string reading_options_text(const ParameterSet& options) {
+  return options_text(options, io::open_schema().descriptions());
+}
+
+std::string command_line_for(const std::string& method, const ParameterSet& values,
+                             ViewSelection views, const std::string& input,
+                             const ParameterSet& reading) {
+  const std::string line =
+      fmt::format("episcope-cli estimate {} {} -o {} --views {}", shell_quoted(method),
+                  shell_quoted(input), shell_quoted(method + ".h5"), name_of(views));
+  return line + options_text(changed_parameters(method, values), {}) +
+         reading_options_text(reading);
+}
+
+std::string command_line_for(const Estimate& estimate, const std::string& input,
+                             const ParameterSet& reading) {
+  const bool is_one_view = estimate.field.disparity.grid().count() == 1;
+  return command_line_for(estimate.method, estimate.parameters,
+                          is_one_view ? ViewSelection::Center : ViewSelection::All, input, reading);
+}
+
+}  // namespace episcope

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/estimate.h"
+#include "engine/disparity/estimator.h"
+
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// The `episcope-cli estimate` line that repeats an estimate of the light field that `input` opens
+/// with these reading options.
+/// Parameters at their defaults are left out; of a method this build does not know, all are named.
+[[nodiscard]] std::string command_line_for(const Estimate& estimate, const std::string& input,
+                                           const ParameterSet& reading = {});
+
+/// The same for a run that was not started yet.
+[[nodiscard]] std::string command_line_for(const std::string& method, const ParameterSet& values,
+                                           ViewSelection views, const std::string& input,
+                                           const ParameterSet& reading = {});
+
+/// Values that are not the defaults of the method; of a method this build does not know, all.
+[[nodiscard]] ParameterSet changed_parameters(const std::string& method,
+                                              const ParameterSet& values);
+
+/// Options of `episcope-cli`, each led by a space: " --range=-1,2". Toggles among `descriptions`
+/// stand by themselves.
+[[nodiscard]] std::string options_text(const ParameterSet& options,
+                                       const std::vector<ParameterDescription>& descriptions);
+/// The same of reading options (io::open_schema): " --flip=u --snake".
+[[nodiscard]] std::string reading_options_text(const ParameterSet& options);
+
+/// A word as a POSIX shell reads it back: quoted where it must be.
+[[nodiscard]] std::string shell_quoted(const std::string& word);
+
+}  // namespace episcope

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/label_review.h"
+
+#include "engine/core/epi.h"
+#include "engine/labeling/consistency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <vector>
+
+namespace episcope {
+
+LabelingScores judge_labeling(const ViewStack<std::int32_t>& labels, ViewIndex view,
+                              const ViewStack<std::int32_t>& truth, const GroundTruth& ground_truth,
+                              const DisparityField* disparity, const Progress& progress) {
+  LabelingScores scores;
+  if (!truth.empty() && truth.contains(view) && labels.contains(view)) {
+    scores.view = judge_label_quality(labels.view(view), truth.view(view));
+  }
+  if (labels.grid().count() == 1) return scores;
+  if (truth.grid() == labels.grid()) {
+    scores.all_views = judge_label_quality(labels, truth, progress);
+  }
+  const bool knows_rays =
+      ground_truth.has_disparity() && ground_truth.field.disparity.grid() == labels.grid();
+  if (const DisparityField* rays = knows_rays ? &ground_truth.field : disparity) {
+    scores.consistency = label_consistency(labels, *rays, progress).share();
+  }
+  return scores;
+}
+
+namespace {
+
+struct Sums {
+  std::int64_t pixels = 0;
+  std::int64_t measured = 0;
+  double sum = 0;
+  double squares = 0;
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+
+  void add(const DisparityView& disparity, int y, int x0, int x1) {
+    pixels += x1 - x0;
+    if (disparity.disparity.empty()) return;
+    for (int x = x0; x < x1; ++x) {
+      if (!disparity.is_valid(y, x)) continue;
+      const double value = disparity.disparity.at(y, x);
+      ++measured;
+      sum += value;
+      squares += value * value;
+      min = std::min(min, value);
+      max = std::max(max, value);
+    }
+  }
+
+  [[nodiscard]] std::optional<LabelDisparity> disparity() const {
+    if (measured == 0) return std::nullopt;
+    const auto count = static_cast<double>(measured);
+    const double mean = sum / count;
+    return LabelDisparity{mean, std::sqrt(std::max(0.0, squares / count - mean * mean)), min, max};
+  }
+};
+
+template <class Label>
+std::vector<LabelAmount> amounts_of(ImageView<const Label> labels, const DisparityView& disparity) {
+  std::map<std::int32_t, Sums> sums;
+  for (int y = 0; y < labels.height; ++y) {
+    const Label* row = labels.row(y);
+    for (int x = 0; x < labels.width;) {
+      const int begin = x;
+      while (x < labels.width && row[x] == row[begin]) ++x;
+      if (row[begin] > 0) sums[row[begin]].add(disparity, y, begin, x);
+    }
+  }
+  std::vector<LabelAmount> amounts;
+  for (const auto& [id, each] : sums) amounts.push_back({id, each.pixels, each.disparity()});
+  return amounts;
+}
+
+}  // namespace
+
+std::vector<LabelAmount> label_amounts(ImageView<const std::int32_t> labels,
+                                       const DisparityView& disparity) {
+  return amounts_of(labels, disparity);
+}
+
+std::vector<LabelAmount> label_amounts(ImageView<const std::uint8_t> labels,
+                                       const DisparityView& disparity) {
+  return amounts_of(labels, disparity);
+}
+
+int LabelSummary::count(PieceKind kind) const {
+  return static_cast<int>(std::ranges::count(pieces, kind, &LabelPiece::kind));
+}
+
+ViewReview review_view(const Labeling& labeling, const LabelFinish& finish, ViewIndex view,
+                       const ScribbleLayer& painted, const DisparityField* disparity,
+                       const Progress& progress) {
+  const Image<std::int32_t> labels = finished_labels(labeling, finish, view);
+  const bool has_disparity = disparity && disparity->contains(view);
+  const std::vector<LabelAmount> amounts =
+      label_amounts(labels, has_disparity ? disparity->view(view) : DisparityView{});
+  ViewReview review;
+  for (const std::int32_t id : labeling.probabilities.ids) {
+    progress.check();
+    const auto amount = std::ranges::find(amounts, id, &LabelAmount::id);
+    review.labels.push_back(
+        {amount == amounts.end() ? LabelAmount{id} : *amount, pieces_of(labels, id)});
+  }
+  if (!labeling.probabilities.contains(view)) return review;
+  progress.check();
+  review.doubts = label_doubts(labeling.probabilities.view(view).view(), labeling.probabilities.ids,
+                               labels, painted.view(view));
+  return review;
+}
+
+namespace {
+
+// Images of labels by place along a line: rows of horizontal EPIs, columns of vertical ones.
+class Lines {
+ public:
+  explicit Lines(EpiDirection direction) : is_horizontal_(direction == EpiDirection::Horizontal) {}
+
+  [[nodiscard]] int count(const Image<std::int32_t>& labels) const {
+    return is_horizontal_ ? labels.height() : labels.width();
+  }
+  [[nodiscard]] int length(const Image<std::int32_t>& labels) const {
+    return is_horizontal_ ? labels.width() : labels.height();
+  }
+  [[nodiscard]] std::int32_t at(const Image<std::int32_t>& labels, int line, int place) const {
+    return is_horizontal_ ? labels.at(line, place) : labels.at(place, line);
+  }
+  [[nodiscard]] bool has(const Image<std::int32_t>& labels, int line, std::int32_t label) const {
+    for (int place = 0; place < length(labels); ++place) {
+      if (at(labels, line, place) == label) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool is_horizontal_;
+};
+
+// Labels of the views along the direction.
+std::vector<Image<std::int32_t>> labels_along(const Labeling& labeling, const LabelFinish& finish,
+                                              const LabelStripChoice& choice,
+                                              const Progress& progress) {
+  const bool is_horizontal = choice.direction == EpiDirection::Horizontal;
+  const GridShape grid = labeling.labels.grid();
+  const int count = is_horizontal ? grid.u : grid.v;
+  std::vector<Image<std::int32_t>> views;
+  for (int i = 0; i < count; ++i) {
+    progress.report(static_cast<double>(i) / count);
+    const ViewIndex view =
+        is_horizontal ? ViewIndex{choice.view.v, i} : ViewIndex{i, choice.view.u};
+    views.push_back(finished_labels(labeling, finish, view));
+  }
+  return views;
+}
+
+std::vector<int> chosen_lines(const Image<std::int32_t>& labels, const Lines& lines,
+                              const LabelStripChoice& choice) {
+  std::vector<int> found;
+  for (int line = 0; line < lines.count(labels); ++line) {
+    if (lines.has(labels, line, choice.label)) found.push_back(line);
+  }
+  const int count = std::min(choice.count, static_cast<int>(found.size()));
+  std::vector<int> chosen;
+  for (int i = 0; i < count; ++i) {
+    chosen.push_back(found[found.size() * (2 * i + 1) / (2 * static_cast<std::size_t>(count))]);
+  }
+  return chosen;
+}
+
+struct Reach {
+  int begin = 0;
+  int end = 0;
+};
+
+// Where the label is seen on the lines, in any of the views.
+Reach reach_of(const std::vector<Image<std::int32_t>>& views, const Lines& lines,
+               const std::vector<int>& chosen, const LabelStripChoice& choice) {
+  const int length = lines.length(views.front());
+  Reach reach{length, 0};
+  for (const auto& labels : views) {
+    for (const int line : chosen) {
+      for (int place = 0; place < length; ++place) {
+        if (lines.at(labels, line, place) != choice.label) continue;
+        reach.begin = std::min(reach.begin, place);
+        reach.end = std::max(reach.end, place + 1);
+      }
+    }
+  }
+  return {std::max(0, reach.begin - choice.margin_px),
+          std::min(length, reach.end + choice.margin_px)};
+}
+
+RgbaImage cut(const RgbaImage& picture, const Reach& reach) {
+  RgbaImage part(picture.height(), reach.end - reach.begin, picture.channels());
+  const int channels = picture.channels();
+  for (int y = 0; y < part.height(); ++y) {
+    const std::uint8_t* from = picture.row(y) + static_cast<std::ptrdiff_t>(reach.begin) * channels;
+    std::copy_n(from, static_cast<std::ptrdiff_t>(part.width()) * channels, part.row(y));
+  }
+  return part;
+}
+
+}  // namespace
+
+LabelStrip label_strip(const LightField& light_field, const Labeling& labeling,
+                       const LabelFinish& finish, const LabelStripChoice& choice,
+                       const Progress& progress) {
+  const Lines lines(choice.direction);
+  const bool is_horizontal = choice.direction == EpiDirection::Horizontal;
+  const auto views = labels_along(labeling, finish, choice, progress.part(0, 0.9));
+  const auto here = static_cast<std::size_t>(is_horizontal ? choice.view.u : choice.view.v);
+  const std::vector<int> chosen = chosen_lines(views[here], lines, choice);
+  const Reach reach = reach_of(views, lines, chosen, choice);
+  LabelStrip strip{choice.direction, reach.begin, {}};
+  for (const int line : chosen) {
+    progress.check();
+    const Image<float> samples = is_horizontal ? horizontal_epi(light_field, choice.view, line)
+                                               : vertical_epi(light_field, choice.view, line);
+    LabelEpi epi{line, cut(render::shade_samples(samples.view()), reach), {}};
+    epi.labels = Image<std::int32_t>(epi.picture.height(), epi.picture.width());
+    for (int view = 0; view < epi.labels.height(); ++view) {
+      const auto& labels = views[static_cast<std::size_t>(view)];
+      for (int place = 0; place < epi.labels.width(); ++place) {
+        epi.labels.at(view, place) = lines.at(labels, line, reach.begin + place);
+      }
+    }
+    strip.epis.push_back(std::move(epi));
+  }
+  return strip;
+}
+
+}  // namespace episcope

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/load_scene.h"
+
+#include "app/session/collections.h"
+#include "app/session/gantry_scene.h"
+#include "app/session/user_folders.h"
+#include "engine/core/error.h"
+#include "engine/core/parameter.h"
+#include "engine/core/shear.h"
+#include "engine/core/text.h"
+#include "engine/core/version.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/models/reader.h"
+#include "engine/io/open.h"
+#include "engine/scenes/builtin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <random>
+#include <system_error>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+namespace episcope {
+namespace {
+
+constexpr const char* kDemo = "demo";
+
+// A built-in scene that was kept, as if it had been rendered: samples are copied, because the scene
+// shares them.
+LightFieldPtr renamed(const LightField& light_field, const std::string& name,
+                      const std::string& source) {
+  LightFieldInfo info = light_field.info();
+  info.name = name;
+  info.source = source;
+  info.reading = {scenes::kBuiltinReader, {}};
+  auto samples = std::visit([](const auto& stack) { return LightField::Samples(stack.clone()); },
+                            light_field.samples());
+  return std::make_shared<const LightField>(std::move(samples), std::move(info),
+                                            light_field.valid().clone());
+}
+
+// Of scenes with options there is no end: they are rendered each time.
+bool is_worth_keeping(const scenes::BuiltinRequest& request) {
+  return request.is_plain() && request.scene != scenes::kRandomScene;
+}
+
+SceneCache cache_for(const scenes::BuiltinRequest& request, const std::filesystem::path& folder) {
+  return SceneCache(is_worth_keeping(request) ? folder : std::filesystem::path());
+}
+
+Scene render_center_view(const scenes::BuiltinRequest& request, const Progress& progress) {
+  scenes::RenderOptions center_only = request.options;
+  center_only.grid = {1, 1};
+  return scenes::render_builtin(request.scene, center_only, progress);
+}
+
+void show_center_view(const Scene& center, GridShape grid, const io::OpenOptions& open) {
+  const LightField& light_field = *center.light_field;
+  if (!open.on_center_view || light_field.sample_type() != SampleType::UInt8) return;
+  const ImageView<const std::uint8_t> view = light_field.view<std::uint8_t>({0, 0});
+  Image<std::uint8_t> rgb(view.height, view.width, view.channels);
+  std::copy_n(view.data, view.size(), rgb.data());
+  open.on_center_view(rgb, light_field.info(), grid);
+}
+
+// What a kept built-in scene lacks: where it comes from and, in older archives, its region masks.
+void complete_kept_scene(Scene& kept, const Scene& center) {
+  // Nobody else has seen the scene yet, and a copy of its truth would double the memory.
+  const auto truth = std::const_pointer_cast<GroundTruth>(kept.truth);
+  truth->regions = center.truth->regions;
+  truth->stratified = center.truth->stratified;
+  kept.convention = center.convention;
+}
+
+// All samples of a scene that was rendered in its centre view only.
+Scene without_truth(ViewStack<std::uint8_t> samples, const Scene& center,
+                    const std::string& source) {
+  LightFieldInfo info = center.light_field->info();
+  info.source = source;
+  Scene scene;
+  scene.light_field = std::make_shared<const LightField>(std::move(samples), std::move(info));
+  scene.truth = std::make_shared<const GroundTruth>();
+  scene.convention = center.convention;
+  return scene;
+}
+
+Scene load_builtin(const std::string& id, const LoadOptions& options, const Progress& progress) {
+  require_builtin_input(id);
+  if (is_gantry(id)) return load_gantry(id, options, progress);
+  const std::string source = id == kDemo ? id : std::string(kDemo) + ":" + id;
+  const scenes::BuiltinRequest request = scenes::read_request(id);
+  progress.step("rendering the centre view");
+  const Scene center = render_center_view(request, progress.part(0, 0.02));
+  show_center_view(center, request.options.grid, options.open);
+  progress.step("reading the built-in scene");
+  const SceneCache cache = cache_for(request, options.cache_folder);
+  if (!options.needs_truth) {
+    auto samples = cache.read_samples(request.scene, request.options, progress);
+    if (samples) return without_truth(std::move(*samples), center, source);
+  }
+  std::optional<Scene> scene = cache.read(request.scene, request.options, progress.part(0.02, 0.9));
+  if (scene) {
+    complete_kept_scene(*scene, center);
+  } else {
+    progress.step("rendering all views");
+    scene = scenes::render_builtin(request.scene, request.options, progress.part(0.02, 1));
+  }
+  if (scene->light_field->info().source != source) {
+    scene->light_field = renamed(*scene->light_field, request.name(), source);
+  }
+  return std::move(*scene);
+}
+
+// A folder that cannot be opened may hold light fields below; a single one is what is meant.
+Scene open_light_field(const std::string& input, const io::OpenOptions& options,
+                       const std::filesystem::path& cache_folder, const Progress& progress) {
+  try {
+    return io::open_scene(input, options, progress);
+  } catch (const io::Undecided&) {
+    throw;
+  } catch (const IoError&) {
+    const auto below = collection_at(input, options, cache_folder, progress);
+    if (below.size() == 1) return io::open_scene(below.front().path, options, progress);
+    if (!below.empty()) throw IsCollection(input, below.size());
+    throw;
+  }
+}
+
+}  // namespace
+
+std::string builtin_scene_id(const std::string& input) {
+  const std::string prefix = std::string(kDemo) + ":";
+  if (input == kDemo || input == prefix) return kDemo;
+  if (input.starts_with(std::string(kDemo) + "?")) return input;
+  return input.starts_with(prefix) ? input.substr(prefix.size()) : std::string();
+}
+
+std::string reader_of(const std::string& input, const io::OpenOptions& options) {
+  if (!builtin_scene_id(input).empty()) return scenes::kBuiltinReader;
+  const io::Reader* reader = io::find_reader(input, options).reader;
+  return reader ? reader->id : std::string();
+}
+
+Scene load_scene(const std::string& input, const LoadOptions& options, const Progress& progress) {
+  const std::string id = builtin_scene_id(input);
+  if (id.empty()) {
+    io::OpenOptions open = options.open;
+    open.needs_truth = options.needs_truth;
+    Scene scene = open_light_field(input, open, options.cache_folder, progress);
+    if (options.needs_truth) read_kept_scribbles(scene, progress);
+    return scene;
+  }
+  const double focus_px = options.open.focus_px;
+  Scene scene = load_builtin(id, options, progress.part(0, focus_px == 0 ? 1 : 0.8));
+  if (focus_px == 0) return scene;
+  return sheared(scene, focus_px, progress.part(0.8, 1));
+}
+
+void store_in_cache(const std::string& input, const Scene& scene,
+                    const std::filesystem::path& cache_folder, const Progress& progress) {
+  const std::string id = builtin_scene_id(input);
+  const bool is_kept_elsewhere = id.empty() || is_gantry(id);
+  if (is_kept_elsewhere || cache_folder.empty() || scene.convention.focus_px != 0) return;
+  const scenes::BuiltinRequest request = scenes::read_request(id);
+  if (!is_worth_keeping(request)) return;
+  const SceneCache cache(cache_folder);
+  std::error_code ignored;
+  if (!std::filesystem::exists(cache.place(request.scene, request.options), ignored)) {
+    cache.write(request.scene, request.options, scene, progress);
+  }
+}
+
+std::vector<scenes::BuiltinSceneInfo> builtin_inputs() {
+  std::vector<scenes::BuiltinSceneInfo> all = scenes::builtin_scenes();
+  const auto random = std::ranges::find(all, scenes::kRandomScene, &scenes::BuiltinSceneInfo::id);
+  all.insert(random,
+             {kGantryScene,
+              "photographs of a gantry, to calibrate, rectify and give a depth from a scan"});
+  return all;
+}
+
+void require_builtin_input(const std::string& id) {
+  const std::string scene = id.substr(0, id.find('?'));
+  std::vector<std::string> ids;
+  for (const scenes::BuiltinSceneInfo& each : builtin_inputs()) ids.push_back(each.id);
+  if (std::ranges::find(ids, scene) == ids.end()) {
+    throw Unavailable(no_such_name("built-in scene", scene, ids) + " (there are " +
+                      joined(ids, ", ") + ")");
+  }
+  if (is_gantry(id)) {
+    std::ignore = gantry_options(id);
+  } else {
+    std::ignore = scenes::read_request(id);
+  }
+}
+
+std::string builtin_input_name(const std::string& id) {
+  return is_gantry(id) ? kGantryScene : scenes::read_request(id).name();
+}
+
+namespace {
+
+// Removes a folder when it goes out of scope, whatever happened.
+struct TemporaryFolder {
+  std::filesystem::path path;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
+std::string random_suffix() {
+  std::random_device random;
+  return fmt::format(".{:08x}", random());
+}
+
+std::string key_of(const std::string& id, const scenes::RenderOptions& options) {
+  return fmt::format("{}-{}-{}x{}-{}x{}x{}-n{:g}-s{}-d{:g}", id, kVersion, options.grid.v,
+                     options.grid.u, options.height, options.width, options.channels,
+                     options.noise_sigma, options.seed, options.disparity_scale);
+}
+
+}  // namespace
+
+std::filesystem::path SceneCache::place(const std::string& id,
+                                        const scenes::RenderOptions& options) const {
+  return folder_ / key_of(id, options);
+}
+
+std::optional<Scene> SceneCache::read(const std::string& id, const scenes::RenderOptions& options,
+                                      const Progress& progress) const {
+  const std::filesystem::path file = place(id, options) / "lf.h5";
+  std::error_code ignored;
+  if (folder_.empty() || !std::filesystem::exists(file, ignored)) return std::nullopt;
+  try {
+    // The order is ours: checking it would only take time.
+    io::OpenOptions open;
+    open.flip = io::Flip::None;
+    return io::open_scene(file, open, progress);
+  } catch (const Error&) {
+    std::filesystem::remove_all(place(id, options), ignored);
+    return std::nullopt;
+  }
+}
+
+std::optional<ViewStack<std::uint8_t>> SceneCache::read_samples(
+    const std::string& id, const scenes::RenderOptions& options, const Progress& progress) const {
+  const std::filesystem::path path = place(id, options) / "lf.h5";
+  std::error_code ignored;
+  if (folder_.empty() || !std::filesystem::exists(path, ignored)) return std::nullopt;
+  try {
+    const io::Hdf5Input file(path);
+    ViewStack<std::uint8_t> stack(options.grid, options.height, options.width, options.channels);
+    const auto length = [](int n) { return static_cast<std::size_t>(n); };
+    const io::Hdf5Shape shape{length(options.grid.v), length(options.grid.u),
+                              length(options.height), length(options.width),
+                              length(options.channels)};
+    const io::Hdf5Dataset dataset = file.dataset("LF");
+    if (dataset.shape != shape || dataset.type != io::Hdf5Type::UInt8) return std::nullopt;
+    for (int i = 0; i < options.grid.count(); ++i) {
+      progress.check();
+      const ViewIndex view = options.grid.view_at(i);
+      const io::Hdf5Block block{{length(view.v), length(view.u), 0, 0, 0},
+                                {1, 1, shape[2], shape[3], shape[4]}};
+      file.read("LF", block, stack.view(view).data);
+      progress.report((i + 1.0) / options.grid.count());
+    }
+    return stack;
+  } catch (const IoError&) {
+    return std::nullopt;
+  }
+}
+
+bool SceneCache::write(const std::string& id, const scenes::RenderOptions& options,
+                       const Scene& scene, const Progress& progress) const {
+  if (folder_.empty()) return false;
+  const std::filesystem::path final_place = place(id, options);
+  std::error_code failure;
+  std::filesystem::create_directories(folder_, failure);
+  if (failure) return false;
+  const TemporaryFolder temporary{final_place.string() + random_suffix()};
+  std::filesystem::create_directory(temporary.path, failure);
+  if (failure) return false;
+  try {
+    io::write_archive(temporary.path / "lf.h5", scene, progress);
+  } catch (const Error&) {
+    return false;
+  }
+  std::filesystem::remove_all(final_place, failure);
+  std::filesystem::rename(temporary.path, final_place, failure);
+  return !failure;
+}
+
+}  // namespace episcope

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/user_folders.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/io/models/open_options.h"
+#include "engine/scenes/builtin.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+struct LoadOptions {
+  io::OpenOptions open;
+  /// Folder that keeps built-in scenes once they were rendered; empty = none is kept.
+  std::filesystem::path cache_folder;
+  /// Whether truth and labels are wanted. Without, kept built-in scenes are read in a fraction of
+  /// the memory; other inputs may need their truth to settle the order of views.
+  bool needs_truth = true;
+};
+
+/// What follows `demo:` if `input` is `demo`, `demo?<options>` (the scene `demo` with options) or
+/// `demo:<scene>`, which `scenes::read_request` reads; else empty.
+[[nodiscard]] std::string builtin_scene_id(const std::string& input);
+
+/// Id of the reader of an input (engine/io/models/reader.h), "builtin" for built-in scenes; empty if
+/// nobody reads it. Throws IoError if it is not there or damaged.
+[[nodiscard]] std::string reader_of(const std::string& input, const io::OpenOptions& options);
+
+/// Opens anything that a user can name: `demo`, `demo:<scene>`, `demo:random?seed=7`, or a path
+/// that `io::open_scene` opens. The light field's `source` is what opens it again. A built-in scene
+/// is read from the cache where it is there and whole, else rendered; `store_in_cache` keeps it for
+/// the next time, but for the gantry, which is kept at once (gantry_scene.h). Throws IoError,
+/// IsCollection for a folder of several light fields, Unavailable for an unknown built-in scene,
+/// InvalidInput for what cannot be read behind its '?', Cancelled.
+[[nodiscard]] Scene load_scene(const std::string& input, const LoadOptions& options,
+                               const Progress& progress);
+
+/// Keeps a built-in scene that `load_scene` rendered. Does nothing for other inputs, for a scene
+/// that is random, has options, is kept already or has a focus plane baked in, without a cache
+/// folder, or where that cannot be written: a cache is a convenience. Throws Cancelled.
+void store_in_cache(const std::string& input, const Scene& scene,
+                    const std::filesystem::path& cache_folder, const Progress& progress);
+
+/// All that can follow `demo:`: the built-in scenes, which have ground truth, and the gantry
+/// (gantry_scene.h), before the random one.
+[[nodiscard]] std::vector<scenes::BuiltinSceneInfo> builtin_inputs();
+
+/// Throws Unavailable for an unknown scene, naming the nearest and all, and InvalidInput for
+/// options that cannot be read. `id`: what follows `demo:`.
+void require_builtin_input(const std::string& id);
+
+/// For lists and files (scenes::builtin_name). Throws likewise.
+[[nodiscard]] std::string builtin_input_name(const std::string& id);
+
+/// Built-in scenes kept on disk in archive form, one folder for each scene, version and options.
+class SceneCache {
+ public:
+  /// An empty folder keeps nothing.
+  explicit SceneCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Where a scene is kept.
+  [[nodiscard]] std::filesystem::path place(const std::string& id,
+                                            const scenes::RenderOptions& options) const;
+  /// Empty if the scene is not there. One that cannot be read is removed. Throws Cancelled.
+  [[nodiscard]] std::optional<Scene> read(const std::string& id,
+                                          const scenes::RenderOptions& options,
+                                          const Progress& progress) const;
+  /// Samples of a kept scene without its truth, which takes several times their memory. Empty if
+  /// they are not there, damaged or of another shape. Throws Cancelled.
+  [[nodiscard]] std::optional<ViewStack<std::uint8_t>> read_samples(
+      const std::string& id, const scenes::RenderOptions& options, const Progress& progress) const;
+  /// Returns whether the scene is kept now. What cannot be written is not kept. Throws Cancelled.
+  bool write(const std::string& id, const scenes::RenderOptions& options, const Scene& scene,
+             const Progress& progress) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace episcope

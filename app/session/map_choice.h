@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/quantity_map.h"
+#include "app/session/session.h"
+
+#include <optional>
+
+namespace episcope {
+
+/// Which map of the session: a quantity, of which estimates.
+struct MapChoice {
+  render::Quantity quantity = render::Quantity::View;
+  int estimate = 0;
+  int other = 0;  ///< For a difference: estimate − other.
+  friend bool operator==(const MapChoice&, const MapChoice&) = default;
+};
+
+/// Whether a quantity can be shown now, in some view. What is of a segmentation never can: it is
+/// not the session's.
+[[nodiscard]] bool is_available(const Session& session, render::Quantity quantity);
+
+/// Looks up what a map of a view is made from. Nothing for the view alone, if there is no such map,
+/// or not yet: Session::evaluation is asked for what is missing.
+[[nodiscard]] std::optional<MapSource> map_source(Session& session, const MapChoice& choice,
+                                                  ViewIndex view);
+
+}  // namespace episcope

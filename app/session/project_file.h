@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/annotation_journal.h"
+#include "app/session/open_scene.h"
+#include "app/session/sweep.h"
+#include "engine/evaluation/metrics.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// A result of a project.
+struct ProjectResult {
+  std::string name;            ///< As the user calls it.
+  std::filesystem::path file;  ///< That holds it; empty = none does yet.
+  Interval display_range{};    ///< EstimateEntry::display_range.
+  bool is_shown = false;
+  bool is_compared = false;
+  std::string note{};      ///< EstimateEntry::note.
+  int id = 0;              ///< EstimateEntry::id. Not part of a project file, as what follows.
+  bool is_unread = false;  ///< In OpenScene::unread.
+  /// In memory; null if it is in its file only.
+  EstimatePtr estimate{};
+};
+
+/// A light field of a project with what was found and drawn on it.
+struct ProjectScene {
+  std::string name;               ///< Of the light field.
+  std::string input;              ///< What opens it: a path, or a built-in scene.
+  std::uint64_t sample_hash = 0;  ///< LightField::sample_hash; 0 = unknown.
+  ParameterSet reading;           ///< Options that it was read with (io::open_schema).
+  ScenePlace place;
+  /// OpenScene::id; of a project that was read, its place in the list, from 1.
+  std::uint64_t id = 0;
+  std::vector<ProjectResult> results;
+  std::filesystem::path strokes;  ///< Journal of what was painted; empty = nothing was.
+  /// OpenScene::unread_strokes, whatever is painted now. Not part of a project file.
+  std::filesystem::path unread_strokes{};
+  KeptLabels labels{};  ///< In memory only while the program runs.
+};
+
+/// What a project file holds.
+struct Project {
+  std::vector<ProjectScene> scenes;
+  std::size_t current = 0;  ///< The one that is shown.
+  double bad_threshold_px = kBadPixelThreshold_px;
+  std::vector<Sweep> sweeps{};     ///< Their scenes are named by ProjectScene::id.
+  std::filesystem::path saved_as;  ///< Of a workspace: the user's own file of it; empty = none yet.
+};
+
+/// Suffix of project files.
+inline constexpr const char* kProjectSuffix = ".episcope";
+
+/// Whether a path is named like a project file.
+[[nodiscard]] bool names_project(const std::filesystem::path& path);
+
+/// Writes a project file, JSON. Paths in it are relative to its folder wherever they share more
+/// than the root, so that all can move together. Every result must have a file. Atomic. Throws
+/// IoError.
+void write_project(const std::filesystem::path& path, const Project& project);
+
+/// Where results, strokes and labels of a project may be.
+enum class ProjectFiles {
+  Beside,   ///< Below the folder of the project: a project of the user's.
+  Anywhere  ///< A workspace, which names those of the project that it goes on from.
+};
+
+/// Reads a project file; paths come back absolute. Whether the files are there is not looked at.
+/// Light fields and meshes may be anywhere; other files are copied when the project is saved, so
+/// one that came from somewhere must not name those of the reader. Throws IoError with one
+/// sentence, also for a file that is not where `files` says.
+[[nodiscard]] Project read_project(const std::filesystem::path& path,
+                                   ProjectFiles files = ProjectFiles::Beside);
+
+/// The folders in which a project keeps files: its own and those below, and the one of its files,
+/// which may be a link to another disk.
+class OwnFolders {
+ public:
+  explicit OwnFolders(const std::filesystem::path& project);
+
+  /// Whether a file, given by its absolute path, is in one of them when links are followed: a link
+  /// in the folder of a project could lead to any file of the user's.
+  [[nodiscard]] bool contain(const std::filesystem::path& file) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path files_;
+};
+
+/// Where strokes of a project say that labels are saved (JournalOwner::file) would be written to:
+/// empty afterwards if it is not in `own`, so that the user is asked.
+void forget_file_elsewhere(JournalOwner& owner, const OwnFolders& own);
+
+}  // namespace episcope

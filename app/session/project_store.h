@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/project_file.h"
+#include "app/session/session.h"
+#include "engine/core/progress.h"
+
+#include <filesystem>
+#include <string>
+
+namespace episcope {
+
+/// The folder beside a project file that holds its results and strokes: "name_files".
+[[nodiscard]] std::filesystem::path files_of_project(const std::filesystem::path& project);
+
+/// Whether its file holds a result: one that is in memory may have lost its file.
+[[nodiscard]] bool is_in_file(const ProjectResult& result);
+
+/// Writes a result that is in memory to a file of `folder` that no other has, named after it.
+/// Atomic. Returns the file. Throws IoError, Cancelled.
+[[nodiscard]] std::filesystem::path store_result(const std::filesystem::path& folder,
+                                                 const std::string& scene,
+                                                 const ProjectResult& result,
+                                                 const std::string& input,
+                                                 const Progress& progress);
+
+/// The same of the labels of a scene.
+[[nodiscard]] std::filesystem::path store_labels(const std::filesystem::path& folder,
+                                                 const ProjectScene& scene,
+                                                 const Progress& progress);
+
+/// Writes a project file with all that it names beside it: results, labels and strokes that lie
+/// elsewhere are copied. The old file stays until everything is there; then what only the old one
+/// named is removed. Returns the project with the places of its files. Throws IoError, Cancelled.
+[[nodiscard]] Project store_project(const std::filesystem::path& path, Project project,
+                                    const Progress& progress);
+
+/// The project that the open scenes make, without strokes. Results are held, not copied.
+[[nodiscard]] Project project_of(const Session& session);
+
+/// A scene of a project, on disk only. `is_saved`: the project is a file of the user's.
+[[nodiscard]] OpenScene scene_of(const ProjectScene& scene, bool is_saved);
+
+/// Where a folder was and where it is now.
+struct MovedFolder {
+  std::filesystem::path from;
+  std::filesystem::path to;
+};
+
+/// The outermost folders by which two paths of the same light field differ.
+[[nodiscard]] MovedFolder moved_folder(const std::filesystem::path& from,
+                                       const std::filesystem::path& to);
+
+/// Where an input is after its folder was moved, if it is not where it was and is there; else
+/// empty.
+[[nodiscard]] std::string moved_input(const std::string& input, const MovedFolder& moved);
+
+}  // namespace episcope

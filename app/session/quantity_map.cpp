@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/quantity_map.h"
+
+#include "engine/evaluation/metrics.h"
+#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/ray_labeling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+using render::Quantity;
+using render::Subject;
+using Map = std::shared_ptr<QuantityMap>;
+
+/// Which views something is known of: a block of the grid.
+struct ViewCoverage {
+  GridShape grid{};  ///< Empty = none.
+  ViewIndex first{};
+};
+
+template <class T>
+ViewCoverage coverage_of(const ViewStack<T>& stack) {
+  return stack.empty() ? ViewCoverage() : ViewCoverage{stack.grid(), stack.first()};
+}
+
+/// How a quantity of a result is found in it: one row of a table.
+struct ResultMap {
+  render::Quantity quantity;
+  const char* what;  ///< In a sentence: "the result has no confidence".
+  ViewCoverage (*coverage)(const Estimate& estimate);
+  /// Precondition: the view is covered.
+  std::shared_ptr<QuantityMap> (*make)(const EstimatePtr& estimate, ViewIndex view);
+};
+
+/// A map that `owner` keeps alive.
+Map borrowed_map(const DisparityView& view, std::shared_ptr<const void> owner) {
+  auto made = std::make_shared<QuantityMap>();
+  made->map = view.disparity;
+  made->valid = view.valid;
+  made->owner = std::move(owner);
+  return made;
+}
+
+Map counted_map(ImageView<const std::uint8_t> counts) {
+  auto made = std::make_shared<QuantityMap>();
+  made->computed = Image<float>(counts.height, counts.width);
+  std::copy_n(counts.data, counts.size(), made->computed.data());
+  made->map = made->computed;
+  return made;
+}
+
+constexpr ResultMap kResultMaps[] = {
+    {Quantity::Disparity, "disparity",
+     [](const Estimate& estimate) { return coverage_of(estimate.field.disparity); },
+     [](const EstimatePtr& estimate, ViewIndex view) {
+       return borrowed_map(estimate->field.view(view), estimate);
+     }},
+    {Quantity::Confidence, "confidence",
+     [](const Estimate& estimate) { return coverage_of(estimate.confidence); },
+     [](const EstimatePtr& estimate, ViewIndex view) {
+       return borrowed_map({estimate->confidence.view(view), {}}, estimate);
+     }},
+    {Quantity::Background, "background",
+     [](const Estimate& estimate) { return coverage_of(estimate.layered.background.disparity); },
+     [](const EstimatePtr& estimate, ViewIndex view) {
+       return borrowed_map(estimate->layered.background.view(view), estimate);
+     }},
+    {Quantity::Layers, "number of layers",
+     [](const Estimate& estimate) { return coverage_of(estimate.layered.layers); },
+     [](const EstimatePtr& estimate, ViewIndex view) {
+       return counted_map(estimate->layered.layers.view(view));
+     }}};
+
+/// The row of a quantity; quantities of other subjects (render::Subject) have that of the
+/// disparity, from which they are computed.
+const ResultMap& result_map_of(Quantity quantity) {
+  const auto* found = std::ranges::find(kResultMaps, quantity, &ResultMap::quantity);
+  return found == std::end(kResultMaps) ? kResultMaps[0] : *found;
+}
+
+std::string coverage_text(const ViewCoverage& covered) {
+  return fmt::format("{}×{} views from view {} on", covered.grid.v, covered.grid.u,
+                     view_text(covered.first));
+}
+
+bool contains(const ViewCoverage& covered, ViewIndex view) {
+  const int v = view.v - covered.first.v;
+  const int u = view.u - covered.first.u;
+  return v >= 0 && u >= 0 && v < covered.grid.v && u < covered.grid.u;
+}
+
+std::string reason_against_view(const ViewCoverage& covered, ViewIndex view, const std::string& who,
+                                const std::string& what) {
+  if (covered.grid.count() == 0) return who + " has no " + what;
+  if (contains(covered, view)) return {};
+  return fmt::format("{} has {}, but view {} was asked for", who, coverage_text(covered),
+                     view_text(view));
+}
+
+std::string reason_against_result(const MapSource& source) {
+  const ResultMap& map = result_map_of(source.quantity);
+  return reason_against_view(map.coverage(*source.estimate), source.view,
+                             "the result of " + source.estimate->method, map.what);
+}
+
+std::string reason_against_segmentation(const MapSource& source) {
+  if (source.quantity == Quantity::Edges) return {};
+  if (!source.labeling) return "nothing is segmented yet";
+  const Labeling& labeling = *source.labeling;
+  const std::string who = "the segmentation";
+  std::string reason =
+      reason_against_view(coverage_of(labeling.labels), source.view, who, "labels");
+  if (!reason.empty() || source.quantity == Quantity::Segmentation) return reason;
+  if (source.quantity == Quantity::WrongLabels) {
+    return source.true_labels && source.true_labels->contains(source.view)
+               ? std::string()
+               : source.light_field->info().name + " has no true labels in view " +
+                     view_text(source.view);
+  }
+  const LabelProbabilities& probabilities = labeling.probabilities;
+  if (!probabilities.contains(source.view)) return who + " has no probabilities";
+  const bool has_label =
+      std::ranges::find(probabilities.ids, source.label) != probabilities.ids.end();
+  if (has_label || source.quantity != Quantity::Probability) return {};
+  std::string known;
+  for (const std::int32_t id : probabilities.ids) {
+    known += (known.empty() ? "" : ", ") + std::to_string(id);
+  }
+  return who + " has no label " + std::to_string(source.label) + "; it has " + known;
+}
+
+std::string reason_against_truth(const MapSource& source) {
+  const bool is_behind = source.quantity == Quantity::TruthBackground;
+  const DisparityField& single =
+      source.truth->has_disparity() ? source.truth->field : source.truth->foreground;
+  const DisparityField& field = is_behind ? source.truth->background : single;
+  if (field.contains(source.view)) return {};
+  return source.light_field->info().name + " has no true " +
+         (is_behind ? "background" : "disparity") + " in view " + view_text(source.view);
+}
+
+}  // namespace
+
+std::string reason_against(const MapSource& source) {
+  switch (render::info_of(source.quantity).subject) {
+    case Subject::LightField:
+      return {};
+    case Subject::Truth:
+      return reason_against_truth(source);
+    case Subject::TrueLabels:
+      if (source.true_labels && source.true_labels->contains(source.view)) return {};
+      return source.light_field->info().name + " has no labels in view " + view_text(source.view);
+    case Subject::Result:
+    case Subject::Error:
+      return reason_against_result(source);
+    case Subject::ResultPair: {
+      std::string reason = reason_against_result(source);
+      if (!reason.empty()) return reason;
+      return reason_against_view(coverage_of(source.other->field.disparity), source.view,
+                                 "the result of " + source.other->method, "disparity");
+    }
+    case Subject::Segmentation:
+      return reason_against_segmentation(source);
+  }
+  return {};
+}
+
+namespace {
+
+// A missing estimate has no error to draw, but it is a bad pixel.
+void fill_bad_pixels(const Evaluation& evaluation, double threshold_px, QuantityMap& made) {
+  made.computed = bad_pixel_map(evaluation, threshold_px);
+  made.computed_measured = absolute_error_map(evaluation);
+  made.map = made.computed;
+  made.measured = made.computed_measured;
+}
+
+Map error_map(const EvaluationPtr& evaluation, const MapSource& source) {
+  auto made = std::make_shared<QuantityMap>();
+  if (source.quantity == Quantity::BadPixels) {
+    fill_bad_pixels(*evaluation, source.bad_threshold_px, *made);
+  } else {
+    made->computed_valid = present_mask(*evaluation);
+    made->valid = made->computed_valid;
+    if (source.quantity == Quantity::AbsoluteError)
+      made->computed = absolute_error_map(*evaluation);
+    made->map = source.quantity == Quantity::AbsoluteError
+                    ? ImageView<const float>(made->computed)
+                    : ImageView<const float>(evaluation->signed_error);
+  }
+  made->inside = evaluation->judged;
+  made->owner = evaluation;
+  return made;
+}
+
+Map difference_map(const DisparityView& left, const DisparityView& right) {
+  auto made = std::make_shared<QuantityMap>();
+  made->computed = Image<float>(left.disparity.height, left.disparity.width);
+  made->computed_valid = Image<std::uint8_t>(left.disparity.height, left.disparity.width);
+  for (int y = 0; y < left.disparity.height; ++y) {
+    for (int x = 0; x < left.disparity.width; ++x) {
+      if (!left.is_valid(y, x) || !right.is_valid(y, x)) continue;
+      made->computed_valid.at(y, x) = 1;
+      made->computed.at(y, x) = left.disparity.at(y, x) - right.disparity.at(y, x);
+    }
+  }
+  made->map = made->computed;
+  made->valid = made->computed_valid;
+  return made;
+}
+
+Map truth_map(const MapSource& source) {
+  const GroundTruth& truth = *source.truth;
+  const DisparityField& single = truth.has_disparity() ? truth.field : truth.foreground;
+  const bool is_behind = source.quantity == Quantity::TruthBackground;
+  return borrowed_map((is_behind ? truth.background : single).view(source.view), source.truth);
+}
+
+Map labels_map(const MapSource& source) {
+  auto made = std::make_shared<QuantityMap>();
+  made->labels = source.true_labels->view(source.view);
+  made->label_infos = source.label_infos;
+  made->label_style = source.label_style;
+  made->owner = source.true_labels;
+  return made;
+}
+
+Image<float> probability_of(int label, VolumeView<const std::uint8_t> map,
+                            const std::vector<std::int32_t>& ids) {
+  const auto layer = static_cast<int>(std::ranges::find(ids, label) - ids.begin());
+  Image<float> result(map.height, map.width);
+  for (int y = 0; y < map.height; ++y) {
+    const std::uint8_t* row = map.row(y, layer);
+    std::transform(row, row + map.width, result.row(y),
+                   [](std::uint8_t byte) { return static_cast<float>(byte) / 255; });
+  }
+  return result;
+}
+
+// Those that boundaries between labels go by: of a file, else of the image and, if it is known, the
+// disparity.
+Image<float> edges_of(const MapSource& source) {
+  if (source.edges) return larger_edge_probability(source.edges->view(source.view));
+  const DisparityField none;
+  return edge_probability(*source.light_field, source.view,
+                          source.edge_disparity ? *source.edge_disparity : none, {});
+}
+
+void fill_wrong(ImageView<const std::int32_t> labels, ImageView<const std::int32_t> truth,
+                QuantityMap& made) {
+  made.computed = Image<float>(labels.height, labels.width);
+  made.computed_valid = Image<std::uint8_t>(labels.height, labels.width);
+  for (int y = 0; y < labels.height; ++y) {
+    for (int x = 0; x < labels.width; ++x) {
+      made.computed_valid.at(y, x) = truth.at(y, x) > 0;
+      made.computed.at(y, x) = labels.at(y, x) == truth.at(y, x) ? kGoodPixel : kBadPixel;
+    }
+  }
+  made.inside = made.computed_valid;
+}
+
+Map segmentation_map(const MapSource& source) {
+  auto made = std::make_shared<QuantityMap>();
+  made->owner = source.labeling;
+  if (source.quantity == Quantity::Edges) {
+    made->computed = edges_of(source);
+    made->map = made->computed;
+    return made;
+  }
+  const Labeling& labeling = *source.labeling;
+  if (source.quantity == Quantity::Segmentation) {
+    made->computed_labels = finished_labels(labeling, source.finish, source.view);
+    made->labels = made->computed_labels;
+    made->label_infos = source.label_infos;
+    made->label_style = source.label_style;
+    return made;
+  }
+  if (source.quantity == Quantity::WrongLabels) {
+    fill_wrong(finished_labels(labeling, source.finish, source.view),
+               source.true_labels->view(source.view), *made);
+  } else if (source.quantity == Quantity::Probability) {
+    made->computed = probability_of(source.label, labeling.probabilities.view(source.view).view(),
+                                    labeling.probabilities.ids);
+  } else {
+    made->computed = label_uncertainty(labeling.probabilities.view(source.view).view());
+  }
+  made->map = made->computed;
+  return made;
+}
+
+}  // namespace
+
+bool has_quantity(const Estimate& estimate, Quantity quantity) {
+  return result_map_of(quantity).coverage(estimate).grid.count() > 0;
+}
+
+QuantityMapPtr make_map(const MapSource& source) {
+  switch (render::info_of(source.quantity).subject) {
+    case Subject::LightField:
+      break;
+    case Subject::Truth:
+      return truth_map(source);
+    case Subject::TrueLabels:
+      return labels_map(source);
+    case Subject::Result:
+      return result_map_of(source.quantity).make(source.estimate, source.view);
+    case Subject::Error:
+      return error_map(source.evaluation, source);
+    case Subject::ResultPair:
+      return difference_map(source.estimate->field.view(source.view),
+                            source.other->field.view(source.view));
+    case Subject::Segmentation:
+      return segmentation_map(source);
+  }
+  return nullptr;
+}
+
+std::optional<double> QuantityMap::value_at(PixelIndex pixel) const {
+  if (pixel.y >= map.height || pixel.x >= map.width) return std::nullopt;
+  if (!inside.empty() && inside.at(pixel.y, pixel.x) == 0) return std::nullopt;
+  if (!DisparityView{numbers(), valid}.is_valid(pixel.y, pixel.x)) return std::nullopt;
+  return numbers().at(pixel.y, pixel.x);
+}
+
+}  // namespace episcope

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/result_files.h"
+
+#include "app/session/command_line.h"
+#include "app/session/load_scene.h"
+#include "engine/core/disparity_field.h"
+#include "engine/core/error.h"
+#include "engine/core/shear.h"
+#include "engine/core/text.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/image_header.h"
+#include "engine/io/base/npy.h"
+#include "engine/io/base/pfm.h"
+#include "engine/io/base/ply.h"
+#include "engine/io/formats/array_reader.h"
+#include "engine/io/formats/frames_reader.h"
+#include "engine/io/formats/mosaic_reader.h"
+#include "engine/io/models/padding.h"
+#include "engine/io/models/result_file.h"
+#include "engine/render/shade.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+namespace episcope {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_map(const io::Hdf5Dataset& dataset) {
+  return dataset.type == io::Hdf5Type::Float &&
+         (dataset.shape.size() == 2 || dataset.shape.size() == 4);
+}
+
+/// Whether an HDF5 file holds what only comes with a light field: samples or true depth.
+bool holds_light_field(const io::Hdf5Input& file) {
+  const auto names = {"LF", "GT_DEPTH", "GT_DEPTH_FOREGROUND", "GT_DEPTH_BACKGROUND"};
+  return std::any_of(names.begin(), names.end(),
+                     [&file](const char* name) { return file.has(name); }) ||
+         std::ranges::any_of(
+             file.datasets(),
+             [](const io::Hdf5Dataset& dataset) { return dataset.shape.size() == 5; }) ||
+         io::find_mosaic_dataset(file.path(), {}).has_value() ||
+         !io::hdf5_array_reader().find(file.path(), {}).empty();
+}
+
+/// An HDF5 file of another program with at least one map. Which one is meant is told on reading.
+bool is_foreign_hdf5_result(const fs::path& path) {
+  if (!io::has_hdf5_signature(path)) return false;
+  const io::Hdf5Input file(path);
+  const auto datasets = file.datasets();
+  return !holds_light_field(file) && std::any_of(datasets.begin(), datasets.end(), is_map);
+}
+
+/// The views that a map from elsewhere covers.
+GridShape grid_of_map(const fs::path& path) {
+  GridShape grid{1, 1};
+  if (suffix_of(path) == ".npy") {
+    const io::NpyHeader header = io::NpyFile(path).header();
+    if (header.shape.size() != 4) return grid;
+    return {static_cast<int>(header.shape[0]), static_cast<int>(header.shape[1])};
+  }
+  if (!io::has_hdf5_signature(path)) return grid;
+  for (const auto& dataset : io::Hdf5Input(path).datasets()) {
+    if (!is_map(dataset) || dataset.shape.size() != 4) continue;
+    grid = {static_cast<int>(dataset.shape[0]), static_cast<int>(dataset.shape[1])};
+  }
+  return grid;
+}
+
+/// A map alone, or one of all views by its name: other arrays of four axes are grey light fields.
+bool is_npy_result(const fs::path& path) {
+  try {
+    const std::size_t axes = io::NpyFile(path).shape().size();
+    const std::string name = lower_case(path.stem().string());
+    return axes == 2 || (axes == 4 && name.find("disp") != std::string::npos);
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+/// One page of floats in one channel; a picture of all views, or a page for each, is none.
+bool is_tiff_map(const fs::path& path) {
+  if (io::count_tiff_pages(path, 2) > 1) return false;
+  const auto header = io::stated_image_header(path);
+  if (!header) return true;  // told on reading
+  return header->sample_type == SampleType::Float32 && header->channels == 1;
+}
+
+std::string size_text(int first, int second) {
+  return std::to_string(first) + "×" + std::to_string(second);
+}
+
+}  // namespace
+
+bool names_result(const std::string& path) {
+  std::error_code ignored;
+  if (!builtin_scene_id(path).empty() || !fs::is_regular_file(path, ignored)) return false;
+  const std::string suffix = suffix_of(path);
+  if (suffix == ".npy") return is_npy_result(path);
+  if (suffix == ".tif" || suffix == ".tiff") return is_tiff_map(path);
+  return suffix == ".pfm" || io::is_result_file(path) || is_foreign_hdf5_result(path);
+}
+
+Estimate read_result_of(const LightField& light_field, const fs::path& path) {
+  std::error_code ignored;
+  const bool is_hdf5 = fs::is_regular_file(path, ignored) && io::has_hdf5_signature(path);
+  if (is_hdf5 && holds_light_field(io::Hdf5Input(path)) && !io::is_result_file(path)) {
+    throw IoError(path,
+                  "holds a light field or true depth and no estimated disparity; name a result");
+  }
+  Estimate estimate = io::read_result(path, light_field.grid(), light_field.info().name);
+  if (estimate.confidence.empty() && estimate.layered.layers.empty()) {
+    const std::string note =
+        io::remove_padding(estimate.field, light_field.height(), light_field.width());
+    if (!note.empty()) estimate.notes.push_back(note);
+  }
+  if (!io::is_result_file(path)) {
+    const io::BareBorder border =
+        io::find_bare_border(estimate.field, light_field.height(), light_field.width());
+    estimate.border_px = border.width_px;
+    if (!border.note.empty()) estimate.notes.push_back(border.note);
+  }
+  return estimate;
+}
+
+Estimate read_result_alone(const fs::path& path) {
+  // Larger than any: a result file says itself where in the grid its views are.
+  constexpr GridShape any_grid{1 << 14, 1 << 14};
+  return io::read_result(path, io::is_result_file(path) ? any_grid : grid_of_map(path));
+}
+
+void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file) {
+  const auto& map = estimate.field.disparity;
+  if (map.height() != light_field.height() || map.width() != light_field.width()) {
+    throw InvalidInput(file + ": the maps have " + size_text(map.width(), map.height()) +
+                       " pixels, but the light field " + light_field.info().name + " has " +
+                       size_text(light_field.width(), light_field.height()) +
+                       "; open the light field that the result belongs to.");
+  }
+  const ViewIndex last{map.first().v + map.grid().v - 1, map.first().u + map.grid().u - 1};
+  if (!light_field.grid().contains(map.first()) || !light_field.grid().contains(last)) {
+    throw InvalidInput(file + ": the maps cover " + size_text(map.grid().v, map.grid().u) +
+                       " views, but the light field " + light_field.info().name + " has " +
+                       size_text(light_field.grid().v, light_field.grid().u) +
+                       "; open the light field that the result belongs to.");
+  }
+}
+
+bool is_of_other_samples(const Estimate& estimate, const LightField& light_field) {
+  return estimate.source_hash != 0 && estimate.source_hash != light_field.sample_hash();
+}
+
+namespace {
+
+using Option = ParameterSet::value_type;
+
+const Option* find(const ParameterSet& options, const std::string& key) {
+  const auto found = std::ranges::find(options, key, &Option::first);
+  return found == options.end() ? nullptr : &*found;
+}
+
+IoError contradiction(const std::string& result, const Option& given, const Option* stored) {
+  const std::string was =
+      stored ? "with" + reading_options_text({*stored}) : "without --" + given.first;
+  return {result, "was made " + was + ", but" + reading_options_text({given}) +
+                      " was asked for; leave --" + given.first +
+                      " out, or name the file of another run"};
+}
+
+ParameterSet without_focus(ParameterSet options) {
+  std::erase_if(options, [](const Option& option) { return option.first == Reading::kFocus; });
+  return options;
+}
+
+}  // namespace
+
+io::OpenOptions options_for_result(const std::string& result, const Reading& of_result,
+                                   const std::string& input, const ParameterSet& given) {
+  const Schema<io::OpenOptions> schema = io::open_schema();
+  const io::OpenOptions asked = schema.parse(given);
+  if (of_result.reader.empty()) return asked;
+  const Option* focus = find(given, Reading::kFocus);
+  if (focus && asked.focus_px != of_result.focus_px()) {
+    throw contradiction(result, *focus, find(of_result.options, Reading::kFocus));
+  }
+  ParameterSet options = given;
+  const bool is_same_form = reader_of(input, asked) == of_result.reader;
+  for (const Option& stored : of_result.options) {
+    if (!is_same_form && stored.first != Reading::kFocus) continue;
+    const Option* known = find(given, stored.first);
+    if (!known) options.push_back(stored);
+    if (known && !(known->second == stored.second)) throw contradiction(result, *known, &stored);
+  }
+  return schema.parse(options);
+}
+
+void bring_to_focus(Estimate& estimate, const LightField& light_field, const Progress& progress) {
+  if (estimate.reading.reader.empty()) return;
+  const double moved_px = light_field.info().reading.focus_px() - estimate.reading.focus_px();
+  if (moved_px == 0) return;
+  // It comes from the same samples if its light field would, at that plane, be this one.
+  const std::uint64_t hash = estimate.source_hash == 0 ? 0 : light_field.sample_hash();
+  estimate = sheared(estimate, {light_field.center(), hash}, moved_px, progress);
+}
+
+std::string differing_options(const Estimate& estimate, const LightField& light_field) {
+  const Reading& own = estimate.reading;
+  const Reading& other = light_field.info().reading;
+  if (own.reader != other.reader || own.reader.empty()) return {};
+  if (without_focus(own.options) == without_focus(other.options)) return {};
+  const std::string text = reading_options_text(without_focus(own.options));
+  return text.empty() ? "no options" : text;
+}
+
+std::string source_text(const std::string& input, const fs::path& result) {
+  if (!builtin_scene_id(input).empty()) return input;
+  fs::path source = fs::weakly_canonical(input);
+  if (!source.has_filename()) source = source.parent_path();
+  const fs::path folder = fs::weakly_canonical(fs::absolute(result)).parent_path();
+  const bool share_folder = std::distance(source.begin(), source.end()) > 2 &&
+                            std::distance(folder.begin(), folder.end()) > 1 &&
+                            *std::next(source.begin()) == *std::next(folder.begin());
+  if (!share_folder) return source.string();
+  const std::string relative = source.lexically_relative(folder).string();
+  const bool reads_as_builtin = !builtin_scene_id(relative).empty();
+  return reads_as_builtin ? (fs::path(".") / relative).string() : relative;
+}
+
+std::string existing_source(const std::string& source, const fs::path& result) {
+  if (source.empty() || !builtin_scene_id(source).empty()) return source;
+  // An absolute path stands for itself.
+  const fs::path path = result.parent_path() / source;
+  std::error_code ignored;
+  return fs::exists(path, ignored) ? path.string() : std::string();
+}
+
+namespace {
+
+// Of one px of disparity without a camera: what is seen is a quarter as deep as it is wide.
+double z_per_px(const DisparityView& view) {
+  const auto& map = view.disparity;
+  double min = std::numeric_limits<double>::infinity();
+  double max = -min;
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (!view.is_valid(y, x)) continue;
+      min = std::min<double>(min, map.at(y, x));
+      max = std::max<double>(max, map.at(y, x));
+    }
+  }
+  return max > min ? 0.25 * map.width / (max - min) : 1;
+}
+
+}  // namespace
+
+std::optional<MapForm> map_form_of(const std::filesystem::path& path) {
+  const std::string suffix = suffix_of(path);
+  if (suffix == ".h5" || suffix == ".hdf5") return MapForm::Result;
+  if (suffix == ".pfm") return MapForm::Pfm;
+  if (suffix == ".tif" || suffix == ".tiff") return MapForm::Tiff;
+  if (suffix == ".npy") return MapForm::Npy;
+  if (suffix == ".ply") return MapForm::PointCloud;
+  return std::nullopt;
+}
+
+void save_result(const std::filesystem::path& path, const Estimate& estimate,
+                 const std::string& input, const Progress& progress) {
+  io::write_result(path, estimate, progress, source_text(input, path));
+}
+
+void save_map(const std::filesystem::path& path, const DisparityView& map) {
+  Image<float> values(map.disparity.height, map.disparity.width, 1,
+                      std::numeric_limits<float>::quiet_NaN());
+  for (int y = 0; y < values.height(); ++y) {
+    for (int x = 0; x < values.width(); ++x) {
+      if (map.is_valid(y, x)) values.at(y, x) = map.disparity.at(y, x);
+    }
+  }
+  switch (map_form_of(path).value_or(MapForm::Tiff)) {
+    case MapForm::Pfm:
+      return io::write_pfm(path, values.view());
+    case MapForm::Npy:
+      return io::write_npy<float>(
+          path,
+          {static_cast<std::size_t>(values.height()), static_cast<std::size_t>(values.width())},
+          {values.data(), values.size()});
+    default:
+      return io::write_tiff(path, values.view());
+  }
+}
+
+void save_point_cloud(const std::filesystem::path& path, const LightField& light_field,
+                      ViewIndex view, const DisparityView& map) {
+  const ShownDisparity shown(map, light_field.valid_of(view));
+  io::write_ply(path, make_point_cloud(shown.view(), light_field.info().camera,
+                                       render::shade_view(light_field, view),
+                                       {.z_per_px = z_per_px(shown.view())}));
+}
+
+}  // namespace episcope

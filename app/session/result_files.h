@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/estimate.h"
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/io/models/open_options.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace episcope {
+
+/// Whether a path names a result: a result file, another HDF5 file with maps and no light field, a
+/// PFM, a TIFF. False for built-in scenes and for what does not exist. Throws IoError if it is a
+/// damaged HDF5 file.
+[[nodiscard]] bool names_result(const std::string& path);
+
+/// Reads a result of this light field. Throws IoError, also for a file that holds a light field or
+/// depth, which would else be judged as disparity.
+[[nodiscard]] Estimate read_result_of(const LightField& light_field,
+                                      const std::filesystem::path& path);
+
+/// Reads a result without its light field: a result file knows the places of its views; a map from
+/// elsewhere becomes view 0,0. Throws IoError.
+[[nodiscard]] Estimate read_result_alone(const std::filesystem::path& path);
+
+/// Throws InvalidInput, naming `file`, if an estimate that was read from there has not the size and
+/// views of the light field.
+void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file);
+
+/// Whether a result says that it was estimated from other samples than those of this light field.
+/// Reads all samples.
+[[nodiscard]] bool is_of_other_samples(const Estimate& estimate, const LightField& light_field);
+
+/// How to read `input`, so that it has the views that a result or labels were made from: what
+/// `given` says and, where that is silent, what their file says of its own light field. The focus
+/// plane holds for every form, the other options for the form that they were given for. `result`
+/// names the file in sentences. Throws IoError, saying what to change, if `given` contradicts the
+/// result; InvalidInput for a bad option.
+[[nodiscard]] io::OpenOptions options_for_result(const std::string& result,
+                                                 const Reading& of_result, const std::string& input,
+                                                 const ParameterSet& given);
+
+/// Brings a result to the focus plane of the light field, if its file says that it was estimated at
+/// another. Throws Cancelled.
+void bring_to_focus(Estimate& estimate, const LightField& light_field, const Progress& progress);
+
+/// Options by which the light field of a result was read otherwise than this one, as on the command
+/// line ("--flip=u"), the focus plane left aside; empty if there are none, or that is not known.
+[[nodiscard]] std::string differing_options(const Estimate& estimate,
+                                            const LightField& light_field);
+
+/// What a result file says of its light field: a built-in scene as it is typed, else a path
+/// relative to the folder of the result, so that both can move together; absolute only where they
+/// share no folder but the root. Its last part is the name; the hash of the samples is beside it.
+[[nodiscard]] std::string source_text(const std::string& input,
+                                      const std::filesystem::path& result);
+
+/// The INPUT behind a `source` that was read from the file `result`; empty if there is none or it
+/// is not where it was.
+[[nodiscard]] std::string existing_source(const std::string& source,
+                                          const std::filesystem::path& result);
+
+/// Forms of a disparity map, told by the suffix of its file.
+enum class MapForm {
+  Result,     ///< .h5, .hdf5: all views, confidence, provenance.
+  Pfm,        ///< .pfm: one view.
+  Tiff,       ///< .tif, .tiff: likewise.
+  Npy,        ///< .npy: likewise.
+  PointCloud  ///< .ply: one view, coloured.
+};
+/// Empty for another suffix.
+[[nodiscard]] std::optional<MapForm> map_form_of(const std::filesystem::path& path);
+
+/// Writes a result file; `input` is what opens the light field. Atomic. Throws IoError, Cancelled.
+void save_result(const std::filesystem::path& path, const Estimate& estimate,
+                 const std::string& input, const Progress& progress);
+
+/// Writes one map as PFM, TIFF or .npy; invalid pixels become NaN. Atomic. Throws IoError.
+void save_map(const std::filesystem::path& path, const DisparityView& map);
+
+/// Writes the valid pixels of a view that the light field shows as a coloured point cloud. Atomic.
+/// Throws IoError, InvalidInput if no pixel is valid.
+void save_point_cloud(const std::filesystem::path& path, const LightField& light_field,
+                      ViewIndex view, const DisparityView& map);
+
+}  // namespace episcope

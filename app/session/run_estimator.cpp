@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/run_estimator.h"
+
+#include "app/session/result_files.h"
+#include "app/session/scene_summary.h"
+#include "engine/core/error.h"
+#include "engine/core/hash.h"
+#include "engine/core/memory.h"
+#include "engine/core/version.h"
+#include "engine/disparity/registry.h"
+#include "engine/disparity/run_blocks.h"
+#include "engine/io/base/json.h"
+#include "engine/io/models/result_draft.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+namespace episcope {
+
+FinishedEstimate run_estimator(const LightField& light_field, const EstimateRequest& request,
+                               const Progress& progress) {
+  return run_estimator(light_field, find_estimator(request.method), request, progress);
+}
+
+bool was_taken_early(const Estimate& estimate) {
+  return std::ranges::find(estimate.notes, kTakenEarly) != estimate.notes.end();
+}
+
+FinishedEstimate run_estimator(const LightField& light_field, const Estimator& estimator,
+                               const EstimateRequest& request, const Progress& progress) {
+  auto estimate = std::make_shared<Estimate>(
+      estimator.run(light_field, request.parameters, request.options, progress));
+  estimate->source_hash = light_field.sample_hash();
+  if (progress.finish_requested() && estimator.info.iterative) {
+    estimate->notes.push_back(kTakenEarly);
+  }
+  progress.check();
+  const Interval range = display_range(*estimate);
+  return {std::move(estimate), range};
+}
+
+namespace {
+
+// What must be the same for a file to be continued, in one line.
+std::string identity_of(const Estimator& estimator, const BlockwiseRun& run,
+                        std::uint64_t source_hash) {
+  const MapGeometry& maps = run.maps;
+  const nlohmann::json identity{
+      {"draft", 4},
+      {"version", kVersion},
+      {"method", estimator.info.id},
+      {"revision", estimator.info.revision},
+      {"parameters", io::parameters_to_json(run.provenance.parameters)},
+      {"range", {run.provenance.range.min, run.provenance.range.max}},
+      {"samples", hash_digits(source_hash)},
+      {"maps", {maps.first.v, maps.first.u, maps.grid.v, maps.grid.u, maps.height, maps.width}}};
+  return identity.dump();
+}
+
+class DraftStore : public BlockStore {
+ public:
+  DraftStore(io::ResultDraft& draft, std::string source)
+      : draft_(draft), source_(std::move(source)) {}
+  [[nodiscard]] BlockProgress progress() const override { return draft_.progress(); }
+  [[nodiscard]] BlockMaps read(const MapBlock& block) const override { return draft_.read(block); }
+  [[nodiscard]] ViewStack<float> read_kept(const MapBlock& block, int number) const override {
+    return draft_.read_kept(block, number);
+  }
+  void note(const BlockProgress& after) override { draft_.note(after); }
+  void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
+             bool replaces) override {
+    require_samples();
+    draft_.write(block, maps, after, replaces);
+  }
+
+ private:
+  // What was computed from pages that are gone must not be kept.
+  void require_samples() const {
+    if (!has_lost_pages()) return;
+    throw IoError(source_, "the file was truncated, or could not be read, while it was open");
+  }
+
+  io::ResultDraft& draft_;
+  std::string source_;
+};
+
+std::string remark_on(const io::ResultDraft& draft, const std::filesystem::path& output) {
+  const std::string name = output.string() + ".partial";
+  switch (draft.found()) {
+    case io::ResultDraft::Found::Nothing:
+      return {};
+    case io::ResultDraft::Found::Other:
+      return name + ", which another run had left unfinished, was replaced";
+    case io::ResultDraft::Found::Same:
+      return fmt::format("{} was continued, on which {:.0f} s had been spent", name,
+                         draft.progress().seconds);
+  }
+  return {};
+}
+
+// What is left beside so many bytes.
+BlockMemory without(BlockMemory memory, std::size_t bytes) {
+  return {memory.wanted - std::min(bytes, memory.wanted),
+          memory.most - std::min(bytes, memory.most)};
+}
+
+}  // namespace
+
+bool should_run_in_blocks(const LightField& lf, const Estimator& estimator,
+                          const RunOptions& options) {
+  if (!estimator.in_blocks || options.device == Device::Cuda) return false;
+  if (is_memory_budget_set()) return true;
+  constexpr double kOfMaps = 9, kBesideThem = 4;  // bytes of a ray
+  const bool all = estimator.info.all_views && options.views == ViewSelection::All;
+  const double pixels = static_cast<double>(lf.height()) * lf.width();
+  const double rays = pixels * (all ? lf.grid().count() : 1);
+  return rays * (kOfMaps + kBesideThem) > static_cast<double>(memory_budget());
+}
+
+FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
+                             const BlockRequest& request, const Progress& progress) {
+  return_freed_memory();
+  progress.step("identifying the samples");
+  const std::uint64_t hash = lf.sample_hash();
+  const Progress limited = progress.limited_to(request.run.options.threads);
+  BlockwiseRun run = estimator.in_blocks(lf, request.run.parameters, request.run.options,
+                                         limited.part(0.02, 0.06));
+  lf.forget_samples();
+  const BlockMemory memory = without(request.memory, lf.beside().bytes());
+  require_memory(run, memory);  // before what another run left is replaced
+  run.provenance.source_hash = hash;
+  io::ResultDraft draft(request.output, {run.maps, !lf.valid().empty(), run.has_layers, run.kept},
+                        identity_of(estimator, run, hash));
+  DraftStore store(draft, lf.info().source);
+  FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};
+  finished.provenance = run_blocks(lf, run, store, memory, limited.part(0.06, 1));
+  draft.commit(finished.provenance, source_text(request.input, request.output));
+  return finished;
+}
+
+std::string failure_text(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const std::bad_alloc&) {
+    return "there is not enough memory; close other programs or remove results";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace episcope

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/estimate.h"
+#include "engine/core/light_field.h"
+#include "engine/disparity/estimator.h"
+#include "engine/disparity/run_blocks.h"
+
+#include <exception>
+#include <filesystem>
+#include <string>
+
+namespace episcope {
+
+/// What a run of a method needs, copied when it is asked for.
+struct EstimateRequest {
+  std::string method;
+  ParameterSet parameters;
+  RunOptions options{};
+};
+
+struct FinishedEstimate {
+  EstimatePtr estimate;    ///< With its provenance, the hash of the light field included.
+  Interval display_range;  ///< Disparities that 98 % of the pixels of one view lie in.
+};
+
+/// Note of an estimate that was requested before the method was done.
+inline constexpr const char* kTakenEarly = "ended early";
+/// Whether it has that note.
+[[nodiscard]] bool was_taken_early(const Estimate& estimate);
+
+/// Runs a method of the registry. What was ended early (Progress::finish_requested) says so
+/// in its notes. Throws what the method throws, Unavailable for an unknown one.
+[[nodiscard]] FinishedEstimate run_estimator(const LightField& light_field,
+                                             const EstimateRequest& request,
+                                             const Progress& progress);
+/// The same of any method.
+[[nodiscard]] FinishedEstimate run_estimator(const LightField& light_field,
+                                             const Estimator& estimator,
+                                             const EstimateRequest& request,
+                                             const Progress& progress);
+
+/// A run whose maps go to a file block by block.
+struct BlockRequest {
+  EstimateRequest run;
+  std::filesystem::path output;  ///< The result file; until it is complete, OUTPUT.partial.
+  std::string input;             ///< As the user named the light field.
+  BlockMemory memory;            ///< See run_blocks.
+};
+
+struct FinishedBlocks {
+  Provenance provenance;  ///< As of the same run at once, but for the seconds.
+  MapGeometry maps;
+  std::string remark{};  ///< What became of a file that an earlier run left, if there was one.
+};
+
+/// Whether a run should be made in blocks, which is done by the processor: the method can, no other
+/// device is asked for, and its maps and what it takes beside them may exceed what is free, or a
+/// budget is set (memory_budget.h).
+[[nodiscard]] bool should_run_in_blocks(const LightField& light_field, const Estimator& estimator,
+                                        const RunOptions& options);
+
+/// Runs a method block by block into a result file, whose maps equal those of run_estimator and
+/// save_result bit by bit. Continues the file that the same run of the same samples left
+/// unfinished, however it ended; one that another run left is replaced. Throws as run_blocks and
+/// ResultDraft, and IoError if the samples were lost while they were read: their file was
+/// truncated.
+[[nodiscard]] FinishedBlocks run_in_blocks(const LightField& light_field,
+                                           const Estimator& estimator, const BlockRequest& request,
+                                           const Progress& progress);
+
+/// What went wrong in a computation, in words for the user.
+[[nodiscard]] std::string failure_text(const std::exception_ptr& failure);
+
+}  // namespace episcope

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/scene_summary.h"
+
+#include "engine/render/shade.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace episcope {
+namespace {
+
+template <class T>
+std::string covered_views(const ViewStack<T>& stack, const LightField& light_field) {
+  if (stack.grid() == light_field.grid()) return "all";
+  if (stack.grid().count() != 1) {
+    return std::to_string(stack.grid().v) + "×" + std::to_string(stack.grid().u);
+  }
+  return stack.first() == light_field.center() ? "centre" : view_text(stack.first());
+}
+
+/// Disparities seen so far.
+struct Spread {
+  Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::size_t valid = 0;
+
+  void add(const DisparityView& view) {
+    for (int y = 0; y < view.disparity.height; ++y) {
+      for (int x = 0; x < view.disparity.width; ++x) {
+        if (!view.is_valid(y, x)) continue;
+        const double value = view.disparity.at(y, x);
+        range = {std::min(range.min, value), std::max(range.max, value)};
+        ++valid;
+      }
+    }
+  }
+  [[nodiscard]] Interval interval() const { return valid > 0 ? range : Interval{}; }
+};
+
+SceneSummary::Truth summarize_truth(const DisparityField& field, const LightField& light_field) {
+  Spread all;
+  Spread center;
+  const auto& stack = field.disparity;
+  for (int v = 0; v < stack.grid().v; ++v) {
+    for (int u = 0; u < stack.grid().u; ++u) {
+      const ViewIndex view{stack.first().v + v, stack.first().u + u};
+      all.add(field.view(view));
+      if (view == light_field.center()) center.add(field.view(view));
+    }
+  }
+  return {covered_views(stack, light_field),
+          100.0 * static_cast<double>(all.valid) / static_cast<double>(stack.size()),
+          center.interval(), all.interval()};
+}
+
+/// Adds label ids above 0 to `ids`; returns how many samples carry one.
+std::size_t collect_ids(const std::int32_t* labels, std::size_t count, std::vector<int>& ids) {
+  std::set<int> found(ids.begin(), ids.end());
+  std::size_t painted = 0;
+  int last = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (labels[i] <= 0) continue;
+    ++painted;
+    if (labels[i] != last) found.insert(last = labels[i]);
+  }
+  ids.assign(found.begin(), found.end());
+  return painted;
+}
+
+}  // namespace
+
+const char* sample_type_name(SampleType type) {
+  switch (type) {
+    case SampleType::UInt8:
+      return "uint8";
+    case SampleType::UInt16:
+      return "uint16";
+    case SampleType::Float32:
+      break;
+  }
+  return "float32";
+}
+
+SceneSummary summarize(const Scene& scene) {
+  SceneSummary summary;
+  const GroundTruth& truth = *scene.truth;
+  summary.sample_type = sample_type_name(scene.light_field->sample_type());
+  if (truth.has_disparity()) summary.truth = summarize_truth(truth.field, *scene.light_field);
+  summary.has_layers = truth.has_layers();
+  if (!truth.labels.empty()) {
+    summary.label_views = covered_views(truth.labels, *scene.light_field);
+    collect_ids(truth.labels.data(), truth.labels.size(), summary.label_ids);
+  }
+  std::size_t painted = 0;
+  std::size_t pixels = 0;
+  for (const auto& [view, labels] : scene.scribbles.views) {
+    painted += collect_ids(labels.data(), labels.size(), summary.scribble_ids);
+    pixels += labels.size();
+    summary.painted_views += summary.painted_views.empty() ? "" : " ";
+    summary.painted_views += view_text(view);
+  }
+  if (pixels > 0) {
+    summary.painted_percent = 100.0 * static_cast<double>(painted) / static_cast<double>(pixels);
+  }
+  return summary;
+}
+
+std::string samples_text(const Scene& scene) {
+  if (!scene.convention.samples.empty()) return scene.convention.samples;
+  return stored_samples_text(scene.light_field->samples());
+}
+
+double valid_percent(const LightField& light_field) {
+  const ViewStack<std::uint8_t>& valid = light_field.valid();
+  if (valid.empty()) return 100;
+  const auto invalid = std::count(valid.data(), valid.data() + valid.size(), std::uint8_t{0});
+  return 100 * (1 - static_cast<double>(invalid) / static_cast<double>(valid.size()));
+}
+
+std::string sign_warning(const ConventionReport& report) {
+  if (!report.sign.empty() || report.order_was_chosen) return {};
+  const std::string reason = report.sign_check.empty() ? "" : " (" + report.sign_check + ")";
+  return "Near and far could not be told apart" + reason +
+         "; if they are exchanged, reverse both axes with --flip both.";
+}
+
+namespace {
+
+/// Kinds of files that were used are plurals.
+std::string counted(const FileUse& use) {
+  const bool is_single = use.is_used && use.count == 1 && use.kind.ends_with('s');
+  const std::string kind = is_single ? use.kind.substr(0, use.kind.size() - 1) : use.kind;
+  return std::to_string(use.count) + " " + kind;
+}
+
+}  // namespace
+
+std::string files_text(const ConventionReport& report) {
+  std::string used;
+  std::string unused;
+  for (const FileUse& use : report.files) {
+    std::string& text = use.is_used ? used : unused;
+    text += (text.empty() ? "" : ", ") + counted(use);
+    if (!use.is_used && use.kind != use.example) text += " (" + use.example + ")";
+  }
+  if (unused.empty()) return used;
+  return (used.empty() ? "" : used + "; ") + "not used: " + unused;
+}
+
+namespace {
+
+// Of no pixel at all.
+constexpr Interval kNothing{std::numeric_limits<double>::max(),
+                            std::numeric_limits<double>::lowest()};
+
+Interval widened(Interval range, const DisparityView& view) {
+  for (int y = 0; y < view.disparity.height; ++y) {
+    for (int x = 0; x < view.disparity.width; ++x) {
+      if (!view.is_valid(y, x)) continue;
+      const double value = view.disparity.at(y, x);
+      range = {std::min(range.min, value), std::max(range.max, value)};
+    }
+  }
+  return range;
+}
+
+Interval or_none(Interval range) {
+  return range.min <= range.max ? range : Interval{};
+}
+
+}  // namespace
+
+Interval extent(const DisparityView& view) {
+  return or_none(widened(kNothing, view));
+}
+
+Interval known_disparity_range(const Scene& scene) {
+  const GroundTruth& truth = *scene.truth;
+  const ViewIndex center = scene.light_field->center();
+  Interval range = kNothing;
+  for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    if (field->empty()) continue;
+    range =
+        widened(range, field->view(field->contains(center) ? center : field->disparity.first()));
+  }
+  // A point that moves farther than the image from view to view is a mark for "nothing".
+  if (range.length() > 0 && range.length() < scene.light_field->width()) return range;
+  return scene.light_field->info().disparity_range.value_or(Interval{});
+}
+
+Interval display_range(const Estimate& estimate) {
+  const DisparityField& field = estimate.field;
+  const ViewIndex first = field.disparity.first();
+  const ViewIndex middle = field.disparity.grid().center();
+  const DisparityView view = field.view({first.v + middle.v, first.u + middle.u});
+  return render::robust_range(view.disparity, view.valid);
+}
+
+Interval shown_range(Interval known, Interval of_estimate) {
+  if (known.length() > 0) return known;
+  return of_estimate.length() > 0 ? of_estimate : Interval{-1, 1};
+}
+
+}  // namespace episcope

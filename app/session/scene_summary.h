@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/estimate.h"
+#include "engine/core/scene.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// Facts about a scene beyond its shape. Linear in its pixels.
+struct SceneSummary {
+  struct Truth {
+    std::string views;  ///< "all", "centre", or "4,4".
+    double valid_percent = 0;
+    Interval center;  ///< Disparities in the centre view; {0, 0} if it has none.
+    Interval all;     ///< In all views that have truth.
+  };
+  std::string sample_type;  ///< "uint8", "uint16", "float32".
+  std::optional<Truth> truth;
+  bool has_layers = false;
+  std::string label_views;     ///< As Truth::views.
+  std::vector<int> label_ids;  ///< Ascending.
+  std::string painted_views;   ///< "4,4 4,5".
+  double painted_percent = 0;  ///< Of the pixels of these.
+  std::vector<int> scribble_ids;
+};
+
+[[nodiscard]] SceneSummary summarize(const Scene& scene);
+
+/// How samples were stored, and what estimators see of them.
+[[nodiscard]] std::string samples_text(const Scene& scene);
+
+/// "uint8", "uint16", "float32".
+[[nodiscard]] const char* sample_type_name(SampleType type);
+
+/// Share of pixels of all views that hold something that was seen, in percent.
+[[nodiscard]] double valid_percent(const LightField& light_field);
+
+/// A warning that disparities may be negated, where near and far were not told apart; else empty.
+[[nodiscard]] std::string sign_warning(const ConventionReport& report);
+
+/// "81 views, 1 disparity; not used: 3 *.txt (notes.txt, …)". Empty if no folder was read.
+[[nodiscard]] std::string files_text(const ConventionReport& report);
+
+/// Disparities of a scene for display: those of the truth, in both layers if it has two, in the
+/// centre view (or the view it covers) unless they cannot be, else those that the files promise;
+/// {0, 0} if neither is known.
+[[nodiscard]] Interval known_disparity_range(const Scene& scene);
+
+/// Disparities that 98 % of the valid pixels of one view of an estimate lie in: of the middle one.
+[[nodiscard]] Interval display_range(const Estimate& estimate);
+
+/// The range that pictures of disparity span: what is known of the scene, else the display range of
+/// an estimate, else −1 … 1 px. Each may be {0, 0}.
+[[nodiscard]] Interval shown_range(Interval known, Interval of_estimate);
+
+/// Disparities that the valid pixels of one view lie in; {0, 0} if none is valid. Linear in pixels.
+[[nodiscard]] Interval extent(const DisparityView& view);
+
+}  // namespace episcope

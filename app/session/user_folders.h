@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+
+#include <filesystem>
+
+namespace episcope {
+
+/// What can be made again: `$XDG_CACHE_HOME/episcope`, else `~/.cache/episcope`; empty if neither
+/// is known.
+[[nodiscard]] std::filesystem::path default_cache_folder();
+
+/// Has arrays that do not fit into memory go there, to a folder of their own (memory_budget.h);
+/// where it cannot be written, they go to the folder for temporary files.
+void use_cache_for_scratch();
+
+/// What a session leaves for the next: `$XDG_STATE_HOME/episcope`, else `~/.local/state/episcope`;
+/// empty if neither is known.
+[[nodiscard]] std::filesystem::path default_state_folder();
+
+/// Where annotation journals lie: `journals` in the state folder; empty likewise.
+[[nodiscard]] std::filesystem::path default_journal_folder();
+
+/// Where workspaces lie: `sessions` in the state folder; empty likewise.
+[[nodiscard]] std::filesystem::path default_workspace_folder();
+
+/// Where the scribbles of a light field are kept: labels.h5 in its folder, or beside an archive
+/// file; <stem>_labels.h5 beside a file of another form; of a frame of a sequence, in the frame's
+/// folder, or labels_<frame>.h5 beside its file. Empty for scenes that come from no file.
+[[nodiscard]] std::filesystem::path label_place(const LightField& light_field);
+
+/// Whether a file can be made or written over there, as far as permissions tell.
+[[nodiscard]] bool is_writable(const std::filesystem::path& path);
+
+/// Reads scribbles that were saved beside a light field whose format knows of no labels. Where
+/// that file does not fit, that is a warning. Throws Cancelled.
+void read_kept_scribbles(Scene& scene, const Progress& progress);
+
+}  // namespace episcope

@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/mesh_file.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/io/base/atomic_file.h"
+
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/Importer.hpp>
+#include <assimp/ProgressHandler.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace episcope::capture {
+namespace {
+
+constexpr int kMostHeaderLines = 10'000;
+
+// Bytes of a type of PLY; 0 = there is no such type.
+int size_of(const std::string& type) {
+  struct Type {
+    const char* name;
+    int size;
+  };
+  static constexpr std::array<Type, 16> kTypes{{{"char", 1},
+                                                {"uchar", 1},
+                                                {"int8", 1},
+                                                {"uint8", 1},
+                                                {"short", 2},
+                                                {"ushort", 2},
+                                                {"int16", 2},
+                                                {"uint16", 2},
+                                                {"int", 4},
+                                                {"uint", 4},
+                                                {"int32", 4},
+                                                {"uint32", 4},
+                                                {"float", 4},
+                                                {"float32", 4},
+                                                {"double", 8},
+                                                {"float64", 8}}};
+  for (const Type& each : kTypes) {
+    if (type == each.name) return each.size;
+  }
+  return 0;
+}
+
+bool is_known(const std::string& word) {
+  static constexpr std::array<const char*, 7> kWords{
+      {"ply", "format", "comment", "obj_info", "element", "property", "end_header"}};
+  return word.empty() || std::ranges::find(kWords, word) != kWords.end();
+}
+
+struct Property {
+  int size = 0;        // of a value
+  int count_size = 0;  // of the length of a list; 0 = it is no list
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+  std::uint64_t fixed_size = 0;  // of one without lists
+  bool has_list = false;
+};
+
+enum class Format { Unknown, Ascii, LittleEndian, BigEndian };
+
+struct Header {
+  Format format = Format::Unknown;
+  std::vector<Element> elements;
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& path)
+      : path_(path), file_(path, std::ios::binary), end_(std::filesystem::file_size(path)) {
+    if (!file_) throw IoError(path, "this mesh cannot be opened");
+  }
+
+  void check() {
+    const Header header = read_header();
+    for (const Element& element : header.elements) {
+      if (header.format == Format::Ascii) {
+        pass_lines(element);
+      } else if (!element.has_list) {
+        pass(element.count * element.fixed_size);
+      } else {
+        for (std::uint64_t i = 0; i < element.count; ++i) pass_one(element, header.format);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] IoError damaged(const std::string& how) const {
+    return {path_, "this mesh cannot be read (" + how + "); export it again"};
+  }
+
+  Header read_header() {
+    Header header;
+    std::string line;
+    for (int i = 0; i < kMostHeaderLines && std::getline(file_, line); ++i) {
+      std::istringstream words(line);
+      std::string word;
+      words >> word;
+      if (i == 0 && word != "ply") throw damaged("it does not begin with \"ply\"");
+      if (word == "format") header.format = read_format(words);
+      if (word == "element") add_element(words, header);
+      if (word == "property") read_property(words, header);
+      if (!is_known(word)) throw damaged("its header has the line \"" + line.substr(0, 40) + "\"");
+      if (word != "end_header") continue;
+      if (header.format == Format::Unknown) throw damaged("its header tells no format");
+      return header;
+    }
+    throw damaged("its header has no end");
+  }
+
+  Format read_format(std::istringstream& words) const {
+    std::string name;
+    words >> name;
+    if (name == "ascii") return Format::Ascii;
+    if (name == "binary_little_endian") return Format::LittleEndian;
+    if (name == "binary_big_endian") return Format::BigEndian;
+    throw damaged("its format is unknown");
+  }
+
+  // Of a second list of vertices or faces assimp writes beyond the memory that it took for the
+  // first.
+  void add_element(std::istringstream& words, Header& header) const {
+    Element element = read_element(words);
+    const auto is_of_mesh = [&](const Element& other) {
+      const auto is_face = [](const std::string& name) {
+        return name == "face" || name == "tristrips";
+      };
+      return (other.name == "vertex" && element.name == "vertex") ||
+             (is_face(other.name) && is_face(element.name));
+    };
+    if (std::ranges::any_of(header.elements, is_of_mesh)) {
+      throw damaged("it has more than one list \"" + element.name + "\"");
+    }
+    header.elements.push_back(std::move(element));
+  }
+
+  Element read_element(std::istringstream& words) const {
+    Element element;
+    std::string& name = element.name;
+    std::int64_t count = -1;
+    words >> name >> count;
+    // Less than one bit an element cannot be: what is announced is not there.
+    if (count < 0 || static_cast<std::uint64_t>(count) > 8 * end_) {
+      throw damaged("it has no " + std::to_string(count) + " elements \"" + name + "\"");
+    }
+    element.count = static_cast<std::uint64_t>(count);
+    return element;
+  }
+
+  void read_property(std::istringstream& words, Header& header) const {
+    if (header.elements.empty()) throw damaged("a property belongs to no element");
+    Element& element = header.elements.back();
+    std::string type, count_type;
+    words >> type;
+    if (type == "list") {
+      words >> count_type >> type;
+      element.has_list = true;
+    }
+    const Property property{size_of(type), count_type.empty() ? 0 : size_of(count_type)};
+    if (property.size == 0 || (!count_type.empty() && property.count_size == 0)) {
+      throw damaged("a property has the unknown type \"" + type + "\"");
+    }
+    element.fixed_size += property.size;
+    element.properties.push_back(property);
+  }
+
+  // One line an element, as all writers do.
+  void pass_lines(const Element& element) {
+    std::string line;
+    for (std::uint64_t i = 0; i < element.count;) {
+      if (!std::getline(file_, line)) throw damaged("it ends in the middle");
+      std::istringstream words(line);
+      std::string word;
+      std::size_t count = 0;
+      while (words >> word) ++count;
+      if (count == 0) continue;
+      if (count < element.properties.size()) throw damaged("a line of it is too short");
+      ++i;
+    }
+  }
+
+  void pass(std::uint64_t bytes) {
+    const std::streamoff here = file_.tellg();
+    if (here < 0 || static_cast<std::uint64_t>(here) + bytes > end_) {
+      throw damaged("it ends in the middle");
+    }
+    file_.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
+  }
+
+  // An element with a list, at the place of the file.
+  void pass_one(const Element& element, Format format) {
+    for (const Property& property : element.properties) {
+      std::uint64_t count = 1;
+      if (property.count_size > 0) count = read_count(property.count_size, format);
+      skip(count * property.size);
+    }
+  }
+
+  std::uint64_t read_count(int size, Format format) {
+    std::uint64_t count = 0;
+    for (int i = 0; i < size; ++i) {
+      const int byte = next();
+      count |= static_cast<std::uint64_t>(byte)
+               << (8 * (format == Format::BigEndian ? size - 1 - i : i));
+    }
+    if (count > end_) throw damaged("a list of it has an impossible length");
+    return count;
+  }
+
+  int next() {
+    const int byte = file_.rdbuf()->sbumpc();
+    if (byte == std::char_traits<char>::eof()) throw damaged("it ends in the middle");
+    return byte;
+  }
+
+  // Short ways within the buffer; a seek would empty it.
+  void skip(std::uint64_t bytes) {
+    if (bytes > 4096) return pass(bytes);
+    for (std::uint64_t i = 0; i < bytes; ++i) (void)next();
+  }
+
+  const std::filesystem::path& path_;
+  std::ifstream file_;
+  std::uint64_t end_;
+};
+
+// Checks that a PLY file holds all the elements that its header announces: assimp 5.2 hangs on
+// headers without an end, reads beyond the end of truncated elements, and writes beyond its memory
+// where vertices or faces are listed twice. Linear in the faces.
+// Throws IoError.
+void require_whole_ply(const std::filesystem::path& path) {
+  Reader(path).check();
+}
+
+/// Ends the reading on a stop request.
+class StopHandler : public Assimp::ProgressHandler {
+ public:
+  explicit StopHandler(const Progress& progress) : progress_(progress) {}
+  bool Update(float) override { return !progress_.stop_requested(); }
+
+ private:
+  Progress progress_;
+};
+
+/// Opens nothing but the mesh: files that it names, its materials, may be anywhere.
+class MeshAlone : public Assimp::DefaultIOSystem {
+ public:
+  explicit MeshAlone(std::string file) : file_(std::move(file)) {}
+  bool Exists(const char* file) const override {
+    return file == file_ && DefaultIOSystem::Exists(file);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return file == file_ ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  std::string file_;
+};
+
+void require_readable(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw IoError(path, "there is no such file; name the mesh, as PLY, OBJ or STL");
+  }
+  const std::string suffix = suffix_of(path);
+  if (suffix != ".ply" && suffix != ".obj" && suffix != ".stl") {
+    throw IoError(path, "meshes are read as .ply, .obj or .stl; convert this one");
+  }
+}
+
+void append_vertices(const std::filesystem::path& path, const aiMesh& part, TriangleMesh& mesh) {
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D& p = part.mVertices[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw IoError(path, "vertex " + std::to_string(mesh.vertices.size()) +
+                              " has a coordinate that is no number; repair the mesh");
+    }
+    mesh.vertices.push_back({p.x, p.y, p.z});
+  }
+}
+
+void require_valid(const std::filesystem::path& path, const aiFace& face, std::size_t number,
+                   unsigned vertices) {
+  for (unsigned k = 0; k < face.mNumIndices; ++k) {
+    if (face.mIndices[k] < vertices) continue;
+    throw IoError(path, "face " + std::to_string(number) + " refers to vertex " +
+                            std::to_string(face.mIndices[k]) + " of " + std::to_string(vertices) +
+                            "; repair the mesh");
+  }
+}
+
+// Points and lines are left out; polygons that were not cut into triangles become fans.
+void append_faces(const aiMesh& part, std::uint32_t first, TriangleMesh& mesh) {
+  for (unsigned i = 0; i < part.mNumFaces; ++i) {
+    const aiFace& face = part.mFaces[i];
+    for (unsigned k = 2; k < face.mNumIndices; ++k) {
+      mesh.faces.push_back(
+          {first + face.mIndices[0], first + face.mIndices[k - 1], first + face.mIndices[k]});
+    }
+  }
+}
+
+// assimp's triangulation stops the program at faces that are none, so it sees whole polygons alone.
+bool needs_triangulation(const std::filesystem::path& path, const aiScene& scene) {
+  bool has_polygon = false, has_less = false;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned i = 0; i < part.mNumFaces; ++i) {
+      require_valid(path, part.mFaces[i], i, part.mNumVertices);
+      has_polygon |= part.mFaces[i].mNumIndices > 3;
+      has_less |= part.mFaces[i].mNumIndices < 3;
+    }
+  }
+  return has_polygon && !has_less;
+}
+
+TriangleMesh mesh_of(const std::filesystem::path& path, const aiScene& scene,
+                     const Progress& progress) {
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    vertices += scene.mMeshes[i]->mNumVertices;
+    faces += scene.mMeshes[i]->mNumFaces;
+  }
+  constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() / 4;
+  if (vertices > most || faces > most) {
+    throw IoError(
+        path, "this mesh has more than " + std::to_string(most) + " vertices or faces; reduce it");
+  }
+  TriangleMesh mesh;
+  mesh.vertices.reserve(vertices);
+  mesh.faces.reserve(faces);
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    progress.check();
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    append_vertices(path, *scene.mMeshes[i], mesh);
+    append_faces(*scene.mMeshes[i], first, mesh);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const std::filesystem::path& path, const Progress& progress) {
+  require_readable(path);
+  progress.step("reading " + path.filename().string());
+  progress.check();
+  if (suffix_of(path) == ".ply") require_whole_ply(path);
+  Assimp::Importer importer;
+  importer.SetIOHandler(new MeshAlone(path.string()));     // owned by the importer
+  importer.SetProgressHandler(new StopHandler(progress));  // likewise
+  const aiScene* scene = nullptr;
+  try {
+    scene = importer.ReadFile(path.string(), 0);
+    if (scene != nullptr && needs_triangulation(path, *scene)) {
+      scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    }
+  } catch (const std::bad_alloc&) {
+    throw IoError(path, "not enough memory for this mesh; reduce it");
+  }
+  progress.check();
+  if (scene == nullptr) {
+    throw IoError(path, std::string("this mesh cannot be read (") + importer.GetErrorString() +
+                            "); export it again");
+  }
+  TriangleMesh mesh = mesh_of(path, *scene, progress);
+  if (mesh.faces.empty()) {
+    throw IoError(path, "this mesh has no faces, only " + std::to_string(mesh.vertices.size()) +
+                            " points; reconstruct its surface first");
+  }
+  progress.report(1);
+  return mesh;
+}
+
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex " +
+      std::to_string(mesh.vertices.size()) +
+      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+      std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  constexpr std::size_t face_bytes = 1 + sizeof(Face);
+  std::vector<std::uint8_t> bytes(header.begin(), header.end());
+  const std::size_t vertex_bytes = mesh.vertices.size() * sizeof(Vertex);
+  bytes.resize(header.size() + vertex_bytes + mesh.faces.size() * face_bytes);
+  std::memcpy(bytes.data() + header.size(), mesh.vertices.data(), vertex_bytes);
+  std::uint8_t* at = bytes.data() + header.size() + vertex_bytes;
+  for (const Face& face : mesh.faces) {
+    *at = 3;
+    std::memcpy(at + 1, face.data(), sizeof(Face));
+    at += face_bytes;
+  }
+  io::write_atomically(path, bytes);
+}
+
+}  // namespace episcope::capture

@@ -1,0 +1,481 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/solve_pose.h"
+
+#include "engine/core/camera_grid.h"
+#include "engine/core/error.h"
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <opencv2/calib3d.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace episcope::capture {
+namespace {
+
+/// How points of a mesh lie.
+enum class PointLayout { Line, Plane, Space };
+
+using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+constexpr double kFlat = 0.01;
+constexpr int kMostSubsets = 60;
+
+Eigen::Vector3d place_of(const PointPair& pair) {
+  return {pair.point.x, pair.point.y, pair.point.z};
+}
+
+/// The ray (x, y, 1) of a pick.
+Eigen::Vector2d ray_of(const PointPair& pair, const Pinhole& pinhole) {
+  return {(pair.x_px - pinhole.center_x) / pinhole.focal_px,
+          (pair.y_px - pinhole.center_y) / pinhole.focal_px};
+}
+
+/// Principal axes of the points and their extents.
+struct Shape {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes;  ///< Columns, the longest first, right-handed.
+  Eigen::Vector3d extent;
+};
+
+Shape shape_of(std::span<const PointPair> pairs) {
+  Shape shape;
+  for (const PointPair& pair : pairs) shape.center += place_of(pair);
+  shape.center /= static_cast<double>(pairs.size());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const PointPair& pair : pairs) {
+    const Eigen::Vector3d from = place_of(pair) - shape.center;
+    scatter += from * from.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  shape.axes = solver.eigenvectors().rowwise().reverse();
+  if (shape.axes.determinant() < 0) shape.axes.col(2) *= -1;
+  shape.extent = solver.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
+  return shape;
+}
+
+RigidPose rigid(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
+  RigidPose pose;
+  Eigen::Map<Matrix3>(pose.rotation.data()) = rotation;
+  Eigen::Map<Eigen::Vector3d>(pose.translation.data()) = translation;
+  return pose;
+}
+
+/// The nearest rotation.
+Eigen::Matrix3d orthogonal(const Eigen::Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  return svd.matrixU() * turn * svd.matrixV().transpose();
+}
+
+Eigen::VectorXd null_vector(const Eigen::MatrixXd& matrix) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeFullV);
+  return svd.matrixV().col(matrix.cols() - 1);
+}
+
+/// From H = [r1 r2 t] of the points in the axes of their plane.
+std::optional<RigidPose> by_homography(std::span<const PointPair> pairs, const Shape& shape,
+                                       const Pinhole& pinhole) {
+  Eigen::MatrixXd rows(2 * pairs.size(), 9);
+  const double scale = shape.extent[0];
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Eigen::Vector3d p = shape.axes.transpose() * (place_of(pairs[i]) - shape.center) / scale;
+    const Eigen::Vector2d ray = ray_of(pairs[i], pinhole);
+    const Eigen::RowVector3d q(p.x(), p.y(), 1);
+    const Eigen::RowVector3d none = Eigen::RowVector3d::Zero();
+    rows.row(2 * i) << q, none, -ray.x() * q;
+    rows.row(2 * i + 1) << none, q, -ray.y() * q;
+  }
+  const Eigen::VectorXd h = null_vector(rows);
+  Matrix3 homography = Eigen::Map<const Matrix3>(h.data());
+  homography *=
+      (homography(2, 2) < 0 ? -2 : 2) / (homography.col(0).norm() + homography.col(1).norm());
+  if (!homography.allFinite()) return {};
+  Eigen::Matrix3d frame;
+  frame << homography.col(0), homography.col(1),
+      homography.col(0).head<3>().cross(homography.col(1).head<3>());
+  const Eigen::Matrix3d rotation = orthogonal(frame) * shape.axes.transpose();
+  return rigid(rotation, homography.col(2) * scale - rotation * shape.center);
+}
+
+std::optional<RigidPose> by_linear_transform(std::span<const PointPair> pairs, const Shape& shape,
+                                             const Pinhole& pinhole) {
+  Eigen::MatrixXd rows(2 * pairs.size(), 12);
+  const double scale = shape.extent[0];
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Eigen::Vector3d p = (place_of(pairs[i]) - shape.center) / scale;
+    const Eigen::Vector2d ray = ray_of(pairs[i], pinhole);
+    const Eigen::RowVector4d q(p.x(), p.y(), p.z(), 1);
+    const Eigen::RowVector4d none = Eigen::RowVector4d::Zero();
+    rows.row(2 * i) << q, none, -ray.x() * q;
+    rows.row(2 * i + 1) << none, q, -ray.y() * q;
+  }
+  const Eigen::VectorXd p = null_vector(rows);
+  Eigen::Matrix<double, 3, 4, Eigen::RowMajor> projection =
+      Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(p.data());
+  const Eigen::Matrix3d left = projection.leftCols<3>();
+  const double size = std::cbrt(std::abs(left.determinant()));
+  if (!(size > 0)) return {};
+  projection *= (projection(2, 3) < 0 ? -1 : 1) / size;
+  const Eigen::Matrix3d rotation = orthogonal(projection.leftCols<3>());
+  return rigid(rotation, projection.col(3) * scale - rotation * shape.center);
+}
+
+std::optional<RigidPose> by_sqpnp(std::span<const PointPair> pairs, const Pinhole& pinhole) {
+  std::vector<cv::Point3d> points;
+  std::vector<cv::Point2d> rays;
+  for (const PointPair& pair : pairs) {
+    const Eigen::Vector2d ray = ray_of(pair, pinhole);
+    points.emplace_back(pair.point.x, pair.point.y, pair.point.z);
+    rays.emplace_back(ray.x(), ray.y());
+  }
+  cv::Mat axis;
+  cv::Mat shift;
+  cv::Mat rotation;
+  try {
+    if (!cv::solvePnP(points, rays, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), axis, shift, false,
+                      cv::SOLVEPNP_SQPNP)) {
+      return {};
+    }
+    cv::Rodrigues(axis, rotation);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+  return rigid(Eigen::Map<const Matrix3>(rotation.ptr<double>()),
+               Eigen::Map<const Eigen::Vector3d>(shift.ptr<double>()));
+}
+
+// By the singular values of their places: a direction counts from 1 % of the longest.
+PointLayout layout_of(const Shape& shape) {
+  if (shape.extent[1] < kFlat * shape.extent[0]) return PointLayout::Line;
+  return shape.extent[2] < kFlat * shape.extent[0] ? PointLayout::Plane : PointLayout::Space;
+}
+
+PointLayout layout_of(std::span<const PointPair> pairs) {
+  return layout_of(shape_of(pairs));
+}
+
+// A first pose: by the homography of points in a plane (≥ 4), by the direct linear transform of
+// points in space (≥ 6), else (4 or 5 points in space) by SQPnP (Terzakis, Lourakis: A
+// consistently fast and globally optimal solution to the perspective-n-point problem, ECCV 2020).
+// None if the points do not determine one in front of the camera.
+std::optional<RigidPose> first_pose(std::span<const PointPair> pairs, const Pinhole& pinhole) {
+  const Shape shape = shape_of(pairs);
+  const PointLayout layout = layout_of(shape);
+  if (layout == PointLayout::Line || pairs.size() < 4) return {};
+  if (layout == PointLayout::Plane) return by_homography(pairs, shape, pinhole);
+  if (pairs.size() < 6) return by_sqpnp(pairs, pinhole);
+  return by_linear_transform(pairs, shape, pinhole);
+}
+
+// First poses of all pairs and of subsets of them, so that wrong picks do not spoil all: at most
+// 60 sets of 4, drawn by a fixed seed.
+std::vector<RigidPose> first_poses(std::span<const PointPair> pairs, const Pinhole& pinhole) {
+  std::vector<RigidPose> poses;
+  const auto add = [&](std::span<const PointPair> of) {
+    if (const auto pose = first_pose(of, pinhole)) poses.push_back(*pose);
+  };
+  add(pairs);
+  if (pairs.size() < 5) return poses;
+  std::mt19937 random(1);
+  std::vector<PointPair> drawn(pairs.begin(), pairs.end());
+  for (int i = 0; i < kMostSubsets; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::swap(drawn[k], drawn[k + random() % (drawn.size() - k)]);
+    }
+    add(std::span(drawn).first(4));
+  }
+  return poses;
+}
+
+constexpr double kHuber = 2;
+constexpr double kOutlier = 3;         // px,
+constexpr double kOutlierMedians = 5;  // and median residuals.
+constexpr double kUsualError = 0.5;    // px, of the paper's scenes
+constexpr std::size_t kStarts = 5;     // That are minimised.
+
+/// The best of all starts.
+MinimisedPose best_pose(std::span<const PointPair> pairs, const Pinhole& pinhole) {
+  struct Start {
+    double cost;
+    RigidPose pose;
+  };
+  std::vector<Start> starts;
+  for (const RigidPose& pose : first_poses(pairs, pinhole)) {
+    starts.push_back({huber_cost(pairs, pose, pinhole, kHuber), pose});
+  }
+  std::ranges::stable_sort(starts, {}, &Start::cost);
+  MinimisedPose best;
+  best.cost = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < std::min(kStarts, starts.size()); ++i) {
+    const MinimisedPose pose = minimise_reprojection(pairs, starts[i].pose, pinhole, kHuber);
+    if (pose.cost < best.cost) best = pose;
+  }
+  return best;
+}
+
+std::vector<double> residuals_of(std::span<const PointPair> pairs, const RigidPose& pose,
+                                 const Pinhole& pinhole) {
+  std::vector<double> sizes;
+  for (const PointPair& pair : pairs) {
+    const auto [x, y] = reprojection_residual(pair, pose, pinhole);
+    sizes.push_back(std::hypot(x, y));
+  }
+  return sizes;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+std::vector<PairResidual> judged(std::span<const PointPair> pairs, const RigidPose& pose,
+                                 const Pinhole& pinhole) {
+  const std::vector<double> sizes = residuals_of(pairs, pose, pinhole);
+  const double limit = std::max(kOutlier, kOutlierMedians * median(sizes));
+  std::vector<PairResidual> judgements;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    judgements.push_back({sizes[i], !pairs[i].is_locked && sizes[i] > limit});
+  }
+  const auto right = std::ranges::count(judgements, false, &PairResidual::is_outlier);
+  if (right < 4) {
+    for (PairResidual& each : judgements) each.is_outlier = false;
+  }
+  return judgements;
+}
+
+std::vector<PointPair> kept(std::span<const PointPair> pairs,
+                            std::span<const PairResidual> judgements) {
+  std::vector<PointPair> rest;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!judgements[i].is_outlier) rest.push_back(pairs[i]);
+  }
+  return rest;
+}
+
+/// Refuses pairs that fit the mirror image of the mesh far better.
+void refuse_mirrored(std::span<const PointPair> pairs, const Pinhole& pinhole, double cost) {
+  const double tolerance = kUsualError * kUsualError * static_cast<double>(pairs.size());
+  if (pairs.size() < 6 || cost <= tolerance || layout_of(pairs) != PointLayout::Space) return;
+  std::vector<PointPair> mirrored(pairs.begin(), pairs.end());
+  for (PointPair& pair : mirrored) pair.point.z = -pair.point.z;
+  const double other = best_pose(mirrored, pinhole).cost;
+  if (!(other < cost / 10)) return;
+  throw InvalidInput(
+      fmt::format("the mesh is a mirror image of what the camera sees (its axes are left-handed): "
+                  "mirrored, the pairs fit {:.0f} times better; negate its Z and pick again",
+                  std::sqrt(cost / std::max(other, 1e-12))));
+}
+
+/// Least depth error along the optical axis (paper, section 3.2.1).
+double delta_tz(std::span<const PointPair> pairs, const RigidPose& pose, const Pinhole& pinhole,
+                double error_px, double& depth) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const PointPair& pair : pairs) {
+    const double z = pose.apply(pair.point).z;
+    const double off =
+        std::max(std::abs(pair.x_px - pinhole.center_x), std::abs(pair.y_px - pinhole.center_y));
+    const double delta = z * error_px / off;
+    if (delta < least) depth = z;
+    least = std::min(least, delta);
+  }
+  return least;
+}
+
+void set_errors(std::span<const PointPair> pairs, const MinimisedPose& pose,
+                const CameraGrid& camera, SolvedPose& solved) {
+  const std::vector<double> sizes = residuals_of(pairs, pose.pose, *camera.pinhole);
+  double sum = 0;
+  double squares = 0;
+  for (const double size : sizes) {
+    sum += size;
+    squares += size * size;
+  }
+  solved.reprojection_error_px = sum / static_cast<double>(sizes.size());
+  const double freedom = 2 * static_cast<double>(sizes.size()) - 6;
+  const double variance = sizes.size() > 4 ? squares / freedom : kUsualError * kUsualError;
+  std::ranges::transform(pose.unit_covariance, solved.covariance.begin(),
+                         [variance](double value) { return variance * value; });
+  double depth = 0;
+  solved.delta_tz =
+      delta_tz(pairs, pose.pose, *camera.pinhole, solved.reprojection_error_px, depth);
+  solved.delta_tz_px =
+      camera.is_known() ? camera.baseline * camera.focal_length * solved.delta_tz / (depth * depth)
+                        : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+SolvedPose solve_pose(std::span<const PointPair> pairs, const CameraGrid& camera) {
+  if (!camera.pinhole) throw InvalidInput("the pinhole of the camera is not known");
+  if (pairs.size() < 4) {
+    throw InvalidInput(
+        fmt::format("a pose needs 4 pairs, and there are {}; pick more, best 10", pairs.size()));
+  }
+  if (layout_of(pairs) == PointLayout::Line) {
+    throw InvalidInput(
+        "the points of the pairs lie on one line, which leaves the pose open; pick "
+        "points beside it");
+  }
+  const Pinhole& pinhole = *camera.pinhole;
+  MinimisedPose pose = best_pose(pairs, pinhole);
+  if (!std::isfinite(pose.cost)) {
+    throw InvalidInput(
+        "no pose in front of the camera fits these pairs; check that each names the "
+        "same point in the view and on the mesh");
+  }
+  SolvedPose solved;
+  solved.pairs = judged(pairs, pose.pose, pinhole);
+  const std::vector<PointPair> rest = kept(pairs, solved.pairs);
+  refuse_mirrored(pairs, pinhole, pose.cost);
+  if (rest.size() < pairs.size()) {
+    pose = minimise_reprojection(rest, pose.pose, pinhole, kHuber);
+    const std::vector<double> sizes = residuals_of(pairs, pose.pose, pinhole);
+    for (std::size_t i = 0; i < sizes.size(); ++i) solved.pairs[i].residual_px = sizes[i];
+  }
+  solved.pose = pose.pose;
+  set_errors(rest, pose, camera, solved);
+  return solved;
+}
+
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Jacobian = Eigen::Matrix<double, 2, 6>;
+
+constexpr int kMostIterations = 100;
+constexpr double kLeastStep = 1e-12;
+
+struct Pose {
+  Matrix3 rotation;
+  Eigen::Vector3d translation;
+};
+
+Pose pose_of(const RigidPose& pose) {
+  return {Eigen::Map<const Matrix3>(pose.rotation.data()),
+          Eigen::Map<const Eigen::Vector3d>(pose.translation.data())};
+}
+
+RigidPose rigid(const Pose& pose) {
+  RigidPose result;
+  Eigen::Map<Matrix3>(result.rotation.data()) = pose.rotation;
+  Eigen::Map<Eigen::Vector3d>(result.translation.data()) = pose.translation;
+  return result;
+}
+
+/// exp(ω)·R, t + δ.
+Pose moved(const Pose& pose, const Vector6& step) {
+  const Eigen::Vector3d axis = step.head<3>();
+  const double angle = axis.norm();
+  Pose result = pose;
+  if (angle > 0) {
+    result.rotation = Eigen::AngleAxisd(angle, axis / angle).toRotationMatrix() * pose.rotation;
+    result.rotation =
+        Eigen::Quaterniond(Eigen::Matrix3d(result.rotation)).normalized().toRotationMatrix();
+  }
+  result.translation += step.tail<3>();
+  return result;
+}
+
+/// Of the projection by rotation vector and translation; `turned` is R·X, `seen` R·X + t.
+Jacobian jacobian_of(const Eigen::Vector3d& turned, const Eigen::Vector3d& seen, double focal) {
+  Eigen::Matrix<double, 2, 3> by_place;
+  const double scale = focal / seen.z();
+  by_place << scale, 0, -scale * seen.x() / seen.z(), 0, scale, -scale * seen.y() / seen.z();
+  Matrix3 cross;
+  cross << 0, -turned.z(), turned.y(), turned.z(), 0, -turned.x(), -turned.y(), turned.x(), 0;
+  Jacobian jacobian;
+  jacobian << -by_place * cross, by_place;
+  return jacobian;
+}
+
+struct Normal {
+  Matrix6 matrix = Matrix6::Zero();
+  Vector6 gradient = Vector6::Zero();
+};
+
+Normal normal_equations(std::span<const PointPair> pairs, const Pose& pose, const Pinhole& pinhole,
+                        double threshold) {
+  Normal normal;
+  const RigidPose current = rigid(pose);
+  for (const PointPair& pair : pairs) {
+    const Eigen::Vector3d turned =
+        pose.rotation * Eigen::Vector3d(pair.point.x, pair.point.y, pair.point.z);
+    const auto [rx, ry] = reprojection_residual(pair, current, pinhole);
+    const Eigen::Vector2d residual(rx, ry);
+    const double size = residual.norm();
+    const double weight = pair.is_locked || size <= threshold ? 1 : threshold / size;
+    const Jacobian j = jacobian_of(turned, turned + pose.translation, pinhole.focal_px);
+    normal.matrix += weight * j.transpose() * j;
+    normal.gradient += weight * j.transpose() * residual;
+  }
+  return normal;
+}
+
+}  // namespace
+
+std::array<double, 2> reprojection_residual(const PointPair& pair, const RigidPose& pose,
+                                            const Pinhole& pinhole) {
+  const Point3 seen = pose.apply(pair.point);
+  if (!(seen.z > 0)) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    return {nan, nan};
+  }
+  return {pinhole.focal_px * seen.x / seen.z + pinhole.center_x - pair.x_px,
+          pinhole.focal_px * seen.y / seen.z + pinhole.center_y - pair.y_px};
+}
+
+double huber_cost(std::span<const PointPair> pairs, const RigidPose& pose, const Pinhole& pinhole,
+                  double threshold_px) {
+  double sum = 0;
+  for (const PointPair& pair : pairs) {
+    const auto [x, y] = reprojection_residual(pair, pose, pinhole);
+    const double size = std::hypot(x, y);
+    if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
+    const bool is_square = pair.is_locked || size <= threshold_px;
+    sum += is_square ? size * size / 2 : threshold_px * (size - threshold_px / 2);
+  }
+  return sum;
+}
+
+MinimisedPose minimise_reprojection(std::span<const PointPair> pairs, const RigidPose& start,
+                                    const Pinhole& pinhole, double threshold_px) {
+  MinimisedPose result{start, huber_cost(pairs, start, pinhole, threshold_px), 0, {}};
+  if (!std::isfinite(result.cost)) return result;
+  Pose pose = pose_of(start);
+  double damping = 1e-3;
+  Normal normal = normal_equations(pairs, pose, pinhole, threshold_px);
+  for (; result.iterations < kMostIterations && damping < 1e12; ++result.iterations) {
+    Matrix6 damped = normal.matrix;
+    damped.diagonal() *= 1 + damping;
+    const Vector6 step = -damped.ldlt().solve(normal.gradient);
+    if (!step.allFinite()) break;
+    const Pose next = moved(pose, step);
+    const double cost = huber_cost(pairs, rigid(next), pinhole, threshold_px);
+    const bool is_tiny = step.head<3>().norm() < kLeastStep &&
+                         step.tail<3>().norm() < kLeastStep * pose.translation.norm();
+    if (cost <= result.cost) {
+      pose = next;
+      result.cost = cost;
+      damping /= 10;
+      normal = normal_equations(pairs, pose, pinhole, threshold_px);
+    } else {
+      damping *= 10;
+    }
+    if (is_tiny) break;
+  }
+  result.pose = rigid(pose);
+  const Matrix6 inverse = normal.matrix.completeOrthogonalDecomposition().pseudoInverse();
+  Eigen::Map<Matrix6>(result.unit_covariance.data()) = inverse;
+  return result;
+}
+
+}  // namespace episcope::capture

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/disparity_field.h"
+#include "engine/core/indices.h"
+#include "engine/core/parameter.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+
+/// Where an estimate comes from: everything needed to reproduce it.
+struct Provenance {
+  std::string method;             ///< Id as in `episcope-cli methods`; of foreign results any name.
+  ParameterSet parameters;        ///< Every parameter of the method with the value used.
+  Interval range{};               ///< Disparity range searched, px per view step; {0, 0} = unknown.
+  double seconds = 0;             ///< Wall-clock time; 0 = unknown.
+  std::string version;            ///< Of Episcope.
+  std::string source;             ///< Path or name of the light field.
+  std::uint64_t source_hash = 0;  ///< LightField::sample_hash, 0 = unknown.
+  Reading reading{};              ///< How that light field was read.
+  std::vector<std::string> notes;  ///< What a user should know of this run: gap, unsolved views.
+  int border_px = 0;  ///< Pixels at each side of the views that foreign maps lack; not judged.
+};
+
+/// A disparity estimate. Covers all views or one.
+struct Estimate : Provenance {
+  DisparityField field;
+  ViewStack<float> confidence;  ///< In [0, 1], shape of `field.disparity`; empty = unknown.
+  LayeredDisparity layered;     ///< Empty unless the method estimates two layers.
+
+  [[nodiscard]] const Provenance& provenance() const { return *this; }
+  void set_provenance(Provenance provenance) {
+    static_cast<Provenance&>(*this) = std::move(provenance);
+  }
+  [[nodiscard]] bool contains(ViewIndex view) const { return field.contains(view); }
+};
+
+using EstimatePtr = std::shared_ptr<const Estimate>;
+
+/// Size of a stack of maps and its place in the grid.
+struct MapGeometry {
+  GridShape grid;
+  ViewIndex first;
+  int height = 0;
+  int width = 0;
+};
+
+template <class T>
+[[nodiscard]] MapGeometry geometry_of(const ViewStack<T>& stack) {
+  return {stack.grid(), stack.first(), stack.height(), stack.width()};
+}
+
+/// Some rows of some views.
+struct MapBlock {
+  ViewRectangle views;
+  int first_row = 0;
+  int end_row = 0;
+  [[nodiscard]] int rows() const { return end_row - first_row; }
+};
+
+/// What an estimate has of a block: maps of its views, which are addressed by their place in the
+/// grid, and whose row 0 is the first of the block.
+struct BlockMaps {
+  DisparityField field;
+  ViewStack<float> confidence;
+  LayeredDisparity layered{};            ///< Empty unless the method estimates two layers.
+  std::vector<ViewStack<float>> kept{};  ///< For later passes, no part of the result.
+};
+
+/// How far an estimate in blocks has come.
+struct BlockProgress {
+  int pass = 0;                      ///< That is being made, from 0.
+  int done = 0;                      ///< Of its rows or views, in their order.
+  bool is_prepared = false;          ///< Whether the pass has found what all its blocks need.
+  std::vector<double> facts{};       ///< What has been found that all further blocks have to know.
+  double finding = 0;                ///< The largest that a block of the pass reported.
+  double seconds = 0;                ///< Of all programs that worked on it.
+  std::vector<std::string> notes{};  ///< For the estimate, of the blocks that are done.
+  friend bool operator==(const BlockProgress&, const BlockProgress&) = default;
+};
+
+}  // namespace episcope

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+
+/// A borrowed image: `[y][x][c]` with interleaved channels and contiguous rows `row_stride`
+/// elements apart. Owns nothing; valid as long as the memory it was borrowed from.
+template <class T>
+struct ImageView {
+  T* data = nullptr;
+  int height = 0;
+  int width = 0;
+  int channels = 1;
+  std::ptrdiff_t row_stride = 0;
+
+  [[nodiscard]] T* row(int y) const {
+    assert(y >= 0 && y < height);
+    return data + y * row_stride;
+  }
+  [[nodiscard]] T& at(int y, int x, int c = 0) const {
+    assert(x >= 0 && x < width && c >= 0 && c < channels);
+    return row(y)[x * channels + c];
+  }
+  [[nodiscard]] bool empty() const { return data == nullptr; }
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(height) * width * channels;
+  }
+  operator ImageView<const T>() const requires(!std::is_const_v<T>) {
+    return {data, height, width, channels, row_stride};
+  }
+};
+
+/// An owned image `[y][x][c]`, contiguous.
+template <class T>
+class Image {
+ public:
+  Image() = default;
+  Image(int height, int width, int channels = 1, T value = T{})
+      : height_(height),
+        width_(width),
+        channels_(channels),
+        samples_(static_cast<std::size_t>(height) * width * channels, value) {}
+
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int channels() const { return channels_; }
+  [[nodiscard]] bool empty() const { return samples_.empty(); }
+  [[nodiscard]] std::size_t size() const { return samples_.size(); }
+  [[nodiscard]] T* data() { return samples_.data(); }
+  [[nodiscard]] const T* data() const { return samples_.data(); }
+  [[nodiscard]] T* row(int y) { return view().row(y); }
+  [[nodiscard]] const T* row(int y) const { return view().row(y); }
+  [[nodiscard]] T& at(int y, int x, int c = 0) { return view().at(y, x, c); }
+  [[nodiscard]] const T& at(int y, int x, int c = 0) const { return view().at(y, x, c); }
+  [[nodiscard]] ImageView<T> view() {
+    return {samples_.data(), height_, width_, channels_, row_stride()};
+  }
+  [[nodiscard]] ImageView<const T> view() const {
+    return {samples_.data(), height_, width_, channels_, row_stride()};
+  }
+  operator ImageView<const T>() const { return view(); }
+  [[nodiscard]] auto begin() { return samples_.begin(); }
+  [[nodiscard]] auto end() { return samples_.end(); }
+  [[nodiscard]] auto begin() const { return samples_.begin(); }
+  [[nodiscard]] auto end() const { return samples_.end(); }
+
+ private:
+  [[nodiscard]] std::ptrdiff_t row_stride() const {
+    return static_cast<std::ptrdiff_t>(width_) * channels_;
+  }
+
+  int height_ = 0;
+  int width_ = 0;
+  int channels_ = 1;
+  std::vector<T> samples_;
+};
+
+/// Rows and columns exchanged, channels as they are.
+template <class T>
+[[nodiscard]] Image<T> transposed(const Image<T>& image) {
+  Image<T> turned(image.width(), image.height(), image.channels());
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      std::copy_n(&image.at(y, x), image.channels(), &turned.at(x, y));
+    }
+  }
+  return turned;
+}
+
+/// How often a channel counts in a squared difference of colours, so that what is measured by it
+/// means the same in gray as in colour: one channel counts as three equal ones.
+[[nodiscard]] constexpr double channel_weight(int channels) {
+  return channels == 1 ? 3 : 1;
+}
+
+}  // namespace episcope

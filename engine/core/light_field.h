@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/camera_grid.h"
+#include "engine/core/image.h"
+#include "engine/core/indices.h"
+#include "engine/core/parameter.h"
+#include "engine/core/view_stack.h"
+
+#include <algorithm>
+#include <any>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace episcope {
+
+/// One thing that is made of an object when it is asked for first, and kept for as long as the
+/// object is. Thread-safe. Not copyable.
+class KeptBeside {
+ public:
+  /// What is kept, else what `make()` returns, a pair of the thing and the bytes it takes; others
+  /// wait meanwhile. What it throws is thrown, and nothing kept. All callers ask for the same T.
+  template <class T, class Make>
+  [[nodiscard]] std::shared_ptr<const T> get(const Make& make) {
+    const std::lock_guard lock(lock_);
+    if (!thing_.has_value()) {
+      std::pair<T, std::size_t> made = make();
+      thing_ = std::make_shared<const T>(std::move(made.first));
+      bytes_ = made.second;
+    }
+    return std::any_cast<const std::shared_ptr<const T>&>(thing_);
+  }
+
+  /// Of what is kept.
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+ private:
+  std::mutex lock_;
+  std::any thing_;
+  std::atomic<std::size_t> bytes_{0};
+};
+
+enum class SampleType { UInt8, UInt16, Float32 };
+
+/// Where a camera stands on the plane of cameras, in `LightFieldInfo::position_unit`.
+struct CameraPosition {
+  double x = 0;
+  double y = 0;
+  friend bool operator==(const CameraPosition&, const CameraPosition&) = default;
+};
+
+/// What is known about a light field besides its samples.
+struct LightFieldInfo {
+  std::string name;    ///< Short name for lists and titles, e.g. "still_life".
+  std::string source;  ///< Path it was read from, or "demo:<scene>"; what a command line can open.
+  CameraGrid camera;
+  /// Disparity range that the files promise (`disp_min`/`disp_max` of a cfg); never from truth.
+  std::optional<Interval> disparity_range;
+  Reading reading{};  ///< How it was read from `source`.
+  /// As stored in names or files of the camera, view by view in canonical order; empty = unknown.
+  std::vector<CameraPosition> positions{};
+  std::string position_unit{};  ///< "mm"; empty = unknown.
+};
+
+/// A sample in [0, 1] as uint16 of 65535, rounded to the nearest; others are clamped.
+[[nodiscard]] inline std::uint16_t to_word_sample(float sample) {
+  return static_cast<std::uint16_t>(std::clamp(sample, 0.0F, 1.0F) * 65535 + 0.5F);
+}
+
+/// A 4D light field: equally sized views on a regular camera grid, `[v][u][y][x][c]`, immutable.
+/// Samples stay in the type they were stored in; a view is borrowed, never copied. `c` is 1 (grey)
+/// or 3 (RGB). A scene point at (x, y) in the centre view appears in view (u, v) at
+/// (x − d·(u − u_c), y − d·(v − v_c)): see CameraGrid for d.
+class LightField {
+ public:
+  using Samples = std::variant<ViewStack<std::uint8_t>, ViewStack<std::uint16_t>, ViewStack<float>>;
+
+  /// `valid`: 0 where a pixel holds nothing that was seen (vignetting, weight 0), of the shape of
+  /// the views; empty = all valid. Throws InvalidInput if the stack is empty, has other than 1 or 3
+  /// channels or does not begin at view (0, 0), or if `valid` does not fit.
+  LightField(Samples samples, LightFieldInfo info, ViewStack<std::uint8_t> valid = {});
+
+  /// The same light field with other facts: takes the samples of `other`.
+  LightField(LightField&& other, LightFieldInfo info);
+
+  [[nodiscard]] const LightFieldInfo& info() const { return info_; }
+  [[nodiscard]] GridShape grid() const { return grid_; }
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int channels() const { return channels_; }
+  [[nodiscard]] SampleType sample_type() const;
+  [[nodiscard]] ViewIndex center() const { return grid_.center(); }
+  [[nodiscard]] std::size_t byte_size() const;
+
+  /// The samples of a view in their stored type: exactly one of the views is not empty.
+  template <class T>
+  [[nodiscard]] ImageView<const T> view(ViewIndex index) const {
+    return std::get<ViewStack<T>>(samples_).view(index);
+  }
+
+  /// Samples of row `y` of a view, columns [x0, x1), as float in [0, 1] (uint8/255, uint16/65535,
+  /// float unchanged), channels interleaved, into `out` of (x1 − x0)·channels elements.
+  void read_row(ViewIndex index, int y, int x0, int x1, float* out) const;
+
+  /// Column `x`, rows [y0, y1), likewise: (y1 − y0)·channels elements.
+  void read_column(ViewIndex index, int x, int y0, int y1, float* out) const;
+
+  /// A whole view as float, as `read_row`.
+  [[nodiscard]] Image<float> view_as_float(ViewIndex index) const;
+
+  /// 64-bit FNV-1a hash of shape and samples, which identifies the light field in result files.
+  /// Linear in the size. Samples on disk are dropped from memory once they were read.
+  [[nodiscard]] std::uint64_t sample_hash() const;
+
+  [[nodiscard]] const Samples& samples() const { return samples_; }
+
+  /// Another for every light field that this program makes, kept when one is moved: for copies of
+  /// the samples elsewhere, on a device, to tell whether they are still the same.
+  [[nodiscard]] std::uint64_t identity() const { return identity_; }
+  /// What methods make of the samples and see in their place (even_brightness).
+  [[nodiscard]] KeptBeside& beside() const { return *beside_; }
+  /// Whether samples are in a file that the system reads when they are looked at.
+  [[nodiscard]] bool is_on_disk() const;
+  /// Of such samples, has the system begin to read rows [first_row, end_row) of a view, without
+  /// waiting: whoever will look at several places says so of all before looking at the first.
+  void fetch_samples(ViewIndex index, int first_row, int end_row) const;
+  /// The same of all views.
+  void fetch_samples(int first_row, int end_row) const {
+    for (int i = 0; is_on_disk() && i < grid_.count(); ++i) {
+      fetch_samples(grid_.view_at(i), first_row, end_row);
+    }
+  }
+  /// Of such samples, drops what the process holds in memory; changes nothing else. A long
+  /// computation that looks at all of them may say so now and then to keep its memory bounded.
+  void forget_samples() const;
+
+  /// `[v][u][y][x]`, 0 = invalid; empty if all pixels are valid.
+  [[nodiscard]] const ViewStack<std::uint8_t>& valid() const { return valid_; }
+  [[nodiscard]] bool is_valid(ViewIndex index, int y, int x) const {
+    return valid_.empty() || valid_.view(index).at(y, x) != 0;
+  }
+  /// The mask of one view; empty if all pixels of all views are valid.
+  [[nodiscard]] ImageView<const std::uint8_t> valid_of(ViewIndex index) const {
+    return valid_.empty() ? ImageView<const std::uint8_t>{} : valid_.view(index);
+  }
+
+ private:
+  Samples samples_;
+  ViewStack<std::uint8_t> valid_;
+  LightFieldInfo info_;
+  GridShape grid_;
+  int height_ = 0;
+  int width_ = 0;
+  int channels_ = 1;
+  std::uint64_t identity_ = 0;
+  std::unique_ptr<KeptBeside> beside_ = std::make_unique<KeptBeside>();
+};
+
+/// The grid that views cover.
+[[nodiscard]] inline GridShape grid_of(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return stack.grid(); }, samples);
+}
+
+using LightFieldPtr = std::shared_ptr<const LightField>;
+
+/// |∇I| of one view, `[y][x]` ≥ 0 per px: the norm of the forward differences over all channels,
+/// samples in [0, 1]; nothing beyond the last row and column. `out` has the size of a view.
+void gradient_magnitude(const LightField& light_field, ViewIndex view, ImageView<float> out);
+
+}  // namespace episcope

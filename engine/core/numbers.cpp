@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/numbers.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace episcope {
+
+std::ptrdiff_t quantile_rank(std::size_t count, double share) {
+  assert(count > 0);
+  return std::lround(std::clamp(share, 0.0, 1.0) * static_cast<double>(count - 1));
+}
+
+float quantile(std::span<float> values, double share) {
+  const auto place = values.begin() + quantile_rank(values.size(), share);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+}  // namespace episcope

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/ground_truth.h"
+#include "engine/core/label_info.h"
+#include "engine/core/light_field.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// What became of the files of a folder that share a kind.
+struct FileUse {
+  std::string kind;  ///< "views", "labels"; of files not used: "*.txt", "depth_#.npy".
+  int count = 0;
+  std::string example;  ///< Name of the first of them.
+  bool is_used = true;
+};
+
+/// Which views were kept of those stored, in canonical order.
+struct ViewCrop {
+  GridShape stored;  ///< Empty: all views were kept.
+  ViewIndex first;   ///< Place of the first view that was kept,
+  GridShape kept;    ///< and how many there are from it.
+  /// Whether views were left out.
+  [[nodiscard]] bool leaves_out() const { return !(kept == stored); }
+};
+
+/// Which conversion to the canonical convention a reader made, and how it was checked.
+struct ConventionReport {
+  std::string format;             ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
+  std::string order;              ///< "as stored", "u reversed (file h axis)", …
+  std::string order_check;        ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
+  std::string sign;               ///< "checked" if near and far are told apart; empty = not known.
+  std::string sign_check;         ///< The evidence, with numbers, or why there is none.
+  std::vector<FileUse> files;     ///< Every file of the folder: used as what, or not used.
+  std::string samples;            ///< How samples were stored, and what estimators see of them.
+  std::string gain;               ///< How much the brightness of the views differs; empty = of
+                                  ///< built-in scenes and single views, not at all.
+  std::string units;              ///< How depth was turned into disparity,
+  std::string units_check;        ///< and what spoke for it; may be empty.
+  bool order_was_chosen = false;  ///< The user overruled the reader,
+  bool units_were_chosen = false;     ///< and here.
+  std::vector<std::string> warnings;  ///< A sentence each.
+  double focus_px = 0;  ///< Focus plane that was baked in (shear.h): stored disparities were larger
+                        ///< by it.
+  bool reversed_u = false;     ///< Whether stored columns of views were reversed, for companions,
+  bool reversed_v = false;     ///< and rows.
+  ViewCrop crop;               ///< Which views were kept, for companions,
+  bool raised_labels = false;  ///< and whether stored labels began at 0 and were raised by one.
+};
+
+/// Sentences for users: `order`, `sign`, or `units` with its check, and who chose it.
+[[nodiscard]] std::string order_text(const ConventionReport& report);
+[[nodiscard]] std::string sign_text(const ConventionReport& report);
+[[nodiscard]] std::string units_text(const ConventionReport& report);
+
+/// "uint8 as stored, taken as gamma-encoded; estimators see value/255", …
+[[nodiscard]] std::string stored_samples_text(const LightField::Samples& samples);
+
+/// What is painted on one view: 0 = unpainted, else a label id.
+struct ViewScribbles {
+  ViewIndex view;
+  Image<std::int32_t> labels;
+};
+
+/// What is painted on a light field.
+struct Scribbles {
+  std::vector<ViewScribbles> views;  ///< Painted ones, in the order of the grid.
+  std::vector<LabelInfo> labels;     ///< As far as names and colours are known, by id.
+  [[nodiscard]] bool empty() const { return views.empty(); }
+};
+
+/// What large files beside a light field of the archive hold.
+enum class CompanionKind {
+  EdgeProbabilities,
+  ImageProbabilities,     ///< Of labels, from features of the image,
+  DepthProbabilities,     ///< from these and the estimated depth,
+  TrueDepthProbabilities  ///< from these and the true depth.
+};
+/// "edge weights", "probabilities (image)", …
+[[nodiscard]] const char* companion_name(CompanionKind kind);
+
+/// A large companion file found beside the light field, read when it is needed.
+struct Companion {
+  CompanionKind kind = CompanionKind::EdgeProbabilities;
+  std::filesystem::path path;
+  std::string shape;  ///< As stored, e.g. "9×9×512×512".
+};
+
+/// Which light field of a sequence in time a scene is.
+struct FrameOfSequence {
+  int frame = 0;  ///< From 0.
+  int count = 0;  ///< 0 = not one of a sequence.
+};
+
+/// All that was read from one light-field file or folder, or made by a built-in scene.
+struct Scene {
+  LightFieldPtr light_field;
+  GroundTruthPtr truth;  ///< Never null; its parts may be missing.
+  Scribbles scribbles;
+  std::vector<Companion> companions;
+  ConventionReport convention;
+  FrameOfSequence sequence{};
+
+  /// The first companion of this kind; null if there is none.
+  [[nodiscard]] const Companion* find_companion(CompanionKind kind) const {
+    const auto found = std::ranges::find(companions, kind, &Companion::kind);
+    return found == companions.end() ? nullptr : &*found;
+  }
+};
+
+}  // namespace episcope

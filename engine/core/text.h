@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace episcope {
+
+/// Joins the texts that `text_of`, a callable or a member, returns for the items, with `separator`
+/// between them: "a, b, c".
+template <class Items, class TextOf = std::identity>
+[[nodiscard]] std::string joined(const Items& items, std::string_view separator,
+                                 const TextOf& text_of = {}) {
+  std::string text;
+  bool is_first = true;
+  for (const auto& item : items) {
+    if (!is_first) text += separator;
+    is_first = false;
+    text += std::invoke(text_of, item);
+  }
+  return text;
+}
+
+/// One of 0 … 9.
+[[nodiscard]] inline bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// One of a … z, A … Z.
+[[nodiscard]] inline bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/// A letter in lower case; other characters as they are.
+[[nodiscard]] inline char lower_case(char c) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+/// A byte that goes on with a character of UTF-8, as all but the first of it do.
+[[nodiscard]] inline bool continues_character(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+/// The place behind the digits that begin at `at`; `at` itself if there are none.
+[[nodiscard]] inline std::size_t end_of_digits(std::string_view text, std::size_t at) {
+  while (at < text.size() && is_digit(text[at])) ++at;
+  return at;
+}
+
+/// ASCII letters in lower case.
+[[nodiscard]] inline std::string lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(), [](char c) { return lower_case(c); });
+  return text;
+}
+
+/// The extension of a file name in lower case, with its dot: ".h5".
+[[nodiscard]] inline std::string suffix_of(const std::filesystem::path& path) {
+  return lower_case(path.extension().string());
+}
+
+}  // namespace episcope

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/indices.h"
+#include "engine/core/light_field.h"
+
+#include <vector>
+
+namespace episcope {
+
+/// Where a view stands on the plane of cameras, in mean steps of the grid, along v and u.
+struct ViewPlace {
+  double v = 0;
+  double u = 0;
+};
+
+/// What stated positions of cameras say about a grid.
+enum class PlacesKind {
+  Unknown,      ///< There are none.
+  Regular,      ///< Equidistant to within 0.02 steps.
+  Irregular,    ///< Near a grid, but not on it: `places` holds them.
+  Implausible,  ///< They make no grid in the order of the views.
+};
+
+/// Views of a grid at their stated positions.
+struct ViewPlaces {
+  PlacesKind kind = PlacesKind::Unknown;
+  std::vector<ViewPlace> places;  ///< View by view in canonical order; empty unless irregular.
+  double largest_deviation = 0;   ///< From the regular grid about the centre view, in steps.
+  int outliers = 0;               ///< Positions not believed: there the grid's own stands.
+};
+
+/// Turns stated positions into places. The step is the mean distance of neighbours along u (least
+/// squares), or along v of a single column; both directions share it, as disparity is px per step,
+/// so that rows twice as far apart as columns lie two steps apart. Which way positions run is
+/// irrelevant, nor does their unit matter. A position farther than half a step from the plane
+/// through all of them is an outlier. Implausible are fewer than nine tenths that fit, steps that
+/// are zero or not finite, a grid that is skewed by more than a third, and steps whose ratio is
+/// beyond 2.
+[[nodiscard]] ViewPlaces view_places(const LightFieldInfo& info, GridShape grid);
+
+}  // namespace episcope

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/image.h"
+#include "engine/core/indices.h"
+#include "engine/core/progress.h"
+#include "engine/core/view_stack.h"
+#include "engine/core/volume.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace episcope::cuda {
+
+/// What is known of one view; borrowed. Maps may be null, of all views or of none.
+struct RayView {
+  VolumeView<const std::uint8_t> probabilities;  ///< `[y][label][x]`, at most 256 labels.
+  const float* weights = nullptr;                ///< Of boundaries, `[y][x]`; null = 1.
+  const float* disparity = nullptr;              ///< `[y][x]`; null = rays are not followed.
+  const std::uint8_t* valid = nullptr;           ///< Of disparity; null = everywhere.
+  const std::uint8_t* colors = nullptr;  ///< `[y][x][channel]`; null = all rays are trusted.
+};
+
+/// All views of a rectangle of the camera grid, and how they are labelled (RayLabelingParameters).
+struct RayLabelsTask {
+  GridShape grid;
+  std::vector<RayView> views;  ///< `[v][u]`
+  int channels = 0;            ///< Of the colours.
+  /// Views that are solved one after the other, numbers of `views`, each from where the one before
+  /// ended, if disparities are known. Longer ones come first.
+  std::vector<std::vector<int>> chains;
+  std::span<const float> costs;  ///< Of each probability, 256.
+  std::span<const float>
+      trusts;              ///< Of each squared difference of colours; the last: of all above.
+  float tolerance_px = 0;  ///< Disparities within count as the same point.
+  int near_views = 0;  ///< Rays of the nearest n×n views share their costs; 0 = each has its own.
+  int votes = 0;       ///< Rounds in which the rays of a point vote.
+  double smoothness = 1;  ///< > 0
+  double gap = 1e-2;
+  int max_iterations = 300;
+  int check_every = 5;
+  int racing_iterations = 0;  ///< As in SimplexOptions.
+};
+
+/// Sums over the views, and the most iterations of any.
+struct RayLabelsAnswer {
+  double energy = 0, bound = 0;
+  int iterations = 0;
+};
+
+/// Writes the labels of all views, 0 … L − 1, as `smooth_rays` and `smooth_views`
+/// (engine/labeling/rays) do on the CPU; there must be two or more labels. Throws DeviceFailure,
+/// Cancelled.
+[[nodiscard]] RayLabelsAnswer label_rays(const RayLabelsTask& task, const Progress& progress,
+                                         ViewStack<std::int32_t>& labels);
+
+}  // namespace episcope::cuda

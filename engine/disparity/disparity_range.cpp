@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/disparity_range.h"
+
+#include "engine/core/parallel.h"
+#include "engine/core/volume.h"
+#include "engine/disparity/matching_cost.h"
+#include "engine/disparity/structure_tensor.h"
+#include "engine/disparity/view_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+// Coherence above which an orientation counts: the first that enough pixels reach. Noise lowers
+// coherence long before it spoils orientations: at 10/255, those above 0.6 still end within 0.3 px
+// of the true range. A higher start would exclude regions that are seen less well than others.
+constexpr std::array<float, 3> kCoherent{0.8F, 0.7F, 0.6F};
+// Share of the pixels that are enough.
+constexpr double kEnoughOrientations = 0.2;
+// Cells side by side that make an end of the range.
+constexpr int kRun = 4;
+// Horizontal EPIs looked at; blocks of vertical ones, and how many of them stand side by side.
+constexpr int kLines = 96;
+constexpr int kBlocks = 12;
+constexpr int kRangeColumns = 16;
+
+using Cells = std::vector<double>;
+
+// Of the pixels looked at, those that reach each coherence but not the one before it.
+struct Findings {
+  std::array<Cells, kCoherent.size()> histograms;
+  double pixels = 0;
+
+  explicit Findings(double limit) {
+    histograms.fill(
+        Cells(static_cast<std::size_t>(2 * limit / OrientationHistogram::kCell) + 1, 0.0));
+  }
+  void add(const Findings& other) {
+    pixels += other.pixels;
+    for (std::size_t level = 0; level < histograms.size(); ++level) {
+      add_cells(other.histograms[level], histograms[level]);
+    }
+  }
+  static void add_cells(const Cells& from, Cells& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
+  }
+};
+
+void add_run(const float* disparity, const float* coherence, int count, double limit,
+             Findings& findings) {
+  findings.pixels += count;
+  for (int i = 0; i < count; ++i) {
+    const auto level = std::find_if(kCoherent.begin(), kCoherent.end(),
+                                    [&](float least) { return coherence[i] >= least; });
+    if (level == kCoherent.end()) continue;
+    Cells& cells = findings.histograms[level - kCoherent.begin()];
+    const int cell = static_cast<int>((disparity[i] + limit) / OrientationHistogram::kCell);
+    cells[std::clamp<int>(cell, 0, static_cast<int>(cells.size()) - 1)] += 1;
+  }
+}
+
+double total(const Cells& cells) {
+  return std::accumulate(cells.begin(), cells.end(), 0.0);
+}
+
+// The disparities of the most coherent pixels, as many as are enough.
+Cells most_coherent(const Findings& findings) {
+  Cells sum = findings.histograms.front();
+  for (std::size_t level = 1; level < findings.histograms.size(); ++level) {
+    if (total(sum) >= kEnoughOrientations * findings.pixels) break;
+    Findings::add_cells(findings.histograms[level], sum);
+  }
+  return sum;
+}
+
+// Tensors of one EPI alone: neighbours would cost as much again.
+TensorScales coarse_scales() {
+  TensorScales scales;
+  scales.across = 0;
+  return scales;
+}
+
+std::vector<Findings> collect(const LightField& lf, StructureTensor::Direction direction,
+                              double limit, const Progress& progress) {
+  const bool horizontal = direction == StructureTensor::Direction::Horizontal;
+  const ViewIndex center = lf.center();
+  const TensorSearch search = cover_range({-limit, limit}, 2);
+  const TensorExtent largest = StructureTensor::largest_task(lf, direction, coarse_scales());
+  const int extent = horizontal ? lf.height() : lf.width();
+  const int thickness = horizontal ? 1 : std::min({kRangeColumns, largest.width, lf.width()});
+  const int count = std::min((extent + thickness - 1) / thickness, horizontal ? kLines : kBlocks);
+  // The first and the last lie at the borders: what lies there may be nearest or farthest of all.
+  const auto place = [&](int i) { return count > 1 ? i * (extent - thickness) / (count - 1) : 0; };
+  std::vector<Findings> findings(count, Findings(limit));
+  parallel_for_workers(count, progress, [&] {
+    return [&, tensor = StructureTensor(lf, direction, coarse_scales(), search)](int i) mutable {
+      const auto add = [&](int, PixelIndex, int run, const float* disparity,
+                           const float* coherence) {
+        add_run(disparity, coherence, run, limit, findings[i]);
+      };
+      TensorTask task;
+      task.camera_line = horizontal ? center.v : center.u;
+      task.first_view = horizontal ? center.u : center.v;
+      task.last_view = task.first_view + 1;
+      if (horizontal) {
+        task.begin = {place(i), 0};
+        task.height = 1;
+        task.width = lf.width();
+        tensor.estimate(task, add);
+        return;
+      }
+      task.width = thickness;
+      for (int y = 0; y < lf.height(); y += largest.height) {
+        task.begin = {y, place(i)};
+        task.height = std::min(largest.height, lf.height() - y);
+        tensor.estimate(task, add);
+      }
+    };
+  });
+  return findings;
+}
+
+// How many cells lie before the first run of kRun that holds enough; all if none does.
+template <class Iterator>
+int cells_to_skip(Iterator begin, Iterator end, double enough) {
+  double sum = 0;
+  for (Iterator cell = begin; cell != end; ++cell) {
+    sum += *cell;
+    if (cell - begin >= kRun) sum -= *(cell - kRun);
+    if (sum >= enough) return std::max(0, static_cast<int>(cell - begin) + 1 - kRun);
+  }
+  return static_cast<int>(end - begin);
+}
+
+}  // namespace
+
+OrientationHistogram::OrientationHistogram(const LightField& lf, double limit,
+                                           const Progress& progress)
+    : limit_(limit) {
+  Findings findings(limit);
+  const auto add = [&findings](const std::vector<Findings>& parts) {
+    for (const Findings& part : parts) findings.add(part);
+  };
+  if (lf.grid().u > 1) {
+    add(collect(lf, StructureTensor::Direction::Horizontal, limit, progress.part(0, 0.5)));
+  }
+  if (lf.grid().v > 1) {
+    add(collect(lf, StructureTensor::Direction::Vertical, limit, progress.part(0.5, 1)));
+  }
+  cells_ = most_coherent(findings);
+  total_ = episcope::total(cells_);
+}
+
+std::optional<Interval> OrientationHistogram::ends(double tail) const {
+  const double enough = tail * total_;
+  const int before = cells_to_skip(cells_.begin(), cells_.end(), enough);
+  if (before == size()) return {};
+  const int behind = cells_to_skip(cells_.rbegin(), cells_.rend(), enough);
+  return Interval{before * kCell - limit_, std::min(limit_, limit_ + kCell - behind * kCell)};
+}
+
+namespace {
+
+// Means of blocks of one view.
+void reduce(const LightField& lf, ViewIndex view, int factor, ImageView<std::uint16_t> out) {
+  const int channels = lf.channels(), width = out.width * factor;
+  const float scale = 65535.0F / static_cast<float>(factor * factor);
+  std::vector<float> row(static_cast<std::size_t>(width) * channels);
+  std::vector<float> sums(static_cast<std::size_t>(out.width) * channels);
+  for (int y = 0; y < out.height; ++y) {
+    std::ranges::fill(sums, 0.0F);
+    for (int dy = 0; dy < factor; ++dy) {
+      lf.read_row(view, y * factor + dy, 0, width, row.data());
+      for (int x = 0; x < width; ++x) {
+        float* const sum = sums.data() + static_cast<std::size_t>(x / factor) * channels;
+        for (int c = 0; c < channels; ++c)
+          sum[c] += row[static_cast<std::size_t>(x) * channels + c];
+      }
+    }
+    std::uint16_t* const to = out.row(y);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const float clamped = std::clamp(sums[i] * scale, 0.0F, 65535.0F);
+      to[i] = static_cast<std::uint16_t>(clamped + 0.5F);
+    }
+  }
+}
+
+void reduce_valid(const LightField& lf, ViewIndex view, int factor, ImageView<std::uint8_t> out) {
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      bool is_valid = true;
+      for (int i = 0; i < factor * factor; ++i) {
+        is_valid = is_valid && lf.is_valid(view, y * factor + i / factor, x * factor + i % factor);
+      }
+      out.at(y, x) = is_valid ? 1 : 0;
+    }
+  }
+}
+
+}  // namespace
+
+LightField smaller_views(const LightField& lf, int factor, const Progress& progress,
+                         ReducedViews reduced) {
+  const GridShape grid = lf.grid();
+  const int height = lf.height() / factor, width = lf.width() / factor;
+  ViewStack<std::uint16_t> samples(grid, height, width, lf.channels(), {}, allocate_large_zeros);
+  ViewStack<std::uint8_t> valid;
+  if (!lf.valid().empty()) valid = ViewStack<std::uint8_t>(grid, height, width);
+  parallel_for(grid.count(), progress, [&](int i) {
+    const ViewIndex view = samples.view_at(i), center = lf.center();
+    if (reduced == ReducedViews::All || view.v == center.v || view.u == center.u) {
+      reduce(lf, view, factor, samples.view(view));
+    }
+    if (!valid.empty()) reduce_valid(lf, view, factor, valid.view(view));
+    lf.forget_samples();
+  });
+  return {std::move(samples), LightFieldInfo(), std::move(valid)};
+}
+
+namespace {
+
+constexpr int kRows = 64;
+// Pixels matched together: 3×3.
+constexpr int kSupportRadius = 1;
+// Beyond it a view does not show the point.
+constexpr double kSupportCap = 0.3;
+// Labels nearer to the best one than that do not compete with it, px per view step.
+constexpr float kApart = 0.75F;
+// The best label costs at most this fraction of the next, and less by this, in samples of [0, 1].
+constexpr float kRatio = 0.8F;
+constexpr float kContrast = 0.004F;
+
+// Costs of one row, `[label][x]`, averaged over the rows and columns around it.
+class WindowCosts {
+ public:
+  WindowCosts(const LightField& lf, const std::vector<float>& labels)
+      : matching_(lf, lf.center(), {MatchedViews::CrossHair, Interpolation::Bilinear, kSupportCap},
+                  labels),
+        rows_(2 * kSupportRadius + 1, static_cast<int>(labels.size()), lf.width()),
+        sums_(lf.width()),
+        means_(static_cast<int>(labels.size()), lf.width()),
+        height_(lf.height()) {}
+
+  const Image<float>& compute(int y, const Progress& progress) {
+    const int count = std::min(2 * kSupportRadius + 1, height_);
+    const int first = std::clamp(y - kSupportRadius, 0, height_ - count);
+    VolumeView<float> costs = rows_.view();
+    costs.height = count;
+    matching_.compute(first, costs, progress);
+    for (int l = 0; l < means_.height(); ++l) {
+      std::ranges::fill(sums_, 0.0F);
+      for (int row = 0; row < count; ++row) {
+        const float* const cost = &costs.at(row, l, 0);
+        for (std::size_t x = 0; x < sums_.size(); ++x) {
+          sums_[x] += cost[x] / static_cast<float>(count);
+        }
+      }
+      box_mean_row(sums_.data(), means_.width(), kSupportRadius, means_.row(l));
+    }
+    return means_;
+  }
+
+ private:
+  MatchingCostRows matching_;
+  Volume<float> rows_;
+  std::vector<float> sums_;
+  Image<float> means_;
+  int height_;
+};
+
+// Adds the pixels of a row to the labels that they distinctly match.
+void count_distinct(const Image<float>& costs, const std::vector<float>& labels,
+                    const LightField& lf, int y, double* counts) {
+  const int width = costs.width();
+  std::vector<int> best(width);
+  std::vector<float> least(costs.row(0), costs.row(0) + width);
+  std::vector<float> next(width, std::numeric_limits<float>::infinity());
+  for (int l = 1; l < costs.height(); ++l) {
+    const float* const cost = costs.row(l);
+    for (int x = 0; x < width; ++x) {
+      if (cost[x] < least[x]) best[x] = l;
+      least[x] = std::min(least[x], cost[x]);
+    }
+  }
+  for (int l = 0; l < costs.height(); ++l) {
+    const float* const cost = costs.row(l);
+    for (int x = 0; x < width; ++x) {
+      const bool competes = std::fabs(labels[l] - labels[best[x]]) >= kApart;
+      next[x] = std::min(next[x], competes ? cost[x] : next[x]);
+    }
+  }
+  for (int x = 0; x < width; ++x) {
+    const bool is_distinct = least[x] <= kRatio * next[x] && next[x] - least[x] >= kContrast;
+    if (is_distinct && lf.is_valid(lf.center(), y, x)) counts[best[x]] += 1;
+  }
+}
+
+}  // namespace
+
+std::vector<double> label_support(const LightField& lf, const std::vector<float>& labels,
+                                  const Progress& progress) {
+  const int count = static_cast<int>(labels.size());
+  const int rows = std::min(kRows, lf.height());
+  std::vector<double> counts(static_cast<std::size_t>(rows) * count);
+  parallel_for_workers(rows, progress, [&] {
+    return [&, costs = WindowCosts(lf, labels)](int i) mutable {
+      const int y = rows > 1 ? i * (lf.height() - 1) / (rows - 1) : 0;
+      count_distinct(costs.compute(y, progress), labels, lf, y,
+                     counts.data() + static_cast<std::size_t>(i) * count);
+    };
+  });
+  std::vector<double> shares(count);
+  for (std::size_t i = 0; i < counts.size(); ++i) shares[i % count] += counts[i];
+  const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= std::max(total, 1.0);
+  return shares;
+}
+
+namespace {
+
+// The range begins and ends where this share of the coherent pixels lies close together.
+constexpr double kOrientationTail = 0.002;
+// The same of smaller views, whose noise is smaller and whose ends are less exact.
+constexpr double kSmallTail = 0.006;
+// Labels at which pixels are matched, and how far they go beyond the orientations seen.
+constexpr double kLabelStep = 0.25;
+constexpr double kBeyond = 1.5;
+// Orientations count where this share of the distinctly matching pixels does so within `kNear`.
+constexpr double kSupport = 0.002;
+constexpr double kNear = 0.65;
+// What is taken off the ends that smaller views give, pixels of theirs.
+constexpr double kInexact = 0.15;
+// No range found reaches farther, px per view step.
+constexpr double kMaxDisparity = 16;
+
+// Leaves out orientations that hardly any pixel confirms by matching: aliases of repeated patterns
+// and of noise.
+void clear_unsupported(const LightField& lf, Interval seen, OrientationHistogram& histogram,
+                       const Progress& progress) {
+  const Interval range{seen.min - kBeyond, seen.max + kBeyond};
+  const int count = static_cast<int>(std::ceil(range.length() / kLabelStep)) + 1;
+  const std::vector<float> labels = equidistant_labels(range, count);
+  const std::vector<double> support = label_support(lf, labels, progress);
+  // All is one repeated pattern: nothing tells which of its orientations are true.
+  if (std::ranges::all_of(support, [](double share) { return share == 0; })) return;
+  for (int cell = 0; cell < histogram.size(); ++cell) {
+    double sum = 0;
+    for (int l = 0; l < count; ++l) {
+      if (std::fabs(labels[l] - histogram.middle(cell)) <= kNear) sum += support[l];
+    }
+    if (sum < kSupport) histogram.clear(cell);
+  }
+}
+
+// None if hardly anything is seen or nothing of it is confirmed.
+std::optional<Interval> confirmed_range(const LightField& lf, double limit, double tail,
+                                        const Progress& progress) {
+  OrientationHistogram histogram(lf, limit, progress.part(0, 0.8));
+  constexpr double least = 100;
+  if (histogram.total() < least) return {};
+  const std::optional<Interval> seen = histogram.ends(tail);
+  if (!seen) return {};
+  clear_unsupported(lf, *seen, histogram, progress.part(0.8, 1));
+  return histogram.ends(tail);
+}
+
+// Smaller views show what noise and blur hide, but their ends are less exact.
+std::optional<Interval> range_of_smaller_views(const LightField& lf, int factor, double limit,
+                                               const Progress& progress) {
+  constexpr int least = 48;
+  if (std::min(lf.height(), lf.width()) < least * factor) return {};
+  const LightField smaller = smaller_views(lf, factor, progress.part(0, 0.2));
+  const std::optional<Interval> found =
+      confirmed_range(smaller, limit / factor, kSmallTail, progress.part(0.2, 1));
+  if (!found) return {};
+  const double inset = kInexact * factor;
+  return Interval{factor * found->min + inset, factor * found->max - inset};
+}
+
+// The range found last, for runs that follow on the same light field: nothing else decides it.
+class KeptRange {
+ public:
+  template <class Find>
+  Interval of(const LightField& lf, const Find& find) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (identity_ == lf.identity()) return range_;
+    }
+    const Interval found = find();
+    const std::lock_guard lock(mutex_);
+    identity_ = lf.identity();
+    return range_ = found;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::uint64_t identity_ = 0;
+  Interval range_;
+};
+
+// An end that is hardly farther out is the same end, less exact.
+Interval widened(Interval range, Interval coarse) {
+  constexpr double worth = 0.25;
+  if (coarse.min < range.min - worth) range.min = coarse.min;
+  if (coarse.max > range.max + worth) range.max = coarse.max;
+  return range;
+}
+
+}  // namespace
+
+// The largest disparity whose neighbouring views still share most of the image.
+double farthest_found(const LightField& lf) {
+  const int along = std::min(lf.grid().u > 1 ? lf.width() : lf.height(),
+                             lf.grid().v > 1 ? lf.height() : lf.width());
+  return std::clamp(along / 6.0, 2.0, kMaxDisparity);
+}
+
+std::string limited_range_note(const LightField& lf, Interval range) {
+  constexpr double near = 0.25;  // the width in which pixels are counted, and a little
+  const double limit = farthest_found(lf);
+  if (range.min > near - limit && range.max < limit - near) return {};
+  return fmt::format(
+      "the disparity range found, {:.2f} … {:.2f} px, ends where the search does, at ±{:.2f} px: "
+      "the scene may reach farther; give a range to search it",
+      range.min, range.max, limit);
+}
+
+Interval find_disparity_range(const LightField& lf, const Progress& progress) {
+  const double limit = farthest_found(lf);
+  std::optional<Interval> found =
+      confirmed_range(lf, limit, kOrientationTail, progress.part(0, 0.6));
+  for (const int factor : {2, 4}) {
+    const Progress part = factor == 2 ? progress.part(0.6, 0.85) : progress.part(0.85, 1);
+    const std::optional<Interval> coarse = range_of_smaller_views(lf, factor, limit, part);
+    if (!coarse) continue;
+    found = found ? widened(*found, *coarse) : *coarse;
+  }
+  return found.value_or(Interval{-1, 1});
+}
+
+RangeSource range_source(const LightField& lf, const IntervalOrAuto& wanted) {
+  if (wanted) return RangeSource::Given;
+  const bool is_promised = !wanted.is_found && lf.info().disparity_range;
+  return is_promised ? RangeSource::Promised : RangeSource::Found;
+}
+
+std::string found_range_note(Interval range) {
+  return fmt::format("disparity range {:.2f} … {:.2f} px, found from the images", range.min,
+                     range.max);
+}
+
+Interval search_range(const LightField& lf, const IntervalOrAuto& wanted,
+                      const Progress& progress) {
+  const RangeSource source = range_source(lf, wanted);
+  if (source == RangeSource::Given) return *wanted;
+  if (source == RangeSource::Promised) return *lf.info().disparity_range;
+  static KeptRange kept;
+  return kept.of(lf, [&] {
+    progress.step("disparity range");
+    return find_disparity_range(lf, progress);
+  });
+}
+
+}  // namespace episcope

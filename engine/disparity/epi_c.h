@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/disparity/denoise.h"
+#include "engine/disparity/epi_l.h"
+#include "engine/disparity/line_check.h"
+
+#include <string>
+
+namespace episcope {
+
+/// Parameters of EPI_C: of the ordering along lines, and those of EPI_S.
+struct EpiCParameters {
+  double fall = 0.1;
+  double rise = 0;
+  double softness = 0.05;
+  int sweeps = 2;
+  bool replace_occluded = true;
+  LineCheck line_check = {};
+  /// All views together need less smoothing than each by itself.
+  DenoiseParameters denoising{.lambda = 0.05, .weight_power = 4, .edge_strength = 15};
+  EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
+};
+
+[[nodiscard]] Schema<EpiCParameters> epi_c_schema();
+
+/// EPI_C: the estimate of EPI_L, denoised for all views at once under an occlusion ordering.
+///
+/// In an opaque scene the line of a visible point meets, in any other view, the same point or
+/// something nearer: with D u = u(x − d, u + 1) − u(x, u), and likewise for the four neighbours of
+/// a view in the camera grid, D u ≥ 0. The energy over all views is
+///   Σ λ g |∇u| + ½ w (u − f)² + Σ ψ(D u),   ψ(a) = μ₊ max(a, 0) + μ₋ max(−a, 0),
+/// smoothed within ε (OrderingPenalty): a violation of the ordering costs μ₋ per pixel, a permitted
+/// jump nothing. f, g and w are those of EPI_S (check_lines) but for λ and the least w. Before
+/// the first sweep, rays that other views see through are replaced (replace_occluded) unless the
+/// samples contradict that.
+///
+/// Solved by block descent: views are coloured like a chequerboard, so that all neighbours of a
+/// view have the other colour. In turn, one colour is fixed and each view of the other minimises
+/// its part with ψ replaced by its quadratic majoriser, which is TvL2Solver's problem with other f
+/// and w. For fixed lines that lowers the energy, since ψ is smooth and TV is separable over views.
+/// Lines are traced anew through the current u at each step; of lines that move with u the energy
+/// (epi_c_energy) is not bound to fall, but it does with every sweep on the scenes of the tests.
+///
+/// Defaults: λ = 0.05, p = 4, β = 15, μ₊ = 0, two sweeps (tests/accuracy/tuning.md).
+///
+/// The profile `paper` neither weighs data or variation nor checks lines nor replaces rays, and
+/// begins with EPI_L as published. Published is that EPI_L is denoised on EPIs by a total variation
+/// along the lines, with a constraint that an edge moves with the nearer of its sides, all of it
+/// convex; not the form of the constraint. Chosen: the energy above with μ₊ = 0.01, four sweeps,
+/// λ = 0.1.
+///
+/// The centre view alone needs all other views as well: they are computed and dropped. The form of
+/// the constraint in the original paper was not recovered.
+/// Reference: Goldluecke and Wanner 2013 [GW13]; Wanner, Meister, Goldluecke 2013 [WMG13].
+[[nodiscard]] Estimate estimate_epi_c(const LightField& light_field,
+                                      const EpiCParameters& parameters, ViewSelection views,
+                                      const Progress& progress, Device device = Device::Cpu);
+
+/// Only the part after EPI_L: improves `estimate.field`, a first guess, to follow `observed` with
+/// weights from `estimate.confidence`; both cover all views. Returns the largest relative duality
+/// gap of the last sweep, 0 without sweeps. At `progress.finish_requested()` the views not yet
+/// reached stay as they are. Throws Cancelled.
+double denoise_with_ordering(const LightField& light_field, const EpiCParameters& parameters,
+                             const ViewStack<float>& observed, Estimate& estimate,
+                             const Progress& progress, Device device = Device::Cpu);
+
+/// The energy above of `estimate.field`, for `observed` f and the weights from
+/// `estimate.confidence`; all cover all views. Lines are those of `estimate.field` itself.
+/// Throws Cancelled.
+[[nodiscard]] double epi_c_energy(const LightField& light_field, const EpiCParameters& parameters,
+                                  const ViewStack<float>& observed, Estimate& estimate,
+                                  const Progress& progress);
+
+/// Share in [0, 1] of the lines to neighbouring views, within the image, that violate the ordering:
+/// D u < −0.05 px at u itself. `disparity` covers all views. Throws Cancelled.
+[[nodiscard]] double ordering_violations(const ViewStack<float>& disparity,
+                                         const Progress& progress, Device device = Device::Cpu);
+
+/// What a result notes of both shares.
+[[nodiscard]] std::string ordering_note(double before, double after);
+
+[[nodiscard]] Estimator epi_c_estimator();
+
+}  // namespace episcope

@@ -1,0 +1,588 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/epi_two_layer.h"
+
+#include "engine/core/parallel.h"
+#include "engine/cuda/host_pages.h"
+#include "engine/cuda/layer_solver.h"
+#include "engine/cuda/line_check.h"
+#include "engine/disparity/denoise.h"
+#include "engine/disparity/disparity_range.h"
+#include "engine/disparity/double_orientation.h"
+#include "engine/disparity/estimator.h"
+#include "engine/disparity/kernels/line_kernel.h"
+#include "engine/disparity/layer_decision.h"
+#include "engine/disparity/view_samples.h"
+#include "engine/solvers/tv_l2.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+// What EPI_TWO_LAYER on the CPU and on the device have in common.
+
+// Variation of the surface across the border of its region, and of either layer at least.
+constexpr float kLayerBorderWeight = 0.02F;
+// Of data, as in EPI_S.
+constexpr float kLeastLayerWeight = 0.003F;
+// The region must be right to a pixel, not to a thousandth.
+constexpr int kRegionIterations = 10;
+constexpr double kRegionGap = 1e-3;
+
+// What EPI_TWO_LAYER looks for in a light field.
+struct LayerSearch {
+  EpiLParameters single;  // Of orientations, whose range is settled.
+  EpiLParameters fit;     // Of their coherence beside that of double ones.
+  TensorScales double_scales;
+  DoubleSearch doubles;
+};
+
+// Of two orientations, which are harder to tell from noise than one.
+constexpr double kCrossScaleOfLayers = 1;
+// Cut off at the range itself, noise about its ends would no longer average out.
+constexpr double kLayerOvershoot = 0.3;
+
+// Throws as `search_layer_range`.
+LayerSearch begin_layer_search(const LightField& lf, const EpiTwoLayerParameters& parameters,
+                               const Progress& progress, Device device) {
+  LayerSearch search;
+  search.single = parameters.tensor;
+  search.double_scales = {parameters.double_inner_scale, parameters.double_outer_scale,
+                          search.single.view_scale,      kCrossScaleOfLayers,
+                          parameters.double_contrast,    search.single.noise};
+  const Interval range =
+      search_layer_range(lf, search.single, search.double_scales, progress, device);
+  search.single.range = range;
+  search.fit = search.single;
+  search.fit.cross_scale = kCrossScaleOfLayers;
+  search.doubles = {{range.min - kLayerOvershoot, range.max + kLayerOvershoot},
+                    parameters.least_distance};
+  return search;
+}
+
+// Whole maps of some views, raw, which the results replace: the single orientation and its
+// coherence after lines were checked, the foreground and background of double orientations, and
+// their confidence in 1/255 in place of the number of layers.
+struct LayeredMaps {
+  const ViewStack<float>& fit;  // Coherence of single orientations before lines were checked.
+  ViewStack<float>& single;
+  ViewStack<float>& coherence;
+  LayeredDisparity& layered;
+};
+
+// What one thread needs to solve a view.
+struct Workspace {
+  TvL2Solver solver;
+  Image<float> data, weight, edge, coherence;
+
+  Workspace(int height, int width)
+      : solver(height, width),
+        data(height, width),
+        weight(height, width),
+        edge(height, width),
+        coherence(height, width) {}
+};
+
+// One view: raw maps, replaced by the results.
+struct LayeredView {
+  ImageView<const float> fit;  // coherence before lines were checked
+  ImageView<float> single, coherence;
+  ImageView<float> near, far;
+  ImageView<std::uint8_t> layers;  // raw: confidence in 1/255
+};
+
+class ViewSmoother {
+ public:
+  ViewSmoother(const LightField& lf, const PackedViews& packed,
+               const EpiTwoLayerParameters& parameters, const Progress& progress)
+      : lf_(lf),
+        parameters_(parameters),
+        progress_(progress),
+        score_(packed, lf.grid(), parameters.decision),
+        space_(lf.height(), lf.width()) {}
+
+  // Returns the largest relative gap of its solutions.
+  double solve(ViewIndex index, const LayeredView& view);
+
+ private:
+  void find_region(ViewIndex index, const LayeredView& view);
+  void find_weights(const LayeredView& view);
+  double solve_background(const Image<float>& edges, const LayeredView& view);
+  double solve_foreground(const Image<float>& edges, const LayeredView& view);
+  double solve_layer(double lambda, ImageView<float> result);
+  void finish(const LayeredView& view);
+  [[nodiscard]] float confidence(const LayeredView& view, std::size_t i) const {
+    return static_cast<float>(view.layers.data[i]) / 255;
+  }
+
+  const LightField& lf_;
+  const EpiTwoLayerParameters& parameters_;
+  const Progress& progress_;
+  LayerScore score_;
+  Workspace space_;
+  Image<std::uint8_t> region_;
+};
+
+void ViewSmoother::find_region(ViewIndex index, const LayeredView& view) {
+  score_.judge(index, {view.fit, view.single, view.near, view.far, view.layers}, space_.data.view(),
+               space_.weight.view());
+  segment_binary(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
+                 {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());
+}
+
+// Of either layer's data.
+void ViewSmoother::find_weights(const LayeredView& view) {
+  Image<float>& trust = space_.coherence;
+  for (std::size_t i = 0; i < region_.size(); ++i) {
+    trust.data()[i] = region_.data()[i] != 0 ? confidence(view, i) : view.coherence.data[i];
+  }
+  fill_data_weights(trust, {parameters_.weight_power, kLeastLayerWeight}, space_.weight);
+}
+
+double ViewSmoother::solve_layer(double lambda, ImageView<float> result) {
+  return space_.solver
+      .solve({space_.data, space_.weight, space_.edge, lambda},
+             {parameters_.stop.max_iterations, parameters_.stop.gap}, progress_, result)
+      .relative_gap();
+}
+
+double ViewSmoother::solve_background(const Image<float>& edges, const LayeredView& view) {
+  for (std::size_t i = 0; i < region_.size(); ++i) {
+    const bool is_double = region_.data()[i] != 0;
+    space_.data.data()[i] = is_double ? view.far.data[i] : view.single.data[i];
+    // Image edges of the region are those of both layers: they tell of neither.
+    space_.edge.data()[i] = is_double ? 1 : edges.data()[i];
+  }
+  return solve_layer(parameters_.lambda, view.far);
+}
+
+double ViewSmoother::solve_foreground(const Image<float>& edges, const LayeredView& view) {
+  const auto factor = static_cast<float>(std::max(parameters_.layer_smoothness, 1.0));
+  for (int y = 0; y < region_.height(); ++y) {
+    const std::uint8_t* here = region_.row(y);
+    const std::uint8_t* below = region_.row(std::min(y + 1, region_.height() - 1));
+    for (int x = 0; x < region_.width(); ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * region_.width() + x;
+      const bool is_double = here[x] != 0;
+      const int right = std::min(x + 1, region_.width() - 1);
+      const bool is_border = here[right] != here[x] || below[x] != here[x];
+      space_.data.data()[i] = is_double ? view.near.data[i] : view.single.data[i];
+      space_.edge.data()[i] = is_border   ? kLayerBorderWeight
+                              : is_double ? 1
+                                          : edges.data()[i] / factor;
+    }
+  }
+  return solve_layer(parameters_.lambda * factor, view.near);
+}
+
+// Orders the layers, and writes confidence and number of layers.
+void ViewSmoother::finish(const LayeredView& view) {
+  for (std::size_t i = 0; i < region_.size(); ++i) {
+    float& near = view.near.data[i];
+    float& far = view.far.data[i];
+    if (region_.data()[i] == 0) {
+      near = far;
+      view.layers.data[i] = 1;
+      continue;
+    }
+    if (near < far) near = far = 0.5F * (near + far);
+    view.coherence.data[i] = confidence(view, i);
+    view.layers.data[i] = 2;
+  }
+}
+
+double ViewSmoother::solve(ViewIndex index, const LayeredView& view) {
+  if (region_.empty()) region_ = Image<std::uint8_t>(lf_.height(), lf_.width());
+  find_region(index, view);
+  find_weights(view);
+  const Image<float> edges = smoothness_weights(lf_, index, parameters_.edge_strength);
+  double gap = 0;
+  // The background last: outside the region it is what both layers hold.
+  if (std::any_of(region_.begin(), region_.end(), [](std::uint8_t m) { return m != 0; })) {
+    gap = solve_foreground(edges, view);
+  }
+  gap = std::max(gap, solve_background(edges, view));
+  finish(view);
+  return gap;
+}
+
+// Steps 2 to 4 of EPI_TWO_LAYER but for the check of lines: decides where there are two layers,
+// and smooths both. `packed_views` are packed around the views as far as kMaxArmViews. Returns the
+// largest relative duality gap. Throws Cancelled.
+double smooth_layers(const LightField& lf, const PackedViews& packed,
+                     const EpiTwoLayerParameters& parameters, const LayeredMaps& maps,
+                     const Progress& progress) {
+  LayeredDisparity& layered = maps.layered;
+  const GridShape grid = layered.layers.grid();
+  const ViewIndex first = layered.layers.first();
+  std::vector<double> gaps(grid.count());
+  parallel_for_workers(grid.count(), progress, [&] {
+    return [&, smoother = ViewSmoother(lf, packed, parameters, progress)](int i) mutable {
+      const ViewIndex view = grid.view_at(i, first);
+      gaps[i] = smoother.solve(
+          view, {maps.fit.view(view), maps.single.view(view), maps.coherence.view(view),
+                 layered.foreground.disparity.view(view), layered.background.disparity.view(view),
+                 layered.layers.view(view)});
+    };
+  });
+  return *std::ranges::max_element(gaps);
+}
+
+// Clamps overshoot that the tensors left in, and makes the foreground the single map, for methods
+// with one layer. Throws Cancelled.
+void clamp_layers(const LayeredMaps& maps, Interval range, const Progress& progress) {
+  const auto low = static_cast<float>(range.min);
+  const auto high = static_cast<float>(range.max);
+  ViewStack<float>& field = maps.single;
+  ViewStack<float>& near = maps.layered.foreground.disparity;
+  ViewStack<float>& far = maps.layered.background.disparity;
+  parallel_for(field.grid().count(), progress, [&](int view) {
+    const std::size_t begin = view * field.view_size();
+    for (std::size_t i = begin; i < begin + field.view_size(); ++i) {
+      far.data()[i] = std::clamp(far.data()[i], low, high);
+      near.data()[i] = std::clamp(near.data()[i], low, high);
+      field.data()[i] = near.data()[i];
+    }
+  });
+}
+
+// Facts: the noise of the check of lines, then how many rays have two layers.
+constexpr std::size_t kDoubles = 2;
+
+// Of all samples that are looked at, if they are on disk, per row or per view.
+double sample_bytes(const LightField& lf, int parts) {
+  return lf.is_on_disk() ? static_cast<double>(lf.byte_size()) / parts : 0;
+}
+
+// Both orientations of a band of rows.
+class LayerBands {
+ public:
+  LayerBands(const LightField& lf, const LayerSearch& search, const BlockwiseRun& single,
+             const BlockwiseRun& fit, int threads)
+      : lf_(lf),
+        search_(search),
+        single_(single.passes.front()),
+        fit_(fit.passes.front()),
+        maps_(single.maps),
+        needs_(double_layers_need(lf, search.double_scales, search.doubles)),
+        threads_(threads) {}
+
+  [[nodiscard]] FinishedBlock compute(const MapBlock& block, const ReadBlock& read,
+                                      const Progress& progress) const {
+    FinishedBlock made = single_.compute(block, read, {}, progress.part(0, 0.25));
+    made.maps.kept.push_back(
+        std::move(fit_.compute(block, read, {}, progress.part(0.25, 0.5)).maps.confidence));
+    DoubleLayers doubles = measure_double_layers(lf_, search_.double_scales, search_.doubles, block,
+                                                 progress.part(0.5, 1));
+    clear_invalid(lf_, doubles.confidence, block.first_row);
+    made.maps.layered = {
+        {std::move(doubles.near), {}}, {std::move(doubles.far), {}}, std::move(doubles.confidence)};
+    return made;
+  }
+
+  // One after the other, beside the maps of those before.
+  [[nodiscard]] double bytes(int rows) const {
+    constexpr double kSingle = 9, kKept = 4, kLayers = 12;
+    const double row = static_cast<double>(maps_.grid.count()) * maps_.width;
+    const double doubles =
+        threads_ * static_cast<double>(needs_.bytes) + row * rows * (kSingle + kKept + kLayers) +
+        sample_bytes(lf_, lf_.height()) * std::min(rows + 2 * needs_.reach, lf_.height());
+    return std::max({single_.bytes(rows), fit_.bytes(rows) + row * rows * kSingle, doubles});
+  }
+
+ private:
+  const LightField& lf_;
+  LayerSearch search_;
+  BlockPass single_, fit_;
+  MapGeometry maps_;
+  DoubleNeeds needs_;
+  int threads_;
+};
+
+// Some views of a row of the grid.
+class LayeredViews {
+ public:
+  LayeredViews(const LightField& lf, const EpiTwoLayerParameters& parameters, Interval range)
+      : lf_(lf), parameters_(parameters), range_(range) {}
+
+  [[nodiscard]] std::vector<double> prepare(const ReadBlock& read, const Progress& progress) const {
+    const MapBlock center{{lf_.center(), {1, 1}}, 0, lf_.height()};
+    std::vector<double> facts =
+        line_check_noise(lf_, parameters_.line_check, read(center), progress);
+    facts.push_back(0);
+    return facts;
+  }
+
+  [[nodiscard]] FinishedBlock compute(const MapBlock& block, const ReadBlock& read,
+                                      const std::vector<double>& facts,
+                                      const Progress& progress) const {
+    FinishedBlock made{read(block)};
+    BlockMaps& maps = made.maps;
+    const ViewStack<float> fit = read.kept(block, 0);
+    const LayeredMaps layered{fit, maps.field.disparity, maps.confidence, maps.layered};
+    const PackedViews packed = pack_around(lf_, block.views, kMaxArmViews, progress.part(0, 0.05));
+    check_lines(packed, parameters_.line_check, facts, maps, progress.part(0.05, 0.2));
+    made.finding = smooth_layers(lf_, packed, parameters_, layered, progress.part(0.2, 0.98));
+    made.facts = facts;
+    made.facts[kDoubles] += static_cast<double>(count_doubles(maps.layered.layers));
+    clamp_layers(layered, range_, progress.part(0.98, 1));
+    return made;
+  }
+
+  [[nodiscard]] double bytes(int count, int threads) const {
+    constexpr double kPacked = 4, kMaps = 24, kSmoothed = 140, kChecked = 24;
+    const double pixels = static_cast<double>(lf_.height()) * lf_.width();
+    const int views = packed_around(count, kMaxArmViews);
+    return views * (kPacked * pixels + sample_bytes(lf_, lf_.grid().count())) +
+           pixels * (kMaps * count + kChecked + kSmoothed * std::min(count, threads));
+  }
+
+ private:
+  const LightField& lf_;
+  EpiTwoLayerParameters parameters_;
+  Interval range_;
+};
+
+BlockPass bands_of(const std::shared_ptr<const LayerBands>& bands) {
+  BlockPass pass;
+  pass.step = "one and two orientations";
+  pass.bytes = [bands](int rows) { return bands->bytes(rows); };
+  pass.compute = [bands](const MapBlock& block, const ReadBlock& read, const std::vector<double>&,
+                         const Progress& part) { return bands->compute(block, read, part); };
+  return pass;
+}
+
+BlockPass views_of(const std::shared_ptr<const LayeredViews>& views, int threads) {
+  BlockPass pass;
+  pass.step = "layers";
+  pass.unit = BlockUnit::Views;
+  pass.bytes = [views, threads](int count) { return views->bytes(count, threads); };
+  pass.prepare = [views](const ReadBlock& read, const std::vector<double>&, const Progress& part) {
+    return views->prepare(read, part);
+  };
+  pass.compute = [views](const MapBlock& block, const ReadBlock& read,
+                         const std::vector<double>& facts,
+                         const Progress& part) { return views->compute(block, read, facts, part); };
+  return pass;
+}
+
+// EPI_TWO_LAYER in blocks: single and double orientations in bands of rows, of which the coherence
+// before the check of lines is kept; then views by themselves, which need up to 16 others each.
+// Refers to the light field. Throws as `estimate_epi_two_layer`.
+BlockwiseRun two_layers_in_blocks(const LightField& lf, const EpiTwoLayerParameters& parameters,
+                                  ViewSelection views, const Progress& progress) {
+  const LayerSearch search = begin_layer_search(lf, parameters, progress.part(0, 0.9), Device::Cpu);
+  BlockwiseRun run = orientations_in_blocks(lf, search.single, views, progress.part(0.9, 0.95));
+  const BlockwiseRun fit = orientations_in_blocks(lf, search.fit, views, progress.part(0.95, 1));
+  const int threads = progress.threads();
+  const auto bands = std::make_shared<const LayerBands>(lf, search, run, fit, threads);
+  const auto layered = std::make_shared<const LayeredViews>(lf, parameters, run.provenance.range);
+  run.has_layers = true;
+  run.kept = 1;
+  run.passes = {bands_of(bands), views_of(layered, threads)};
+  const std::size_t pixels =
+      static_cast<std::size_t>(run.maps.grid.count()) * run.maps.height * run.maps.width;
+  run.notes = [pixels](const BlockProgress& end) {
+    return layer_notes(static_cast<std::size_t>(end.facts[kDoubles]), pixels, end.finding);
+  };
+  return run;
+}
+
+cuda::LayerSmoothing smoothing_of(const LightField& lf, const EpiTwoLayerParameters& parameters,
+                                  Interval range) {
+  cuda::LayerSmoothing smoothing;
+  smoothing.decision = parameters.decision;
+  smoothing.strictness = line_strictness(lf.grid());
+  smoothing.region_smoothness = parameters.region_smoothness;
+  smoothing.region_iterations = kRegionIterations;
+  smoothing.region_gap = kRegionGap;
+  smoothing.lambda = parameters.lambda;
+  smoothing.layer_smoothness = parameters.layer_smoothness;
+  smoothing.weight_power = parameters.weight_power;
+  smoothing.min_weight = kLeastLayerWeight;
+  smoothing.edge_strength = parameters.edge_strength;
+  smoothing.border_weight = kLayerBorderWeight;
+  smoothing.max_iterations = parameters.stop.max_iterations;
+  smoothing.gap = parameters.stop.gap;
+  smoothing.min = static_cast<float>(range.min);
+  smoothing.max = static_cast<float>(range.max);
+  return smoothing;
+}
+
+// Maps of both layers like those of one, not yet filled.
+void begin_layers(Estimate& estimate) {
+  const ViewStack<float>& like = estimate.field.disparity;
+  LayeredDisparity& layered = estimate.layered;
+  for (ViewStack<float>* map : {&layered.foreground.disparity, &layered.background.disparity}) {
+    *map = ViewStack<float>(like.grid(), like.height(), like.width(), 1, like.first());
+  }
+  layered.layers =
+      ViewStack<std::uint8_t>(like.grid(), like.height(), like.width(), 1, like.first());
+}
+
+// EPI_TWO_LAYER on the device, from the samples to the result, once the range is known. `tensor`
+// is that of single orientations, with the range. Throws as estimate_epi_two_layer, DeviceFailure.
+Estimate two_layers_on_device(const LightField& lf, const EpiTwoLayerParameters& parameters,
+                              const LayerSearch& search, ViewSelection views,
+                              const Progress& progress) {
+  Estimate estimate = begin_orientations(lf, search.single, views, progress.part(0, 0.02));
+  begin_layers(estimate);
+  LayeredDisparity& layered = estimate.layered;
+  const cuda::LayerResults results{layered.foreground.disparity, estimate.field.disparity,
+                                   layered.background.disparity, estimate.confidence,
+                                   layered.layers};
+  std::vector<std::future<void>> pages;
+  for (ViewStack<float>* map :
+       {&results.near, &results.near_again, &results.far, &results.confidence}) {
+    pages.push_back(cuda::begin_pages(*map, progress));
+  }
+  cuda::DeviceMaps single(estimate.field.disparity), fit(estimate.field.disparity);
+  cuda::find_orientations(lf, orientation_settings(lf, search.single, estimate.range), single,
+                          progress.part(0.02, 0.08));
+  cuda::find_orientations(lf, orientation_settings(lf, search.fit, estimate.range), fit,
+                          progress.part(0.08, 0.14));
+  progress.step("two orientations");
+  const DevicePasses of = device_passes(lf, search.double_scales, search.doubles);
+  cuda::DeviceLayers layers(lf, of.passes, of.shears, single, progress.part(0.14, 0.35));
+  const LineCheck& lines = parameters.line_check;
+  cuda::check_lines(lf, {lines.chooses_sides, lines.is_on}, single, progress.part(0.35, 0.4));
+  progress.step("layers");
+  const cuda::LayerOutcome outcome =
+      cuda::solve_layers(lf, smoothing_of(lf, parameters, estimate.range), {single, layers},
+                         std::move(fit), results, progress.part(0.4, 1));
+  estimate.notes =
+      layer_notes(outcome.doubles, layered.layers.size(), *std::ranges::max_element(outcome.gaps));
+  return estimate;
+}
+
+// Checks the lines of the single layer, and decides and smooths; returns the largest gap.
+double solve_views(const LightField& lf, const EpiTwoLayerParameters& parameters,
+                   const ViewStack<float>& fit, Estimate& estimate, const Progress& progress) {
+  const PackedViews packed = pack_views(lf, progress.part(0, 0));
+  check_lines(packed, parameters.line_check, estimate, progress.part(0, 0.15));
+  progress.step("layers");
+  return smooth_layers(lf, packed, parameters,
+                       {fit, estimate.field.disparity, estimate.confidence, estimate.layered},
+                       progress.part(0.15, 1));
+}
+
+// Where there are two layers, and how they are smoothed.
+Schema<EpiTwoLayerParameters> layers_schema() {
+  using P = EpiTwoLayerParameters;
+  return Schema<P>()
+      .real("decision", &P::decision,
+            {"Decision",
+             "Two layers are assumed where the misfit of one orientation exceeds this fraction of "
+             "the misfits of one and of two orientations together"},
+            {0.01, 0.99})
+      .real("region_smoothness", &P::region_smoothness,
+            {"Region smoothness",
+             "Weight of the length of the boundary between one layer and two; regions narrower "
+             "than twice this are dropped",
+             "px"},
+            {0.1, 100, true})
+      .real("least_distance", &P::least_distance,
+            {"Minimum distance", "Two layers closer to each other than this are treated as one",
+             "px"},
+            {0.05, 2})
+      .real("lambda", &P::lambda,
+            {"Smoothing λ",
+             "Weight of the total variation of both layers; larger values are smoother"},
+            {0.001, 10, true})
+      .real("layer_smoothness", &P::layer_smoothness,
+            {"Foreground smoothness",
+             "Factor by which the foreground of two layers is smoothed more strongly"},
+            {1, 20, true})
+      .real("weight_power", &P::weight_power,
+            {"Coherence exponent p",
+             "The data term is weighted by coherence^p, for two layers by their confidence^p; 0 "
+             "weights all pixels equally"},
+            {0, 16})
+      .real("edge_strength", &P::edge_strength,
+            {"Edge strength β",
+             "Outside two-layer regions the total variation is weighted by exp(−β·|gradient of the "
+             "view|); 0 ignores image edges"},
+            {0, 100});
+}
+
+}  // namespace
+
+Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
+  using P = EpiTwoLayerParameters;
+  return layers_schema()
+      .real("double_inner_scale", &P::double_inner_scale,
+            {"Inner scale, two layers",
+             "Standard deviation of the Gaussian applied to the samples before second derivatives",
+             "px"},
+            {0, 2})
+      .real("double_outer_scale", &P::double_outer_scale,
+            {"Outer scale, two layers",
+             "Standard deviation of the Gaussian window over which two orientations are averaged, "
+             "along the EPI",
+             "px"},
+            {0, 3})
+      .real("double_contrast", &P::double_contrast,
+            {"Contrast limit, two layers", "Second derivatives above this are attenuated", "1/255"},
+            {0.1, 255, true})
+      .part(&P::stop, stop_schema())
+      .part(&P::line_check, line_check_schema())
+      .part(&P::tensor, orientation_schema())
+      .search("lambda", {0.05, 0.1, 0.2, 0.4})
+      .search("weight_power", {2, 6})
+      .search("decision", {0.1, 0.15, 0.25});
+}
+
+std::vector<std::string> layer_notes(std::size_t doubles, std::size_t pixels, double gap) {
+  const double share = 100.0 * static_cast<double>(doubles) / static_cast<double>(pixels);
+  return {fmt::format("two layers in {:.1f} % of the pixels", share), gap_note(gap)};
+}
+
+std::size_t count_doubles(const ViewStack<std::uint8_t>& layers) {
+  return static_cast<std::size_t>(std::count(layers.data(), layers.data() + layers.size(), 2));
+}
+
+Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameters& parameters,
+                                ViewSelection views, const Progress& progress, Device device) {
+  const LayerSearch search = begin_layer_search(lf, parameters, progress.part(0, 0.1), device);
+  if (device == Device::Cuda) {
+    return two_layers_on_device(lf, parameters, search, views, progress.part(0.1, 1));
+  }
+  Estimate estimate = estimate_orientations(lf, search.single, views, progress.part(0.1, 0.15));
+  const ViewStack<float> fit =
+      estimate_orientations(lf, search.fit, views, progress.part(0.15, 0.2)).confidence;
+  const ViewStack<float>& single = estimate.field.disparity;
+  const MapBlock whole{{single.first(), single.grid()}, 0, lf.height()};
+  DoubleLayers layers = measure_double_layers(lf, search.double_scales, search.doubles, whole,
+                                              progress.part(0.2, 0.4));
+  LayeredDisparity& layered = estimate.layered;
+  layered.foreground.disparity = std::move(layers.near);
+  layered.background.disparity = std::move(layers.far);
+  layered.layers = std::move(layers.confidence);
+  clear_invalid(lf, layered.layers);
+  const double gap = solve_views(lf, parameters, fit, estimate, progress.part(0.4, 0.98));
+  estimate.notes = layer_notes(count_doubles(layered.layers), layered.layers.size(), gap);
+  clamp_layers({fit, estimate.field.disparity, estimate.confidence, layered}, estimate.range,
+               progress.part(0.98, 1));
+  return estimate;
+}
+
+Estimator epi_two_layer_estimator() {
+  return make_estimator<EpiTwoLayerParameters>(
+      {.id = "epi_two_layer",
+       .name = "EPI_TWO_LAYER",
+       .summary = "Two superimposed orientations on epipolar plane images: transparent and "
+                  "reflective surfaces",
+       .reference = "Wanner and Goldluecke 2013 [Ano13]",
+       .all_views = true,
+       .iterative = true,
+       .revision = 6,
+       .devices = {Device::Cpu, Device::Cuda}},
+      epi_two_layer_schema(), estimate_epi_two_layer, two_layers_in_blocks);
+}
+
+}  // namespace episcope

@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/stereo.h"
+
+#include "engine/core/parallel.h"
+#include "engine/disparity/cost_volume.h"
+#include "engine/disparity/kernels/shared_constants.h"
+#include "engine/disparity/stereo_costs.h"
+#include "engine/disparity/view_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+// Chooses labels row by row.
+class Winners {
+ public:
+  Winners(const StereoCosts& costs, Refinement refinement, int width)
+      : refinement_(refinement),
+        first_(costs.labels.front()),
+        step_(costs.labels[1] - costs.labels[0]),
+        best_(width),
+        least_(width),
+        sum_(width) {}
+
+  void choose(VolumeView<const float> costs, int y, float* disparity, float* confidence) {
+    find_least(costs, y);
+    const auto layers = static_cast<float>(costs.layers);
+    for (int x = 0; x < costs.width; ++x) {
+      const int label = best_[x];
+      float place = static_cast<float>(label);
+      if (label > 0 && label + 1 < costs.layers) {
+        place += sub_label_offset(costs.at(y, label - 1, x), least_[x], costs.at(y, label + 1, x),
+                                  refinement_);
+      }
+      disparity[x] = first_ + place * step_;
+      const float mean = sum_[x] / layers;
+      confidence[x] = std::clamp((mean - least_[x]) / (mean + kFlatCost), 0.0F, 1.0F);
+    }
+  }
+
+ private:
+  void find_least(VolumeView<const float> costs, int y) {
+    std::fill(best_.begin(), best_.end(), 0);
+    std::fill(least_.begin(), least_.end(), std::numeric_limits<float>::infinity());
+    std::fill(sum_.begin(), sum_.end(), 0.0F);
+    for (int label = 0; label < costs.layers; ++label) {
+      const float* cost = costs.row(y, label);
+      for (int x = 0; x < costs.width; ++x) {
+        sum_[x] += cost[x];
+        best_[x] = cost[x] < least_[x] ? label : best_[x];
+        least_[x] = cost[x] < least_[x] ? cost[x] : least_[x];
+      }
+    }
+  }
+
+  Refinement refinement_;
+  float first_;
+  float step_;
+  std::vector<int> best_;
+  std::vector<float> least_, sum_;
+};
+
+// The maps of some rows of the view that the costs are of.
+BlockMaps choose_labels(const LightField& lf, const StereoCosts& costs, Refinement refinement,
+                        const MapBlock& block, const Progress& progress) {
+  BlockMaps maps{{{{1, 1}, block.rows(), lf.width(), 1, costs.view}, {}},
+                 {{1, 1}, block.rows(), lf.width(), 1, costs.view}};
+  const ImageView<float> disparity = maps.field.disparity.view(costs.view);
+  const ImageView<float> confidence = maps.confidence.view(costs.view);
+  const int rows = stereo_band_rows(block.rows());
+  const int bands = (block.rows() + rows - 1) / rows;
+  progress.step("matching costs");
+  parallel_for_workers(bands, progress, [&] {
+    return [&, source = StereoCostRows(lf, costs),
+            winners = Winners(costs, refinement, lf.width())](int i) mutable {
+      const int y = i * rows;
+      const auto band =
+          source.compute(block.first_row + y, std::min(rows, block.rows() - y), progress);
+      for (int row = 0; row < band.height; ++row) {
+        winners.choose(band, row, disparity.row(y + row), confidence.row(y + row));
+      }
+    };
+  });
+  return maps;
+}
+
+void choose_on_device(const LightField& lf, const StereoCosts& costs, Refinement refinement,
+                      Estimate& estimate, const Progress& progress) {
+  const LightField& compared = costs.relative ? *costs.relative : lf;
+  costs.matcher->choose(
+      device_matching(compared, costs.view, costs.matching, costs.labels),
+      {costs.labels.front(), costs.labels[1] - costs.labels[0], device_refinement(refinement)},
+      estimate.field.disparity.view(costs.view), estimate.confidence.view(costs.view), progress);
+}
+
+// The guide and the noise of the view, volumes of costs of every thread, and the samples around a
+// band, of all views that are matched.
+double costs_bytes(const LightField& lf, const StereoCosts& costs, int rows, int threads) {
+  constexpr double kOfView = 64, kMaps = 9, kCost = 4, kMostBandRows = 64 + 32;
+  const double width = lf.width(), pixels = width * lf.height();
+  const double volumes = kCost * kMostBandRows * width * static_cast<double>(costs.labels.size());
+  return kOfView * pixels + kMaps * width * rows + volumes * threads +
+         looked_at_bytes(lf, costs, rows);
+}
+
+}  // namespace
+
+Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
+  using P = StereoLocalParameters;
+  return Schema<P>()
+      .part(&P::matching, stereo_cost_schema(views))
+      .choice("refinement", &P::refinement,
+              {"Refinement", "How the disparity is interpolated between labels"})
+      .begin_with(kProfileKey)
+      .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
+      .search("aggregation", {0, 2})
+      .preset(kProfileKey, kPaperProfile, {{"refinement", std::string("none")}});
+}
+
+Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
+  using P = StereoSmoothParameters;
+  // Fewer caps than for the local methods: smoothing removes the noise that they leave.
+  return Schema<P>()
+      .part(&P::denoising, denoise_schema())
+      .real(
+          "map_noise", &P::map_noise,
+          {"Noise of the map σ₀",
+           "Where neighbouring disparities scatter less than this, in px, the data term gets more "
+           "weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper"},
+          {0, 1})
+      .part(&P::islands, island_schema())
+      .part(&P::local, stereo_local_schema(views))
+      .begin_with(kProfileKey)
+      .search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
+      .search("weight_power", {0, 2})
+      .search("epsilon", {0, 0.02, kUncapped})
+      .search("aggregation", {0, 2})
+      .preset(kProfileKey, kPaperProfile, plain_denoising())
+      .preset(kProfileKey, kPaperProfile, plain_islands())
+      .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}, {"map_noise", 0.0}})
+      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8});
+}
+
+Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
+                               const StereoLocalParameters& parameters, const Progress& progress,
+                               Device device) {
+  const StereoCosts costs =
+      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1), device);
+  Estimate estimate;
+  estimate.range = costs.range;
+  if (costs.matcher) {
+    estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+    estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+    choose_on_device(lf, costs, parameters.refinement, estimate, progress.part(0.1, 1));
+  } else {
+    BlockMaps maps = choose_labels(lf, costs, parameters.refinement,
+                                   {{costs.view, {1, 1}}, 0, lf.height()}, progress.part(0.1, 1));
+    estimate.field = std::move(maps.field);
+    estimate.confidence = std::move(maps.confidence);
+  }
+  estimate.notes = cost_notes(costs);
+  return estimate;
+}
+
+BlockwiseRun stereo_local_in_blocks(const LightField& lf, MatchedViews views,
+                                    const StereoLocalParameters& parameters,
+                                    const Progress& progress) {
+  const auto costs =
+      std::make_shared<const StereoCosts>(prepare_stereo(lf, views, parameters.matching, progress));
+  BlockwiseRun run;
+  run.maps = {{1, 1}, costs->view, lf.height(), lf.width()};
+  run.provenance.range = costs->range;
+  run.provenance.notes = cost_notes(*costs);
+  BlockPass pass;
+  pass.step = "matching costs";
+  pass.bytes = [&lf, costs, threads = progress.threads()](int rows) {
+    return costs_bytes(lf, *costs, rows, threads);
+  };
+  pass.compute = [&lf, costs, refinement = parameters.refinement](
+                     const MapBlock& block, const ReadBlock&, const std::vector<double>&,
+                     const Progress& part) {
+    if (costs->matching.views == MatchedViews::All) {
+      lf.fetch_samples(block.first_row, block.end_row);
+    }
+    return FinishedBlock{choose_labels(lf, *costs, refinement, block, part)};
+  };
+  run.passes.push_back(std::move(pass));
+  return run;
+}
+
+Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
+                                const StereoSmoothParameters& parameters, const Progress& progress,
+                                Device device) {
+  Estimate estimate =
+      estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85), device);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
+          static_cast<float>(parameters.map_noise), device);
+  ViewStack<float>& maps = estimate.field.disparity;
+  fill_islands(parameters.islands, progress.part(1, 1), maps.view(maps.first()));
+  return estimate;
+}
+
+BlockwiseRun stereo_smooth_in_blocks(const LightField& lf, MatchedViews views,
+                                     const StereoSmoothParameters& parameters,
+                                     const Progress& progress) {
+  BlockwiseRun run = stereo_local_in_blocks(lf, views, parameters.local, progress);
+  BlockPass pass;
+  pass.step = "denoising";
+  pass.unit = BlockUnit::Views;
+  pass.bytes = [&lf](int) {
+    constexpr double kMapsAndDenoised = 9 + 96;
+    const double pixels = static_cast<double>(lf.height()) * lf.width();
+    const double view = static_cast<double>(lf.byte_size()) / lf.grid().count();
+    return kMapsAndDenoised * pixels + (lf.is_on_disk() ? view : 0);
+  };
+  pass.compute = [&lf, parameters](const MapBlock& block, const ReadBlock& read,
+                                   const std::vector<double>&, const Progress& part) {
+    FinishedBlock made{read(block)};
+    made.finding = denoise(lf, parameters.denoising,
+                           {DataWeight{}.minimum, static_cast<float>(parameters.map_noise)},
+                           made.maps.field.disparity, made.maps.confidence, part);
+    ViewStack<float>& maps = made.maps.field.disparity;
+    fill_islands(parameters.islands, part.part(1, 1), maps.view(maps.first()));
+    return made;
+  };
+  run.passes.push_back(std::move(pass));
+  run.notes = [costs = std::exchange(run.provenance.notes, {})](const BlockProgress& end) {
+    std::vector<std::string> notes = costs;
+    notes.push_back(gap_note(end.finding));
+    return notes;
+  };
+  return run;
+}
+
+Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
+  using P = StereoGlobalParameters;
+  return Schema<P>()
+      .part(&P::labeling, global_labeling_schema())
+      .part(&P::matching, stereo_cost_schema(views))
+      .part(&P::islands, island_schema())
+      .begin_with(kProfileKey)
+      .search("smoothness", {0.3, 0.6, 1.2, 2.4, 5, 10})
+      .search("edge_strength", {0, 25})
+      .search("epsilon", {0, 0.02, 0.05, kUncapped})
+      .preset(kProfileKey, kPaperProfile, plain_labeling())
+      .preset(kProfileKey, kPaperProfile, plain_islands())
+      .preset(kProfileKey, kPaperProfile, {{"smoothness", kPaperSmoothness}})
+      .preset_search(kProfileKey, kPaperProfile, "smoothness",
+                     {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2, 1.6, 2.4});
+}
+
+namespace {
+
+void label_stereo(const LightField& lf, const StereoCosts& stereo,
+                  const GlobalLabelingParameters& labeling, Estimate& estimate,
+                  const Progress& progress) {
+  const Volume<float> volume = stereo_volume(lf, stereo, progress.part(0, 0.26));
+  const VolumeView<const float> costs = volume.view();
+  const Image<float> means = mean_costs(costs, progress.part(0.26, 0.27));
+  const auto place = [&](const Image<int>& labels, const Progress& part) {
+    return place_pixels(
+        labels,
+        [&](int y, int x, int label) { return place_by_costs(stereo, costs, means, y, x, label); },
+        part);
+  };
+  const float step = stereo.labels[1] - stereo.labels[0];
+  const double scale = cost_unit(lf, stereo.view, costs, step, progress.part(0.27, 0.28));
+  const double noise = view_noise_variance(lf, stereo.view, progress.part(0.28, 0.281));
+  label_globally(lf, {stereo.view, stereo.labels, costs, scale, place, noise, {}}, labeling,
+                 estimate, progress.part(0.281, 0.99));
+  estimate.confidence = volume_confidence(estimate.field.disparity.view(stereo.view), stereo, costs,
+                                          means, progress.part(0.99, 1));
+}
+
+void label_on_device(const LightField& lf, const StereoCosts& stereo,
+                     const GlobalLabelingParameters& labeling, Estimate& estimate,
+                     const Progress& progress) {
+  const LightField& compared = stereo.relative ? *stereo.relative : lf;
+  const cuda::SharedVolume costs =
+      stereo.matcher->volume(device_matching(compared, stereo.view, stereo.matching, stereo.labels),
+                             progress.part(0, 0.26));
+  const auto place = [&](const Image<int>& labels, const Progress& part) {
+    return place_by_costs(stereo, *costs, labels, part);
+  };
+  const float step = stereo.labels[1] - stereo.labels[0];
+  const double scale = cost_unit(lf, stereo.view, *costs, step, progress.part(0.26, 0.28));
+  const double noise = stereo.matcher->noise_variance(progress.part(0.28, 0.281));
+  label_globally(lf, {stereo.view, stereo.labels, {}, scale, place, noise, costs}, labeling,
+                 estimate, progress.part(0.281, 0.99));
+  estimate.confidence = volume_confidence(estimate.field.disparity.view(stereo.view), stereo,
+                                          *costs, progress.part(0.99, 1));
+}
+
+}  // namespace
+
+Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
+                                const StereoGlobalParameters& parameters, const Progress& progress,
+                                Device device) {
+  const StereoCosts stereo =
+      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.05), device);
+  progress.step("matching costs");
+  Estimate estimate;
+  estimate.range = stereo.range;
+  estimate.notes = cost_notes(stereo);
+  const auto label = stereo.matcher ? label_on_device : label_stereo;
+  label(lf, stereo, parameters.labeling, estimate, progress.part(0.05, 1));
+  fill_islands(parameters.islands, progress.part(1, 1), estimate.field.disparity.view(stereo.view));
+  return estimate;
+}
+
+namespace {
+
+constexpr const char* kReference = "Wanner, Meister and Goldluecke 2013 [WMG13]";
+
+template <class P>
+using StereoFunction = Estimate (*)(const LightField&, MatchedViews, const P&, const Progress&,
+                                    Device);
+
+// `estimate` of `views`, in the form that make_estimator takes.
+template <class P>
+auto with_views(MatchedViews views, StereoFunction<P> estimate) {
+  return [=](const LightField& light_field, const P& parameters, ViewSelection,
+             const Progress& progress,
+             Device device) { return estimate(light_field, views, parameters, progress, device); };
+}
+
+// A method from its schema and its function of `views`.
+template <class P>
+Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
+                           Schema<P> (*schema)(MatchedViews), StereoFunction<P> estimate) {
+  info.devices = {Device::Cpu, Device::Cuda};
+  return make_estimator<P>(std::move(info), schema(views), with_views(views, estimate));
+}
+
+template <class P>
+using StereoBlocks = BlockwiseRun (*)(const LightField&, MatchedViews, const P&, const Progress&);
+
+// One that can also run in blocks.
+template <class P>
+Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
+                           Schema<P> (*schema)(MatchedViews), StereoFunction<P> estimate,
+                           StereoBlocks<P> blocks) {
+  info.devices = {Device::Cpu, Device::Cuda};
+  return make_estimator<P>(
+      std::move(info), schema(views), with_views(views, estimate),
+      [=](const LightField& light_field, const P& parameters, ViewSelection,
+          const Progress& progress) { return blocks(light_field, views, parameters, progress); });
+}
+
+Estimator local_estimator(EstimatorInfo info, MatchedViews views) {
+  return stereo_estimator<StereoLocalParameters>(std::move(info), views, stereo_local_schema,
+                                                 estimate_stereo_local, stereo_local_in_blocks);
+}
+
+}  // namespace
+
+Estimator st_av_l_estimator() {
+  return local_estimator({.id = "st_av_l",
+                          .name = "ST_AV_L",
+                          .summary = "Local multi-view stereo over all views",
+                          .reference = kReference,
+                          .revision = 5},
+                         MatchedViews::All);
+}
+
+Estimator st_ch_l_estimator() {
+  return local_estimator({.id = "st_ch_l",
+                          .name = "ST_CH_L",
+                          .summary = "Local multi-view stereo over the views of the cross-hair",
+                          .reference = kReference,
+                          .revision = 5},
+                         MatchedViews::CrossHair);
+}
+
+Estimator st_av_s_estimator() {
+  return stereo_estimator({.id = "st_av_s",
+                           .name = "ST_AV_S",
+                           .summary = "ST_AV_L, denoised with total variation (TV-L2)",
+                           .reference = kReference,
+                           .iterative = true,
+                           .revision = 6},
+                          MatchedViews::All, stereo_smooth_schema, estimate_stereo_smooth,
+                          stereo_smooth_in_blocks);
+}
+
+Estimator st_ch_s_estimator() {
+  return stereo_estimator({.id = "st_ch_s",
+                           .name = "ST_CH_S",
+                           .summary = "ST_CH_L, denoised with total variation (TV-L2)",
+                           .reference = kReference,
+                           .iterative = true,
+                           .revision = 6},
+                          MatchedViews::CrossHair, stereo_smooth_schema, estimate_stereo_smooth,
+                          stereo_smooth_in_blocks);
+}
+
+Estimator st_av_g_estimator() {
+  return stereo_estimator({.id = "st_av_g",
+                           .name = "ST_AV_G",
+                           .summary = "Globally optimal labeling of the matching costs of ST_AV_L",
+                           .reference = kReference,
+                           .iterative = true,
+                           .revision = 6},
+                          MatchedViews::All, stereo_global_schema, estimate_stereo_global);
+}
+
+Estimator st_ch_g_estimator() {
+  return stereo_estimator({.id = "st_ch_g",
+                           .name = "ST_CH_G",
+                           .summary = "Globally optimal labeling of the matching costs of ST_CH_L",
+                           .reference = kReference,
+                           .iterative = true,
+                           .revision = 6},
+                          MatchedViews::CrossHair, stereo_global_schema, estimate_stereo_global);
+}
+
+}  // namespace episcope

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/disparity/denoise.h"
+#include "engine/disparity/estimator.h"
+#include "engine/disparity/global_labeling.h"
+#include "engine/disparity/islands.h"
+#include "engine/disparity/stereo_costs.h"
+
+namespace episcope {
+
+/// Parameters of the local stereo methods ST_AV_L and ST_CH_L.
+struct StereoLocalParameters {
+  StereoCostParameters matching = {};
+  Refinement refinement = Refinement::Parabola;
+};
+
+/// Parameters of the denoised ones, ST_AV_S and ST_CH_S.
+struct StereoSmoothParameters {
+  DenoiseParameters denoising{.lambda = 0.1, .weight_power = 2};
+  double map_noise = 0.1;  ///< σ₀ of `denoise`, px.
+  IslandParameters islands = {};
+  StereoLocalParameters local = {};
+};
+
+/// The profile `paper` has no refinement, weights neither data nor variation, and leaves islands; λ
+/// = 0.2.
+[[nodiscard]] Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views);
+[[nodiscard]] Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views);
+
+/// The label of the least cost at every pixel of one view, moved between labels by `refinement`:
+/// none, a parabola through the costs of the label and its neighbours, or two lines of equal slope
+/// (equiangular), by half a label at most. Costs are computed band by band and never held.
+///
+/// Confidence: 1 − least cost / mean cost over the labels. It is near 0 where all labels are alike
+/// and falls with noise, since noise raises the least cost. The ε used is reported in the notes.
+/// Throws InvalidInput as `prepare_stereo`, DeviceFailure, Cancelled.
+[[nodiscard]] Estimate estimate_stereo_local(const LightField& light_field, MatchedViews views,
+                                             const StereoLocalParameters& parameters,
+                                             const Progress& progress, Device device = Device::Cpu);
+
+/// The same block by block: bands of rows, under costs that were prepared for all.
+[[nodiscard]] BlockwiseRun stereo_local_in_blocks(const LightField& light_field, MatchedViews views,
+                                                  const StereoLocalParameters& parameters,
+                                                  const Progress& progress);
+
+/// The same, denoised (engine/disparity/denoise.h) and without islands
+/// (engine/disparity/islands.h); the duality gap is in the notes.
+[[nodiscard]] Estimate estimate_stereo_smooth(const LightField& light_field, MatchedViews views,
+                                              const StereoSmoothParameters& parameters,
+                                              const Progress& progress,
+                                              Device device = Device::Cpu);
+
+/// The same in blocks: bands of rows, then the view is denoised as a whole.
+[[nodiscard]] BlockwiseRun stereo_smooth_in_blocks(const LightField& light_field,
+                                                   MatchedViews views,
+                                                   const StereoSmoothParameters& parameters,
+                                                   const Progress& progress);
+
+/// λ under the profile `paper`.
+inline constexpr double kPaperSmoothness = 0.6;
+
+/// Parameters of ST_AV_G and ST_CH_G.
+struct StereoGlobalParameters {
+  GlobalLabelingParameters labeling = {};
+  StereoCostParameters matching = {};
+  IslandParameters islands = {};
+};
+
+/// The profile `paper` is that of the local methods (no cap or ε = 1, bilinear samples, no
+/// aggregation) without edge weights and settling, and with islands. The paper does not give λ;
+/// kPaperSmoothness is less than the tuned λ: without a cap, costs that many views share vary less
+/// from label to label than their mean tells (tests/accuracy/tuning.md).
+[[nodiscard]] Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views);
+
+/// min Σ ρ(x, u) + λ ρ̄ Σ g |∇u| for one view: ρ the matching costs of the local methods, ρ̄ their
+/// mean near each pixel's best label (cost_volume.h), whatever the range, u among the labels
+/// (label_globally). Each pixel then settles
+/// between labels, towards the parabola through the costs of its label and the two neighbouring
+/// labels, weighted by confidence², and islands are filled (engine/disparity/islands.h).
+/// Confidence: 1 − cost of the label / mean cost over the labels. β = 25: a smaller one joins the
+/// background between thin structures to them. ε, energy, gap and iterations are reported in the
+/// notes. Memory: 6 floats per pixel and label. Throws InvalidInput as `prepare_stereo`, Cancelled.
+/// Reference: the paper, equation (5).
+[[nodiscard]] Estimate estimate_stereo_global(const LightField& light_field, MatchedViews views,
+                                              const StereoGlobalParameters& parameters,
+                                              const Progress& progress,
+                                              Device device = Device::Cpu);
+
+// Multi-view stereo over all views (ST_AV, equation (3) of the paper) or over those of the row and
+// the column of the estimated view, the cross-hair (ST_CH, equation (4)). All estimate one view.
+
+/// ST_AV_L, ST_CH_L: at every pixel the label of least matching cost
+/// (engine/disparity/stereo.h).
+///
+/// The profile `paper` is the method as published: no cap for the cross-hair; for all views ε =
+/// 1.0, which no pixel of the paper's scenes can tell from no cap; bilinear samples, no refinement.
+/// The default departs from it: ε follows the noise, samples are cubic, neighbours of similar
+/// colour share costs through a guided filter of radius 2, and a parabola is fitted between labels.
+/// This reduces the error to about a fifth (tests/accuracy/tuning.md).
+[[nodiscard]] Estimator st_av_l_estimator();
+[[nodiscard]] Estimator st_ch_l_estimator();
+
+/// ST_AV_S, ST_CH_S: the same, denoised with weighted total variation
+/// (engine/disparity/denoise.h), under the profile `paper` without weights. Section 4.2 of
+/// the paper.
+[[nodiscard]] Estimator st_av_s_estimator();
+[[nodiscard]] Estimator st_ch_s_estimator();
+
+/// ST_AV_G, ST_CH_G: a globally optimal labeling with the same matching costs as data term
+/// (engine/disparity/stereo.h). Equation (5) of the paper.
+[[nodiscard]] Estimator st_av_g_estimator();
+[[nodiscard]] Estimator st_ch_g_estimator();
+
+}  // namespace episcope

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/stereo_costs.h"
+
+#include "engine/core/image.h"
+#include "engine/core/memory.h"
+#include "engine/core/numbers.h"
+#include "engine/core/parallel.h"
+#include "engine/disparity/disparity_range.h"
+#include "engine/disparity/matching_cost.h"
+#include "engine/disparity/view_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace episcope {
+namespace {
+
+// Rows in which the residual is measured.
+constexpr int kProbedCostRows = 24;
+// At least so many labels there: between coarse ones the residual is not that of noise.
+constexpr int kProbedLabels = 64;
+// ε in residuals, and the least in three channels: below it the steps of 8-bit samples are cut off.
+constexpr double kCapInResiduals = 2;
+constexpr double kMinCap = 0.015;
+// The residual that noise of σ = 1 leaves in three channels (1.6·√(1 + Σw²) = 2.1), and a tenth
+// more for what is not noise in it. One channel leaves half of that.
+constexpr double kResidualOfNoise = 2.3;
+// Regularization of the guided filter, variance of samples in [0, 1] in three channels, and of
+// their noise variance: whatever contrast is not noise is an edge.
+constexpr double kLeastGuideVariance = 3e-5;
+constexpr double kNoiseInGuide = 8;
+
+// Half the side of the windows that samples are relative to, px: wide, since what an edge adds to
+// them differs from view to view.
+constexpr int kSurroundings = 100;
+
+// In place of the residual of a pixel that is not valid.
+constexpr float kNothingSeen = -1;
+
+// The residuals of prepare_stereo: over all pixels, and of the tenth that matches best.
+constexpr double kMiddle = 0.5, kLowest = 0.1;
+struct Residuals {
+  double median = 0, lowest_tenth = 0;
+};
+
+// The least cost of every valid pixel of some rows, by the CPU.
+std::vector<float> least_costs(const LightField& lf, const StereoCosts& costs,
+                               const MatchingCost& probe, const std::vector<float>& labels,
+                               const std::vector<int>& rows, const Progress& progress) {
+  std::vector<float> least(rows.size() * lf.width());
+  parallel_for_workers(static_cast<int>(rows.size()), progress, [&] {
+    return [&, matching = MatchingCostRows(lf, costs.view, probe, labels),
+            row = Volume<float>(1, static_cast<int>(labels.size()), lf.width())](int i) mutable {
+      matching.compute(rows[i], row.view(), progress);
+      float* out = least.data() + static_cast<std::size_t>(i) * lf.width();
+      std::fill_n(out, lf.width(), static_cast<float>(kUncapped));
+      for (int label = 0; label < row.layers(); ++label) {
+        const float* cost = row.view().row(0, label);
+        for (int x = 0; x < lf.width(); ++x) out[x] = std::min(out[x], cost[x]);
+      }
+      for (int x = 0; x < lf.width(); ++x) {
+        if (!lf.is_valid(costs.view, rows[i], x)) out[x] = kNothingSeen;
+      }
+    };
+  });
+  std::erase(least, kNothingSeen);
+  return least;
+}
+
+std::size_t count_valid(const LightField& lf, ViewIndex view, const std::vector<int>& rows) {
+  if (lf.valid().empty()) return rows.size() * static_cast<std::size_t>(lf.width());
+  std::size_t count = 0;
+  for (const int y : rows) {
+    for (int x = 0; x < lf.width(); ++x) count += lf.is_valid(view, y, x) ? 1 : 0;
+  }
+  return count;
+}
+
+// The cross-hair tells as much about noise as all views.
+Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
+  MatchingCost probe{MatchedViews::CrossHair, costs.matching.interpolation, kUncapped};
+  probe.places = costs.matching.places;
+  const std::vector<float> labels = equidistant_labels(
+      costs.range, std::max(static_cast<int>(costs.labels.size()), kProbedLabels));
+  std::vector<int> rows(std::min(kProbedCostRows, lf.height()));
+  const int count = static_cast<int>(rows.size());
+  for (int i = 0; i < count; ++i) rows[i] = (2 * i + 1) * lf.height() / (2 * count);
+  if (costs.matcher) {
+    const std::size_t valid = count_valid(lf, costs.view, rows);
+    if (valid == 0) return {};
+    const std::vector<int> ranks{static_cast<int>(quantile_rank(valid, kMiddle)),
+                                 static_cast<int>(quantile_rank(valid, kLowest))};
+    const std::vector<float> found =
+        costs.matcher->least_costs(device_matching(lf, costs.view, probe, labels), rows,
+                                   static_cast<float>(kUncapped), ranks, progress);
+    return {found[0], found[1]};
+  }
+  std::vector<float> least = least_costs(lf, costs, probe, labels, rows, progress);
+  if (least.empty()) return {};
+  return {quantile(least, kMiddle), quantile(least, kLowest)};
+}
+
+std::string outlier_text(int outliers) {
+  return outliers == 0 ? "" : fmt::format(" ({} of them not believed)", outliers);
+}
+
+// Where the view is smoother, the noise that interpolation removes need not be added back.
+void compensate_noise(const LightField& lf, double residual, StereoCosts& costs,
+                      const Progress& progress) {
+  const double sigma = residual * (lf.channels() == 1 ? 2 : 1) / kResidualOfNoise;
+  const auto most = static_cast<float>(sigma * sigma);
+  if (costs.matcher) return costs.matcher->compensate_noise(most, progress);
+  auto noise = std::make_shared<Image<float>>(local_noise_variance(lf, costs.view, progress));
+  for (float& variance : *noise) variance = std::min(variance, most);
+  costs.matching.noise = std::move(noise);
+}
+
+// The median of the noise that is compensated; 0 if none is.
+double median_noise(const StereoCosts& costs) {
+  if (costs.matcher) return costs.matcher->median_noise();
+  if (!costs.matching.noise) return 0;
+  std::vector<float> variances(costs.matching.noise->begin(), costs.matching.noise->end());
+  return quantile(variances, 0.5);
+}
+
+// Sets the places of the views to those that files state, if they match better there.
+void choose_places(const LightField& lf, const ViewPlaces& stated, StereoCosts& costs,
+                   Residuals& residuals, const Progress& progress) {
+  costs.matching.places = std::make_shared<const std::vector<ViewPlace>>(stated.places);
+  const Residuals there = find_residuals(lf, costs, progress);
+  const std::string off = fmt::format("up to {:.2f} steps off the regular grid{}",
+                                      stated.largest_deviation, outlier_text(stated.outliers));
+  if (there.median < residuals.median) {
+    residuals = there;
+    costs.notes.push_back("positions of cameras used, " + off);
+    return;
+  }
+  costs.matching.places = nullptr;
+  costs.notes.push_back("positions of cameras not used: " + off +
+                        ", they match no better than the grid");
+}
+
+void make_guide(const LightField& lf, int radius, StereoCosts& costs, const Progress& progress) {
+  const double regularization =
+      (kLeastGuideVariance + kNoiseInGuide * median_noise(costs)) / channel_weight(lf.channels());
+  if (costs.matcher) return costs.matcher->aggregate(radius, regularization);
+  costs.guide = std::make_shared<GuideImage>(lf, costs.view, radius, regularization, progress);
+}
+
+std::string cap_note(const StereoCosts& costs) {
+  if (costs.matching.cap >= kUncapped) return "matching cost uncapped";
+  return fmt::format("matching cost capped at ε = {:.3f}", costs.matching.cap);
+}
+
+}  // namespace
+
+Names<Compared> names_of(Compared) {
+  return {{Compared::Absolute, "absolute"}, {Compared::Relative, "relative"}};
+}
+
+Names<Positions> names_of(Positions) {
+  return {{Positions::Use, "use"}, {Positions::Ignore, "ignore"}};
+}
+
+Schema<StereoCostParameters> stereo_matching_schema() {
+  using P = StereoCostParameters;
+  return Schema<P>()
+      .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
+               {2, 512, true})
+      .real("epsilon", &P::epsilon,
+            {"Cap ε",
+             "Maximum cost that one view contributes, so that views in which the point is occluded "
+             "do not dominate; 0 derives it from the noise of the light field, 2 disables the cap"},
+            {0, kUncapped})
+      .choice("interpolation", &P::interpolation,
+              {"Interpolation", "How views are interpolated between pixels"})
+      .flag("compensate_noise", &P::compensate_noise,
+            {"Compensate noise",
+             "Add to the costs what interpolation averages away of the noise, so that labels that "
+             "move views by whole pixels are at no disadvantage"})
+      .integer("aggregation", &P::aggregation,
+               {"Aggregation",
+                "Radius of the guided filter that averages the costs of neighbours of similar "
+                "colour; 0 = off",
+                "px"},
+               {0, 8})
+      .choice("cost", &P::cost,
+              {"Cost",
+               "absolute: samples are compared as they are; relative: relative to the mean around "
+               "them, for views of different brightness"})
+      .choice("positions", &P::positions,
+              {"Positions of cameras",
+               "use: views are sampled at the positions that files state, if they match better "
+               "there; ignore: on the regular grid"})
+      .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
+      .view("view", &P::view,
+            {"View", "Row and column of the view to estimate; auto = centre view"});
+}
+
+Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
+  return stereo_matching_schema()
+      .part(&StereoCostParameters::profile, profile_schema())
+      .begin_with(kProfileKey)
+      .preset(kProfileKey, kPaperProfile,
+              {{"epsilon", views == MatchedViews::All ? 1.0 : kUncapped},
+               {"interpolation", std::string("bilinear")},
+               {"compensate_noise", false},
+               {"aggregation", 0},
+               {"cost", std::string("absolute")},
+               {"positions", std::string("ignore")}});
+}
+
+StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
+                           const StereoCostParameters& parameters, const Progress& progress,
+                           Device device) {
+  StereoCosts costs;
+  costs.view = parameters.view.value_or(lf.center());
+  check_matching(lf, costs.view);
+  if (parameters.cost == Compared::Relative) {
+    costs.relative = std::make_shared<const LightField>(
+        relative_samples(lf, kSurroundings, progress.part(0, 0.1)));
+  }
+  const LightField& compared = costs.relative ? *costs.relative : lf;
+  if (device == Device::Cuda) {
+    costs.matcher = std::make_shared<cuda::StereoMatcher>(
+        compared, lf, costs.view, views == MatchedViews::CrossHair, progress.part(0.1, 0.1));
+  }
+  costs.range = search_range(compared, parameters.range, progress.part(0.1, 0.5));
+  costs.labels = equidistant_labels(costs.range, parameters.labels);
+  costs.matching.views = views;
+  costs.matching.interpolation = parameters.interpolation;
+  costs.matching.cap = parameters.epsilon;
+  ViewPlaces stated;
+  if (parameters.positions == Positions::Use) stated = view_places(compared.info(), lf.grid());
+  if (stated.kind == PlacesKind::Implausible) {
+    costs.notes.emplace_back("positions of cameras not used: they make no grid");
+  }
+  const bool is_irregular = stated.kind == PlacesKind::Irregular;
+  if (parameters.compensate_noise || parameters.epsilon == 0 || is_irregular) {
+    progress.step("noise");
+    Residuals residuals = find_residuals(compared, costs, progress.part(0.5, 0.7));
+    if (is_irregular) choose_places(compared, stated, costs, residuals, progress.part(0.7, 0.8));
+    if (parameters.compensate_noise) {
+      compensate_noise(compared, residuals.lowest_tenth, costs, progress.part(0.8, 0.9));
+    }
+    if (parameters.epsilon == 0) {
+      const double least = kMinCap / std::sqrt(channel_weight(compared.channels()));
+      costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, least, kUncapped);
+    }
+  }
+  if (parameters.aggregation > 0) {
+    make_guide(lf, parameters.aggregation, costs, progress.part(0.9, 1));
+  }
+  return costs;
+}
+
+StereoCostRows::StereoCostRows(const LightField& lf, const StereoCosts& costs)
+    : costs_(costs),
+      height_(lf.height()),
+      width_(lf.width()),
+      matching_(costs.relative ? *costs.relative : lf, costs.view, costs.matching, costs.labels),
+      filter_(costs.guide ? std::make_unique<GuidedFilter>(*costs.guide) : nullptr) {}
+
+VolumeView<const float> StereoCostRows::compute(int y, int rows, const Progress& progress) {
+  const int reach = costs_.guide ? 2 * costs_.guide->radius() : 0;
+  const int first = std::max(0, y - reach);
+  const int last = std::min(height_, y + rows + reach);
+  if (band_.height() < last - first) {
+    band_ = Volume<float>(last - first, static_cast<int>(costs_.labels.size()), width_);
+  }
+  VolumeView<float> band = band_.view();
+  band.height = last - first;
+  matching_.compute(first, band, progress);
+  if (filter_) filter_->apply(first, band, progress);
+  band.data = band.row(y - first, 0);
+  band.height = rows;
+  return band;
+}
+
+int stereo_band_rows(int height) {
+  return std::clamp(height / 12, 16, 64);
+}
+
+double looked_at_bytes(const LightField& lf, const StereoCosts& costs, int rows) {
+  if (!lf.is_on_disk()) return 0;
+  const GridShape grid = lf.grid();
+  const bool all = costs.matching.views == MatchedViews::All;
+  const double views = all ? grid.count() : grid.v + grid.u - 1;
+  const double steps = std::max(grid.v, grid.u);
+  const double reach = steps * std::max(std::abs(costs.range.min), std::abs(costs.range.max)) + 32;
+  const double view_row = static_cast<double>(lf.byte_size()) / grid.count() / lf.height();
+  return views * view_row * std::min<double>(rows + 2 * reach, lf.height());
+}
+
+namespace {
+
+// Rows of costs between which samples are dropped: multiples of a band.
+int rows_at_once(const LightField& lf, const StereoCosts& costs, int band_rows) {
+  const double most = static_cast<double>(memory_budget()) / 4;
+  int rows = lf.height();
+  while (rows > band_rows && looked_at_bytes(lf, costs, rows) > most) rows /= 2;
+  return std::max(rows / band_rows, 1) * band_rows;
+}
+
+void fill_volume(const LightField& lf, const StereoCosts& costs, int first_row, int end_row,
+                 VolumeView<float> volume, const Progress& progress) {
+  const int rows = stereo_band_rows(lf.height());
+  parallel_for_workers((end_row - first_row + rows - 1) / rows, progress, [&] {
+    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
+      const int y = first_row + i * rows;
+      const auto band = source.compute(y, std::min(rows, end_row - y), progress);
+      std::copy_n(band.data, band.size(), volume.row(y, 0));
+    };
+  });
+}
+
+}  // namespace
+
+Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
+                            const Progress& progress) {
+  const int height = lf.height();
+  Volume<float> volume(height, static_cast<int>(costs.labels.size()), lf.width());
+  const int rows = lf.is_on_disk() ? rows_at_once(lf, costs, stereo_band_rows(height)) : height;
+  for (int y = 0; y < height; y += rows) {
+    const int end = std::min(y + rows, height);
+    if (costs.matching.views == MatchedViews::All) lf.fetch_samples(y, end);
+    fill_volume(lf, costs, y, end, volume.view(),
+                progress.part(static_cast<double>(y) / height, static_cast<double>(end) / height));
+    if (rows < height) lf.forget_samples();
+  }
+  return volume;
+}
+
+std::vector<std::string> cost_notes(const StereoCosts& costs) {
+  std::vector<std::string> notes{cap_note(costs)};
+  notes.insert(notes.end(), costs.notes.begin(), costs.notes.end());
+  return notes;
+}
+
+namespace {
+
+std::vector<cuda::MatchShift> device_shifts(const std::vector<AxisShift>& shifts) {
+  std::vector<cuda::MatchShift> result;
+  result.reserve(shifts.size());
+  for (const AxisShift& shift : shifts) {
+    cuda::MatchShift& each = result.emplace_back();
+    std::ranges::copy(shift.weights, each.weights);
+    each.origin = shift.origin;
+    each.taps = shift.taps;
+    each.first = shift.first;
+    each.last = shift.last;
+    each.nearest = shift.nearest;
+    each.noise_left = shift.noise_left();
+  }
+  return result;
+}
+
+// In the order in which the CPU adds them.
+std::vector<cuda::MatchedView> matched_views(GridShape grid, ViewIndex reference,
+                                             const MatchingCost& cost) {
+  std::vector<cuda::MatchedView> views;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i);
+    const bool on_cross = view.v == reference.v || view.u == reference.u;
+    if (view == reference || (cost.views == MatchedViews::CrossHair && !on_cross)) continue;
+    views.push_back({view, cost.places ? i : view.v, cost.places ? i : view.u});
+  }
+  return views;
+}
+
+}  // namespace
+
+cuda::StereoMatching device_matching(const LightField& lf, ViewIndex reference,
+                                     const MatchingCost& cost, const std::vector<float>& labels) {
+  check_matching(lf, reference);
+  const GridShape grid = lf.grid();
+  const int count = static_cast<int>(labels.size());
+  const auto shifts = [&](int places, int at, double ViewPlace::*axis, int extent) {
+    const std::size_t index = static_cast<std::size_t>(reference.v) * grid.u + reference.u;
+    return make_shifts(
+        cost.places ? stated_ways(*cost.places, index, axis) : regular_ways(places, at), extent,
+        cost.interpolation, labels);
+  };
+  const std::vector<AxisShift> rows = shifts(grid.v, reference.v, &ViewPlace::v, lf.height());
+  const std::vector<AxisShift> columns = shifts(grid.u, reference.u, &ViewPlace::u, lf.width());
+  cuda::StereoMatching matching;
+  matching.views = matched_views(grid, reference, cost);
+  matching.labels = count;
+  matching.disparities = labels;
+  matching.rows = device_shifts(rows);
+  matching.columns = device_shifts(columns);
+  if (lf.valid().empty() && !cost.places) {
+    matching.rows_seen = count_seen(rows, count, lf.height());
+    matching.columns_seen = count_seen(columns, count, lf.width());
+  }
+  matching.is_cross_hair = cost.views == MatchedViews::CrossHair;
+  matching.cap = static_cast<float>(cost.cap);
+  matching.worst =
+      static_cast<float>(std::min(cost.cap, std::sqrt(static_cast<double>(lf.channels()))));
+  return matching;
+}
+
+cuda::LabelPlaces::Refinement device_refinement(Refinement refinement) {
+  using To = cuda::LabelPlaces::Refinement;
+  if (refinement == Refinement::Parabola) return To::Parabola;
+  return refinement == Refinement::Equiangular ? To::Equiangular : To::None;
+}
+
+}  // namespace episcope

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/visible_costs.h"
+
+#include "engine/core/image.h"
+#include "engine/core/parallel.h"
+#include "engine/cuda/volume_costs.h"
+#include "engine/disparity/cost_volume.h"
+#include "engine/disparity/stereo_costs.h"
+#include "engine/disparity/view_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+// Sums over the channels of products of the gradient.
+struct Products {
+  float xx = 0, xy = 0, yy = 0;
+};
+
+Products gradient_products(const Image<float>& image, int y, int x) {
+  const int left = std::max(x - 1, 0), right = std::min(x + 1, image.width() - 1);
+  const int up = std::max(y - 1, 0), down = std::min(y + 1, image.height() - 1);
+  Products sum;
+  for (int c = 0; c < image.channels(); ++c) {
+    const float gx = (image.at(y, right, c) - image.at(y, left, c)) / std::max(right - left, 1);
+    const float gy = (image.at(down, x, c) - image.at(up, x, c)) / std::max(down - up, 1);
+    sum.xx += gx * gx;
+    sum.xy += gx * gy;
+    sum.yy += gy * gy;
+  }
+  return sum;
+}
+
+float mean_difference(const Products& g, GridShape grid, ViewIndex view) {
+  float sum = 0;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex other = grid.view_at(i);
+    const auto u = static_cast<float>(other.u - view.u), v = static_cast<float>(other.v - view.v);
+    sum += std::sqrt(std::max(0.0F, u * u * g.xx + 2 * u * v * g.xy + v * v * g.yy));
+  }
+  return sum / static_cast<float>(grid.count() - 1);
+}
+
+}  // namespace
+
+Image<float> local_caps(const LightField& lf, ViewIndex view, const Image<float>& variance,
+                        const LocalCapOptions& options, const Progress& progress) {
+  const Image<float> image = lf.view_as_float(view);
+  const auto of_channels = static_cast<float>(1 / std::sqrt(channel_weight(lf.channels())));
+  const float lowest = of_channels * options.lowest, highest = of_channels * options.highest;
+  Image<float> caps(lf.height(), lf.width());
+  parallel_for(lf.height(), progress, [&](int y) {
+    for (int x = 0; x < lf.width(); ++x) {
+      const float off =
+          options.offset * mean_difference(gradient_products(image, y, x), lf.grid(), view);
+      const float noise = std::sqrt(variance.at(y, x) * static_cast<float>(lf.channels()));
+      caps.at(y, x) = std::clamp(off, lowest, highest) + options.noise_share * noise;
+    }
+  });
+  return caps;
+}
+
+namespace {
+
+constexpr int kTrustRadius = 4;
+
+}  // namespace
+
+Image<float> regional_trust(ImageView<const float> confidence) {
+  const int height = confidence.height, width = confidence.width;
+  Image<float> own(height, width), means(height, width);
+  for (int y = 0; y < height; ++y) std::copy_n(confidence.row(y), width, own.row(y));
+  std::vector<float> columns(width);
+  for (int y = 0; y < height; ++y) {
+    window_mean_row(own, y, kTrustRadius, columns.data(), means.row(y));
+  }
+  return means;
+}
+
+LabelCosts::LabelCosts(const StereoCosts& stereo, Volume<float> volume, const Progress& progress)
+    : stereo_(stereo),
+      volume_(std::move(volume)),
+      means_(mean_costs(std::as_const(volume_).view(), progress)) {}
+
+LabelCosts::LabelCosts(const StereoCosts& stereo, cuda::SharedVolume volume)
+    : stereo_(stereo), on_device_(std::move(volume)) {}
+
+Image<int> LabelCosts::best_labels(const Progress& progress) const {
+  if (on_device_) return cuda::least_labels(*on_device_, progress);
+  const VolumeView<const float> costs = on_cpu();
+  Image<int> labels(costs.height, costs.width);
+  parallel_for(costs.height, progress, [&](int y) {
+    std::vector<float> least(costs.row(y, 0), costs.row(y, 0) + costs.width);
+    int* const best = labels.row(y);
+    for (int l = 1; l < costs.layers; ++l) {
+      const float* const cost = costs.row(y, l);
+      for (int x = 0; x < costs.width; ++x) {
+        best[x] = cost[x] < least[x] ? l : best[x];
+        least[x] = std::min(least[x], cost[x]);
+      }
+    }
+  });
+  return labels;
+}
+
+Placements LabelCosts::place(const Image<int>& labels, const Progress& progress) const {
+  if (on_device_) return place_by_costs(stereo_, *on_device_, labels, progress);
+  return place_pixels(
+      labels,
+      [&](int y, int x, int label) {
+        return place_by_costs(stereo_, on_cpu(), means_, y, x, label);
+      },
+      progress);
+}
+
+ViewStack<float> LabelCosts::confidence(ImageView<const float> disparity,
+                                        const Progress& progress) const {
+  if (on_device_) return volume_confidence(disparity, stereo_, *on_device_, progress);
+  return volume_confidence(disparity, stereo_, on_cpu(), means_, progress);
+}
+
+namespace {
+
+// Between a view that counts and one that does not, px of disparity.
+constexpr float kSoftness = 0.05F;
+
+// Of the view, which is compensated.
+Image<float> noise_of(const StereoCosts& costs, const Progress& progress) {
+  if (costs.matcher) return costs.matcher->noise(progress);
+  return costs.matching.noise ? *costs.matching.noise : Image<float>();
+}
+
+LabelCosts costs_on_device(const LightField& lf, const StereoCosts& costs,
+                           const Progress& progress) {
+  const LightField& compared = costs.relative ? *costs.relative : lf;
+  return {costs,
+          costs.matcher->volume(device_matching(compared, costs.view, costs.matching, costs.labels),
+                                progress)};
+}
+
+}  // namespace
+
+Schema<VisibilityParameters> visibility_schema() {
+  using P = VisibilityParameters;
+  return Schema<P>()
+      .integer("rounds", &P::rounds,
+               {"Rounds",
+                "Number of times the costs are computed again without the views in which the "
+                "last result says a point is occluded; 0 = off"},
+               {0, 10})
+      .real("tolerance", &P::tolerance,
+            {"Tolerance", "A surface nearer than a point by more than this occludes it", "px"},
+            {0, 2})
+      .real("least_trust", &P::least_trust,
+            {"Least confidence",
+             "A surface whose confidence is below this, mean over its surroundings, occludes "
+             "nothing"},
+            {0, 1})
+      .real("cap_share", &P::cap_share, {"Least cap", "The least cap of a pixel, as a share of ε"},
+            {0, 10})
+      .real("cap_offset", &P::cap_offset,
+            {"Cap offset",
+             "The cap of a pixel follows what a disparity that is off by this much costs there; 0 "
+             "uses ε for all pixels",
+             "px"},
+            {0, 2});
+}
+
+void set_local_caps(const LightField& lf, const VisibilityParameters& parameters,
+                    const Progress& progress, StereoCosts& costs) {
+  if (parameters.cap_offset <= 0) return;
+  const Image<float> noise = noise_of(costs, progress.part(0, 0));
+  if (noise.empty()) return;
+  auto caps = std::make_shared<Image<float>>(local_caps(
+      lf, costs.view, noise, {.offset = static_cast<float>(parameters.cap_offset)}, progress));
+  const auto least = static_cast<float>(parameters.cap_share * costs.matching.cap);
+  for (float& cap : *caps) cap = std::max(cap, least);
+  if (costs.matcher) costs.matcher->set_caps(*caps, progress.part(1, 1));
+  costs.matching.caps = std::move(caps);
+}
+
+Image<float> sure_surfaces(ImageView<const float> disparity, ImageView<const float> confidence,
+                           double least_trust) {
+  const Image<float> trust = regional_trust(confidence);
+  Image<float> known(disparity.height, disparity.width, 1, kNothingNear);
+  for (int y = 0; y < disparity.height; ++y) {
+    for (int x = 0; x < disparity.width; ++x) {
+      if (trust.at(y, x) >= least_trust) known.at(y, x) = disparity.at(y, x);
+    }
+  }
+  return known;
+}
+
+void set_occluders(const LightField& lf, ImageView<const float> disparity,
+                   ImageView<const float> confidence, const VisibilityParameters& parameters,
+                   const Progress& progress, StereoCosts& costs) {
+  const Image<float> known = sure_surfaces(disparity, confidence, parameters.least_trust);
+  if (costs.matcher) {
+    return costs.matcher->set_occluders(known, static_cast<float>(parameters.tolerance), kSoftness,
+                                        progress);
+  }
+  auto occluders = std::make_shared<Occluders>();
+  occluders->nearest = surfaces_in_views(known, costs.view, lf.grid(), progress);
+  occluders->tolerance = static_cast<float>(parameters.tolerance);
+  occluders->softness = kSoftness;
+  costs.matching.occluders = std::move(occluders);
+}
+
+LabelCosts visible_costs(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
+  if (costs.matcher) return costs_on_device(lf, costs, progress);
+  Volume<float> volume = stereo_volume(lf, costs, progress.part(0, 0.9));
+  if (!costs.matching.caps) return {costs, std::move(volume), progress.part(0.95, 1)};
+  const Image<float>& caps = *costs.matching.caps;
+  const auto mean = static_cast<float>(std::accumulate(caps.begin(), caps.end(), 0.0) /
+                                       static_cast<double>(caps.size()));
+  const VolumeView<float> view = volume.view();
+  parallel_for(view.height, progress.part(0.9, 0.95), [&](int y) {
+    const float* const cap = caps.row(y);
+    for (int label = 0; label < view.layers; ++label) {
+      float* const cost = view.row(y, label);
+      for (int x = 0; x < view.width; ++x) cost[x] *= mean / cap[x];
+    }
+  });
+  return {costs, std::move(volume), progress.part(0.95, 1)};
+}
+
+}  // namespace episcope

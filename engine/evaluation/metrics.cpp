@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/evaluation/metrics.h"
+
+#include "engine/core/disparity_field.h"
+#include "engine/core/error.h"
+#include "engine/evaluation/region_metrics.h"
+#include "engine/evaluation/resolved_errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace episcope {
+namespace {
+
+template <class T>
+std::string size_text(const ImageView<const T>& image) {
+  return fmt::format("{}×{}", image.width, image.height);
+}
+
+/// The smallest, that is farthest, true disparity: what a missing estimate counts as.
+float farthest_disparity(const DisparityView& truth) {
+  float farthest = std::numeric_limits<float>::infinity();
+  for (int y = 0; y < truth.disparity.height; ++y) {
+    for (int x = 0; x < truth.disparity.width; ++x) {
+      if (truth.is_valid(y, x)) farthest = std::min(farthest, truth.disparity.at(y, x));
+    }
+  }
+  return farthest;
+}
+
+Evaluation measure_errors(const DisparityView& estimate, const DisparityView& truth, int border,
+                          InvalidEstimates invalid) {
+  const int height = truth.disparity.height;
+  const int width = truth.disparity.width;
+  Evaluation evaluation{{},
+                        Image<float>(height, width),
+                        Image<std::uint8_t>(height, width),
+                        Image<std::uint8_t>(height, width)};
+  const float farthest = farthest_disparity(truth);
+  for (int y = border; y < height - border; ++y) {
+    for (int x = border; x < width - border; ++x) {
+      if (!truth.is_valid(y, x)) continue;
+      const float d = truth.disparity.at(y, x);
+      evaluation.judged.at(y, x) = 1;
+      if (estimate.is_valid(y, x)) {
+        evaluation.signed_error.at(y, x) = d - estimate.disparity.at(y, x);
+      } else {
+        evaluation.missing.at(y, x) = 1;
+        if (invalid == InvalidEstimates::Bad) evaluation.signed_error.at(y, x) = d - farthest;
+      }
+    }
+  }
+  return evaluation;
+}
+
+void append(Metrics& metrics, const char* key, std::optional<double> value) {
+  if (value) metrics.emplace_back(key, *value);
+}
+
+void append(Metrics& metrics, const Metrics& more) {
+  metrics.insert(metrics.end(), more.begin(), more.end());
+}
+
+/// Those of vmv2013, with and without a border.
+void append_squared_errors(Metrics& metrics, const RegionInput& input) {
+  const Image<float> truth = marked(input.truth);
+  const ResolvedErrors errors(input.estimate, truth.view(), 1, input.options);
+  append(metrics, "mse_100", errors.mse_100(nullptr, 0));
+  append(metrics, "mse_100_inset15", errors.mse_100(nullptr, kBenchmarkBorder));
+}
+
+std::optional<double> density(const Evaluation& evaluation) {
+  const auto missing_share =
+      bad_percentage(evaluation, nullptr, InvalidEstimates::Bad, [](float) { return false; });
+  if (!missing_share) return std::nullopt;
+  return 100 - *missing_share;
+}
+
+void require_comparable(const DisparityView& estimate, const DisparityView& truth) {
+  const auto& a = estimate.disparity;
+  const auto& b = truth.disparity;
+  if (a.height != b.height || a.width != b.width) {
+    throw InvalidInput("the estimate is " + size_text(a) + " px, but the truth is " + size_text(b) +
+                       " px: they belong to different light fields");
+  }
+}
+
+void require_sizes(const std::map<std::string, Image<std::uint8_t>>& regions,
+                   const DisparityView& truth) {
+  for (const auto& [name, mask] : regions) {
+    if (mask.height() == truth.disparity.height && mask.width() == truth.disparity.width) continue;
+    throw InvalidInput(fmt::format("the region mask {} is {} px, but the truth is {} px", name,
+                                   size_text(mask.view()), size_text(truth.disparity)));
+  }
+}
+
+/// Percentage of the pixels with truth that the light field shows.
+std::optional<double> shown_percentage(const DisparityView& truth, const DisparityView& shown) {
+  double all = 0, seen = 0;
+  for (int y = 0; y < truth.disparity.height; ++y) {
+    for (int x = 0; x < truth.disparity.width; ++x) {
+      all += truth.is_valid(y, x) ? 1 : 0;
+      seen += shown.is_valid(y, x) ? 1 : 0;
+    }
+  }
+  if (all == 0) return std::nullopt;
+  return 100 * seen / all;
+}
+
+/// None if no pixel can be judged.
+std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate,
+                                          const DisparityView& whole_truth,
+                                          const std::map<std::string, Image<std::uint8_t>>& regions,
+                                          const EvaluationOptions& options) {
+  require_comparable(estimate, whole_truth);
+  require_sizes(regions, whole_truth);
+  const ShownDisparity shown(whole_truth, options.shown);
+  const DisparityView& truth = shown.view();
+  const bool is_benchmark = options.protocol == Protocol::Benchmark2016;
+  Evaluation evaluation =
+      measure_errors(estimate, truth, is_benchmark ? kBenchmarkBorder : 0, options.invalid);
+  if (std::find(evaluation.judged.begin(), evaluation.judged.end(), 1) == evaluation.judged.end()) {
+    return std::nullopt;
+  }
+  const RegionInput input{estimate, truth, regions, options};
+  BenchmarkMetrics scores;
+  if (is_benchmark) {
+    scores = benchmark_metrics(input);
+    append(evaluation.metrics, scores.general);
+    evaluation.notes = std::move(scores.notes);
+  } else {
+    append_squared_errors(evaluation.metrics, input);
+  }
+  append(evaluation.metrics, "density", density(evaluation));
+  if (!options.shown.empty()) {
+    append(evaluation.metrics, "shown", shown_percentage(whole_truth, truth));
+  }
+  append(evaluation.metrics, scores.masked);
+  if (is_benchmark) append_region_metrics(evaluation, input);
+  return evaluation;
+}
+
+// The centre view: the truth covers all views or that one.
+ViewIndex center_of(const DisparityField& truth) {
+  const ViewIndex first = truth.disparity.first(), center = truth.disparity.grid().center();
+  return {first.v + center.v, first.u + center.u};
+}
+
+// Whether a map has a value there; a map that is missing has none.
+bool has_value(const DisparityField& field, ViewIndex view, int y, int x) {
+  return field.contains(view) && field.view(view).is_valid(y, x);
+}
+
+std::optional<double> layers_right(const LayeredDisparity& estimate, const GroundTruth& truth,
+                                   ViewIndex view, ImageView<const std::uint8_t> shown) {
+  if (estimate.layers.empty() || !estimate.layers.contains(view)) return std::nullopt;
+  const ImageView<const std::uint8_t> layers = estimate.layers.view(view);
+  double judged = 0, right = 0;
+  for (int y = 0; y < layers.height; ++y) {
+    for (int x = 0; x < layers.width; ++x) {
+      if (!shown.empty() && shown.at(y, x) == 0) continue;
+      const bool near = has_value(truth.foreground, view, y, x);
+      const bool far = has_value(truth.background, view, y, x);
+      if (!near && !far && !has_value(truth.field, view, y, x)) continue;
+      judged += 1;
+      if (layers.at(y, x) == (near && far ? 2 : 1)) right += 1;
+    }
+  }
+  if (judged == 0) return std::nullopt;
+  return 100 * right / judged;
+}
+
+}  // namespace
+
+const char* protocol_name(Protocol protocol) {
+  return protocol == Protocol::Vmv2013 ? "vmv2013" : "benchmark2016";
+}
+
+Protocol parse_protocol(const std::string& name) {
+  for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
+    if (name == protocol_name(protocol)) return protocol;
+  }
+  throw InvalidInput("there is no protocol '" + name + "'; use vmv2013 or benchmark2016");
+}
+
+std::optional<double> find_metric(const Metrics& metrics, const std::string& key) {
+  const auto found = std::find_if(metrics.begin(), metrics.end(),
+                                  [&key](const auto& metric) { return metric.first == key; });
+  if (found == metrics.end()) return std::nullopt;
+  return found->second;
+}
+
+Evaluation evaluate(const DisparityView& estimate, const DisparityView& truth,
+                    const std::map<std::string, Image<std::uint8_t>>& regions,
+                    const EvaluationOptions& options) {
+  auto evaluation = evaluate_if_any(estimate, truth, regions, options);
+  if (evaluation) return std::move(*evaluation);
+  throw InvalidInput(
+      "no pixel of the " + size_text(truth.disparity) + " px can be evaluated by " +
+      protocol_name(options.protocol) +
+      (options.protocol == Protocol::Benchmark2016 ? ", which ignores a border of 15 px" : "") +
+      ": the truth has no value there" +
+      (options.shown.empty() ? "" : ", or the light field shows nothing"));
+}
+
+LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate, const GroundTruth& truth,
+                                  ViewIndex view, const EvaluationOptions& options) {
+  for (const auto* field :
+       {&estimate.foreground, &estimate.background, &truth.foreground, &truth.background}) {
+    if (!field->contains(view)) {
+      throw InvalidInput(fmt::format(
+          "view {},{} does not have two layers in both estimate and truth", view.v, view.u));
+    }
+  }
+  const std::map<std::string, Image<std::uint8_t>> no_regions;
+  const auto& regions = view == center_of(truth.foreground) ? truth.regions : no_regions;
+  const DisparityView near = estimate.foreground.view(view);
+  LayeredEvaluation evaluation{
+      evaluate(near, truth.foreground.view(view), regions, options),
+      evaluate(estimate.background.view(view), truth.background.view(view), regions, options),
+      {},
+      layers_right(estimate, truth, view, options.shown)};
+  if (truth.field.contains(view)) {
+    evaluation.single = evaluate_if_any(near, truth.field.view(view), regions, options);
+  }
+  return evaluation;
+}
+
+Metrics layered_metrics(const LayeredEvaluation& evaluation) {
+  Metrics metrics;
+  if (evaluation.single) metrics = evaluation.single->metrics;
+  const auto append_layer = [&metrics](const Metrics& layer, const char* suffix) {
+    for (const auto& [key, value] : layer) metrics.emplace_back(key + suffix, value);
+  };
+  append_layer(evaluation.foreground.metrics, "_foreground");
+  append_layer(evaluation.background.metrics, "_background");
+  append(metrics, "layers_right", evaluation.layers_right);
+  return metrics;
+}
+
+const char* runtime_class(double seconds) {
+  if (seconds < 5) return "fast";
+  return seconds <= 60 ? "medium" : "slow";
+}
+
+Image<std::uint8_t> present_mask(const Evaluation& evaluation) {
+  const Image<float>& error = evaluation.signed_error;
+  Image<std::uint8_t> mask(error.height(), error.width(), 1, 1);
+  if (evaluation.missing.empty()) return mask;
+  std::transform(evaluation.missing.begin(), evaluation.missing.end(), mask.begin(),
+                 [](std::uint8_t missing) { return static_cast<std::uint8_t>(missing == 0); });
+  return mask;
+}
+
+Image<float> absolute_error_map(const Evaluation& evaluation) {
+  Image<float> map = evaluation.signed_error;
+  for (float& error : map) error = std::abs(error);
+  return map;
+}
+
+Image<float> bad_pixel_map(const Evaluation& evaluation, double threshold_px) {
+  const auto threshold = static_cast<float>(threshold_px);
+  Image<float> map = evaluation.signed_error;
+  auto missing = evaluation.missing.begin();
+  for (float& error : map) {
+    const bool is_missing = *missing++ != 0;
+    error = is_missing || std::abs(error) > threshold ? kBadPixel : kGoodPixel;
+  }
+  return map;
+}
+
+}  // namespace episcope

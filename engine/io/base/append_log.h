@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/base/files.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace episcope::io {
+
+/// Flushes an open file to the disk soon after each write, on a thread of its own, so that the
+/// writer never waits for a disk. The file must outlive it.
+class BackgroundFlush {
+ public:
+  /// Whether what is in the file by now, and its name, are on the disk.
+  enum class Start { Flushed, Unflushed };
+
+  BackgroundFlush(int descriptor, std::filesystem::path path, Start start);
+  /// Flushes.
+  ~BackgroundFlush();
+  BackgroundFlush(const BackgroundFlush&) = delete;
+  BackgroundFlush& operator=(const BackgroundFlush&) = delete;
+
+  /// Something was written.
+  void request();
+  /// Waits until all that was written is on the disk, or a flush failed.
+  void wait();
+  /// `errno` of a flush that failed; 0 = none did.
+  [[nodiscard]] int error() const;
+
+ private:
+  void run(const std::stop_token& stop);
+
+  const int descriptor_;
+  const std::filesystem::path path_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::uint64_t written_ = 0;  ///< Counts requests,
+  std::uint64_t flushed_ = 0;  ///< and those fulfilled.
+  bool is_named_;              ///< Whether the name is on the disk.
+  int error_ = 0;
+  std::jthread thread_;
+};
+
+using LogRecord = std::vector<std::uint8_t>;
+
+/// How the records of a log are stored in its file.
+enum class LogFraming {
+  Lines,    ///< Text: a record is a line, and holds no line break.
+  Checked,  ///< Binary: a signature, then every record after its length and a checksum.
+};
+
+/// What a log without records consists of.
+[[nodiscard]] std::span<const std::uint8_t> log_signature(LogFraming framing);
+
+/// Adds a record to the bytes of a log. Throws InvalidInput if it is longer than 2 GiB.
+void put_record(LogFraming framing, std::span<const std::uint8_t> record,
+                std::vector<std::uint8_t>& bytes);
+
+struct LogContent {
+  std::vector<LogRecord> records;
+  std::size_t whole_bytes = 0;  ///< Of the signature and these records.
+};
+
+/// The records up to the first that is truncated or damaged, as the end of the program in the
+/// middle of a write leaves it. Nothing if these are not the bytes of such a log.
+[[nodiscard]] std::optional<LogContent> parse_log(LogFraming framing,
+                                                  std::span<const std::uint8_t> bytes);
+
+/// When a log flushes what was appended to the disk.
+enum class LogFlush {
+  AtOnce,        ///< Before `append` returns.
+  InBackground,  ///< Soon after, so that the caller never waits for a disk.
+};
+
+/// A file that only grows, by whole records. A record is in the file when `append` returns, and
+/// survives the end of the program, whatever its cause. While the log is open no other process can
+/// hold it; the system releases it when the program ends.
+class AppendLog {
+ public:
+  /// Opens the log, or creates an empty one. Anything after the last whole record (parse_log) is
+  /// discarded. Throws IoError, also if another process holds the log or the file is not such a
+  /// log.
+  AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush);
+  /// Creates a log of these records, which appears under its name once it is complete; it replaces
+  /// an existing one only when it is on the disk as well. Throws IoError.
+  AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush,
+            std::span<const LogRecord> records);
+
+  /// The records that were there when it was opened.
+  [[nodiscard]] const std::vector<LogRecord>& records() const { return records_; }
+  /// Throws IoError, also if a flush in the background failed before. The log is then as it was
+  /// before the call; if even that failed, it accepts no more records.
+  void append(std::span<const std::uint8_t> record);
+  void append(std::string_view record);
+  /// Several records in one write; as `append`.
+  void append_all(std::span<const LogRecord> records);
+  /// Waits until all records are on the disk. Throws IoError.
+  void flush();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::uintmax_t byte_size() const { return bytes_; }
+
+ private:
+  void read_records();
+  void start_flush(LogFlush flush, BackgroundFlush::Start start);
+  void require_sound();
+  void write(std::span<const std::uint8_t> bytes);
+
+  std::filesystem::path path_;
+  LogFraming framing_;
+  FileDescriptor file_;
+  std::vector<LogRecord> records_;
+  std::uintmax_t bytes_ = 0;
+  bool is_broken_ = false;
+  std::optional<BackgroundFlush> flush_;  ///< None: at once.
+};
+
+/// The records of a log that another process may hold; the file stays as it is. Throws IoError if
+/// it cannot be read or is no such log.
+[[nodiscard]] std::vector<LogRecord> read_log(const std::filesystem::path& path,
+                                              LogFraming framing);
+
+/// Whether a living process has the log open. False if there is no such file.
+[[nodiscard]] bool is_held(const std::filesystem::path& path);
+
+/// CRC-32 as PNG has it (ISO 3309).
+[[nodiscard]] std::uint32_t checksum(std::span<const std::uint8_t> bytes);
+
+}  // namespace episcope::io

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/base/array_layout.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace episcope::io {
+namespace {
+
+constexpr std::size_t kMostViews = 1000;     ///< Along an axis of the grid, or in a list.
+constexpr std::size_t kMostPixels = 100000;  ///< Along an axis of a view.
+constexpr std::size_t kFewestPixels = 4;
+
+bool can_be_channels(std::size_t length) {
+  return length == 1 || length == 3 || length == 4;
+}
+
+bool can_be_pixels(std::size_t a, std::size_t b) {
+  const auto [least, most] = std::minmax(a, b);
+  return least >= kFewestPixels && most <= kMostPixels;
+}
+
+/// Whether the lengths are those of a grid of views and of the pixels of each.
+bool can_be_views(std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+  const std::size_t most = std::max(a, b);
+  return std::min(a, b) > 0 && most > 1 && most <= kMostViews && can_be_pixels(c, d) &&
+         most < std::min(c, d);
+}
+
+/// Letters for four axes, or a list and its pixels, into which the channels are to be put.
+void add_grids(const ArrayShape& lengths, std::size_t channel_axis, std::vector<std::string>& out) {
+  ArrayShape four = lengths;
+  const bool has_channels = channel_axis < lengths.size();
+  if (has_channels) four.erase(four.begin() + static_cast<std::ptrdiff_t>(channel_axis));
+  const auto add = [&](std::string axes) {
+    if (has_channels) axes = axes.substr(0, channel_axis) + 'c' + axes.substr(channel_axis);
+    out.push_back(std::move(axes));
+  };
+  if (can_be_views(four[0], four[1], four[2], four[3])) add("vuyx");
+  if (can_be_views(four[2], four[3], four[0], four[1])) {
+    add(has_channels && channel_axis == 0 ? "xyuv" : "yxvu");
+  }
+}
+
+/// Of mosaics whose sides were split: "vyux" of views side by side, "yvxu" of lenslets.
+void add_mosaics(const ArrayShape& l, std::vector<std::string>& out) {
+  const std::string channels = l.size() == 5 ? "c" : "";
+  if (can_be_views(l[0], l[2], l[1], l[3])) out.push_back("vyux" + channels);
+  if (can_be_views(l[1], l[3], l[0], l[2])) out.push_back("yvxu" + channels);
+}
+
+bool is_square(std::size_t n) {
+  const auto root = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(n))));
+  return root * root == n;
+}
+
+bool can_be_list(std::size_t n, std::size_t y, std::size_t x) {
+  return n > 1 && n <= kMostViews && can_be_pixels(y, x) && (n < std::max(y, x) || n > 4);
+}
+
+void add_lists(const ArrayShape& lengths, std::vector<std::string>& out) {
+  const ArrayShape& l = lengths;
+  if (l.size() == 3) {
+    if (!can_be_channels(l[2]) && can_be_list(l[0], l[1], l[2])) out.emplace_back("nyx");
+    const bool is_deep = l[2] < std::min(l[0], l[1]) || l[0] == l[1] ||
+                         (l[2] < std::max(l[0], l[1]) && is_square(l[2]));
+    if (!can_be_channels(l[0]) && can_be_list(l[2], l[0], l[1]) && is_deep &&
+        !can_be_channels(l[2])) {
+      out.emplace_back("yxn");
+    }
+    return;
+  }
+  if (can_be_channels(l[3]) && can_be_list(l[0], l[1], l[2])) out.emplace_back("nyxc");
+  if (can_be_channels(l[1]) && l[1] > 1 && can_be_list(l[0], l[2], l[3])) out.emplace_back("ncyx");
+  if (can_be_channels(l[2]) && l[2] > 1 && can_be_list(l[3], l[0], l[1])) out.emplace_back("yxcn");
+}
+
+/// Lists as networks take them, which are written like the only row or column of a grid: after a
+/// batch of one, or with one channel. They are read as lists, whose views can speak for either.
+void add_network_lists(const ArrayShape& lengths, std::vector<std::string>& out) {
+  const bool is_batch = lengths.front() == 1;
+  const ArrayShape rest(lengths.begin() + (is_batch ? 1 : 0), lengths.end());
+  std::vector<std::string> lists;
+  if (is_batch) add_lists(rest, lists);
+  if (rest.size() == 4 && rest[1] == 1 && can_be_list(rest[0], rest[2], rest[3])) {
+    lists.emplace_back("ncyx");
+  }
+  std::erase_if(lists,
+                [](const std::string& axes) { return !axes.starts_with('n') && axes != "yxn"; });
+  if (!lists.empty()) {
+    std::erase_if(out, [](const std::string& axes) { return axes.starts_with("vu"); });
+  }
+  for (std::string& axes : lists) {
+    if (is_batch) axes.insert(axes.begin(), kSingle);
+    out.push_back(std::move(axes));
+  }
+}
+
+}  // namespace
+
+ArrayShape in_index_order(ArrayShape stored, IndexOrder order) {
+  if (order == IndexOrder::Fortran) std::ranges::reverse(stored);
+  return stored;
+}
+
+std::string in_index_order(std::string axes, IndexOrder order) {
+  if (order == IndexOrder::Fortran) std::ranges::reverse(axes);
+  return axes;
+}
+
+std::size_t ArrayLayout::length(char letter) const {
+  const std::size_t at = axes.find(letter);
+  return at == std::string::npos ? 1 : shape[at];
+}
+
+std::size_t ArrayLayout::stride(char letter) const {
+  const std::size_t at = axes.find(letter);
+  if (at == std::string::npos) return 0;
+  std::size_t stride = 1;
+  for (std::size_t axis = at + 1; axis < shape.size(); ++axis) stride *= shape[axis];
+  return stride;
+}
+
+bool ArrayLayout::views_are_fastest() const {
+  const std::size_t views = has('n') ? axes.find('n') : std::min(axes.find('v'), axes.find('u'));
+  return views > std::min(axes.find('y'), axes.find('x'));
+}
+
+GridShape ArrayLayout::grid() const {
+  return has('n') ? GridShape{1, count('n')} : GridShape{count('v'), count('u')};
+}
+
+int ArrayLayout::count(char letter) const {
+  constexpr std::size_t most = std::numeric_limits<int>::max();
+  return static_cast<int>(std::min(length(letter), most));
+}
+
+ArrayLayout ArrayLayout::crossed() const {
+  ArrayLayout other = *this;
+  for (char& letter : other.axes) letter = letter == 'v' ? 'u' : letter == 'u' ? 'v' : letter;
+  return other;
+}
+
+std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder order) {
+  ArrayShape lengths = in_index_order(stored, order);
+  std::string singles;
+  while (lengths.size() > 5 && lengths.front() == 1) {
+    lengths.erase(lengths.begin());
+    singles += kSingle;
+  }
+  std::vector<std::string> found;
+  if (lengths.size() == 5) {
+    for (const std::size_t axis : {4, 0, 2}) {
+      if (can_be_channels(lengths[axis])) add_grids(lengths, axis, found);
+    }
+  } else if (lengths.size() == 4) {
+    add_grids(lengths, lengths.size(), found);
+    add_lists(lengths, found);
+  } else if (lengths.size() == 3) {
+    add_lists(lengths, found);
+  }
+  const bool has_channels_last = lengths.size() == 5 && can_be_channels(lengths[4]);
+  if (found.empty() && (lengths.size() == 4 || has_channels_last)) add_mosaics(lengths, found);
+  const bool may_be_of_network = order == IndexOrder::C && singles.empty() && lengths.size() > 3;
+  if (may_be_of_network) add_network_lists(lengths, found);
+  std::vector<ArrayLayout> layouts;
+  for (const std::string& axes : found)
+    layouts.push_back({stored, in_index_order(singles + axes, order)});
+  return layouts;
+}
+
+ArrayLayout stated_layout(const std::filesystem::path& path, const ArrayShape& stored,
+                          const std::string& axes, IndexOrder order) {
+  std::string letters;
+  for (const char c : axes) {
+    const char lower = lower_case(c);
+    if (lower == ',' || lower == ' ') continue;
+    letters += lower == 't' ? 'v' : lower == 's' ? 'u' : lower;
+  }
+  const auto refused = [&](const std::string& why) {
+    return InvalidInput(fmt::format(
+        "{}: axes {} do not fit the array of {}: {}; give one of the letters v, u, y, x, c for "
+        "each of its axes, or n, y, x, c for a list of views, as in --axes vuyxc",
+        path.string(), axes.substr(0, 40), array_shape_text(in_index_order(stored, order)), why));
+  };
+  if (letters.size() != stored.size()) {
+    throw refused(fmt::format("{} letters, but {} axes", letters.size(), stored.size()));
+  }
+  for (const char letter : letters) {
+    if (letter == kSingle) continue;
+    if (std::string("vuyxcn").find(letter) == std::string::npos) {
+      throw refused(fmt::format("{} is no axis", letter));
+    }
+    if (std::ranges::count(letters, letter) > 1) {
+      throw refused(fmt::format("{} stands there twice", letter));
+    }
+  }
+  const ArrayLayout layout{stored, in_index_order(letters, order)};
+  const bool has_list = layout.has('n') && !layout.has('v') && !layout.has('u');
+  const bool has_grid = !layout.has('n') && (layout.has('v') || layout.has('u'));
+  if (!layout.has('y') || !layout.has('x')) throw refused("y and x are both needed");
+  if (!has_list && !has_grid) throw refused("either v and u, or n, are needed");
+  if (!can_be_channels(layout.length('c'))) {
+    throw refused(fmt::format("{} channels, but 1, 3 or 4 are expected", layout.length('c')));
+  }
+  const auto is_odd = [](std::size_t length) { return length == 0 || length > kMostPixels; };
+  if (std::ranges::any_of(stored, is_odd)) throw refused("that is no size of a light field");
+  return layout;
+}
+
+std::string layout_text(const ArrayLayout& layout, IndexOrder order) {
+  return fmt::format("{} ({})", array_shape_text(in_index_order(layout.shape, order)),
+                     in_index_order(layout.axes, order));
+}
+
+}  // namespace episcope::io

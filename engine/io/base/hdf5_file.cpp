@@ -1,0 +1,574 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/base/hdf5_file.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/io/base/files.h"
+#include "engine/io/base/hdf5_open.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <fstream>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+/// What reading and writing blocks of a dataset share. For the sources that speak to HDF5 only.
+
+namespace episcope::io {
+namespace {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+template <class T>
+hid_t native_type() {
+  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
+  if constexpr (std::is_same_v<T, std::uint16_t>) return H5T_NATIVE_UINT16;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+}
+
+/// Selects the block; false if the dataset has another rank or no such place.
+inline bool select_block(hid_t space, const Hdf5Block& block) {
+  const std::vector<hsize_t> start(block.start.begin(), block.start.end());
+  const std::vector<hsize_t> count(block.count.begin(), block.count.end());
+  if (static_cast<int>(start.size()) != H5Sget_simple_extent_ndims(space)) return false;
+  return start.empty() || H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr,
+                                              count.data(), nullptr) >= 0;
+}
+
+/// Of the rank of the block: HDF5 walks through selections of different ranks element by element.
+inline hid_t memory_space(const Hdf5Block& block) {
+  const std::vector<hsize_t> count(block.count.begin(), block.count.end());
+  return count.empty() ? H5Screate(H5S_SCALAR)
+                       : H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr);
+}
+
+constexpr std::size_t kChunkCacheLimit = std::size_t{256} << 20;
+
+/// Room for all chunks that the views of one row of chunks share: else a file whose chunks span
+/// several views would be decompressed once for every view.
+std::size_t chunk_cache_bytes(hid_t dataset) {
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  const auto [name, shape, kind, chunk] = describe_dataset(dataset, {});
+  if (chunk.size() < 4 || (chunk[0] == 1 && chunk[1] == 1)) return 0;
+  std::size_t bytes = H5Tget_size(type) * chunk[0];
+  for (std::size_t axis = 1; axis < shape.size(); ++axis) {
+    bytes *= (shape[axis] + chunk[axis] - 1) / chunk[axis] * chunk[axis];
+  }
+  return std::min(bytes, kChunkCacheLimit);
+}
+
+hid_t open_with_cache(const std::filesystem::path& path, hid_t file, const std::string& name) {
+  std::size_t bytes = 0;
+  {
+    Hdf5Handle plain(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!plain.ok()) return -1;
+    require_own_samples(path, name, plain);
+    bytes = chunk_cache_bytes(plain);
+    if (bytes == 0) return plain.release();
+  }
+  // The library keeps the cache of a dataset that is open: the first access must be closed.
+  const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access, 100003, bytes, 1.0);
+  return H5Dopen2(file, name.c_str(), access);
+}
+
+bool is_group(hid_t file, const std::string& name) {
+  H5O_info_t info;
+  return H5Oget_info_by_name2(file, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
+         info.type == H5O_TYPE_GROUP;
+}
+
+hid_t attribute_of(hid_t file, const std::string& object, const std::string& name) {
+  if (H5Aexists_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return -1;
+  return H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+}
+
+bool path_exists(const std::filesystem::path& path, hid_t file, const std::string& name) {
+  if (name == "/") return true;
+  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    const std::string part = name.substr(0, end);
+    H5L_info_t info;
+    if (H5Lget_info(file, part.c_str(), &info, H5P_DEFAULT) >= 0 &&
+        info.type == H5L_TYPE_EXTERNAL) {
+      throw IoError(path, part +
+                              " is a link to another file, which is not followed; store the "
+                              "samples in this file");
+    }
+    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+}  // namespace
+
+std::string hdf5_version() {
+  const Hdf5Lock session;
+  unsigned major = 0;
+  unsigned minor = 0;
+  unsigned release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return fmt::format("{}.{}.{}", major, minor, release);
+}
+
+std::string shape_text(const Hdf5Shape& shape) {
+  if (shape.empty()) return "a single value";
+  return joined(shape, "×", [](std::size_t length) { return std::to_string(length); });
+}
+
+bool has_hdf5_signature(const std::filesystem::path& path) {
+  constexpr char signature[] = "\x89HDF\r\n\x1a\n";
+  std::ifstream file(path, std::ios::binary);
+  // A block of the user's may precede the HDF5 part, as in MATLAB files.
+  for (const int offset : {0, 512, 1024, 2048}) {
+    char begin[8] = {};
+    if (!file.seekg(offset).read(begin, sizeof begin)) return false;
+    if (std::equal(begin, begin + 8, signature)) return true;
+  }
+  return false;
+}
+
+Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
+  const Hdf5Lock session;
+  shared_ = Hdf5OpenFile::of(path);
+  file_ = shared_->id();
+  root_ = file_;
+}
+
+Hdf5Input::Hdf5Input(const std::filesystem::path& path, const std::string& group)
+    : Hdf5Input(path) {
+  group_ = group;
+  const Hdf5Lock session;
+  if (!path_exists(path_, file_, group) || !is_group(file_, group)) {
+    throw IoError(path, "there is no group " + group + " in this file; choose another file");
+  }
+  root_ = H5Gopen2(file_, group.c_str(), H5P_DEFAULT);
+  if (root_ < 0) {
+    throw IoError(path, "the group " + group +
+                            " cannot be opened: the file is damaged; copy or download it again");
+  }
+}
+
+Hdf5Input::~Hdf5Input() {
+  const Hdf5Lock session;
+  for (const auto& [name, id] : datasets_) H5Dclose(id);
+  if (root_ >= 0 && root_ != file_) H5Gclose(root_);
+  shared_.reset();
+}
+
+bool Hdf5Input::has(const std::string& name) const {
+  const Hdf5Lock session;
+  return path_exists(path_, root_, name);
+}
+
+std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
+  const Hdf5Lock session;
+  return shared_->datasets(group_, root_);
+}
+
+Hdf5Dataset Hdf5Input::dataset(const std::string& name, const std::string& advice) const {
+  if (!has(name)) {
+    const std::string held = joined(datasets(), ", ", &Hdf5Dataset::name);
+    throw IoError(path_, "there is no dataset " + name + " in this file, which holds " +
+                             (held.empty() ? "no dataset at all; choose another file"
+                                           : held + "; " + advice));
+  }
+  const Hdf5Lock session;
+  if (is_group(root_, name)) {
+    throw IoError(path_, name +
+                             " is a group in this file, but must be a dataset; store the samples "
+                             "as the dataset " +
+                             name + " or choose another file");
+  }
+  const hid_t id = open_dataset(name);
+  require_sound_dataset(path_, name, id);
+  return describe_dataset(id, name);
+}
+
+std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
+  const auto known = datasets_.find(name);
+  if (known != datasets_.end()) return known->second;
+  const hid_t id = open_with_cache(path_, root_, name);
+  const bool is_sound =
+      id >= 0 && has_sound_numbers(id) && !is_short_in_header(id) && has_sound_chunks(id);
+  if (id >= 0 && !is_sound) H5Dclose(id);
+  if (!is_sound) {
+    throw IoError(path_, "the dataset " + name +
+                             " cannot be opened: the file is damaged; copy or download it again");
+  }
+  return datasets_[name] = id;
+}
+
+template <class T>
+void Hdf5Input::read(const std::string& name, const Hdf5Block& block, T* out) const {
+  const Hdf5Lock session;
+  const hid_t id = open_dataset(name);
+  const Hdf5Handle space(H5Dget_space(id), H5Sclose);
+  const Hdf5Handle memory(memory_space(block), H5Sclose);
+  const Hdf5Handle stored(H5Dget_type(id), H5Tclose);
+  // A boolean of other programs is an enumeration, which HDF5 does not convert.
+  const bool is_flag = H5Tget_class(stored) == H5T_ENUM && H5Tget_size(stored) == sizeof(T);
+  const hid_t type = is_flag ? static_cast<hid_t>(stored) : native_type<T>();
+  const bool can_be_read = select_block(space, block) && !has_short_chunk(id, block);
+  if (!can_be_read || H5Dread(id, type, memory, space, H5P_DEFAULT, out) < 0) {
+    throw IoError(
+        path_, "the dataset " + name +
+                   " cannot be read: the file is truncated or damaged; copy or download it again");
+  }
+}
+
+template void Hdf5Input::read(const std::string&, const Hdf5Block&, std::uint8_t*) const;
+template void Hdf5Input::read(const std::string&, const Hdf5Block&, std::uint16_t*) const;
+template void Hdf5Input::read(const std::string&, const Hdf5Block&, std::int32_t*) const;
+template void Hdf5Input::read(const std::string&, const Hdf5Block&, float*) const;
+template void Hdf5Input::read(const std::string&, const Hdf5Block&, double*) const;
+
+template <class T>
+std::optional<std::uintmax_t> Hdf5Input::place_in_file(const std::string& name) const {
+  const Hdf5Lock session;
+  const hid_t id = open_dataset(name);
+  const Hdf5Handle creation(H5Dget_create_plist(id), H5Pclose);
+  const Hdf5Handle type(H5Dget_type(id), H5Tclose);
+  const Hdf5Handle space(H5Dget_space(id), H5Sclose);
+  const bool is_array = H5Pget_layout(creation) == H5D_CONTIGUOUS &&
+                        H5Pget_nfilters(creation) == 0 && H5Tequal(type, native_type<T>()) > 0;
+  const haddr_t offset = H5Dget_offset(id);
+  const auto samples = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
+  if (!is_array || offset == HADDR_UNDEF || offset % sizeof(T) != 0 ||
+      H5Dget_storage_size(id) != samples * sizeof(T)) {
+    return std::nullopt;
+  }
+  return offset;
+}
+
+template std::optional<std::uintmax_t> Hdf5Input::place_in_file<std::uint8_t>(
+    const std::string&) const;
+template std::optional<std::uintmax_t> Hdf5Input::place_in_file<std::uint16_t>(
+    const std::string&) const;
+template std::optional<std::uintmax_t> Hdf5Input::place_in_file<std::int32_t>(
+    const std::string&) const;
+template std::optional<std::uintmax_t> Hdf5Input::place_in_file<float>(const std::string&) const;
+
+std::int64_t Hdf5Input::open_attribute(const std::string& object, const std::string& name) const {
+  if (object != "/") return attribute_of(root_, object, name);
+  const hid_t own = attribute_of(root_, ".", name);
+  return own >= 0 || root_ == file_ ? own : attribute_of(file_, ".", name);
+}
+
+bool Hdf5Input::has_attribute(const std::string& object, const std::string& name) const {
+  const Hdf5Lock session;
+  return Hdf5Handle(open_attribute(object, name), H5Aclose).ok();
+}
+
+std::optional<double> Hdf5Input::number(const std::string& object, const std::string& name) const {
+  const std::vector<double> all = numbers(object, name);
+  if (all.size() == 1) return all.front();
+  // Some writers store every attribute as text.
+  const auto spelled = all.empty() ? text(object, name) : std::nullopt;
+  return spelled ? parse_number(*spelled) : std::nullopt;
+}
+
+std::vector<double> Hdf5Input::numbers(const std::string& object, const std::string& name) const {
+  const Hdf5Lock session;
+  const Hdf5Handle attribute(open_attribute(object, name), H5Aclose);
+  if (!attribute.ok()) return {};
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  const H5T_class_t kind = H5Tget_class(type);
+  if (count < 1 || (kind != H5T_INTEGER && kind != H5T_FLOAT)) return {};
+  if (!fits_file(path_, static_cast<double>(count) * static_cast<double>(H5Tget_size(type)))) {
+    return {};
+  }
+  std::vector<double> values(static_cast<std::size_t>(count));
+  if (H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()) < 0) return {};
+  return values;
+}
+
+std::optional<std::string> Hdf5Input::text(const std::string& object,
+                                           const std::string& name) const {
+  const Hdf5Lock session;
+  const Hdf5Handle attribute(open_attribute(object, name), H5Aclose);
+  if (!attribute.ok()) return {};
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+  if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return {};
+  if (H5Tis_variable_str(type) > 0) {
+    char* value = nullptr;
+    if (H5Aread(attribute, type, &value) < 0 || value == nullptr) return {};
+    std::string copy(value);
+    H5free_memory(value);
+    return copy;
+  }
+  if (!fits_file(path_, static_cast<double>(H5Tget_size(type)))) return {};
+  std::string value(H5Tget_size(type), '\0');
+  if (H5Aread(attribute, type, value.data()) < 0) return {};
+  return value.substr(0, value.find('\0'));
+}
+
+namespace {
+
+herr_t add_link(hid_t, const char* name, const H5L_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+herr_t add_attribute(hid_t, const char* name, const H5A_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+/// Those of `names` that are not in `without`, in alphabetical order. They are listed as stored: in
+/// order of names the library makes a table first, which it releases unfilled where a damaged file
+/// ends it.
+std::vector<std::string> left_of(std::vector<std::string> names,
+                                 const std::vector<std::string>& without) {
+  std::erase_if(names, [&](const std::string& name) {
+    return std::ranges::find(without, name) != without.end();
+  });
+  std::ranges::sort(names);
+  return names;
+}
+
+bool copy_attribute(hid_t from_object, hid_t to_object, const std::string& name) {
+  const Hdf5Handle from(H5Aopen(from_object, name.c_str(), H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle type(H5Aget_type(from), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(from), H5Sclose);
+  const Hdf5Handle to(H5Acreate2(to_object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                      H5Aclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (!to.ok() || count < 0) return false;
+  std::vector<std::uint8_t> value(static_cast<std::size_t>(count) * H5Tget_size(type));
+  if (value.empty()) return true;
+  if (H5Aread(from, type, value.data()) < 0) return false;
+  const herr_t outcome = H5Awrite(to, type, value.data());
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, value.data());
+  return outcome >= 0;
+}
+
+}  // namespace
+
+void Hdf5Output::copy_all(const Hdf5Input& from, const std::vector<std::string>& without) {
+  const Hdf5Lock session;
+  const Hdf5Handle root(H5Gopen2(from.file_, "/", H5P_DEFAULT), H5Gclose);
+  std::vector<std::string> links, attributes;
+  hsize_t next = 0;
+  require(H5Literate(root, H5_INDEX_NAME, H5_ITER_NATIVE, &next, add_link, &links) >= 0);
+  for (const std::string& name : left_of(std::move(links), without)) {
+    require(H5Ocopy(root, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0);
+  }
+  next = 0;
+  require(H5Aiterate2(root, H5_INDEX_NAME, H5_ITER_NATIVE, &next, add_attribute, &attributes) >= 0);
+  for (const std::string& name : left_of(std::move(attributes), without)) {
+    require(copy_attribute(root, file_, name));
+  }
+}
+
+namespace {
+
+// How an object of class `type` is created, to be closed: without its time, so that the same
+// content is the same bytes.
+hid_t creation_of(hid_t type) {
+  const hid_t creation = H5Pcreate(type);
+  H5Pset_obj_track_times(creation, false);
+  return creation;
+}
+
+}  // namespace
+
+Hdf5Output::Hdf5Output(const AtomicFile& file, std::size_t user_bytes) : path_(file.target()) {
+  const Hdf5Lock session;
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  use_logging_write_driver(access, log_);
+  const Hdf5Handle creation(creation_of(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_userblock(creation, user_bytes);
+  file_ = H5Fcreate(file.temporary().c_str(), H5F_ACC_TRUNC, creation, access);
+  require(file_ >= 0);
+}
+
+Hdf5Output::Hdf5Output(const std::filesystem::path& file, const std::filesystem::path& target)
+    : path_(target) {
+  const Hdf5Lock session;
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  use_logging_write_driver(access, log_);
+  file_ = H5Fopen(file.c_str(), H5F_ACC_RDWR, access);
+  require(file_ >= 0);
+}
+
+Hdf5Output::~Hdf5Output() {
+  const Hdf5Lock session;
+  for (const auto& [name, id] : datasets_) H5Dclose(id);
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5Output::add_group(const std::string& name) {
+  const Hdf5Lock session;
+  const Hdf5Handle creation(creation_of(H5P_GROUP_CREATE), H5Pclose);
+  const Hdf5Handle group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT),
+                         H5Gclose);
+  require(group.ok());
+}
+
+template <class T>
+void Hdf5Output::create_dataset(const std::string& name, const Hdf5Shape& shape, bool is_reserved) {
+  const Hdf5Lock session;
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Hdf5Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
+                         H5Sclose);
+  const Hdf5Handle creation(creation_of(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+  if (is_reserved) H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
+  const hid_t id =
+      H5Dcreate2(file_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation, H5P_DEFAULT);
+  require(id >= 0);
+  datasets_[name] = id;
+}
+
+template <class T>
+void Hdf5Output::add_dataset(const std::string& name, const Hdf5Shape& shape,
+                             const std::string& axes, const std::string& units) {
+  create_dataset<T>(name, shape, false);
+  set_text(name, "axes", axes);
+  if (!units.empty()) set_text(name, "units", units);
+}
+
+template <class T>
+void Hdf5Output::reserve_dataset(const std::string& name, const Hdf5Shape& shape,
+                                 const std::string& axes, const std::string& units) {
+  create_dataset<T>(name, shape, true);
+  set_text(name, "axes", axes);
+  if (!units.empty()) set_text(name, "units", units);
+}
+
+template <class T>
+void Hdf5Output::write(const std::string& name, const Hdf5Block& block, const T* in) {
+  const Hdf5Lock session;
+  const hid_t id = datasets_.at(name);
+  const Hdf5Handle space(H5Dget_space(id), H5Sclose);
+  const Hdf5Handle memory(memory_space(block), H5Sclose);
+  require(select_block(space, block) &&
+          H5Dwrite(id, native_type<T>(), memory, space, H5P_DEFAULT, in) >= 0);
+}
+
+template void Hdf5Output::add_dataset<std::uint8_t>(const std::string&, const Hdf5Shape&,
+                                                    const std::string&, const std::string&);
+template void Hdf5Output::add_dataset<std::uint16_t>(const std::string&, const Hdf5Shape&,
+                                                     const std::string&, const std::string&);
+template void Hdf5Output::add_dataset<std::int32_t>(const std::string&, const Hdf5Shape&,
+                                                    const std::string&, const std::string&);
+template void Hdf5Output::add_dataset<float>(const std::string&, const Hdf5Shape&,
+                                             const std::string&, const std::string&);
+template void Hdf5Output::reserve_dataset<std::uint8_t>(const std::string&, const Hdf5Shape&,
+                                                        const std::string&, const std::string&);
+template void Hdf5Output::reserve_dataset<float>(const std::string&, const Hdf5Shape&,
+                                                 const std::string&, const std::string&);
+template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::uint8_t*);
+template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::uint16_t*);
+template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::int32_t*);
+template void Hdf5Output::write(const std::string&, const Hdf5Block&, const float*);
+
+void Hdf5Output::set_number(const std::string& object, const std::string& name, double value) {
+  set_attribute(object, name, H5T_NATIVE_DOUBLE, {}, &value);
+}
+
+void Hdf5Output::set_integers(const std::string& object, const std::string& name,
+                              const std::vector<int>& values) {
+  const bool is_scalar = values.size() == 1;
+  set_attribute(object, name, H5T_NATIVE_INT, is_scalar ? Hdf5Shape{} : Hdf5Shape{values.size()},
+                values.data());
+}
+
+void Hdf5Output::set_numbers(const std::string& object, const std::string& name,
+                             const std::vector<double>& values) {
+  set_attribute(object, name, H5T_NATIVE_DOUBLE, {values.size()}, values.data());
+}
+
+void Hdf5Output::set_text(const std::string& object, const std::string& name,
+                          const std::string& value) {
+  const Hdf5Lock session;
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, value.size() + 1);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  set_attribute(object, name, type, {}, value.c_str());
+}
+
+void Hdf5Output::set_ascii(const std::string& object, const std::string& name,
+                           const std::string& value) {
+  const Hdf5Lock session;
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, value.size());
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  set_attribute(object, name, type, {}, value.data());
+}
+
+void Hdf5Output::set_attribute(const std::string& object, const std::string& name,
+                               std::int64_t type, const Hdf5Shape& shape, const void* value) {
+  const Hdf5Lock session;
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Hdf5Handle space(
+      extent.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, extent.data(), nullptr),
+      H5Sclose);
+  const Hdf5Handle attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space,
+                                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  require(attribute.ok() && H5Awrite(attribute, type, value) >= 0);
+}
+
+void Hdf5Output::close() {
+  const Hdf5Lock session;
+  bool is_done = true;
+  for (const auto& [name, id] : datasets_) is_done &= H5Dclose(id) >= 0;
+  datasets_.clear();
+  is_done &= H5Fclose(std::exchange(file_, -1)) >= 0;
+  require(is_done);
+}
+
+void Hdf5Output::require(bool is_done) const {
+  if (is_done && log_.first_error == 0) return;
+  errno = log_.first_error;
+  throw write_error(path_);
+}
+
+namespace {
+
+constexpr hssize_t kMostReferences = 100000;
+
+/// Without the leading slash; empty if it leads to nothing that has a name.
+std::string name_of(hid_t file, const hobj_ref_t& reference) {
+  std::string name(256, '\0');
+  const ssize_t length = H5Rget_name(file, H5R_OBJECT, &reference, name.data(), name.size());
+  if (length < 2 || static_cast<std::size_t>(length) >= name.size()) return {};
+  name.resize(static_cast<std::size_t>(length));
+  return name.substr(1);
+}
+
+}  // namespace
+
+std::vector<std::string> Hdf5Input::referenced(const std::string& name) const {
+  const Hdf5Lock session;
+  const Hdf5Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!dataset.ok() || !holds_own_samples(dataset) || is_short_in_header(dataset)) return {};
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (H5Tequal(type, H5T_STD_REF_OBJ) <= 0 || count < 1 || count > kMostReferences) return {};
+  std::vector<hobj_ref_t> references(static_cast<std::size_t>(count));
+  if (H5Dread(dataset, H5T_STD_REF_OBJ, H5S_ALL, H5S_ALL, H5P_DEFAULT, references.data()) < 0) {
+    return {};
+  }
+  std::vector<std::string> names;
+  for (const hobj_ref_t& reference : references) names.push_back(name_of(file_, reference));
+  return names;
+}
+
+}  // namespace episcope::io

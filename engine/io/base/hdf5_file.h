@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/hdf5_drivers.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// The only access to HDF5 (with the write driver beneath it). Every call holds one lock for the
+/// whole process, since the library as packaged is not thread-safe; the library's own error output
+/// is disabled.
+
+using Hdf5Shape = std::vector<std::size_t>;
+
+enum class Hdf5Type { UInt8, UInt16, Integer, Float, Other };
+
+struct Hdf5Dataset {
+  std::string name;  ///< Path inside the file, without a leading slash.
+  Hdf5Shape shape;
+  Hdf5Type type = Hdf5Type::Other;  ///< `Integer`: any other width or sign.
+  Hdf5Shape chunk{};  ///< Of the blocks that are stored one by one; empty if there are none.
+};
+
+/// A block of a dataset: `count[i]` elements from `start[i]` on along each axis.
+struct Hdf5Block {
+  Hdf5Shape start;
+  Hdf5Shape count;
+};
+
+/// Of the library that is loaded: "1.10.8".
+[[nodiscard]] std::string hdf5_version();
+
+/// "9×9×512×512×3".
+[[nodiscard]] std::string shape_text(const Hdf5Shape& shape);
+
+/// Whether the file begins with the signature of HDF5; false also if it cannot be read.
+[[nodiscard]] bool has_hdf5_signature(const std::filesystem::path& path);
+
+class Hdf5OpenFile;
+
+/// An HDF5 file open for reading, without file locks. All inputs of a file at a time share one
+/// opening of it and what was found in it. Objects are named by their path in the file;
+/// "/" is the root. Element types are converted by HDF5 (clipped, rounded towards zero). Links to
+/// other files and samples in them are not followed: `has` and `read` throw IoError.
+class Hdf5Input {
+ public:
+  /// Throws IoError that tells a missing file, another kind of file and a damaged one apart.
+  explicit Hdf5Input(const std::filesystem::path& path);
+  /// The same, with a group in the place of the root, whose attributes are looked up as well. The
+  /// names of `referenced` stay those of the file. Throws IoError if there is no such group.
+  Hdf5Input(const std::filesystem::path& path, const std::string& group);
+  ~Hdf5Input();
+  Hdf5Input(const Hdf5Input&) = delete;
+  Hdf5Input& operator=(const Hdf5Input&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// In the place of the root; empty = the root itself.
+  [[nodiscard]] const std::string& group() const { return group_; }
+  [[nodiscard]] bool has(const std::string& name) const;
+  /// Datasets of the root group and of the groups in it, at most three deep, by name.
+  [[nodiscard]] std::vector<Hdf5Dataset> datasets() const;
+  /// Throws IoError, naming what the file holds and what to do, if there is no such dataset; also
+  /// for a group.
+  [[nodiscard]] Hdf5Dataset dataset(const std::string& name,
+                                    const std::string& advice = "choose another file") const;
+
+  /// The names of what a dataset of references points at, element by element; empty if it holds
+  /// something else, an element empty if it points nowhere.
+  [[nodiscard]] std::vector<std::string> referenced(const std::string& name) const;
+
+  /// Reads a block as uint8, uint16, int32, float or double. Throws IoError.
+  template <class T>
+  void read(const std::string& name, const Hdf5Block& block, T* out) const;
+
+  /// Where in the file the samples of a dataset begin if they are stored there as an array of T
+  /// would be in memory: one after the other, uncompressed, of the type and byte order of this
+  /// machine, all of them written. T: uint8, int32, uint16 or float. Throws IoError as `dataset`.
+  template <class T>
+  [[nodiscard]] std::optional<std::uintmax_t> place_in_file(const std::string& name) const;
+
+  [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
+  /// Attribute of any numeric type, a scalar or an array of length 1, or a text that spells a
+  /// number; empty if there is none.
+  [[nodiscard]] std::optional<double> number(const std::string& object,
+                                             const std::string& name) const;
+  /// All elements of a numeric attribute; empty if there is none.
+  [[nodiscard]] std::vector<double> numbers(const std::string& object,
+                                            const std::string& name) const;
+  [[nodiscard]] std::optional<std::string> text(const std::string& object,
+                                                const std::string& name) const;
+
+ private:
+  friend class Hdf5Output;  // Copies from here.
+
+  [[nodiscard]] std::int64_t open_dataset(const std::string& name) const;
+  /// Negative if there is none.
+  [[nodiscard]] std::int64_t open_attribute(const std::string& object,
+                                            const std::string& name) const;
+
+  std::filesystem::path path_;
+  std::string group_;
+  std::shared_ptr<Hdf5OpenFile> shared_;
+  std::int64_t file_ = -1;
+  std::int64_t root_ = -1;  ///< The file or a group, by which names are looked up.
+  mutable std::map<std::string, std::int64_t> datasets_;  ///< Open ones, with their chunk caches.
+};
+
+/// A new HDF5 file at the temporary place of `file`: `close` it, then commit that. Datasets are
+/// contiguous and uncompressed, since speed matters more than size. All members throw IoError that
+/// names the target of `file`.
+class Hdf5Output {
+ public:
+  /// `user_bytes`: room for other contents in front: 0, 512 or a power of two above.
+  explicit Hdf5Output(const AtomicFile& file, std::size_t user_bytes = 0);
+  /// Adds to a file that such an output made; failures name `target`. What it finds there must be
+  /// whole: if the program ends before `close` has returned, it is not any more.
+  Hdf5Output(const std::filesystem::path& file, const std::filesystem::path& target);
+  ~Hdf5Output();
+  Hdf5Output(const Hdf5Output&) = delete;
+  Hdf5Output& operator=(const Hdf5Output&) = delete;
+
+  /// Copies every object and attribute of the root group as stored, but those named.
+  void copy_all(const Hdf5Input& from, const std::vector<std::string>& without);
+  void add_group(const std::string& name);
+  /// Adds a dataset with its attributes `axes` ("v,u,y,x") and `units`. T as in `Hdf5Input::read`.
+  template <class T>
+  void add_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
+                   const std::string& units);
+  /// The same, and gives it its place in the file, which others fill (Hdf5Input::place_in_file).
+  template <class T>
+  void reserve_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
+                       const std::string& units);
+  template <class T>
+  void write(const std::string& name, const Hdf5Block& block, const T* in);
+
+  void set_number(const std::string& object, const std::string& name, double value);
+  void set_integers(const std::string& object, const std::string& name,
+                    const std::vector<int>& values);
+  void set_numbers(const std::string& object, const std::string& name,
+                   const std::vector<double>& values);
+  void set_text(const std::string& object, const std::string& name, const std::string& value);
+  /// As MATLAB writes text: ASCII, of fixed length, without an end.
+  void set_ascii(const std::string& object, const std::string& name, const std::string& value);
+
+  /// Flushes and closes. Throws IoError if anything could not be written.
+  void close();
+
+ private:
+  template <class T>
+  void create_dataset(const std::string& name, const Hdf5Shape& shape, bool is_reserved);
+  void set_attribute(const std::string& object, const std::string& name, std::int64_t type,
+                     const Hdf5Shape& shape, const void* value);
+
+  /// Throws if a call of the library failed or a write did not reach the disk.
+  void require(bool is_done) const;
+
+  std::filesystem::path path_;
+  std::int64_t file_ = -1;
+  std::map<std::string, std::int64_t> datasets_;
+  Hdf5WriteLog log_;
+};
+
+}  // namespace episcope::io

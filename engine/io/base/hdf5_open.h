@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/base/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <sys/stat.h>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// For the sources that speak to the HDF5 library only.
+namespace episcope::io {
+
+/// Holds the lock of the library for the whole process; it may be held several times by a thread.
+class Hdf5Lock {
+ public:
+  Hdf5Lock() : lock_(mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+ private:
+  static std::recursive_mutex& mutex() {
+    static std::recursive_mutex the_mutex;
+    return the_mutex;
+  }
+  std::scoped_lock<std::recursive_mutex> lock_;
+};
+
+/// Closes an object of the library at the end of its scope.
+class Hdf5Handle {
+ public:
+  Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Hdf5Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+  operator hid_t() const { return id_; }
+  [[nodiscard]] bool ok() const { return id_ >= 0; }
+  [[nodiscard]] hid_t release() { return std::exchange(id_, -1); }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// One opening of an HDF5 file, which all inputs of it share while one of them is there: readers
+/// ask a file one after the other whether it is theirs. For the sources that speak to HDF5 only;
+/// their callers hold its lock.
+class Hdf5OpenFile {
+ public:
+  /// The opening that is there, unless the file has changed since; else a new one. Throws IoError
+  /// that tells a missing file, another kind of file and a damaged one apart.
+  [[nodiscard]] static std::shared_ptr<Hdf5OpenFile> of(const std::filesystem::path& path);
+
+  explicit Hdf5OpenFile(const std::filesystem::path& path);
+  ~Hdf5OpenFile();
+  Hdf5OpenFile(const Hdf5OpenFile&) = delete;
+  Hdf5OpenFile& operator=(const Hdf5OpenFile&) = delete;
+
+  [[nodiscard]] hid_t id() const { return id_; }
+  /// As `list_datasets`; `root` is the group of that name, or the file. Listed once.
+  [[nodiscard]] const std::vector<Hdf5Dataset>& datasets(const std::string& group, hid_t root);
+
+ private:
+  [[nodiscard]] bool is_still(const std::filesystem::path& path) const;
+
+  struct stat stamp_ {};
+  hid_t id_ = -1;
+  std::map<std::string, std::vector<Hdf5Dataset>> listed_;  ///< By group.
+};
+
+/// What a file holds; callers hold the lock of the library.
+
+/// Shape, type and blocks of an open dataset.
+[[nodiscard]] Hdf5Dataset describe_dataset(hid_t dataset, const std::string& name);
+
+/// As `Hdf5Input::datasets`, of an open file or group.
+[[nodiscard]] std::vector<Hdf5Dataset> list_datasets(hid_t root);
+
+/// Checks of what an HDF5 file claims, before memory is taken for it.
+
+/// Throws IoError if a dataset claims far more samples than its file can hold, compressed or not,
+/// or is compressed by a filter that is not at hand. A dataset that was never written counts as
+/// samples that are not there, unless it is small.
+void require_sound_dataset(const std::filesystem::path& path, const std::string& name,
+                           hid_t dataset);
+
+/// Whether a dataset whose samples are in its header claims more than are there: HDF5 1.10 reads
+/// beyond them.
+[[nodiscard]] bool is_short_in_header(hid_t dataset);
+
+/// Whether numbers of a dataset have no more bytes than any machine's: what the library does with
+/// larger ones, which only damage makes, reads beyond its memory.
+[[nodiscard]] bool has_sound_numbers(hid_t dataset);
+
+/// Whether the samples of a dataset are in its file: not in raw files that it names, nor in
+/// datasets of other files that it is made of. Such a file could name any file of the user's.
+[[nodiscard]] bool holds_own_samples(hid_t dataset);
+/// Throws IoError if it does not.
+void require_own_samples(const std::filesystem::path& path, const std::string& name, hid_t dataset);
+
+/// Whether `bytes` of an attribute or text are no more than the file holds.
+[[nodiscard]] bool fits_file(const std::filesystem::path& path, double bytes);
+
+/// Whether a chunk that the block lies in is stored without compression, and shorter than chunks
+/// are: HDF5 1.10 reads beyond it. True also if HDF5 cannot tell; false for datasets without
+/// chunks. For the sources that speak to HDF5 only.
+[[nodiscard]] bool has_short_chunk(hid_t dataset, const Hdf5Block& block);
+
+/// Whether chunks are no larger than the dataset may become, and the first of them, if it is
+/// deflated, holds as many samples as chunks do: the library would read beyond it. If they are
+/// packed by LZF, their size must be stated with the filter, which makes room for it. True for
+/// datasets without chunks.
+[[nodiscard]] bool has_sound_chunks(hid_t dataset);
+
+}  // namespace episcope::io

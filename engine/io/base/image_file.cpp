@@ -1,0 +1,511 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/base/image_file.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
+
+#include <fmt/format.h>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <csetjmp>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <istream>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class T>
+Image<T> copy_rgb(const cv::Mat& decoded) {
+  const int stored = decoded.channels();
+  const int channels = stored < 3 ? 1 : 3;
+  Image<T> image(decoded.rows, decoded.cols, channels);
+  for (int y = 0; y < decoded.rows; ++y) {
+    const T* in = decoded.ptr<T>(y);
+    T* out = image.row(y);
+    for (int x = 0; x < decoded.cols; ++x, in += stored, out += channels) {
+      for (int c = 0; c < channels; ++c) out[c] = in[channels - 1 - c];  // stored as BGR
+    }
+  }
+  return image;
+}
+
+bool is_animated_webp(const fs::path& path) {
+  constexpr std::uint32_t kAnimation = 2;
+  FileBytes file(path);
+  return file.begins_with("RIFF") && file.number(8, 4, false) == 0x57454250 &&  // "WEBP"
+         file.number(12, 4, false) == 0x56503858 &&                             // "VP8X"
+         (file.number(20, 1, false) & kAnimation) != 0;
+}
+
+[[noreturn]] void refuse(const fs::path& path) {
+  if (is_animated_webp(path)) {
+    throw IoError(path,
+                  "animated WebP files are not read; save the pictures as PNG files in a folder, "
+                  "or as an animated PNG");
+  }
+  throw IoError(path,
+                "the image cannot be decoded: it is damaged or its format does not match its name; "
+                "copy or export it again");
+}
+
+/// OpenCV decodes OpenEXR only where the environment says so, which it asks once.
+void allow_openexr() {
+  static const int is_set = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
+  static_cast<void>(is_set);
+}
+
+cv::Mat read_mat(const fs::path& path, PicturePart part) {
+  allow_openexr();
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  cv::Mat decoded;
+  try {
+    const auto renamed = exr_with_known_channels(path, part);
+    decoded = renamed ? cv::imdecode(*renamed, cv::IMREAD_UNCHANGED)
+                      : cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+    decoded.release();
+  }
+  if (decoded.empty()) refuse(path);
+  return decoded;
+}
+
+AnyImage image_of(const fs::path& path, const cv::Mat& decoded) {
+  if (decoded.depth() == CV_8U) return copy_rgb<std::uint8_t>(decoded);
+  if (decoded.depth() == CV_16U) return copy_rgb<std::uint16_t>(decoded);
+  if (decoded.depth() == CV_32F) return copy_rgb<float>(decoded);
+  throw IoError(path,
+                "the image has neither 8-bit, 16-bit nor 32-bit float samples; export it again in "
+                "one of these formats");
+}
+
+}  // namespace
+
+AnyImage decode_image(const fs::path& path, PicturePart part) {
+  require_readable_file(path);
+  if (has_png_signature(path)) return decode_png(path);
+  require_plausible_picture(path);
+  if (has_radiance_signature(path)) return decode_radiance(path);
+  require_whole_jpeg(path);
+  return image_of(path, read_mat(path, part));
+}
+
+std::vector<AnyImage> decode_pages(const fs::path& path, int count) {
+  require_readable_file(path);
+  require_plausible_picture(path);
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  std::vector<cv::Mat> decoded;
+  try {
+    if (!cv::imreadmulti(path.string(), decoded, 0, count, cv::IMREAD_UNCHANGED)) decoded.clear();
+  } catch (const cv::Exception&) {
+    decoded.clear();
+  }
+  if (static_cast<int>(decoded.size()) != count) refuse(path);
+  std::vector<AnyImage> pages;
+  for (cv::Mat& page : decoded) {
+    pages.push_back(image_of(path, page));
+    page.release();
+  }
+  return pages;
+}
+
+bool is_image_name(const fs::path& path) {
+  constexpr std::array suffixes{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".ppm",
+                                ".pgm", ".pnm", ".webp", ".jp2", ".exr",  ".hdr"};
+  return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
+}
+
+std::string describe_image(const AnyImage& image) {
+  constexpr const char* types[] = {"8 bit", "16 bit", "float"};
+  return std::visit(
+      [&](const auto& one) {
+        return fmt::format("{}×{} px, {}, {}", one.width(), one.height(),
+                           one.channels() == 1 ? "grey" : "RGB", types[image.index()]);
+      },
+      image);
+}
+
+ImageHeader read_image_header(const fs::path& path) {
+  if (const auto header = stated_image_header(path); header && header->channels > 0) return *header;
+  return std::visit(
+      []<class T>(const Image<T>& image) {
+        constexpr SampleType type = sizeof(T) == 1   ? SampleType::UInt8
+                                    : sizeof(T) == 2 ? SampleType::UInt16
+                                                     : SampleType::Float32;
+        return ImageHeader{image.height(), image.width(), image.channels(), type};
+      },
+      decode_image(path));
+}
+
+Image<std::int32_t> decode_numbers(const fs::path& path) {
+  const AnyImage decoded = decode_image(path);
+  if (std::holds_alternative<Image<float>>(decoded)) {
+    throw IoError(path, "this image must hold integers, but it holds float samples");
+  }
+  return std::visit(
+      [](const auto& image) {
+        Image<std::int32_t> numbers(image.height(), image.width());
+        for (int y = 0; y < image.height(); ++y) {
+          for (int x = 0; x < image.width(); ++x) {
+            numbers.at(y, x) = static_cast<std::int32_t>(image.at(y, x));
+          }
+        }
+        return numbers;
+      },
+      decoded);
+}
+
+namespace {
+
+constexpr std::size_t kSignatureBytes = 8;
+/// More than deflate can reach, 1032.
+constexpr std::uintmax_t kLargestExpansion = 1100;
+constexpr std::size_t kBufferBytes = 1 << 20;
+
+/// An open file and its decoder. Errors of libpng jump: its functions are called only from the two
+/// members below that set the place to jump to, which hold nothing to be destroyed.
+class PngDecoder {
+ public:
+  explicit PngDecoder(const fs::path& path) : file_(std::fopen(path.c_str(), "rb")) {
+    if (file_ == nullptr) require_readable_file(path);
+    const auto on_error = [](png_structp png, png_const_charp) { png_longjmp(png, 1); };
+    const auto on_warning = [](png_structp, png_const_charp) {};
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning);
+    if (png_ != nullptr) info_ = png_create_info_struct(png_);
+  }
+  ~PngDecoder() {
+    png_destroy_read_struct(&png_, &info_, nullptr);
+    if (file_ != nullptr) std::fclose(file_);
+  }
+  PngDecoder(const PngDecoder&) = delete;
+  PngDecoder& operator=(const PngDecoder&) = delete;
+
+  /// Whether all before the samples could be read; sets the sizes below.
+  [[nodiscard]] bool read_header() {
+    if (file_ == nullptr || info_ == nullptr) return false;
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    std::setvbuf(file_, nullptr, _IOFBF, kBufferBytes);
+    png_init_io(png_, file_);
+    png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+    png_read_info(png_, info_);
+    png_set_expand(png_);
+    png_set_strip_alpha(png_);
+    if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
+    passes_ = png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    width = static_cast<int>(png_get_image_width(png_, info_));
+    height = static_cast<int>(png_get_image_height(png_, info_));
+    channels = png_get_channels(png_, info_);
+    bits = png_get_bit_depth(png_, info_);
+    row_bytes = png_get_rowbytes(png_, info_);
+    return true;
+  }
+
+  [[nodiscard]] bool is_interlaced() const { return passes_ > 1; }
+
+  /// Decodes `count` rows of `row_bytes` that follow each other; false for a damaged file.
+  [[nodiscard]] bool read_rows(png_bytep first, int count) {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    for (int pass = 0; pass < passes_; ++pass) {
+      for (int y = 0; y < count; ++y) png_read_row(png_, first + y * row_bytes, nullptr);
+    }
+    if (count == height) png_read_end(png_, nullptr);
+    return true;
+  }
+
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  int bits = 0;
+  std::size_t row_bytes = 0;
+
+ private:
+  std::FILE* file_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+  int passes_ = 1;
+};
+
+template <class T>
+AnyImage read_samples(PngDecoder& png, const fs::path& path, int rows) {
+  Image<T> image(rows, png.width, png.channels);
+  if (!png.read_rows(reinterpret_cast<png_bytep>(image.data()), rows)) refuse(path);
+  return image;
+}
+
+}  // namespace
+
+bool has_png_signature(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<png_byte, kSignatureBytes> begin{};
+  file.read(reinterpret_cast<char*>(begin.data()), begin.size());
+  return file && png_sig_cmp(begin.data(), 0, begin.size()) == 0;
+}
+
+AnyImage decode_png(const fs::path& path) {
+  return decode_png_top(path, std::numeric_limits<int>::max());
+}
+
+AnyImage decode_png_top(const fs::path& path, int rows) {
+  PngDecoder png(path);
+  if (!png.read_header() || (png.bits != 8 && png.bits != 16)) refuse(path);
+  if (png.row_bytes * png.height / kLargestExpansion > fs::file_size(path)) refuse(path);
+  const int count = png.is_interlaced() ? png.height : std::min(rows, png.height);
+  return png.bits == 8 ? read_samples<std::uint8_t>(png, path, count)
+                       : read_samples<std::uint16_t>(png, path, count);
+}
+
+namespace {
+
+constexpr int kPlanes = 4;  // red, green, blue, exponent
+constexpr int kShortestRuns = 8, kLongestRuns = 0x7fff;
+constexpr int kLongestLiteral = 128;
+constexpr std::uint64_t kMostPixelsOfByte = 16;  ///< A run of 127 takes 2 bytes a plane.
+constexpr int kExponentOffset = 128 + 8;
+
+/// What is left of a file.
+class RadianceBytes {
+ public:
+  explicit RadianceBytes(const fs::path& path) : path_(path) {
+    std::ifstream in(path, std::ios::binary);
+    bytes_.assign(std::istreambuf_iterator<char>(in), {});
+  }
+
+  [[noreturn]] void refuse(const char* why) const {
+    throw IoError(path_, std::string("the image cannot be decoded: ") + why);
+  }
+  [[noreturn]] void refuse_damaged() const { refuse("it is damaged; copy or export it again"); }
+
+  [[nodiscard]] std::size_t size() const { return bytes_.size(); }
+
+  /// Without its end of line.
+  std::string_view line() {
+    const auto end = bytes_.find('\n', at_);
+    if (end == std::string::npos) refuse_damaged();
+    const std::string_view found = std::string_view(bytes_).substr(at_, end - at_);
+    at_ = end + 1;
+    return found;
+  }
+  int next() {
+    if (at_ == bytes_.size()) refuse_damaged();
+    return static_cast<unsigned char>(bytes_[at_++]);
+  }
+  /// Whether the next row is stored in runs; passes by what says so.
+  bool pass_mark_of_runs(int width) {
+    if (width < kShortestRuns || width > kLongestRuns || bytes_.size() - at_ < 4) return false;
+    const auto byte = [this](std::size_t i) { return static_cast<unsigned char>(bytes_[at_ + i]); };
+    if (byte(0) != 2 || byte(1) != 2 || byte(2) >= 128) return false;
+    if (byte(2) * 256 + byte(3) != width) refuse_damaged();
+    at_ += 4;
+    return true;
+  }
+
+ private:
+  const fs::path& path_;
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+struct RadianceSize {
+  int height = 0, width = 0;
+};
+
+RadianceSize read_radiance_header(RadianceBytes& bytes) {
+  bytes.line();
+  for (std::string_view line = bytes.line(); !line.empty(); line = bytes.line()) {
+    if (line.starts_with("FORMAT=") && !line.starts_with("FORMAT=32-bit_rle_rgbe")) {
+      bytes.refuse("its pixels are not RGB with a common exponent; export it again");
+    }
+  }
+  const std::string_view text = bytes.line();
+  RadianceSize size;
+  const auto number = [&](std::string_view axis, int& length) {
+    const auto at = text.find(axis);
+    if (at == std::string_view::npos) {
+      bytes.refuse("its rows do not run from top to bottom; export it again");
+    }
+    std::from_chars(text.data() + at + axis.size(), text.data() + text.size(), length);
+  };
+  number("-Y ", size.height);
+  number("+X ", size.width);
+  if (size.height < 1 || size.width < 1) bytes.refuse_damaged();
+  const auto pixels =
+      static_cast<std::uint64_t>(size.height) * static_cast<std::uint64_t>(size.width);
+  if (pixels > kMostPixelsOfByte * bytes.size()) bytes.refuse_damaged();
+  return size;
+}
+
+void read_runs(RadianceBytes& bytes, int width, std::uint8_t* plane) {
+  for (int x = 0; x < width;) {
+    int count = bytes.next();
+    const bool is_run = count > kLongestLiteral;
+    if (is_run) count -= kLongestLiteral;
+    if (count == 0 || count > width - x) bytes.refuse_damaged();
+    if (is_run) {
+      std::fill_n(plane + x, count, static_cast<std::uint8_t>(bytes.next()));
+    } else {
+      for (int i = 0; i < count; ++i) plane[x + i] = static_cast<std::uint8_t>(bytes.next());
+    }
+    x += count;
+  }
+}
+
+void read_row(RadianceBytes& bytes, int width, const std::array<std::uint8_t*, kPlanes>& planes) {
+  if (bytes.pass_mark_of_runs(width)) {
+    for (std::uint8_t* const plane : planes) read_runs(bytes, width, plane);
+    return;
+  }
+  for (int x = 0; x < width; ++x) {
+    for (std::uint8_t* const plane : planes) plane[x] = static_cast<std::uint8_t>(bytes.next());
+  }
+}
+
+}  // namespace
+
+bool has_radiance_signature(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string begin(10, '\0');
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin.starts_with("#?RADIANCE") || begin.starts_with("#?RGBE");
+}
+
+Image<float> decode_radiance(const fs::path& path) {
+  RadianceBytes bytes(path);
+  const auto [height, width] = read_radiance_header(bytes);
+  std::vector<std::uint8_t> row(static_cast<std::size_t>(width) * kPlanes);
+  std::array<std::uint8_t*, kPlanes> planes{};
+  for (int i = 0; i < kPlanes; ++i) planes[i] = row.data() + static_cast<std::ptrdiff_t>(i) * width;
+  Image<float> image(height, width, 3);
+  for (int y = 0; y < height; ++y) {
+    read_row(bytes, width, planes);
+    for (int x = 0; x < width; ++x) {
+      const int exponent = planes[3][x];
+      const float unit = exponent == 0 ? 0 : std::ldexp(1.0F, exponent - kExponentOffset);
+      for (int c = 0; c < 3; ++c) image.at(y, x, c) = unit * static_cast<float>(planes[c][x]);
+    }
+  }
+  return image;
+}
+
+namespace {
+
+constexpr std::string_view kEnd = "\xff\xd9";  ///< In samples, a 0 follows each 0xff.
+constexpr std::streamoff kTail = 512;
+
+/// Where the samples begin: what lies before may be a small picture with an end of its own. 0 if
+/// they do not begin.
+std::streamoff samples_of(FileBytes& file) {
+  constexpr std::uint32_t kScan = 0xffda;
+  constexpr int kMostSegments = 1000;
+  std::streamoff at = 2;
+  for (int i = 0; i < kMostSegments && !file.is_short(); ++i) {
+    const std::uint32_t marker = file.number(at, 2, false);
+    if (marker >> 8 != 0xff) return 0;
+    if (marker == kScan) return at;
+    at += marker == 0xffff ? 1 : 2 + static_cast<std::streamoff>(file.number(at + 2, 2, false));
+  }
+  return 0;
+}
+
+bool has_end_from(std::istream& in) {
+  std::array<char, 1 << 16> block{};
+  bool is_after_mark = false;  // the last byte of the block before was 0xff
+  while (in.read(block.data(), block.size()) || in.gcount() > 0) {
+    const std::string_view bytes(block.data(), static_cast<std::size_t>(in.gcount()));
+    if (is_after_mark && bytes.front() == kEnd.back()) return true;
+    if (bytes.find(kEnd) != std::string_view::npos) return true;
+    is_after_mark = bytes.back() == kEnd.front();
+  }
+  return false;
+}
+
+}  // namespace
+
+void require_whole_jpeg(const fs::path& path) {
+  FileBytes file(path);
+  if (!file.begins_with("\xff\xd8")) return;
+  const std::streamoff samples = samples_of(file);
+  if (samples == 0) return;
+  const auto size = static_cast<std::streamoff>(fs::file_size(path));
+  if (has_end_from(file.at(std::max(samples, size - kTail)))) return;
+  if (has_end_from(file.at(samples))) return;  // other pictures or notes follow the first
+  throw IoError(path,
+                "the image cannot be decoded: the file ends before the picture does; copy or "
+                "export it again");
+}
+
+namespace {
+
+template <class T>
+cv::Mat to_mat(ImageView<const T> image) {
+  const int channels = image.channels;
+  cv::Mat mat(image.height, image.width, CV_MAKETYPE(cv::DataType<T>::depth, channels));
+  for (int y = 0; y < image.height; ++y) {
+    const T* in = image.row(y);
+    T* out = mat.template ptr<T>(y);
+    for (int x = 0; x < image.width; ++x, in += channels, out += channels) {
+      for (int c = 0; c < channels; ++c) out[c < 3 && channels > 1 ? 2 - c : c] = in[c];
+    }
+  }
+  return mat;
+}
+
+void encode(const fs::path& path, const char* suffix, const cv::Mat& image,
+            const std::vector<int>& options) {
+  std::vector<std::uint8_t> bytes;
+  bool is_encoded = false;
+  try {
+    is_encoded = cv::imencode(suffix, image, bytes, options);
+  } catch (const cv::Exception&) {
+    is_encoded = false;
+  }
+  if (!is_encoded) throw IoError(path, "the picture could not be encoded; choose another format");
+  write_atomically(path, bytes);
+}
+
+template <class T>
+void require_channels(ImageView<const T> image, bool is_allowed, const char* expected) {
+  if (image.empty() || !is_allowed) {
+    throw InvalidInput(
+        fmt::format("the picture has {} channels, but {} are expected", image.channels, expected));
+  }
+}
+
+}  // namespace
+
+void write_png(const fs::path& path, ImageView<const std::uint8_t> image) {
+  require_channels(image, image.channels == 1 || image.channels == 3 || image.channels == 4,
+                   "1, 3 or 4");
+  encode(path, ".png", to_mat(image), {cv::IMWRITE_PNG_COMPRESSION, 3});
+}
+
+void write_png(const fs::path& path, ImageView<const std::uint16_t> image) {
+  require_channels(image, image.channels == 1 || image.channels == 3, "1 or 3");
+  encode(path, ".png", to_mat(image), {cv::IMWRITE_PNG_COMPRESSION, 3});
+}
+
+void write_tiff(const fs::path& path, ImageView<const float> image) {
+  require_channels(image, image.channels == 1 || image.channels == 3, "1 or 3");
+  constexpr int kNoCompression = 1;  // COMPRESSION_NONE of libtiff
+  encode(path, ".tiff", to_mat(image), {cv::IMWRITE_TIFF_COMPRESSION, kNoCompression});
+}
+
+}  // namespace episcope::io

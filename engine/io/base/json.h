@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/error.h"
+#include "engine/core/numbers.h"
+#include "engine/core/parameter.h"
+#include "engine/io/base/files.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace episcope::io {
+
+/// Of files of JSON; those of Episcope have kilobytes.
+inline constexpr std::uintmax_t kLargestJson = std::uintmax_t{32} << 20;
+/// What copies or writes values calls itself once a level.
+inline constexpr int kDeepestJson = 64;
+
+/// Throws Json::exception for what is no JSON, InvalidInput for more than kDeepestJson levels.
+/// Json: nlohmann's json or ordered_json; `text` a string or a stream.
+template <class Json, class Text>
+[[nodiscard]] Json parse_json(Text&& text) {
+  return Json::parse(text, [](int depth, typename Json::parse_event_t, Json&) {
+    if (depth <= kDeepestJson) return true;
+    throw InvalidInput("lists are nested more than " + std::to_string(kDeepestJson) +
+                       " levels deep");
+  });
+}
+
+/// The whole file. Throws as parse_json; IoError if it cannot be read or is larger than
+/// kLargestJson.
+template <class Json>
+[[nodiscard]] Json read_json(const std::filesystem::path& path) {
+  require_readable_file(path);
+  if (std::filesystem::file_size(path) > kLargestJson) {
+    throw IoError(path, "this file has more than " + std::to_string(kLargestJson >> 20) +
+                            " MiB, which is too much for what it should hold; choose another");
+  }
+  std::ifstream file(path, std::ios::binary);
+  return parse_json<Json>(file);
+}
+
+/// A whole number that fits an int. Throws Json::exception if it is no number, InvalidInput if it
+/// does not fit: nlohmann's own conversion of those is undefined.
+template <class Json>
+[[nodiscard]] int int_of(const Json& json) {
+  const auto number = whole_int(json.template get<double>());
+  if (!number) throw InvalidInput("there is " + json.dump() + " where a whole number belongs");
+  return *number;
+}
+
+/// Object of parameter values by key, in their order, as in result files, projects and answers of
+/// the command line: booleans, whole and real numbers, strings, intervals and views `[a, b]`,
+/// "auto" or "found" for those that are not set.
+[[nodiscard]] nlohmann::ordered_json parameters_json(const ParameterSet& parameters);
+/// Its text on one line; bytes that are not UTF-8 become the replacement character.
+[[nodiscard]] std::string parameters_to_json(const ParameterSet& parameters);
+
+/// Reads what `parameters_json` made, and null, which earlier versions wrote for "auto". Keeps
+/// anything else, as foreign files may hold, as its JSON text; no JSON object gives an empty set.
+[[nodiscard]] ParameterSet parameters_from(const nlohmann::ordered_json& object);
+[[nodiscard]] ParameterSet parameters_from_json(const std::string& json);
+
+}  // namespace episcope::io

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/base/pfm.h"
+
+#include "engine/core/error.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+constexpr int kLargestSide = 1 << 16;
+
+struct Header {
+  int channels = 1;
+  int width = 0;
+  int height = 0;
+  double scale = 0;
+};
+
+/// The next word of the header; `#` starts a comment that ends with the line. One white-space
+/// character after the word is consumed, so that samples begin right after the last word.
+std::string next_word(std::istream& in) {
+  std::string word;
+  for (int c = in.get(); c != EOF; c = in.get()) {
+    if (c == '#') {
+      while (c != '\n' && c != EOF) c = in.get();
+      if (!word.empty()) return word;
+    } else if (!std::isspace(c)) {
+      word += static_cast<char>(c);
+      if (word.size() > 64) return {};
+    } else if (!word.empty()) {
+      return word;
+    }
+  }
+  return word;
+}
+
+Header read_header(const std::filesystem::path& path, std::istream& in) {
+  const std::string magic = next_word(in);
+  if (magic != "Pf" && magic != "PF") {
+    throw IoError(path, "this is not a PFM file, which begins with Pf or PF; choose another file");
+  }
+  Header header;
+  header.channels = magic == "PF" ? 3 : 1;
+  try {
+    header.width = std::stoi(next_word(in));
+    header.height = std::stoi(next_word(in));
+    header.scale = std::stod(next_word(in));
+  } catch (const std::logic_error&) {
+    throw IoError(path, "the header of the PFM file lacks width, height or scale; write it again");
+  }
+  const bool has_size = header.width > 0 && header.height > 0 && header.width <= kLargestSide &&
+                        header.height <= kLargestSide;
+  if (!has_size || header.scale == 0 || !std::isfinite(header.scale)) {
+    throw IoError(path, fmt::format("the header of the PFM file says {}×{} px and scale {:f}, "
+                                    "which is not valid; write it again",
+                                    header.width, header.height, header.scale));
+  }
+  return header;
+}
+
+/// Where samples begin after the header: after the line feed of a file whose lines end as in
+/// Windows, which leaves one byte too many. −1 where the header is all there is.
+std::streamoff begin_of_samples(std::istream& in, std::uintmax_t bytes, std::uintmax_t needed) {
+  const std::streamoff begin = in.tellg();
+  if (begin < 1 || bytes - static_cast<std::uintmax_t>(begin) <= needed) return begin;
+  in.seekg(begin - 1);
+  const bool is_windows_line = in.get() == '\r' && in.peek() == '\n';
+  if (is_windows_line) in.get();
+  return in.tellg();
+}
+
+void swap_bytes(float* row, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto bits = std::bit_cast<std::uint32_t>(row[i]);
+    row[i] = std::bit_cast<float>(__builtin_bswap32(bits));
+  }
+}
+
+}  // namespace
+
+Image<float> read_pfm_map(const std::filesystem::path& path) {
+  Image<float> map = read_pfm(path);
+  if (map.channels() == 1) return map;
+  Image<float> first(map.height(), map.width());
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      const float value = map.at(y, x, 0);
+      const bool is_gray =
+          std::isnan(value) || (map.at(y, x, 1) == value && map.at(y, x, 2) == value);
+      if (!is_gray) {
+        throw IoError(path,
+                      "this map has 3 channels that differ, but 1 is expected; remove or replace "
+                      "it");
+      }
+      first.at(y, x) = value;
+    }
+  }
+  return first;
+}
+
+Image<float> read_pfm(const std::filesystem::path& path) {
+  require_readable_file(path);
+  std::ifstream in(path, std::ios::binary);
+  const Header header = read_header(path, in);
+  const std::size_t count = static_cast<std::size_t>(header.width) * header.channels;
+  const std::uintmax_t bytes = std::filesystem::file_size(path);
+  const std::streamoff begin = begin_of_samples(in, bytes, 4 * count * header.height);
+  const std::uintmax_t present =
+      begin < 0 ? 0 : (bytes - static_cast<std::uintmax_t>(begin)) / (4 * count);
+  if (present < static_cast<std::uintmax_t>(header.height)) {
+    throw IoError(
+        path,
+        fmt::format("the PFM file is truncated: {} of {} rows are present; copy or write it again",
+                    present, header.height));
+  }
+  Image<float> image(header.height, header.width, header.channels);
+  const bool is_little = header.scale < 0;
+  const auto scale = static_cast<float>(std::abs(header.scale));
+  for (int y = header.height - 1; y >= 0; --y) {
+    float* row = image.row(y);
+    if (!in.read(reinterpret_cast<char*>(row), static_cast<std::streamsize>(count * 4))) {
+      throw IoError(path, "the PFM file cannot be read to its end; copy it again");
+    }
+    if (is_little != (std::endian::native == std::endian::little)) swap_bytes(row, count);
+    if (scale != 1) {
+      for (std::size_t i = 0; i < count; ++i) row[i] *= scale;
+    }
+  }
+  return image;
+}
+
+void write_pfm(const std::filesystem::path& path, ImageView<const float> image) {
+  if (image.empty() || (image.channels != 1 && image.channels != 3)) {
+    throw InvalidInput(
+        fmt::format("a PFM file holds 1 or 3 channels, but the map has {}", image.channels));
+  }
+  const std::string header = fmt::format("{}\n{} {}\n-1.0\n", image.channels == 3 ? "PF" : "Pf",
+                                         image.width, image.height);
+  const std::size_t count = static_cast<std::size_t>(image.width) * image.channels;
+  std::vector<std::uint8_t> bytes(header.size() + count * 4 * image.height);
+  std::memcpy(bytes.data(), header.data(), header.size());
+  std::uint8_t* out = bytes.data() + header.size();
+  std::vector<float> row(count);
+  for (int y = image.height - 1; y >= 0; --y, out += count * 4) {
+    std::memcpy(row.data(), image.row(y), count * 4);
+    if constexpr (std::endian::native == std::endian::big) swap_bytes(row.data(), count);
+    std::memcpy(out, row.data(), count * 4);
+  }
+  write_atomically(path, bytes);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/disparity_field.h"
+#include "engine/core/ground_truth.h"
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/io/formats/archive_layout.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/models/order/order_check.h"
+#include "engine/io/models/stored_maps.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// Disparity from the depth of an archive file, in the stored order of views.
+struct ArchiveTruth {
+  DisparityField field;
+  DisparityField foreground;
+  DisparityField background;
+  CameraGrid camera;  ///< With units settled; unknown if the file states so.
+  /// Depth that no camera of the file turns into disparity; else empty,
+  std::string unused_depth;
+  std::string camera_fault;     ///< and why not.
+  bool has_attributes = false;  ///< Of a camera, though they are of no use.
+};
+
+/// Reads GT_DEPTH and the datasets of transparent scenes with their masks, finds the units and
+/// converts to disparity; what it decided goes to `report`. Depth that is zero, negative or NaN is
+/// invalid; of views without any valid depth nothing is kept. Without `options.needs_truth` only
+/// the centre view is read. Throws IoError, Cancelled.
+[[nodiscard]] ArchiveTruth read_archive_depth(const Hdf5Input& file,
+                                              const LightField::Samples& samples,
+                                              const OpenOptions& options, ConventionReport& report,
+                                              const Progress& progress);
+
+/// Camera attributes as stored, on the root or on LF; an unknown camera if they are missing, if one
+/// is not finite, or if the file states that it has none.
+[[nodiscard]] CameraGrid read_camera(const Hdf5Input& file);
+
+/// Depth as stored, with the mask beside it; views in the stored order.
+struct DepthMaps {
+  std::string name;
+  ViewStack<float> depth;
+  ViewStack<std::uint8_t> mask;  ///< Empty, or of the same or of a single view.
+
+  [[nodiscard]] bool empty() const { return depth.empty(); }
+  [[nodiscard]] bool is_valid(ViewIndex view, int y, int x) const {
+    const float z = depth.view(view).at(y, x);
+    const bool is_masked = mask.contains(view) && mask.view(view).at(y, x) == 0;
+    return std::isfinite(z) && z > 0 && !is_masked;
+  }
+};
+
+/// Settles the units of `stored` by the depth and by warping views (see find_units); what it
+/// decided goes to `report`. Linear in the size of five views.
+[[nodiscard]] CameraGrid settle_units(const DepthMaps& maps, const LightField::Samples& samples,
+                                      const CameraGrid& stored, Units units,
+                                      ConventionReport& report);
+
+/// Turns depth into disparity in place. If valid depth lies in a single view, only that is kept; if
+/// there is none, the field is empty. Tells `report` of pixels without depth. Throws Cancelled.
+[[nodiscard]] DisparityField disparity_from_depth(DepthMaps maps, const CameraGrid& camera,
+                                                  ConventionReport& report,
+                                                  const Progress& progress);
+
+/// What has been read of an archive file, in the stored order of views.
+struct ArchiveParts {
+  const LightField::Samples& samples;
+  GroundTruth& truth;
+  ViewStack<std::uint8_t>& valid;
+  CameraGrid& camera;
+  ExpectedOrder& expected;
+  ConventionReport& report;
+};
+
+/// Reads what lies beside LF under other names than the archive's: disparity, labels and masks as
+/// `read_array_maps` knows them, and depth that no camera turns into disparity; what `parts` has
+/// already stays. Returns what became of these
+/// datasets. Throws IoError, Cancelled.
+[[nodiscard]] std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& file,
+                                                   const ArchiveLayout& layout, bool wants_labels,
+                                                   ArchiveParts parts, const Progress& progress);
+
+/// The name of the only dataset that holds depth of all views or of one by its name and shape, but
+/// is not the archive's; empty if there is none.
+[[nodiscard]] std::string other_depth(const Hdf5Input& file, const FieldShape& shape);
+
+}  // namespace episcope::io

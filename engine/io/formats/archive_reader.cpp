@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/formats/archive_reader.h"
+
+#include "engine/core/error.h"
+#include "engine/core/memory.h"
+#include "engine/core/scene.h"
+#include "engine/core/text.h"
+#include "engine/io/base/sample_range.h"
+#include "engine/io/formats/archive_depth.h"
+#include "engine/io/formats/archive_layout.h"
+#include "engine/io/formats/companions.h"
+#include "engine/io/formats/write_scene.h"
+#include "engine/io/models/assemble_scene.h"
+#include "engine/io/models/file_usage.h"
+#include "engine/io/models/label_list.h"
+#include "engine/io/models/load_views.h"
+#include "engine/io/models/order/view_order.h"
+#include "engine/io/models/reader.h"
+#include "engine/io/models/scribble_file.h"
+#include "engine/io/models/stored_maps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+/// What Episcope alone writes into a file of the archive form (write_scene.h). Each throws
+/// IoError for a part that does not fit the light field, Cancelled.
+
+/// Positions of the cameras and their unit, row by row as stored; unknown if there are none.
+void read_positions(const Hdf5Input& file, GridShape grid, LightFieldInfo& info) {
+  const std::vector<double> values = file.numbers("/", kPositions);
+  if (values.empty()) return;
+  const auto expected = 2 * static_cast<std::size_t>(grid.count());
+  if (values.size() != expected) {
+    throw IoError(file.path(), fmt::format("the attribute {} holds {} numbers, but {} are expected "
+                                           "for {} views; correct or remove it",
+                                           kPositions, values.size(), expected, grid.count()));
+  }
+  for (std::size_t i = 0; i < values.size(); i += 2) {
+    info.positions.push_back({values[i], values[i + 1]});
+  }
+  info.position_unit = file.text("/", kPositionUnit).value_or("");
+}
+
+/// The mask of valid pixels as stored; empty if there is none.
+ViewStack<std::uint8_t> read_valid(const Hdf5Input& file, const FieldShape& shape,
+                                   const Progress& progress) {
+  if (!file.has(kValid)) return {};
+  const Hdf5Shape stored = file.dataset(kValid).shape;
+  const Hdf5Shape one{static_cast<std::size_t>(shape.height),
+                      static_cast<std::size_t>(shape.width)};
+  // Of a single view it has the two axes of a map.
+  if (stored.size() != 4 && !(shape.grid.count() == 1 && stored == one)) {
+    throw IoError(file.path(), fmt::format("the dataset {} has the shape {}, but one mask for each "
+                                           "view is expected; correct or remove it",
+                                           kValid, shape_text(stored)));
+  }
+  return read_maps<std::uint8_t>(file, kValid, shape, progress);
+}
+
+/// Region masks by name.
+std::map<std::string, Image<std::uint8_t>> read_regions(const Hdf5Input& file,
+                                                        const FieldShape& shape) {
+  std::map<std::string, Image<std::uint8_t>> regions;
+  const Hdf5Shape expected{static_cast<std::size_t>(shape.height),
+                           static_cast<std::size_t>(shape.width)};
+  for (const Hdf5Dataset& dataset : file.datasets()) {
+    if (!dataset.name.starts_with(kRegionPrefix) || dataset.name.find('/') != std::string::npos) {
+      continue;  // files are named by regions
+    }
+    if (dataset.shape != expected) {
+      throw IoError(file.path(),
+                    fmt::format("the dataset {} has the shape {}, but {} is expected; "
+                                "correct or remove it",
+                                dataset.name, shape_text(dataset.shape), shape_text(expected)));
+    }
+    Image<std::uint8_t> mask(shape.height, shape.width);
+    file.read(dataset.name, {{0, 0}, expected}, mask.data());
+    regions.emplace(dataset.name.substr(std::strlen(kRegionPrefix)), std::move(mask));
+  }
+  return regions;
+}
+
+/// Labels and scribbles of an archive scene, in the stored order of views.
+struct ArchiveLabels {
+  ViewStack<std::int32_t> labels;
+  Scribbles scribbles;
+};
+
+bool contains_zero(const ViewStack<std::int32_t>& labels) {
+  return !labels.empty() && std::find(labels.data(), labels.data() + labels.size(), 0) !=
+                                labels.data() + labels.size();
+}
+
+/// Reads GT_LABELS and SCRIBBLES if present. Unpainted pixels (0, −1 or 255 in files)
+/// become 0. Where 0 is a label and −1 or 255 means "none", labels and scribbles are raised by one,
+/// which `report` tells. Throws IoError, Cancelled.
+ArchiveLabels read_archive_labels(const Hdf5Input& file, const FieldShape& shape,
+                                  ConventionReport& report, const Progress& progress) {
+  ArchiveLabels found;
+  if (file.has(kTrueLabels)) {
+    found.labels = read_maps<std::int32_t>(file, kTrueLabels, shape, progress.part(0, 0.9));
+  }
+  if (file.has(kTrueLabels)) found.scribbles.labels = read_label_list(file, kTrueLabels);
+  if (!file.has("SCRIBBLES")) return found;
+  StoredScribbles stored =
+      read_scribble_dataset(file, shape, contains_zero(found.labels), progress.part(0.9, 1));
+  if (stored.scribbles.labels.empty() && !stored.raises_labels) {
+    stored.scribbles.labels = std::move(found.scribbles.labels);
+  }
+  found.scribbles = std::move(stored.scribbles);
+  if (!stored.raises_labels) return found;
+  report.raised_labels = true;
+  std::for_each(found.labels.data(), found.labels.data() + found.labels.size(), raise_label);
+  report.warnings.push_back(
+      "Labels start at 0 in this file and unpainted pixels are marked by another value: all labels "
+      "are raised by one, so that 0 means unpainted.");
+  return found;
+}
+
+template <class T>
+ViewStack<T> read_views(const Hdf5Input& file, const ArchiveLayout& layout,
+                        const std::function<void(ImageView<const T>)>& on_center,
+                        const Progress& progress) {
+  const FieldShape& shape = layout.shape;
+  ViewStack<T> stack(shape.grid, shape.height, shape.width, layout.channels);
+  const auto read = [&](ViewIndex view) {
+    Hdf5Block block{
+        {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0},
+        {1, 1, static_cast<std::size_t>(shape.height), static_cast<std::size_t>(shape.width)}};
+    if (layout.has_channel_axis) {
+      block.start.push_back(0);
+      block.count.push_back(static_cast<std::size_t>(layout.channels));
+    }
+    file.read(kArchiveLightField, block, stack.view(view).data);
+  };
+  const ViewIndex center = shape.grid.center();
+  progress.check();
+  read(center);
+  on_center(stack.view(center));
+  if (shape.grid.count() > 1 && read_stored_views(file, kArchiveLightField, stack, progress)) {
+    return stack;
+  }
+  for (int i = 0; i < shape.grid.count(); ++i) {
+    progress.check();
+    const ViewIndex view = shape.grid.view_at(i);
+    if (!(view == center)) read(view);
+    progress.report((i + 1.0) / shape.grid.count());
+  }
+  return stack;
+}
+
+/// Views that are better read from the file whenever they are looked at, if it stores them as they
+/// are in memory. Floats are read: some of them may have to be changed.
+template <class T>
+std::optional<ViewStack<T>> map_views(const Hdf5Input& file, const ArchiveLayout& layout,
+                                      const OpenOptions& options) {
+  const FieldShape& shape = layout.shape;
+  const Hdf5Shape stored = file.dataset(kArchiveLightField).shape;
+  const bool has_all_channels =
+      !layout.has_channel_axis || stored.back() == static_cast<std::size_t>(layout.channels);
+  if (std::is_floating_point_v<T> || !has_all_channels || options.equalise ||
+      !options.levels.empty())
+    return std::nullopt;
+  const std::size_t bytes = static_cast<std::size_t>(shape.grid.count()) * shape.height *
+                            shape.width * layout.channels * sizeof(T);
+  if (!is_better_mapped(static_cast<double>(bytes))) return std::nullopt;
+  const auto offset = file.place_in_file<T>(kArchiveLightField);
+  if (!offset) return std::nullopt;
+  const auto map = [&](std::size_t size) { return large_part_of_file(file.path(), *offset, size); };
+  return ViewStack<T>(shape.grid, shape.height, shape.width, layout.channels, {}, map);
+}
+
+/// The samples of an archive file in the stored order of views and in their stored type; wider
+/// integers are taken as bytes if the centre view fits. Those of a large light field
+/// (is_better_mapped) stay in the file, if it stores them as an array of 8 or 16 bits that nothing
+/// asks to change: they are there at once, and read when they are looked at. Shows the centre view
+/// (OpenOptions::on_center_view) with `info`. Throws IoError, Cancelled.
+LightField::Samples read_archive_samples(const Hdf5Input& file, ArchiveLayout layout,
+                                         const OpenOptions& options, const LightFieldInfo& info,
+                                         const Progress& progress) {
+  if (layout.type == Hdf5Type::Integer) {
+    const ViewStack<std::uint16_t> probe = [&] {
+      ArchiveLayout center = layout;
+      center.shape.grid = {1, 1};
+      return read_views<std::uint16_t>(
+          file, center, [](const auto&) {}, Progress(1));
+    }();
+    const bool fits = std::all_of(probe.data(), probe.data() + probe.size(),
+                                  [](std::uint16_t sample) { return sample <= 255; });
+    layout.type = fits ? Hdf5Type::UInt8 : Hdf5Type::UInt16;
+  }
+  const auto read = [&]<class T>(T) -> LightField::Samples {
+    const auto show = [&](ImageView<const T> center) {
+      if (options.on_center_view) {
+        options.on_center_view(preview_rgb(center), info, layout.shape.grid);
+      }
+    };
+    if (auto mapped = map_views<T>(file, layout, options)) {
+      show(mapped->view(mapped->grid().center()));
+      return std::move(*mapped);
+    }
+    return read_views<T>(file, layout, show, progress);
+  };
+  if (layout.type == Hdf5Type::UInt8) return read(std::uint8_t{});
+  if (layout.type == Hdf5Type::UInt16) return read(std::uint16_t{});
+  return read(float{});
+}
+
+namespace fs = std::filesystem;
+
+std::optional<Interval> stated_range(const Hdf5Input& file) {
+  const auto min = file.number("/", "disp_min");
+  const auto max = file.number("/", "disp_max");
+  if (!min || !max || !(*min < *max)) return std::nullopt;
+  return Interval{*min, *max};
+}
+
+/// Labels of the file or of labels.h5 beside it, whose use is noted.
+ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, ConventionReport& report,
+                          FolderAccount& account, const Progress& progress) {
+  const bool has_own = file.has(kTrueLabels) || file.has("SCRIBBLES");
+  ArchiveLabels own =
+      has_own ? read_archive_labels(file, shape, report, progress) : ArchiveLabels();
+  const fs::path beside = file.path().parent_path() / "labels.h5";
+  if (!is_there(beside)) return own;
+  const Hdf5Input labels(beside);
+  // Where several light fields share a folder, labels that we wrote name theirs.
+  const auto owner = labels.text("/", "light_field");
+  if (owner && *owner != file.path().filename().string()) return own;
+  if (!has_own) {
+    account.use(beside, "label files");
+    return read_archive_labels(labels, shape, report, progress);
+  }
+  // What was painted is saved beside the file and never into it.
+  if (owner && labels.has("SCRIBBLES")) {
+    account.use(beside, "scribble files");
+    own.scribbles = read_scribble_dataset(labels, shape, false, progress).scribbles;
+  }
+  return own;
+}
+
+void tell_unused_depth(const ArchiveTruth& depth, bool has_disparity, ConventionReport& report) {
+  if (depth.unused_depth.empty()) return;
+  if (!has_disparity) {
+    report.warnings.push_back(depth.unused_depth + " is ignored because " + depth.camera_fault +
+                              ".");
+  } else if (depth.has_attributes) {
+    report.warnings.push_back("The camera of the file is not used: " + depth.camera_fault + ".");
+  }
+}
+
+/// For the report.
+std::string group_text(const Hdf5Input& file) {
+  return file.group().empty() ? std::string() : ", group " + file.group();
+}
+
+Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
+                   const Progress& progress) {
+  const auto input = open_archive(path);
+  const Hdf5Input& file = *input;
+  const ArchiveLayout layout = archive_layout(file);
+  const GridShape grid = layout.shape.grid;
+  Scene scene;
+  ConventionReport& report = scene.convention;
+  report.format = "archive (" + path.filename().string() + group_text(file) + ")";
+  compare_sizes(file, report);
+  LightFieldInfo info{scene_name(path),
+                      path.string(),
+                      read_camera(file),
+                      stated_range(file),
+                      {.reader = kArchiveReader, .options = {}}};
+
+  read_positions(file, grid, info);
+  progress.step("reading views");
+  LightField::Samples samples =
+      read_archive_samples(file, layout, options, info, progress.part(0, 0.55));
+  ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, progress.part(0.55, 0.6));
+  settle_range(samples, options.levels, report);
+  progress.step("reading depth");
+  ArchiveTruth depth = read_archive_depth(file, samples, options, report, progress.part(0.6, 0.85));
+  progress.step("reading labels");
+  ArchiveLabels labels;
+  FolderAccount account(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  account.use(path, "light field");
+  std::map<std::string, Image<std::uint8_t>> regions;
+  if (options.needs_truth) {
+    regions = read_regions(file, layout.shape);
+    labels = read_labels(file, layout.shape, report, account, progress.part(0.85, 0.95));
+  }
+  GroundTruth truth{std::move(depth.field), std::move(depth.foreground),
+                    std::move(depth.background), std::move(labels.labels), std::move(regions)};
+  info.camera = depth.camera;
+  ExpectedOrder expected = expected_order(file);
+  const std::vector<FileUse> others = read_other_maps(
+      input, layout, options.needs_truth, {samples, truth, valid, info.camera, expected, report},
+      progress.part(0.95, 0.97));
+  tell_unused_depth(depth, !truth.field.empty(), report);
+  assemble({.samples = std::move(samples),
+            .truth = std::move(truth),
+            .info = std::move(info),
+            .expected = std::move(expected),
+            .valid = std::move(valid)},
+           options, scene, progress);
+  scene.scribbles = std::move(labels.scribbles);
+  put_in_order(scene.scribbles, grid, flip_of(report));
+  if (report.crop.leaves_out()) {
+    scene.scribbles = cropped(std::move(scene.scribbles), report.crop);
+  }
+  scene.companions = find_companions(path.parent_path(), *scene.light_field, report);
+  for (const Companion& companion : scene.companions) {
+    account.use(companion.path, companion_name(companion.kind));
+  }
+  report.files = account.uses();
+  report.files.insert(report.files.end(), others.begin(), others.end());
+  return scene;
+}
+
+bool is_hdf5_name(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".h5" || suffix == ".hdf5";
+}
+
+bool holds_archive(const Hdf5Input& file) {
+  return file.has(kArchiveLightField) || !archive_group(file).empty();
+}
+
+/// The HDF5 file of a folder that holds a light field; empty if there is none, or several without
+/// an lf.h5.
+fs::path file_in(const fs::path& folder) {
+  if (is_there(folder / "lf.h5")) return folder / "lf.h5";
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (is_hdf5_name(entry.path()) && entry.is_regular_file(error) &&
+        has_hdf5_signature(entry.path())) {
+      files.push_back(entry.path());
+    }
+  }
+  std::erase_if(files, [](const fs::path& path) { return !holds_archive(Hdf5Input(path)); });
+  return files.size() == 1 ? files.front() : fs::path();
+}
+
+fs::path find_archive(const fs::path& path, const OpenOptions&) {
+  if (const fs::path folder = scene_folder(path); !folder.empty()) {
+    // An image is a picture of the scene that it lies in, not of any light field beside it.
+    return fs::is_directory(path) || is_there(folder / "lf.h5") ? file_in(folder) : fs::path();
+  }
+  if (!has_hdf5_signature(path) && !is_hdf5_name(path)) return {};
+  const Hdf5Input file(path);
+  if (holds_archive(file)) return path;
+  if (file.has("estimate")) {
+    throw IoError(path,
+                  "this file holds a disparity result, not a light field; open the light field "
+                  "that it belongs to");
+  }
+  // Labels, depth or a companion: the light field lies beside it.
+  const fs::path beside = path.parent_path() / "lf.h5";
+  return is_there(beside) ? beside : path;
+}
+
+constexpr const char* kOptions[] = {"flip", "crop", "units", "levels"};
+
+}  // namespace
+
+Reader archive_reader() {
+  return {.id = kArchiveReader,
+          .name = "a light field of the 2013 archive",
+          .options = kOptions,
+          .find = find_archive,
+          .read = read_archive,
+          .probe = probe_archive};
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,490 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/formats/benchmark_reader.h"
+
+#include "engine/core/error.h"
+#include "engine/core/numbers.h"
+#include "engine/core/text.h"
+#include "engine/io/base/files.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/sample_range.h"
+#include "engine/io/formats/benchmark_truth.h"
+#include "engine/io/formats/image_grid.h"
+#include "engine/io/models/assemble_scene.h"
+#include "engine/io/models/file_usage.h"
+#include "engine/io/models/load_views.h"
+#include "engine/io/models/names/view_files.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/models/order/list_layout.h"
+#include "engine/io/models/reader.h"
+#include "engine/io/models/sidecar_maps/sidecar_maps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace episcope::io {
+namespace {
+
+/// Views of a scene, and what is missing from them.
+struct BenchmarkViews {
+  ViewFiles views;
+  std::string gaps;  ///< A sentence (`part_text`); empty if nothing is missing.
+};
+
+namespace fs = std::filesystem;
+
+GridShape square_grid(const fs::path& folder, int count) {
+  const int side = static_cast<int>(std::lround(std::sqrt(count)));
+  if (count > 0 && side * side == count) return {side, side};
+  throw IoError(folder, fmt::format("there is no {} and the {} files input_Cam*.png do not form a "
+                                    "square grid; add the missing files or give the rows and "
+                                    "columns by --grid",
+                                    kBenchmarkConfig, count));
+}
+
+/// Rows and columns that the parameter file promises, unless the files are numbered without a gap
+/// and make another square: then it is that of another scene, or of all views of which these are
+/// some.
+GridShape promised_grid(GridShape promised, const std::map<int, fs::path>& found) {
+  const auto count = static_cast<int>(found.size());
+  const int side = static_cast<int>(std::lround(std::sqrt(count)));
+  const bool has_gap = found.empty() || found.rbegin()->first - found.begin()->first + 1 != count;
+  constexpr int kSmallestSide = 3;
+  if (has_gap || side * side != count || promised.count() == count) return promised;
+  if (promised.count() > count && side < kSmallestSide) return promised;
+  return {side, side};
+}
+
+/// The number in the name of a view, whatever its padding, case and format.
+std::optional<int> view_number(const fs::path& path) {
+  constexpr std::size_t kMostDigits = 6;
+  const std::string stem = lower_case(path.stem().string());
+  const std::string prefix = lower_case(kViewPrefix);
+  if (!stem.starts_with(prefix) || !is_image_name(path)) return std::nullopt;
+  const std::string digits = stem.substr(prefix.size());
+  const bool is_number =
+      !digits.empty() && digits.size() <= kMostDigits && std::ranges::all_of(digits, is_digit);
+  return is_number ? std::optional(std::stoi(digits)) : std::nullopt;
+}
+
+/// Of several files of one number the one that the benchmark would name so, or the first.
+std::map<int, fs::path> views_in(const fs::path& folder) {
+  std::map<int, fs::path> views;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    const auto number = view_number(path);
+    if (!number) continue;
+    const bool is_exact = path.filename() == view_file_name(*number);
+    const auto [place, is_new] = views.try_emplace(*number, path);
+    const bool has_exact = place->second.filename() == view_file_name(*number);
+    if (!is_new && (is_exact || (!has_exact && path < place->second))) place->second = path;
+  }
+  return views;
+}
+
+/// Of the folder, else of the only one inside it that has any ("input", "views").
+std::map<int, fs::path> numbered_views(const fs::path& folder) {
+  std::map<int, fs::path> views = views_in(folder);
+  if (!views.empty()) return views;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_directory(error)) continue;
+    std::map<int, fs::path> inside = views_in(entry.path());
+    if (inside.empty()) continue;
+    if (!views.empty()) return {};
+    views = std::move(inside);
+  }
+  return views;
+}
+
+std::string truth_of(const fs::path& folder, GridShape grid) {
+  const bool has_all = is_there(folder / disparity_file_name(0)) &&
+                       is_there(folder / disparity_file_name(grid.count() - 1));
+  if (has_all) return "disparity of all views";
+  if (is_there(folder / kCenterDisparity)) return "disparity of the centre view";
+  return is_there(folder / kCenterDepth) ? "depth of the centre view" : "";
+}
+
+std::vector<long long> counted(int length) {
+  std::vector<long long> numbers(static_cast<std::size_t>(length));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+/// Number of images input_Cam* in a folder: with a number of any padding, upper or lower case.
+int count_benchmark_views(const fs::path& folder) {
+  return static_cast<int>(numbered_views(folder).size());
+}
+
+/// Views by their index from 0, or from 1, row by row from the top left: of the grid that was
+/// given, else that of `config`, else a square; in the folder, or in the only one inside it that
+/// has some. If some are missing, the part of the grid without gaps (`part_to_open`). Throws
+/// IoError, also if there is no such part.
+BenchmarkViews benchmark_views(const fs::path& folder, const std::optional<ConfigFile>& config,
+                               const std::optional<GridShape>& given) {
+  const std::map<int, fs::path> found = numbered_views(folder);
+  const auto count = static_cast<int>(found.size());
+  GridShape grid;
+  std::optional<double> columns, rows;
+  if (config) {
+    columns = config->number("num_cams_x");
+    rows = config->number("num_cams_y");
+  }
+  if (given) {
+    grid = *given;
+  } else if (columns && rows) {
+    grid = {whole_int(*rows).value_or(0), whole_int(*columns).value_or(0)};
+    if (grid.v < 1 || grid.u < 1 || grid.v > 1000 || grid.u > 1000) {
+      throw IoError(
+          folder / kBenchmarkConfig,
+          fmt::format(
+              "num_cams_x and num_cams_y are {} and {}, which is not possible; correct this file",
+              *columns, *rows));
+    }
+    grid = promised_grid(grid, found);
+  } else {
+    grid = square_grid(folder, count);
+  }
+  const int first = !found.contains(0) && found.contains(grid.count()) ? 1 : 0;
+  GridWithGaps views{.rows = counted(grid.v), .columns = counted(grid.u), .numbering = "from 0"};
+  for (int i = first; i < grid.count() + first; ++i) {
+    const auto view = found.find(i);
+    views.files.push_back(view == found.end() ? fs::path() : view->second);
+  }
+  if (views.missing() == 0) return {.views = {grid, views.files}, .gaps = {}};
+  const std::optional<PartOfGrid> part = part_to_open(views);
+  if (part) return {.views = files_of_part(views, *part), .gaps = part_text(views, *part)};
+  const auto missing = std::ranges::find_if(views.files, &fs::path::empty) - views.files.begin();
+  throw IoError(
+      folder / view_file_name(first + static_cast<int>(missing)),
+      fmt::format("this view is missing: {} of {} files input_Cam*.png were found; add it", count,
+                  grid.count()));
+}
+
+/// What names and headers of a scene folder tell. Throws IoError.
+SceneProbe probe_benchmark(const fs::path& folder, const OpenOptions& options) {
+  std::optional<ConfigFile> config;
+  if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
+  SceneProbe probe = probe_views(benchmark_views(folder, config, given_grid(options)).views);
+  probe.truth = truth_of(folder, probe.grid);
+  if (is_there(folder / kObjectIds)) probe.labels = "labels of the centre view";
+  return probe;
+}
+
+std::optional<Interval> promised_range(const ConfigFile& config) {
+  const auto min = config.number("disp_min");
+  const auto max = config.number("disp_max");
+  if (!min || !max || !(*min < *max)) return std::nullopt;
+  return Interval{*min, *max};
+}
+
+/// A range that holds the truth only with the other sign is that of disparities of the other sign.
+void correct_promise(const DisparityField& truth, std::optional<Interval>& promised,
+                     ConventionReport& report) {
+  if (truth.empty() || !promised) return;
+  Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (std::size_t i = 0; i < truth.disparity.size(); ++i) {
+    if (!truth.valid.empty() && truth.valid.data()[i] == 0) continue;
+    const double value = truth.disparity.data()[i];
+    range = {std::min(range.min, value), std::max(range.max, value)};
+  }
+  const double margin = 0.1 * promised->length();
+  const auto holds = [&](const Interval& one) {
+    return one.min - margin <= range.min && range.max <= one.max + margin;
+  };
+  const Interval reversed{-promised->max, -promised->min};
+  if (range.min > range.max || holds(*promised) || !holds(reversed)) return;
+  promised = reversed;
+  report.warnings.push_back(
+      fmt::format("disp_min and disp_max of {} have the other sign than the truth, in which larger "
+                  "values are nearer; they were negated.",
+                  kBenchmarkConfig));
+}
+
+void tell_values_without_number(const ConfigFile& config, ConventionReport& report) {
+  for (const std::string& value : config.values_without_number(
+           {"num_cams_x", "num_cams_y", "image_resolution_x_px", "image_resolution_y_px",
+            "disp_min", "disp_max", "focal_length_mm", "sensor_size_mm", "baseline_mm",
+            "focus_distance_m"})) {
+    report.warnings.push_back(
+        fmt::format("{}: {}, which is not a number; it is not used.", kBenchmarkConfig, value));
+  }
+}
+
+struct Size {
+  int height = 0;
+  int width = 0;
+};
+
+/// The size in the file only repeats that of the views, which counts.
+void compare_size(const ConfigFile& config, Size size, ConventionReport& report) {
+  const auto compare = [&](const char* key, int length) {
+    const auto stated = config.number(key);
+    if (!stated || *stated == length) return;
+    std::ostringstream text;
+    text << key << " of " << kBenchmarkConfig << " is " << *stated << ", but the views have "
+         << length << " px; the size of the views is used.";
+    report.warnings.push_back(text.str());
+  };
+  compare("image_resolution_x_px", size.width);
+  compare("image_resolution_y_px", size.height);
+}
+
+/// The number of files counts where they fit no grid of that many cameras.
+void compare_grid(const ConfigFile& config, GridShape grid, ConventionReport& report) {
+  const auto rows = config.number("num_cams_y");
+  const auto columns = config.number("num_cams_x");
+  if (!rows || !columns || (*rows == grid.v && *columns == grid.u)) return;
+  report.warnings.push_back(
+      fmt::format("{} promises {}×{} views, but the files are {}×{}; correct num_cams_x and "
+                  "num_cams_y.",
+                  kBenchmarkConfig, *rows, *columns, grid.v, grid.u));
+}
+
+/// Unknown if the file has none of its keys; if some are missing or wrong, a warning says so.
+CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, Size size,
+                       ConventionReport& report) {
+  BenchmarkCamera camera;
+  camera.larger_side_px = std::max(size.width, size.height);
+  const std::pair<const char*, double*> keys[] = {{"focal_length_mm", &camera.focal_length_mm},
+                                                  {"sensor_size_mm", &camera.sensor_size_mm},
+                                                  {"baseline_mm", &camera.baseline_mm},
+                                                  {"focus_distance_m", &camera.focus_distance_m}};
+  std::string missing;
+  int found = 0;
+  for (const auto& [key, value] : keys) {
+    const auto number = config.number(key);
+    if (!number) missing += (missing.empty() ? "" : ", ") + std::string(key);
+    *value = number.value_or(0);
+    found += number ? 1 : 0;
+  }
+  if (found == 0) return {};
+  const std::string left_out =
+      "The camera of " + (folder / kBenchmarkConfig).string() + " is ignored: ";
+  if (!missing.empty()) {
+    report.warnings.push_back(left_out + missing + " is missing; add it.");
+    return {};
+  }
+  try {
+    return camera_grid_from_benchmark(camera);
+  } catch (const InvalidInput& error) {
+    report.warnings.push_back(left_out + error.what() + ".");
+    return {};
+  }
+}
+
+/// Puts the files of a grid that is not square into the rows and columns that the views show, if
+/// these are exchanged, or counted otherwise than row by row; whether it did.
+bool arrange_as_seen(const LightField::Samples& samples, ViewFiles& views, ConventionReport& report,
+                     const Progress& progress) {
+  const GridShape promised = views.grid;
+  if (promised.v == promised.u || promised.v == 1 || promised.u == 1) return false;
+  const ListLayout seen = find_list_layout(samples, progress);
+  const bool is_as_promised = seen.grid == promised && seen.order == ListOrder::Rows;
+  const bool is_of_these_sides =
+      seen.grid == promised || seen.grid == GridShape{promised.u, promised.v};
+  if (!seen.is_decided || is_as_promised || !is_of_these_sides) return false;
+  ViewFiles arranged{seen.grid, std::vector<std::filesystem::path>(views.files.size())};
+  for (int i = 0; i < seen.grid.count(); ++i) {
+    const ViewIndex place = seen.place(i);
+    const int number = place.v * seen.grid.u + place.u;
+    arranged.files[static_cast<std::size_t>(number)] = views.files[static_cast<std::size_t>(i)];
+  }
+  views = std::move(arranged);
+  report.warnings.push_back(fmt::format("The views are not {}×{}, row by row, but {}: {}.",
+                                        promised.v, promised.u, layout_text(seen), seen.evidence));
+  return true;
+}
+
+Size size_of(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return Size{stack.height(), stack.width()}; }, samples);
+}
+
+bool is_benchmark_folder(const fs::path& folder, const OpenOptions& options) {
+  if (is_there(folder / kBenchmarkConfig)) return true;
+  // Without it only truth tells a scene of the benchmark from any list of views, whose rows and
+  // columns its images tell if they are not a square.
+  const bool has_truth = is_there(folder / disparity_file_name(0)) ||
+                         is_there(folder / kCenterDisparity) || is_there(folder / kCenterDepth);
+  const int count = has_truth ? count_benchmark_views(folder) : 0;
+  const auto side = static_cast<int>(std::lround(std::sqrt(count)));
+  return count > 0 && (side * side == count || !options.grid.empty());
+}
+
+Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
+  FolderAccount account(folder);
+  std::optional<ConfigFile> config;
+  if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
+  const std::optional<GridShape> given = given_grid(options);
+  BenchmarkViews found = benchmark_views(folder, config, given);
+  ViewFiles& views = found.views;
+  account.add_folder(views.files.front().parent_path());
+  Scene scene;
+  ConventionReport& report = scene.convention;
+  report.format = "2016 benchmark folder";
+  if (!found.gaps.empty()) report.warnings.push_back(found.gaps);
+  if (!config && !given) {
+    report.warnings.push_back(
+        fmt::format("There is no parameters.cfg: the grid of {}×{} views was inferred from the "
+                    "number of files.",
+                    views.grid.v, views.grid.u));
+  }
+  LightFieldInfo info{scene_name(folder),
+                      folder.string(),
+                      {},
+                      std::nullopt,
+                      {.reader = "benchmark2016", .options = {}}};
+  if (config) {
+    tell_values_without_number(*config, report);
+    info.disparity_range = promised_range(*config);
+  }
+  progress.step("reading views");
+  const auto show_center = [&](const Image<std::uint8_t>& center) {
+    if (options.on_center_view) options.on_center_view(center, info, views.grid);
+  };
+  UsableViews usable = load_usable_views(views, show_center, progress.part(0, 0.85));
+  if (usable.kept) {
+    views = std::move(usable.views);
+    report.warnings.push_back(std::move(usable.warning));
+  }
+  LightField::Samples samples = std::move(usable.samples);
+  if (!given && !views.part && arrange_as_seen(samples, views, report, progress)) {
+    samples = load_views(views, show_center, progress.part(0, 0.85));
+  }
+  account.use(views.files, "views");
+  account.leave_out(views.left_out, kViewsLeftOut);
+  account.leave_out(views.unusable, kUnusableViews);
+  if (config) account.use(folder / kBenchmarkConfig, "parameter files");
+  settle_range(samples, options.levels, report);
+  progress.step("reading truth");
+  const Size size = size_of(samples);
+  if (config) {
+    compare_size(*config, size, report);
+    compare_grid(*config, views.whole_grid(), report);
+    info.camera = read_camera(folder, *config, size, report);
+  }
+  GroundTruth truth;
+  const BesideViews beside_views{views,
+                                 views.files.front().parent_path(),
+                                 samples,
+                                 info.camera,
+                                 options.map_views(),
+                                 options.needs_truth};
+  const BesideNotes notes{account, report};
+  truth.field = read_benchmark_disparity(folder, beside_views, notes, progress.part(0.85, 0.9));
+  if (truth.field.empty()) {
+    // What other programs call it.
+    FoundBeside beside = read_beside(beside_views, notes, progress.part(0.9, 0.95));
+    truth = std::move(beside.truth);
+    info.camera = beside.camera;
+    scene.scribbles.labels = std::move(beside.label_infos);
+  }
+  correct_promise(truth.field, info.disparity_range, report);
+  if (options.needs_truth) {
+    read_benchmark_masks(folder, beside_views, notes, truth);
+    const auto stated = config ? config->text("scene") : std::nullopt;
+    truth.stratified = stratified_scene(stated.value_or(info.name));
+  }
+
+  SceneParts parts;
+  parts.samples = std::move(samples);
+  parts.truth = std::move(truth);
+  parts.info = std::move(info);
+  parts.expected.reason = "benchmark folders store views in canonical order";
+  parts.files = account.uses();
+  assemble(std::move(parts), options, scene, progress);
+  return scene;
+}
+
+fs::path find_benchmark(const fs::path& path, const OpenOptions& options) {
+  const fs::path folder = scene_folder(path);
+  const bool is_one =
+      !folder.empty() && !wants_image_grid(options) && is_benchmark_folder(folder, options);
+  return is_one ? folder : fs::path();
+}
+
+constexpr const char* kOptions[] = {"flip", "crop", "grid", "levels"};
+
+}  // namespace
+
+Reader benchmark_reader() {
+  return {.id = "benchmark2016",
+          .name = "a scene of the 2016 benchmark",
+          .options = kOptions,
+          .find = find_benchmark,
+          .read = read_benchmark,
+          .probe = probe_benchmark};
+}
+
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
+  const auto begin = std::find_if_not(text.begin(), text.end(), is_space);
+  const auto end = std::find_if_not(text.rbegin(), text.rend(), is_space).base();
+  return begin < end ? std::string(begin, end) : std::string();
+}
+
+/// Without what a comment adds behind the value: "100.0 ; mm".
+std::string without_comment(const std::string& value) {
+  for (const std::size_t mark :
+       {value.find(" ;"), value.find(" #"), value.find("\t;"), value.find("\t#")}) {
+    if (mark != std::string::npos) return without_comment(trimmed(value.substr(0, mark)));
+  }
+  return value;
+}
+
+/// With a decimal point where a program of a language with decimal commas wrote the file.
+std::string with_point(std::string value) {
+  const std::size_t comma = value.find(',');
+  const bool is_decimal = comma != std::string::npos && comma > 0 &&
+                          value.find_first_not_of("+-0123456789eE,") == std::string::npos &&
+                          value.find(',', comma + 1) == std::string::npos;
+  if (is_decimal) value[comma] = '.';
+  return value;
+}
+
+}  // namespace
+
+ConfigFile::ConfigFile(const std::filesystem::path& path) {
+  require_readable_file(path);
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos || line[0] == '#' || line[0] == ';') continue;
+    const std::string value = trimmed(line.substr(equals + 1));
+    values_[trimmed(line.substr(0, equals))] = without_comment(value);
+  }
+}
+
+std::optional<std::string> ConfigFile::text(const std::string& key) const {
+  const auto found = values_.find(key);
+  return found == values_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<double> ConfigFile::number(const std::string& key) const {
+  const auto value = text(key);
+  return value ? parse_number(with_point(*value)) : std::nullopt;
+}
+
+std::vector<std::string> ConfigFile::values_without_number(
+    std::initializer_list<const char*> keys) const {
+  std::vector<std::string> values;
+  for (const char* key : keys) {
+    const auto value = text(key);
+    if (value && !number(key)) values.push_back(std::string(key) + " is '" + *value + "'");
+  }
+  return values;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,596 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/formats/collection.h"
+
+#include "engine/core/error.h"
+#include "engine/core/hash.h"
+#include "engine/core/text.h"
+#include "engine/core/version.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/json.h"
+#include "engine/io/models/names/views_folder.h"
+#include "engine/io/models/reader.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Places = std::map<std::string, std::vector<CollectionEntry*>>;
+
+std::string place_of(const fs::path& path) {
+  std::error_code error;
+  fs::path whole = fs::absolute(path, error).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  return whole.string();
+}
+
+CollectionEntry* only_one(const Places& places, const std::string& place) {
+  const auto found = places.find(place);
+  return found != places.end() && found->second.size() == 1 ? found->second.front() : nullptr;
+}
+
+/// Entries by what names them.
+struct Index {
+  Places paths;
+  Places folders;
+  Places names;
+
+  explicit Index(std::vector<CollectionEntry>& entries) {
+    for (CollectionEntry& entry : entries) {
+      const fs::path place = place_of(entry.path);
+      std::error_code error;
+      const bool is_folder = fs::is_directory(place, error);
+      paths[place.string()].push_back(&entry);
+      folders[(is_folder ? place : place.parent_path()).string()].push_back(&entry);
+      names[entry.name].push_back(&entry);
+    }
+  }
+
+  [[nodiscard]] CollectionEntry* named_source(const ResultBeside& result) const {
+    if (result.source.empty()) return nullptr;
+    const fs::path source = place_of(result.path.parent_path() / result.source);
+    if (CollectionEntry* entry = only_one(paths, source.string())) return entry;
+    // lf.h5 or the folder of views, for an entry that is the folder around it.
+    return only_one(paths, source.parent_path().string());
+  }
+
+  /// The longest name that the result's name begins with, up to a mark.
+  [[nodiscard]] CollectionEntry* namesake(const ResultBeside& result) const {
+    std::string name = result.path.stem().string();
+    while (!name.empty()) {
+      if (CollectionEntry* entry = only_one(names, name)) return entry;
+      const std::size_t mark = name.find_last_of("_-. ");
+      name.resize(mark == std::string::npos ? 0 : mark);
+    }
+    return nullptr;
+  }
+};
+
+/// Gives each result to the light field among `entries` that it names as its source; else to the
+/// only one of its folder; else to the only one whose name its own begins with. Others are left
+/// out.
+void add_results(std::vector<CollectionEntry>& entries, const std::vector<ResultBeside>& results) {
+  const Index index(entries);
+  for (const ResultBeside& result : results) {
+    CollectionEntry* entry = index.named_source(result);
+    if (!entry) entry = only_one(index.folders, place_of(result.path.parent_path()));
+    if (!entry) entry = index.namesake(result);
+    if (entry) entry->results.push_back(result);
+  }
+}
+
+/// Deeper ones are a mistake; paths end at some length anyway.
+constexpr int kDeepest = 64;
+
+/// Maps of every view, in a folder inside that of the views, look like views.
+bool are_maps_of(const CollectionEntry& inside, const CollectionEntry& views) {
+  return inside.reader == views.reader && inside.probe.grid == views.probe.grid &&
+         inside.probe.list == views.probe.list && inside.probe.height == views.probe.height &&
+         inside.probe.width == views.probe.width;
+}
+
+class Search {
+ public:
+  Search(const CollectionOptions& options, const Progress& progress)
+      : options_(options), cache_(options.cache_file), progress_(progress) {}
+
+  void visit(const fs::path& folder, int depth) {
+    progress_.check();
+    if (depth > kDeepest || !seen_.insert(fs::weakly_canonical(folder).string()).second) return;
+    try {
+      look_into(folder, depth);
+    } catch (const fs::filesystem_error& error) {
+      take({.path = folder,
+            .name = folder.filename().string(),
+            .reader = {},
+            .probe = {},
+            .problem = IoError(folder, "it cannot be read (" + error.code().message() +
+                                           "); check its permissions")
+                           .what()});
+    }
+  }
+
+  std::vector<CollectionEntry> finish() {
+    cache_.save();
+    std::ranges::sort(found_, {}, &CollectionEntry::path);
+    add_results(found_, results_);
+    return std::move(found_);
+  }
+
+ private:
+  void look_into(const fs::path& folder, int depth) {
+    const FolderListing listing = list_folder(folder);
+    const FolderRecord* kept = cache_.find(folder, listing.fingerprint);
+    const FolderRecord record = kept ? *kept : scan_folder(listing);
+    cache_.keep(folder, listing.fingerprint, record);
+    results_.insert(results_.end(), record.results.begin(), record.results.end());
+    const auto take_all = [&] {
+      std::vector<CollectionEntry> entries = record.entries;
+      add_results(entries, record.results);
+      for (CollectionEntry& entry : entries) take(std::move(entry));
+    };
+    if (!record.is_doubtful) take_all();
+    if (!record.descends) return;
+    const std::size_t before = found_.size();
+    for (std::size_t i = 0; i < listing.folders.size(); ++i) {
+      visit(listing.folders[i], depth + 1);
+      if (depth == 0) progress_.report((i + 1.0) / static_cast<double>(listing.folders.size()));
+    }
+    if (record.is_doubtful && settle(record, before)) take_all();
+  }
+
+  /// Whether the doubtful entries of a folder are light fields: then what was found below is none.
+  bool settle(const FolderRecord& record, std::size_t before) {
+    const auto below = found_.begin() + static_cast<std::ptrdiff_t>(before);
+    if (below == found_.end()) return true;
+    const auto are_maps = [&](const CollectionEntry& inside) {
+      return std::ranges::any_of(record.entries, [&](const CollectionEntry& entry) {
+        return entry.problem.empty() && (!inside.problem.empty() || are_maps_of(inside, entry));
+      });
+    };
+    if (!std::all_of(below, found_.end(), are_maps)) return false;
+    found_.erase(below, found_.end());
+    return true;
+  }
+
+  void take(CollectionEntry entry) {
+    if (options_.on_entry) options_.on_entry(entry);
+    // They are given out again when all are known.
+    entry.results.clear();
+    found_.push_back(std::move(entry));
+  }
+
+  const CollectionOptions& options_;
+  CollectionCache cache_;
+  Progress progress_;
+  std::set<std::string> seen_;
+  std::vector<CollectionEntry> found_;
+  std::vector<ResultBeside> results_;
+};
+
+}  // namespace
+
+std::vector<CollectionEntry> find_light_fields(const fs::path& root,
+                                               const CollectionOptions& options,
+                                               const Progress& progress) {
+  std::error_code error;
+  if (!fs::exists(root, error)) {
+    throw IoError(root, "there is no such file or folder; check the path");
+  }
+  if (!fs::is_directory(root, error)) {
+    std::vector<CollectionEntry> entries;
+    if (auto entry = scan_file(root)) entries.push_back(std::move(*entry));
+    return entries;
+  }
+  progress.step("looking for light fields");
+  Search search(options, progress);
+  search.visit(root, 0);
+  return search.finish();
+}
+
+namespace {
+
+using Json = nlohmann::json;
+constexpr int kForm = 3;  ///< Counts up when readers find other light fields.
+
+/// Other readers may find other light fields.
+std::string key_of_program() {
+  std::string key = std::string(kVersion) + " " + std::to_string(kForm);
+  for (const Reader& reader : readers()) key += std::string(" ") + reader.id;
+  return key;
+}
+
+Json json_of(const ResultBeside& result) {
+  return {{"path", result.path.string()}, {"method", result.method}, {"source", result.source}};
+}
+
+Json json_of(const SceneProbe& probe) {
+  return {{"grid", {probe.grid.v, probe.grid.u}},
+          {"size", {probe.height, probe.width, probe.channels}},
+          {"type", probe.sample_type ? static_cast<int>(*probe.sample_type) : -1},
+          {"truth", probe.truth},
+          {"labels", probe.labels},
+          {"list", probe.list},
+          {"frames", probe.frames}};
+}
+
+Json json_of(const CollectionEntry& entry) {
+  return {
+      {"path", entry.path.string()},      {"name", entry.name},      {"reader", entry.reader},
+      {"probe", json_of(entry.probe)},    {"bytes", entry.bytes},    {"modified", entry.modified},
+      {"fingerprint", entry.fingerprint}, {"problem", entry.problem}};
+}
+
+template <class T>
+Json array_json(const std::vector<T>& items) {
+  Json array = Json::array();
+  for (const T& item : items) array.push_back(json_of(item));
+  return array;
+}
+
+ResultBeside result_from(const Json& json) {
+  return {json.at("path").get<std::string>(), json.at("method").get<std::string>(),
+          json.at("source").get<std::string>()};
+}
+
+SceneProbe probe_from(const Json& json) {
+  SceneProbe probe{.grid = {int_of(json.at("grid").at(0)), int_of(json.at("grid").at(1))},
+                   .height = int_of(json.at("size").at(0)),
+                   .width = int_of(json.at("size").at(1)),
+                   .channels = int_of(json.at("size").at(2)),
+                   .truth = json.at("truth").get<std::string>(),
+                   .labels = json.at("labels").get<std::string>(),
+                   .list = int_of(json.at("list")),
+                   .frames = int_of(json.at("frames"))};
+  const int type = int_of(json.at("type"));
+  constexpr int last = static_cast<int>(SampleType::Float32);
+  if (type >= 0 && type <= last) probe.sample_type = static_cast<SampleType>(type);
+  return probe;
+}
+
+CollectionEntry entry_from(const Json& json) {
+  return {.path = json.at("path").get<std::string>(),
+          .name = json.at("name").get<std::string>(),
+          .reader = json.at("reader").get<std::string>(),
+          .probe = probe_from(json.at("probe")),
+          .bytes = json.at("bytes").get<std::uintmax_t>(),
+          .modified = json.at("modified").get<std::int64_t>(),
+          .fingerprint = json.at("fingerprint").get<std::uint64_t>(),
+          .problem = json.at("problem").get<std::string>()};
+}
+
+Json json_of(const FolderRecord& record) {
+  return {{"entries", array_json(record.entries)},
+          {"results", array_json(record.results)},
+          {"descends", record.descends},
+          {"doubtful", record.is_doubtful}};
+}
+
+FolderRecord record_from(const Json& json) {
+  FolderRecord record{.entries = {},
+                      .results = {},
+                      .descends = json.at("descends").get<bool>(),
+                      .is_doubtful = json.at("doubtful").get<bool>()};
+  for (const Json& each : json.at("entries")) record.entries.push_back(entry_from(each));
+  for (const Json& each : json.at("results")) record.results.push_back(result_from(each));
+  return record;
+}
+
+/// Names of files need not be UTF-8, but JSON must.
+bool is_utf8(const Json& json) {
+  try {
+    return !json.dump().empty();
+  } catch (const Json::type_error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+CollectionCache::CollectionCache(fs::path file) : file_(std::move(file)) {
+  std::error_code error;
+  if (file_.empty() || !fs::exists(file_, error)) return;
+  try {
+    read();
+  } catch (const Json::exception&) {
+    old_.clear();  // damaged
+  } catch (const Error&) {
+    old_.clear();  // too large or too deep
+  }
+}
+
+void CollectionCache::read() {
+  const Json json = read_json<Json>(file_);
+  if (json.at("program") != key_of_program()) return;
+  for (const auto& [folder, kept] : json.at("folders").items()) {
+    old_[folder] = {kept.at("fingerprint").get<std::uint64_t>(), record_from(kept.at("record"))};
+  }
+}
+
+const FolderRecord* CollectionCache::find(const fs::path& folder, std::uint64_t fingerprint) const {
+  const auto found = old_.find(folder.string());
+  const bool is_same = found != old_.end() && found->second.fingerprint == fingerprint;
+  return is_same ? &found->second.record : nullptr;
+}
+
+void CollectionCache::keep(const fs::path& folder, std::uint64_t fingerprint, FolderRecord record) {
+  if (!find(folder, fingerprint)) has_changed_ = true;
+  new_[folder.string()] = {fingerprint, std::move(record)};
+}
+
+void CollectionCache::save() const {
+  if (file_.empty() || (!has_changed_ && old_.size() == new_.size())) return;
+  Json folders = Json::object();
+  for (const auto& [folder, kept] : new_) {
+    Json each{{"fingerprint", kept.fingerprint}, {"record", json_of(kept.record)}};
+    if (is_utf8(folder) && is_utf8(each)) folders[folder] = std::move(each);
+  }
+  const Json json{{"program", key_of_program()}, {"folders", std::move(folders)}};
+  const std::string text = json.dump();
+  std::error_code error;
+  fs::create_directories(file_.parent_path(), error);
+  if (error || text.size() > kLargestJson) return;
+  try {
+    write_atomically(file_, text);
+  } catch (const IoError&) {
+    return;  // a cache is a convenience
+  }
+}
+
+namespace {
+
+std::int64_t nanoseconds(fs::file_time_type time) {
+  const auto since_1970 = std::chrono::file_clock::to_sys(time).time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
+}
+
+void add(Fnv1a& hash, const fs::path& path, std::uintmax_t bytes, std::int64_t time) {
+  hash.add(path.filename().string());
+  hash.add_word(bytes);
+  hash.add_word(static_cast<std::uint64_t>(time));
+}
+
+/// Sorts, and takes the fingerprint.
+void finish(FolderListing& listing) {
+  std::ranges::sort(listing.files, {}, &ListedFile::path);
+  std::ranges::sort(listing.folders);
+  Fnv1a hash;
+  for (const ListedFile& file : listing.files) add(hash, file.path, file.bytes, file.modified_ns);
+  for (const fs::path& folder : listing.folders) {
+    std::error_code error;
+    const auto time = fs::last_write_time(folder, error);
+    add(hash, folder, 0, error ? 0 : nanoseconds(time));
+  }
+  listing.fingerprint = hash.value();
+}
+
+void add_file(FolderListing& listing, const fs::directory_entry& entry) {
+  std::error_code error;
+  const std::uintmax_t bytes = entry.file_size(error);
+  if (error) return;  // gone meanwhile
+  const auto time = entry.last_write_time(error);
+  if (!error) listing.files.push_back({entry.path(), bytes, nanoseconds(time)});
+}
+
+}  // namespace
+
+FolderListing list_folder(const fs::path& folder) {
+  FolderListing listing{.folder = folder, .files = {}, .folders = {}};
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename().string().starts_with('.')) continue;
+    std::error_code error;
+    if (entry.is_directory(error)) {
+      listing.folders.push_back(entry.path());
+    } else if (entry.is_regular_file(error)) {
+      add_file(listing, entry);
+    }
+  }
+  finish(listing);
+  return listing;
+}
+
+FolderListing list_file(const fs::path& file) {
+  FolderListing listing{.folder = file.parent_path(), .files = {}, .folders = {}};
+  add_file(listing, fs::directory_entry(file));
+  finish(listing);
+  return listing;
+}
+
+namespace {
+
+constexpr std::string_view kImageGrid = "image_grid";
+/// Fewer pictures than the smallest square grid are no light field that went wrong.
+constexpr std::size_t kFewestViews = 4;
+constexpr std::size_t kMostKinds = 16;
+
+bool is_array_name(const fs::path& path) {
+  constexpr std::array suffixes{".h5", ".hdf5", ".mat", ".npy", ".npz"};
+  return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
+}
+
+std::optional<ResultBeside> result_in(const fs::path& path) {
+  if (!has_hdf5_signature(path)) return std::nullopt;
+  try {
+    const Hdf5Input file(path);
+    if (!file.has("estimate")) return std::nullopt;
+    return ResultBeside{path, file.text("estimate", "method").value_or(""),
+                        file.text("estimate", "source").value_or("")};
+  } catch (const IoError&) {
+    return std::nullopt;  // damaged: an entry with a problem
+  }
+}
+
+CollectionEntry entry_at(const fs::path& path, const FolderListing& files) {
+  CollectionEntry entry{.path = path,
+                        .name = scene_name(path),
+                        .reader = {},
+                        .probe = {},
+                        .fingerprint = files.fingerprint};
+  for (const ListedFile& file : files.files) {
+    entry.bytes += file.bytes;
+    entry.modified = std::max(entry.modified, file.modified_ns / 1'000'000'000);
+  }
+  return entry;
+}
+
+/// Completes an entry by what its headers tell, or by why they cannot be read. Throws NoLightField.
+void probe(const FoundReader& found, CollectionEntry& entry) {
+  entry.reader = found.reader->id;
+  if (!found.reader->probe) return;
+  try {
+    entry.probe = found.reader->probe(found.path, {});
+  } catch (const NoLightField&) {
+    throw;
+  } catch (const Error& error) {
+    entry.problem = error.what();
+  }
+}
+
+/// What images of one origin share: "_eslf.png" of "bikes_eslf.png", ".png" of "4_07.png".
+std::string image_kind(const fs::path& path) {
+  const std::string name = path.filename().string();
+  const std::size_t mark = path.stem().string().rfind('_');
+  std::string kind = mark == std::string::npos ? suffix_of(path) : name.substr(mark);
+  std::erase_if(kind, is_digit);
+  return kind;
+}
+
+/// The images that are light fields each. One of every kind is tried, since trying all the views of
+/// a grid would take long.
+std::vector<CollectionEntry> image_entries(const FolderListing& listing) {
+  std::map<std::string, std::vector<const ListedFile*>> kinds;
+  for (const ListedFile& file : listing.files) {
+    if (is_image_name(file.path)) kinds[image_kind(file.path)].push_back(&file);
+  }
+  std::vector<CollectionEntry> entries;
+  if (kinds.size() > kMostKinds) return entries;
+  for (const auto& [kind, files] : kinds) {
+    if (!scan_file(files.front()->path)) continue;
+    for (const ListedFile* file : files) {
+      if (auto entry = scan_file(file->path)) entries.push_back(std::move(*entry));
+    }
+  }
+  return entries;
+}
+
+void add_array_entries(const FolderListing& listing, FolderRecord& record) {
+  for (const ListedFile& file : listing.files) {
+    const bool is_result =
+        std::ranges::find(record.results, file.path, &ResultBeside::path) != record.results.end();
+    if (is_result || !is_array_name(file.path)) continue;
+    auto entry = scan_file(file.path);
+    if (!entry) continue;
+    if (file.path.filename() == "lf.h5") {  // opened by its folder, with what lies beside it
+      CollectionEntry whole = entry_at(listing.folder, listing);
+      whole.reader = entry->reader;
+      whole.probe = entry->probe;
+      whole.problem = entry->problem;
+      entry = std::move(whole);
+      record.descends = false;
+    }
+    record.entries.push_back(std::move(*entry));
+  }
+}
+
+/// The entry of a folder that is a light field as a whole.
+CollectionEntry folder_entry(const FolderListing& listing, const FoundReader& found) {
+  CollectionEntry entry = entry_at(listing.folder, listing);
+  if (const fs::path views_inside = views_folder(listing.folder); views_inside != listing.folder) {
+    const FolderListing inside = list_folder(views_inside);
+    const CollectionEntry views = entry_at(views_inside, inside);
+    entry.bytes += views.bytes;
+    entry.modified = std::max(entry.modified, views.modified);
+    Fnv1a both;
+    both.add_word(listing.fingerprint);
+    both.add_word(inside.fingerprint);
+    entry.fingerprint = both.value();
+  }
+  probe(found, entry);
+  return entry;
+}
+
+FoundReader reader_of_folder(const fs::path& folder) {
+  try {
+    return find_reader(folder, {});
+  } catch (const Error&) {
+    return {};  // by a damaged file, which is an entry of its own
+  }
+}
+
+/// Whether the views lie in a folder inside that is an entry of its own.
+bool is_around(const fs::path& folder) {
+  return named_views_folder(folder) == folder && views_folder(folder) != folder;
+}
+
+std::size_t image_count(const FolderListing& listing) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      listing.files, [](const ListedFile& file) { return is_image_name(file.path); }));
+}
+
+/// Any folder of pictures may be taken for a grid of views; but not one whose views lie in several
+/// folders inside, which are none of their own.
+void add_image_grid(const FolderListing& listing, CollectionEntry entry, FolderRecord& record) {
+  const bool is_inside = views_folder(listing.folder) != listing.folder;
+  const bool is_of_folders = entry.problem.empty() && !is_inside && image_count(listing) == 0;
+  record.is_doubtful = !is_of_folders;
+  record.descends = !is_of_folders;
+  const bool is_counted =
+      entry.problem.empty() || is_inside || image_count(listing) >= kFewestViews;
+  if (is_counted) record.entries.push_back(std::move(entry));
+}
+
+}  // namespace
+
+std::optional<CollectionEntry> scan_file(const fs::path& file) {
+  CollectionEntry entry = entry_at(file, list_file(file));
+  try {
+    const FoundReader found = find_reader(file, {});
+    if (!found.reader || found.path != file) return std::nullopt;
+    probe(found, entry);
+  } catch (const NoLightField&) {
+    return std::nullopt;
+  } catch (const Error& error) {
+    entry.problem = error.what();
+  }
+  return entry;
+}
+
+FolderRecord scan_folder(const FolderListing& listing) {
+  FolderRecord record;
+  for (const ListedFile& file : listing.files) {
+    if (auto result = result_in(file.path)) record.results.push_back(std::move(*result));
+  }
+  const FoundReader found = reader_of_folder(listing.folder);
+  const std::string_view id = found.reader ? found.reader->id : "";
+  const bool is_folder =
+      found.reader && fs::is_directory(found.path) && !(id == kImageGrid && is_around(found.path));
+  if (is_folder && id != kImageGrid) {
+    record.descends = false;
+    record.entries.push_back(folder_entry(listing, found));
+    return record;
+  }
+  record.entries = image_entries(listing);
+  if (record.entries.empty() && is_folder) {
+    add_image_grid(listing, folder_entry(listing, found), record);
+    return record;
+  }
+  add_array_entries(listing, record);
+  return record;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/formats/frames_reader.h"
+
+#include "engine/core/error.h"
+#include "engine/core/light_field.h"
+#include "engine/core/text.h"
+#include "engine/io/base/image_header.h"
+#include "engine/io/base/image_list.h"
+#include "engine/io/base/json.h"
+#include "engine/io/base/sample_range.h"
+#include "engine/io/formats/array_reader.h"
+#include "engine/io/formats/film.h"
+#include "engine/io/models/assemble_scene.h"
+#include "engine/io/models/choose_layout.h"
+#include "engine/io/models/load_views.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/models/order/warp_check.h"
+#include "engine/io/models/reader.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+constexpr int kChannels = 3;
+constexpr int kFewestViews = 4;
+
+/// Whether pages in the middle of the list differ by colour, not by motion: motion that is too far
+/// to be followed leaves pictures that are not alike.
+bool are_channels(const LightField::Samples& samples, const PageOrder& order, int views) {
+  constexpr double kAlike = 0.4;
+  const int middle = views / 2;
+  const auto picture = [&](int view, int channel) {
+    return MotionPictures(grey_levels(samples, {0, order.page(view, channel)}));
+  };
+  const MotionPictures center = picture(middle, 1);
+  AxisEvidence of_channels;
+  AxisEvidence of_views;
+  for (const int side : {-1, 1}) {
+    const MotionPictures other = picture(middle, 1 + side);
+    if (correlation(center.scales[1], other.scales[1]) < kAlike) return false;
+    of_channels.add(center, other);
+    if (middle + side < views) of_views.add(center, picture(middle + side, 1));
+  }
+  return are_rather_channels(of_channels, of_views);
+}
+
+template <class T>
+ViewStack<T> joined(const ViewStack<T>& pages, const PageOrder& order) {
+  const int views = pages.grid().count() / order.channels;
+  ViewStack<T> coloured({1, views}, pages.height(), pages.width(), kChannels, {},
+                        allocate_large_zeros);
+  for (int view = 0; view < views; ++view) {
+    for (int channel = 0; channel < std::min(order.channels, kChannels); ++channel) {
+      const T* from = pages.view({0, order.page(view, channel)}).data;
+      T* to = coloured.view({0, view}).data + channel;
+      for (std::size_t n = 0; n < pages.view_size(); ++n) to[n * kChannels] = from[n];
+    }
+  }
+  return coloured;
+}
+
+/// The order of 3N grey pictures, 1×3N, of which each three are the channels of one, as ImageJ
+/// stores colours of more than 8 bits, or each third of them is a channel: then views move, and
+/// channels do not. Nothing if they do.
+std::optional<PageOrder> find_channel_pages(const LightField::Samples& samples) {
+  return std::visit(
+      [&](const auto& stack) -> std::optional<PageOrder> {
+        const int pages = stack.grid().count();
+        const int views = pages / kChannels;
+        const bool may_be = stack.channels() == 1 && pages % kChannels == 0;
+        if (!may_be || views < kFewestViews) return std::nullopt;
+        for (const PageOrder& order : {PageOrder{kChannels, 1}, PageOrder{kChannels, views}}) {
+          if (are_channels(samples, order, views)) return order;
+        }
+        return std::nullopt;
+      },
+      samples);
+}
+
+/// Puts pictures, grey and 1×N, together to coloured ones: two channels become red and green, of
+/// more than three the first three are kept.
+void join_channel_pages(LightField::Samples& samples, const PageOrder& order) {
+  std::visit([&](auto& stack) { stack = joined(stack, order); }, samples);
+}
+
+namespace fs = std::filesystem;
+
+constexpr int kMostPictures = 1000;
+constexpr int kFewestPages = 3;  ///< Two may be a picture and its thumbnail.
+
+bool has_tiff_name(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".tif" || suffix == ".tiff";
+}
+
+bool has_pages(const fs::path& path) {
+  return has_tiff_name(path) && count_tiff_pages(path, kMostPictures) >= kFewestPages;
+}
+
+bool is_film(const fs::path& path) {
+  return is_film_name(path) || is_animated_png(path);
+}
+
+fs::path find_frames(const fs::path& path, const OpenOptions& options) {
+  if (options.mosaic != Mosaic::Auto || options.lenslet > 0) return {};
+  if (!fs::is_directory(path)) return has_pages(path) || is_film(path) ? path : fs::path();
+  const std::vector<fs::path> images = list_images(path);
+  const bool is_one =
+      images.size() == 1 && (has_pages(images.front()) || is_animated_png(images.front()));
+  return is_one ? images.front() : fs::path();
+}
+
+/// The pictures of a file, and what it is.
+struct Frames {
+  std::vector<AnyImage> pictures;
+  std::string what;  ///< "pages", "pictures of a film (h264)".
+};
+
+Frames read_frames(const fs::path& path, const Progress& progress) {
+  if (!has_tiff_name(path)) {
+    Film film = read_film(path, kMostPictures, progress);
+    return {std::move(film.pictures), "pictures of a film (" + film.codec + ")"};
+  }
+  const int pages = count_tiff_pages(path, kMostPictures);
+  if (pages > kMostPictures) {
+    throw IoError(path, fmt::format("the file has more than {} pages, which are too many for views",
+                                    kMostPictures));
+  }
+  const ImageHeader header = read_image_header(path);
+  require_view_memory(path, 8.0 * header.height * header.width * header.channels * pages);
+  return {decode_pages(path, pages), "pages of a TIFF file"};
+}
+
+template <class T>
+ViewStack<T> stack_of(const fs::path& path, const std::vector<AnyImage>& pictures) {
+  const auto& first = std::get<Image<T>>(pictures.front());
+  const auto count = static_cast<int>(pictures.size());
+  ViewStack<T> stack({1, count}, first.height(), first.width(), first.channels());
+  for (int i = 0; i < count; ++i) {
+    const AnyImage& picture = pictures[static_cast<std::size_t>(i)];
+    const auto* image = std::get_if<Image<T>>(&picture);
+    if (image == nullptr || image->height() != first.height() || image->width() != first.width() ||
+        image->channels() != first.channels()) {
+      throw IoError(path,
+                    fmt::format("picture {} has {}, but the first one has {}; all views must "
+                                "match",
+                                i, describe_image(picture), describe_image(pictures.front())));
+    }
+    std::copy_n(image->data(), image->size(), stack.view({0, i}).data);
+  }
+  return stack;
+}
+
+LightField::Samples samples_of(const fs::path& path, const std::vector<AnyImage>& pictures) {
+  return std::visit(
+      [&]<class T>(const Image<T>&) -> LightField::Samples { return stack_of<T>(path, pictures); },
+      pictures.front());
+}
+
+/// Pages that are channels of a view, as the file says or as they look.
+void join_channels(LightField::Samples& samples, const std::optional<StatedPages>& stated,
+                   std::string& reason, std::vector<std::string>& warnings) {
+  const bool is_grey = std::visit([](const auto& stack) { return stack.channels() == 1; }, samples);
+  if (is_grey && stated && stated->order.channels > 1) {
+    const int channels = stated->order.channels;
+    join_channel_pages(samples, stated->order);
+    reason += fmt::format(", each {} of them the channels of a view, as {} wrote", channels,
+                          stated->program);
+    if (channels == 2) reason += ", shown as red and green";
+    if (channels > 3) {
+      warnings.push_back(
+          fmt::format("Of {} channels of a view the first three are read, as red, "
+                      "green and blue.",
+                      channels));
+    }
+  } else if (const auto found = find_channel_pages(samples)) {
+    join_channel_pages(samples, *found);
+    reason += ", each three of them the channels of a view";
+  }
+}
+
+Scene read_light_field(const fs::path& path, const OpenOptions& options, const Progress& progress) {
+  progress.step("reading the pictures");
+  Frames frames = read_frames(path, progress.part(0, 0.6));
+  Scene scene;
+  SceneParts parts;
+  parts.info = {
+      scene_name(path), path.string(), {}, std::nullopt, {.reader = "frames", .options = {}}};
+  parts.samples = samples_of(path, frames.pictures);
+  const std::size_t count = frames.pictures.size();
+  frames.pictures.clear();
+  settle_range(parts.samples, options.levels, scene.convention);
+  std::string reason = fmt::format("{} {}", count, frames.what);
+  const auto stated = has_tiff_name(path)
+                          ? stated_pages(tiff_description(path), static_cast<int>(count))
+                          : std::nullopt;
+  join_channels(parts.samples, stated, reason, scene.convention.warnings);
+  arrange_list(path, options, parts, reason, progress.part(0.6, 0.8),
+               stated ? stated->grid : std::nullopt);
+  scene.convention.format = reason;
+  scene.convention.units = "no depth in such a file";
+  if (options.on_center_view) {
+    std::visit(
+        [&](const auto& stack) {
+          options.on_center_view(preview_rgb(stack.view(stack.grid().center())), parts.info,
+                                 stack.grid());
+        },
+        parts.samples);
+  }
+  parts.expected.reason = "the pictures of a file do not say how they are ordered";
+  parts.files = {{"light field", 1, path.filename().string(), true}};
+  assemble(std::move(parts), options, scene, progress.part(0.8, 1));
+  return scene;
+}
+
+SceneProbe probe_frames(const fs::path& path, const OpenOptions& options) {
+  if (!has_tiff_name(path)) return {};
+  const ImageHeader header = read_image_header(path);
+  return {.grid = given_grid(options).value_or(GridShape()),
+          .height = header.height,
+          .width = header.width,
+          .channels = header.channels,
+          .sample_type = header.sample_type,
+          .list = count_tiff_pages(path, kMostPictures)};
+}
+
+constexpr const char* kOptions[] = {"flip", "grid", "crop", "levels"};
+
+}  // namespace
+
+Reader frames_reader() {
+  return {.id = "frames",
+          .name = "pages of a TIFF file, or a film",
+          .options = kOptions,
+          .find = find_frames,
+          .read = read_light_field,
+          .probe = probe_frames};
+}
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kMostChannels = 4;
+
+struct PageAxis {
+  int length = 1;
+  bool is_channels = false;
+};
+/// The slowest first.
+using PageAxes = std::vector<PageAxis>;
+
+/// The number behind the first `name`; 1 if there is none.
+int number_behind(std::string_view text, std::string_view name) {
+  const auto found = text.find(name);
+  int number = 1;
+  if (found != std::string_view::npos) {
+    const std::string_view rest = text.substr(found + name.size());
+    std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  }
+  return number;
+}
+
+PageAxes axes_of_imagej(std::string_view text) {
+  return {{number_behind(text, "\nframes=")},
+          {number_behind(text, "\nslices=")},
+          {number_behind(text, "\nchannels="), true}};
+}
+
+PageAxes axes_of_ome(std::string_view text) {
+  constexpr std::string_view kOrder = "DimensionOrder=\"XY";
+  const auto found = text.find(kOrder);
+  if (found == std::string_view::npos) return {};
+  const std::string_view letters = text.substr(found + kOrder.size(), 3);
+  PageAxes axes;
+  for (const char letter : letters) {  // the fastest first
+    const std::string name = std::string(" Size") + letter + "=\"";
+    axes.insert(axes.begin(), {number_behind(text, name), letter == 'C'});
+  }
+  return axes;
+}
+
+/// Of a shape, the axes before those of a page.
+PageAxes axes_of_shape(const std::vector<int>& shape, const std::string& letters, int pages) {
+  PageAxes axes;
+  std::int64_t product = 1;
+  for (std::size_t i = 0; i < shape.size() && product < pages; ++i) {
+    const bool is_named = letters.size() == shape.size() && letters[i] == 'C';
+    axes.push_back({shape[i], is_named});
+    product *= shape[i];
+  }
+  const bool has_channels = std::ranges::any_of(axes, &PageAxis::is_channels);
+  if (axes.size() == 3 && !has_channels) {
+    const bool is_last = axes.back().length <= kMostChannels;
+    (is_last ? axes.back() : axes.front()).is_channels = true;
+  }
+  return axes;
+}
+
+PageAxes axes_of_tifffile(const std::string& text, int pages) {
+  try {
+    const auto json = parse_json<Json>(text);
+    std::vector<int> shape;
+    for (const Json& length : json.at("shape")) {
+      shape.push_back(int_of(length));
+      if (shape.back() < 1) return {};
+    }
+    return axes_of_shape(shape, json.value("axes", std::string()), pages);
+  } catch (const Json::exception&) {
+    return {};
+  } catch (const InvalidInput&) {
+    return {};
+  }
+}
+
+std::int64_t product_of(const PageAxes& axes) {
+  constexpr std::int64_t kMany = 1 << 20;
+  std::int64_t product = 1;
+  for (const PageAxis& axis : axes) product = std::min(kMany, product * std::max(0, axis.length));
+  return product;
+}
+
+std::optional<StatedPages> pages_of(PageAxes axes, std::string program, int pages) {
+  std::erase_if(axes, [](const PageAxis& axis) { return axis.length == 1; });
+  // tifffile writes the last axis before that of rows as channels for ImageJ, whatever it is.
+  for (PageAxis& axis : axes) axis.is_channels = axis.is_channels && axis.length <= kMostChannels;
+  const auto drop_channels = [](PageAxes& from) { std::erase_if(from, &PageAxis::is_channels); };
+  PageAxes of_views = axes;
+  drop_channels(of_views);
+  // Pages may be coloured: then their channels are no axis of pages.
+  if (product_of(of_views) == pages) axes = of_views;
+  if (axes.empty() || product_of(axes) != pages) return std::nullopt;
+  StatedPages stated;
+  stated.program = std::move(program);
+  const auto channels = std::ranges::find_if(axes, &PageAxis::is_channels);
+  if (channels != axes.end()) {
+    stated.order.channels = channels->length;
+    for (auto axis = channels + 1; axis != axes.end(); ++axis) {
+      stated.order.views_in_turn *= axis->length;
+    }
+  }
+  if (of_views.size() == 2) stated.grid = GridShape{of_views[0].length, of_views[1].length};
+  return stated;
+}
+
+}  // namespace
+
+std::optional<StatedPages> stated_pages(const std::string& description, int pages) {
+  if (description.starts_with("ImageJ=")) {
+    return pages_of(axes_of_imagej(description), "ImageJ", pages);
+  }
+  if (description.find("<OME") != std::string::npos) {
+    return pages_of(axes_of_ome(description), "OME-TIFF", pages);
+  }
+  if (description.starts_with('{')) {
+    return pages_of(axes_of_tifffile(description, pages), "tifffile", pages);
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+/// Unsigned numbers of a file, in its byte order.
+class Numbers {
+ public:
+  explicit Numbers(const std::filesystem::path& path) : in_(path, std::ios::binary) {
+    std::string begin(4, '\0');
+    in_.read(begin.data(), 4);
+    is_little_endian_ = begin.starts_with("II");
+    is_big_ = begin == std::string("II+\0", 4) || begin == std::string("MM\0+", 4);
+    const bool is_plain = begin == std::string("II*\0", 4) || begin == std::string("MM\0*", 4);
+    is_tiff_ = in_ && (is_plain || is_big_);
+  }
+
+  [[nodiscard]] bool is_tiff() const { return is_tiff_; }
+
+  /// How long places, numbers of entries, and entries are.
+  [[nodiscard]] std::uint64_t place_bytes() const { return is_big_ ? 8 : 4; }
+  [[nodiscard]] std::uint64_t count_bytes() const { return is_big_ ? 8 : 2; }
+  [[nodiscard]] std::uint64_t entry_bytes() const { return is_big_ ? 20 : 12; }
+
+  [[nodiscard]] std::uint64_t place_of_first_page() { return at(is_big_ ? 8 : 4, place_bytes()); }
+
+  [[nodiscard]] std::string text(std::uint64_t place, std::uint64_t bytes) {
+    std::string read(static_cast<std::size_t>(bytes), '\0');
+    in_.clear();
+    in_.seekg(static_cast<std::streamoff>(place));
+    in_.read(read.data(), static_cast<std::streamsize>(bytes));
+    read.resize(static_cast<std::size_t>(in_.gcount()));
+    return read;
+  }
+
+  /// 0 behind the end.
+  [[nodiscard]] std::uint64_t at(std::uint64_t place, std::uint64_t bytes) {
+    std::array<unsigned char, 8> read{};
+    in_.clear();
+    in_.seekg(static_cast<std::streamoff>(place));
+    if (!in_.read(reinterpret_cast<char*>(read.data()), static_cast<std::streamsize>(bytes))) {
+      return 0;
+    }
+    std::uint64_t number = 0;
+    for (std::uint64_t i = 0; i < bytes; ++i) {
+      number = number << 8 | read[is_little_endian_ ? bytes - 1 - i : i];
+    }
+    return number;
+  }
+
+ private:
+  std::ifstream in_;
+  bool is_little_endian_ = false;
+  bool is_big_ = false;
+  bool is_tiff_ = false;
+};
+
+}  // namespace
+
+int count_tiff_pages(const std::filesystem::path& path, int most) {
+  Numbers file(path);
+  if (!file.is_tiff()) return 0;
+  int pages = 0;
+  // Directories that lead back to themselves end at `most`.
+  std::uint64_t place = file.place_of_first_page();
+  for (; place != 0 && pages <= most; ++pages) {
+    const std::uint64_t entries = file.at(place, file.count_bytes());
+    if (entries == 0) return 0;
+    place = file.at(place + file.count_bytes() + file.entry_bytes() * entries, file.place_bytes());
+  }
+  return pages;
+}
+
+std::string tiff_description(const std::filesystem::path& path) {
+  constexpr std::uint64_t kDescription = 270;
+  constexpr std::uint64_t kMostEntries = 1000;
+  constexpr std::uint64_t kMostBytes = 64 << 10;
+  Numbers file(path);
+  if (!file.is_tiff()) return {};
+  std::uint64_t entry = file.place_of_first_page();
+  const std::uint64_t entries = std::min(kMostEntries, file.at(entry, file.count_bytes()));
+  entry += file.count_bytes();
+  for (std::uint64_t i = 0; i < entries; ++i, entry += file.entry_bytes()) {
+    if (file.at(entry, 2) != kDescription) continue;
+    const std::uint64_t bytes = file.at(entry + 4, file.place_bytes());
+    const std::uint64_t value = entry + 4 + file.place_bytes();
+    const bool is_inside = bytes <= file.place_bytes();
+    const std::uint64_t place = is_inside ? value : file.at(value, file.place_bytes());
+    std::string text = file.text(place, std::min(bytes, kMostBytes));
+    return text.substr(0, text.find('\0'));
+  }
+  return {};
+}
+
+}  // namespace episcope::io

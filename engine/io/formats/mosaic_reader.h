@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/scene.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/models/reader.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// All views in one image: lenslets side by side (ESLF of Lytro cameras, MacPI), or views side by
+/// side.
+[[nodiscard]] Reader mosaic_reader();
+
+/// A dataset of two axes that holds all views as one picture.
+struct MosaicDataset {
+  std::string name;
+  Hdf5Shape shape;  ///< As stored.
+  Hdf5Type type = Hdf5Type::Float;
+  Mosaic kind = Mosaic::Auto;  ///< By its name.
+  bool is_transposed = false;  ///< Stored `[x][y]`.
+  GridShape grid{};            ///< By an attribute; 0×0 = none states it.
+};
+
+/// The largest dataset whose name says so: SAI for views side by side, MacPI for lenslets, as in
+/// `Hr_SAI_y` and `Lr_SAI_y` of data for super-resolution, which are stored `[x][y]` (source: the
+/// scripts of Liang's BasicLFSR); or the one of the option `dataset`, stored `[y][x]`, if options
+/// ask for a mosaic. The attribute angRes or grid, of it or of the root, gives rows and columns.
+/// Nothing for files that are no HDF5 files, or hold LF or a result. Throws IoError.
+[[nodiscard]] std::optional<MosaicDataset> find_mosaic_dataset(const std::filesystem::path& path,
+                                                               const OpenOptions& options);
+
+/// The picture `[y][x]`. Throws IoError.
+[[nodiscard]] AnyImage read_mosaic_dataset(const std::filesystem::path& path,
+                                           const MosaicDataset& dataset);
+
+/// What became of all datasets of the file.
+[[nodiscard]] std::vector<FileUse> uses_beside(const std::filesystem::path& path,
+                                               const MosaicDataset& dataset);
+
+}  // namespace episcope::io

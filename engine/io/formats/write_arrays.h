@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+
+#include <filesystem>
+
+namespace episcope::io {
+
+/// Writes the views as one array `[v][u][y][x][c]` in their sample type, and nothing else. Atomic,
+/// as the following. Throws IoError, Cancelled.
+void write_npy(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
+
+/// Writes an archive, not compressed, of `lf` as above and, where the scene has them, `disparity`
+/// (float, NaN = invalid), `labels` (int32) and `valid` (uint8, 0 = invalid): `[y][x]` of the
+/// centre view alone, else `[v][u][y][x]`. Throws IoError, Cancelled.
+void write_npz(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
+
+/// Writes a MATLAB file of version 7.3 as LFToolbox does: LF(t, s, v, u, c), t and s for rows and
+/// columns of views, v and u for those of pixels; a fourth channel is the weight, 0 = invalid, if
+/// the scene has invalid pixels. `disparity`, `labels` and, for grey views, `valid` as above, in
+/// MATLAB's order: (v, u) or (t, s, v, u). Throws IoError, Cancelled.
+void write_mat(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
+
+/// Disparity as files hold it: NaN where it is invalid; empty if there is none.
+[[nodiscard]] ViewStack<float> disparity_with_nan(const DisparityField& field);
+
+}  // namespace episcope::io

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+
+#include <filesystem>
+
+namespace episcope::io {
+
+/// Writes a scene in the form of the 2013 archive: the light field and its depth to
+/// `path`, labels and scribbles to `labels.h5` beside it if the scene has them; where a `labels.h5`
+/// of something else is there, they go into `path`. Rows are in canonical order, which the
+/// attribute `convention` states. Atomic for each file. Throws IoError, Cancelled.
+void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
+
+/// Whether it puts the labels into `path` itself, because a `labels.h5` of something else is beside
+/// it.
+[[nodiscard]] bool puts_labels_inside(const std::filesystem::path& path, const Scene& scene);
+
+/// Writes a folder of the 2016 benchmark form: images, cfg, PFM truth of the centre
+/// view and, where known, of all views. Throws IoError (also if the folder holds other files),
+/// Cancelled.
+void write_benchmark_folder(const std::filesystem::path& folder, const Scene& scene,
+                            const Progress& progress);
+
+/// What Episcope adds to a light-field file of the archive form; other programs ignore it.
+
+/// Attribute of the root: how depth becomes disparity, then the order of views.
+inline constexpr const char* kConvention = "convention";
+inline constexpr const char* kConventionText =
+    "d = dH*focalLength/Z - shift; point at (x,y) in view (v,h) is at (x-d,y) in (v,h+1) and "
+    "(x,y-d) in (v+1,h)";
+/// Attribute of the root: x and y of the camera of each view, row by row; and their unit.
+inline constexpr const char* kPositions = "camera_positions";
+inline constexpr const char* kPositionUnit = "camera_position_unit";
+/// Attribute of the root: the pinhole of the centre view: focal length, x and y of its centre in
+/// px.
+inline constexpr const char* kPinhole = "pinhole";
+/// Dataset `[v][h][y][x]`, uint8: 0 = the pixel holds nothing that was seen.
+inline constexpr const char* kValid = "VALID";
+/// Datasets `[y][x]`, uint8: a region mask of the centre view, whose name follows.
+inline constexpr const char* kRegionPrefix = "REGION_";
+
+}  // namespace episcope::io

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/array_maps.h"
+
+#include "engine/core/text.h"
+#include "engine/io/models/array_samples.h"
+#include "engine/io/models/external_result.h"
+#include "engine/io/models/sidecar_maps/disparity_units.h"
+#include "engine/io/models/sidecar_maps/infer_units.h"
+#include "engine/io/models/sidecar_maps/map_name.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace episcope::io {
+namespace {
+
+std::optional<MapKind> kind_of(const ArrayEntry& entry) {
+  if (!entry.other_kind.empty()) return std::nullopt;
+  const std::string name = telling_name(entry);
+  if (lower_case(name) == "gt") return MapKind::Disparity;
+  return map_kind(name);
+}
+
+/// The light field's layout without the letters that a map of this shape lacks.
+std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, const ArrayLayout& light_field,
+                                      IndexOrder order) {
+  ArrayLayout layout{entry.shape, {}};
+  std::string all;
+  for (const char letter : in_index_order(light_field.axes, order)) {
+    if (letter != 'c' && letter != kSingle) all += letter;
+  }
+  std::string pixels;
+  for (const char letter : all) {
+    if (letter == 'y' || letter == 'x') pixels += letter;
+  }
+  const ArrayShape lengths = in_index_order(entry.shape, entry.order);
+  for (const std::string& axes : {all, pixels, std::string("vuyx"), std::string("yx")}) {
+    std::string whole = axes;
+    while (whole.size() < lengths.size() && lengths[lengths.size() - whole.size() - 1] == 1) {
+      whole = kSingle + whole;
+    }
+    layout.axes = in_index_order(whole, entry.order);
+    if (layout.axes.size() != entry.shape.size()) continue;
+    const auto fits = [&](char letter) {
+      return layout.length(letter) == light_field.length(letter);
+    };
+    if (std::ranges::all_of(axes, fits)) return layout;
+  }
+  return std::nullopt;
+}
+
+/// A map of one view belongs to the centre.
+template <class T>
+ViewStack<T> read_maps(const ArrayInput& array, const ArrayLayout& layout, GridShape grid,
+                       const Progress& progress) {
+  ViewStack<T> maps = read_map_stack<T>(array, layout, progress);
+  if (maps.grid().count() > 1 || grid.count() == 1) return maps;
+  ViewStack<T> center({1, 1}, maps.height(), maps.width(), 1, grid.center());
+  std::copy_n(maps.data(), maps.size(), center.data());
+  return center;
+}
+
+ViewStack<std::uint8_t> mask_of(const ViewStack<std::int32_t>& numbers, MapKind kind) {
+  ViewStack<std::uint8_t> mask(numbers.grid(), numbers.height(), numbers.width(), 1,
+                               numbers.first());
+  std::transform(numbers.data(), numbers.data() + numbers.size(), mask.data(),
+                 [&](std::int32_t number) {
+                   return static_cast<std::uint8_t>((number != 0) == (kind == MapKind::Valid));
+                 });
+  return mask;
+}
+
+/// The arrays with those last that are named like labels: they may hold disparity, which one that
+/// is called so knows better.
+std::vector<const ArrayEntry*> labels_last(std::vector<const ArrayEntry*> entries) {
+  std::stable_partition(entries.begin(), entries.end(),
+                        [](const ArrayEntry* entry) { return kind_of(*entry) != MapKind::Labels; });
+  return entries;
+}
+
+/// By its name, or because floats may have fractions, which labels have not.
+bool may_be_disparity(const ArrayEntry& entry, MapKind kind) {
+  return kind == MapKind::Disparity || (kind == MapKind::Labels && is_float(entry.type));
+}
+
+void take_disparity(const ArrayEntry& entry, ViewStack<float> values, ArrayMaps& maps) {
+  maps.truth.field.disparity = std::move(values);
+  mark_invalid(maps.truth.field);
+  maps.disparity_name = entry.name;
+  maps.is_named_labels = kind_of(entry) == MapKind::Labels;
+}
+
+/// The first array of depth, in the place of disparity.
+void take_depth(const ArrayFile& file, const std::vector<const ArrayEntry*>& others,
+                const FieldAxes& light_field, ArrayMaps& maps, const Progress& progress) {
+  for (const ArrayEntry* entry : others) {
+    if (kind_of(*entry) != MapKind::Depth) continue;
+    const auto axes = map_layout(*entry, light_field.layout, light_field.order);
+    if (!axes) continue;
+    const GridShape grid = light_field.layout.grid();
+    take_disparity(*entry, read_maps<float>(*file.open(*entry), *axes, grid, progress), maps);
+    maps.is_depth = true;
+    return;
+  }
+}
+
+/// Pixels where a mask of the same single view is 0 hold no disparity.
+void mask_truth(ViewStack<std::uint8_t> mask, DisparityField& field) {
+  if (mask.empty() || field.empty() || field.disparity.grid().count() != 1) return;
+  if (field.valid.empty()) {
+    field.valid = std::move(mask);
+    return;
+  }
+  std::transform(mask.data(), mask.data() + mask.size(), field.valid.data(), field.valid.data(),
+                 [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+}
+
+FileUse not_used(const ArrayEntry& entry) {
+  const std::string content = content_text(entry);
+  return {entry.other_kind.empty() ? "array of " + content : content, 1, entry.name, false};
+}
+
+/// Whether the sign is known.
+bool settle_stored(const LightField::Samples& samples, NamedValues values,
+                   ConventionReport& report) {
+  DisparityField& field = values.field;
+  const GridShape grid = grid_of(samples);
+  const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
+  const ViewIndex at = values.at(grid);
+  const SettledUnit settled = settle_values(samples, common_units(grid, width), values, report);
+  const double factor = settled.unit.factor;
+  NearSide side;
+  if (settled.explanation.is_good()) {
+    side = find_near_side(samples, at, field.view(at), factor, settled.explanation);
+  }
+  const TruthSign sign = find_truth_sign(samples, side, settled.explanation);
+  scale_values(field, sign.is_negated ? -factor : factor);
+  report.units = fmt::format("disparity of {}: {}{}", values.name, settled.unit.text,
+                             sign.is_negated ? ", negative = nearer" : "");
+  report.units_check =
+      fmt::format("mean grey error of neighbouring views after warping {:.2f}, unwarped {:.2f}",
+                  settled.explanation.error, settled.explanation.unwarped);
+  if (!sign.evidence.empty()) report.units_check += "; " + sign.evidence;
+  return sign.is_known;
+}
+
+}  // namespace
+
+std::string ArrayMaps::disparity_text() const {
+  return is_named_labels ? fmt::format("{} ({})", disparity_name, kNamedLabels) : disparity_name;
+}
+
+bool has_fractions(const ViewStack<float>& values) {
+  return std::any_of(values.data(), values.data() + values.size(), [](float value) {
+    return std::isfinite(value) && value != std::trunc(value);
+  });
+}
+
+ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEntry*>& others,
+                          const FieldAxes& light_field, bool wants_labels,
+                          const Progress& progress) {
+  ArrayMaps maps;
+  ViewStack<std::uint8_t> mask_of_one;
+  const ArrayLayout& layout = light_field.layout;
+  const GridShape grid = layout.grid();
+  for (const ArrayEntry* other : labels_last(others)) {
+    const ArrayEntry& entry = *other;
+    progress.check();
+    auto kind = kind_of(entry);
+    const auto axes = kind ? map_layout(entry, layout, light_field.order) : std::nullopt;
+    const bool is_mask = kind == MapKind::Valid || kind == MapKind::Invalid;
+    const bool is_of_one = axes && axes->grid().count() < grid.count();
+    ViewStack<std::uint8_t>& mask = is_of_one ? mask_of_one : maps.valid;
+    ViewStack<float> values;
+    if (axes && may_be_disparity(entry, *kind)) {
+      values = read_maps<float>(*file.open(entry), *axes, grid, progress);
+      const bool is_labels = kind == MapKind::Labels && !has_fractions(values);
+      kind = is_labels ? MapKind::Labels : MapKind::Disparity;
+    }
+    if (axes && kind == MapKind::Disparity && maps.truth.field.empty()) {
+      take_disparity(entry, std::move(values), maps);
+    } else if (axes && kind == MapKind::Labels && maps.truth.labels.empty()) {
+      if (wants_labels) {
+        maps.truth.labels = read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress);
+      }
+    } else if (axes && is_mask && mask.empty()) {
+      mask = mask_of(read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress), *kind);
+    } else {
+      maps.uses.push_back(not_used(entry));
+      continue;
+    }
+    maps.uses.push_back({kind_text(*kind), 1, entry.name, true});
+  }
+  if (maps.truth.field.empty()) take_depth(file, others, light_field, maps, progress);
+  mask_truth(std::move(mask_of_one), maps.truth.field);
+  return maps;
+}
+
+void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, DisparityField& field,
+                      CameraGrid& camera, ConventionReport& report) {
+  if (field.empty()) return;
+  if (!maps.is_depth) {
+    maps.is_sign_assumed = !settle_stored(samples, {field, maps.disparity_text()}, report);
+    return;
+  }
+  const auto meaning = settle_unknown_values(samples, {ValueForm::Inverse, ValueForm::Linear},
+                                             {field, maps.disparity_name}, report);
+  if (!meaning) {
+    field = {};
+    return;
+  }
+  const auto use = std::ranges::find(maps.uses, maps.disparity_name, &FileUse::example);
+  if (use != maps.uses.end()) *use = {kind_text(MapKind::Depth), 1, maps.disparity_name, true};
+  maps.is_sign_assumed = meaning->is_sign_assumed;
+  if (!camera.is_known()) camera = meaning->camera();
+}
+
+}  // namespace episcope::io

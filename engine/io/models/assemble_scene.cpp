@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/assemble_scene.h"
+
+#include "engine/core/indices.h"
+#include "engine/core/view_gain.h"
+#include "engine/core/view_stack.h"
+#include "engine/io/base/sample_range.h"
+#include "engine/io/models/dark_views.h"
+#include "engine/io/models/order/flipped_truth.h"
+#include "engine/io/models/order/view_axes.h"
+#include "engine/io/models/order/view_order.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+/// Swaps rows and columns of views where the motion between them says so; returns the evidence.
+std::string order_axes(SceneParts& parts, bool are_axes_known, ConventionReport& report,
+                       const Progress& progress) {
+  const ViewAxes axes = find_view_axes(parts.samples, progress);
+  if (!axes.are_swapped()) return {};
+  if (are_axes_known) {
+    report.warnings.push_back("Rows and columns of views seem to be swapped: " + axes.evidence() +
+                              ".");
+    return {};
+  }
+  const GridShape stored = grid_of(parts.samples);
+  swap_view_axes(parts.samples);
+  swap_view_axes(parts.truth);
+  swap_view_axes(parts.valid);
+  swap_view_axes(parts.info.positions, stored);
+  return axes.evidence();
+}
+
+/// A camera that zooms or turns makes no light field, but a list that looks like a line of views.
+void check_line(const SceneParts& parts, ConventionReport& report, const Progress& progress) {
+  const GridShape grid = grid_of(parts.samples);
+  if (grid.count() < 2 || std::min(grid.v, grid.u) > 1) return;
+  const LineMotion motion = measure_line_motion(parts.samples, progress);
+  if (motion.is_askew()) report.warnings.push_back(motion.warning());
+}
+
+/// Undoes how a program wrote the truth of a single view, and says so.
+void turn_truth(SceneParts& parts, ConventionReport& report) {
+  const std::string undone = put_truth_upright(parts.samples, parts.truth.field);
+  if (!undone.empty()) report.warnings.push_back(turned_back_text(undone));
+}
+
+/// Adds to what is known of order and sign: swapped axes, and where positions run.
+void complete_order(SceneParts& parts, const std::string& swapped, ConventionReport& report) {
+  const GridShape grid = grid_of(parts.samples);
+  if (!swapped.empty()) {
+    std::string order = "rows and columns swapped";
+    if (report.order != "as stored") order += ", " + report.order;
+    report.order = std::move(order);
+    report.order_check = swapped + "; " + report.order_check;
+  }
+  reverse_positions(parts.info.positions, grid, flip_of(report));
+  const std::string directions = position_directions(parts.info.positions, grid);
+  if (!directions.empty()) report.sign_check += "; by the positions, " + directions;
+}
+
+}  // namespace
+
+bool are_axes_stated(const OpenOptions& options) {
+  return !options.axes.empty() || !options.pattern.empty() || !options.grid.empty();
+}
+
+namespace {
+
+/// Brings views, truth, valid pixels and positions into canonical order (`put_in_order`), after
+/// rows and columns of views were swapped where the motion between them says so without doubt,
+/// unless that was done already.
+/// Adds to `report` what was done, and in which directions positions run. Throws Cancelled.
+void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
+                    const Progress& progress) {
+  progress.step("checking the order of views");
+  const bool are_axes_known = parts.expected.are_axes_known || are_axes_stated(options);
+  const std::string swapped = parts.swapped_axes
+                                  ? *parts.swapped_axes
+                                  : order_axes(parts, are_axes_known, report, progress);
+  check_line(parts, report, progress);
+  turn_truth(parts, report);
+  put_in_order(parts.samples, parts.truth, parts.expected, options.flip, report, progress);
+  reverse_views(parts.valid, grid_of(parts.samples), flip_of(report));
+  complete_order(parts, swapped, report);
+}
+
+/// Gains that differ by less from 1 are within the accuracy of their measurement.
+constexpr double kMeasurableGain = 0.01;
+constexpr double kShownGain = 0.0005;  ///< Less is 0.0 % in a sentence.
+
+std::string difference_text(const ViewGains& gains) {
+  const ViewIndex view = gains.most_different();
+  return fmt::format("up to {:.1f} % (view {}: {:.3f})", 100 * std::abs(gains.of(view) - 1),
+                     view_text(view), gains.of(view));
+}
+
+/// Of any channel.
+double largest_difference(const ViewGains& gains) {
+  double largest = 0;
+  for (const double gain : gains.channel) {
+    if (!std::isnan(gain)) largest = std::max(largest, std::abs(gain - 1));
+  }
+  return largest;
+}
+
+bool is_mapped(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return stack.kind() == LargeKind::File; }, samples);
+}
+
+int count_unknown(const ViewGains& gains) {
+  int unknown = 0;
+  for (const double gain : gains.overall) unknown += std::isnan(gain) ? 1 : 0;
+  return unknown;
+}
+
+/// Tells `report` how much the brightness of the views differs from that of the centre view
+/// (measure_view_gains). With `options.equalise` takes it out, unless all gains are within
+/// kMeasurableGain; else says that methods even out what is notable, unless
+/// `options.keep_brightness`. Of a single view there is nothing to tell. Throws Cancelled.
+void equalise_views(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
+                    const Progress& progress) {
+  const bool is_wanted = options.equalise;
+  if (!is_wanted && is_mapped(parts.samples)) {
+    report.gain = "not measured, since that would read the whole file";
+    return;
+  }
+  // What is divided by gains needs them as exactly as can be; a report does not.
+  const bool is_quick = !is_wanted && has_many_views(grid_of(parts.samples));
+  const ViewGains gains =
+      measure_view_gains(parts.samples, parts.valid, progress.part(0, is_wanted ? 0.5 : 1),
+                         is_quick ? GainBlocks::OneOfFour : GainBlocks::All);
+  const int views = gains.grid.count();
+  if (views == 1) return;
+  const int unknown = count_unknown(gains);
+  if (unknown == views - 1) {
+    report.gain = "not known: the views are too dark, too bright or too small to compare";
+    return;
+  }
+  const bool is_notable = std::abs(gains.of(gains.most_different()) - 1) > kNotableGain;
+  if (is_wanted && largest_difference(gains) > kMeasurableGain) {
+    const double clipped = divide_by_gains(parts.samples, gains, progress.part(0.5, 1));
+    report.gain = "evened out; it differed by " + difference_text(gains);
+    if (clipped > 0) report.gain += fmt::format("; {:.2g} % of the samples clipped", 100 * clipped);
+  } else {
+    const bool is_same = std::abs(gains.of(gains.most_different()) - 1) < kShownGain;
+    report.gain = is_same ? "the same in all views" : "differs by " + difference_text(gains);
+    if (is_wanted && !is_same) report.gain += "; too little to even it out";
+  }
+  if (unknown > 0) report.gain += fmt::format("; of {} views not known", unknown);
+  if (is_wanted || !is_notable) return;
+  report.warnings.push_back(
+      "The brightness of the views differs by " + difference_text(gains) +
+      (options.keep_brightness
+           ? "; without --no-equalise, methods even it out."
+           : "; methods even it out, --equalise for pictures as well, --no-equalise for none."));
+}
+
+std::string place_text(const LightField::Samples& samples) {
+  switch (std::visit([](const auto& stack) { return stack.kind(); }, samples)) {
+    case LargeKind::File:
+      return "; mapped: read from the file when they are looked at";
+    case LargeKind::Scratch:
+      return "; unpacked to a scratch file, too large for memory";
+    default:
+      return "";
+  }
+}
+
+void crop_positions(std::vector<CameraPosition>& positions, const ViewCrop& crop) {
+  if (positions.size() != static_cast<std::size_t>(crop.stored.count())) return;
+  std::vector<CameraPosition> kept;
+  kept.reserve(static_cast<std::size_t>(crop.kept.count()));
+  for (int i = 0; i < crop.kept.count(); ++i) {
+    const ViewIndex stored = crop.kept.view_at(i, crop.first);
+    kept.push_back(positions[static_cast<std::size_t>(stored.v * crop.stored.u + stored.u)]);
+  }
+  positions = std::move(kept);
+}
+
+/// Parts in canonical order.
+void crop_parts(SceneParts& parts, const ViewCrop& crop) {
+  std::visit([&](auto& stack) { stack = cropped(std::move(stack), crop); }, parts.samples);
+  crop_truth(parts.truth, crop);
+  crop_positions(parts.info.positions, crop);
+  parts.valid = cropped(std::move(parts.valid), crop);
+}
+
+/// What was looked at so far of views that are on disk need not be held.
+void forget(const LightField::Samples& samples) {
+  std::visit(
+      [](const auto& stack) {
+        for (int i = 0; i < stack.grid().count(); ++i) forget_view(stack, stack.view_at(i));
+      },
+      samples);
+}
+
+ViewCrop find_crop(const std::string& option, GridShape stored, const ViewBrightness& brightness) {
+  if (option == "all") return central_crop(stored, stored);
+  return option.empty() ? filled_crop(brightness) : parse_crop(option, stored);
+}
+
+bool are_on_disk(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return stack.is_on_disk(); }, samples);
+}
+
+/// All of a light field that is on disk would take as long to look at as to read, and all of one of
+/// many views is more than is needed: where a first look finds nothing dark, that is all.
+ViewBrightness find_brightness(const SceneParts& parts, const Progress& progress) {
+  if (are_on_disk(parts.samples) || has_many_views(grid_of(parts.samples))) {
+    ViewBrightness brightness =
+        measure_brightness(parts.samples, parts.valid, BrightnessRows::Few, progress);
+    if (!brightness.has_dark_parts()) return brightness;
+  }
+  return measure_brightness(parts.samples, parts.valid, BrightnessRows::EverySecond, progress);
+}
+
+/// Leaves out views that are dark, or that the user does not want, and marks dark pixels of the
+/// others.
+void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
+                        const Progress& progress) {
+  progress.step("looking for dark views");
+  ViewBrightness brightness = find_brightness(parts, progress);
+  forget(parts.samples);
+  const ViewCrop crop = find_crop(options.crop, grid_of(parts.samples), brightness);
+  if (crop.leaves_out()) {
+    if (options.crop.empty()) report.warnings.push_back(crop_text(crop, brightness));
+    crop_parts(parts, crop);
+    brightness.cells = cropped(std::move(brightness.cells), crop);
+    report.crop = crop;
+  }
+  const auto [height, width] = std::visit(
+      [](const auto& stack) { return std::pair(stack.height(), stack.width()); }, parts.samples);
+  for (std::string text : {mark_empty_pixels(brightness, height, width, parts.valid, progress),
+                           mark_black_corners(parts.samples, parts.valid, progress)}) {
+    if (!text.empty()) report.warnings.push_back(std::move(text));
+  }
+  if (parts.valid.empty()) return;
+  const std::uint8_t* valid = parts.valid.data();
+  const bool is_whole =
+      std::all_of(valid, valid + parts.valid.size(), [](std::uint8_t pixel) { return pixel != 0; });
+  if (is_whole) parts.valid = {};
+}
+
+}  // namespace
+
+void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
+              const Progress& progress) {
+  bring_in_order(parts, options, scene.convention, progress);
+  scene.convention.files = std::move(parts.files);
+  zero_nonfinite_samples(parts.samples, scene.convention);
+  keep_what_was_seen(parts, options, scene.convention, progress);
+  equalise_views(parts, options, scene.convention, progress);
+  std::string& samples_text = scene.convention.samples;
+  if (samples_text.empty()) samples_text = stored_samples_text(parts.samples);
+  samples_text += place_text(parts.samples);
+  parts.info.reading.options = given_options(options);
+  parts.info.reading.set_focus(0);  // baked in afterwards, if at all
+  scene.light_field = std::make_shared<LightField>(std::move(parts.samples), std::move(parts.info),
+                                                   std::move(parts.valid));
+  if (!options.needs_truth) parts.truth = {};
+  scene.truth = std::make_shared<GroundTruth>(std::move(parts.truth));
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/external_result.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/npy.h"
+#include "engine/io/base/pfm.h"
+#include "engine/io/models/array_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+DisparityField center_field(const fs::path& path, const Image<float>& map, GridShape grid) {
+  if (map.channels() != 1) {
+    throw IoError(
+        path, fmt::format("this map has {} channels, but a disparity map has 1; export it again",
+                          map.channels()));
+  }
+  DisparityField field;
+  field.disparity = ViewStack<float>({1, 1}, map.height(), map.width(), 1, grid.center());
+  std::copy_n(map.data(), map.size(), field.disparity.data());
+  mark_invalid(field);
+  return field;
+}
+
+Image<float> read_float_tiff(const fs::path& path) {
+  AnyImage decoded = decode_image(path);
+  if (auto* map = std::get_if<Image<float>>(&decoded)) return std::move(*map);
+  throw IoError(path,
+                "this picture has " + describe_image(decoded) +
+                    ", but a disparity map needs 32-bit float samples; export it in that format");
+}
+
+/// The one dataset of an HDF5 file that can be a disparity map.
+Hdf5Dataset find_map(const Hdf5Input& file) {
+  std::vector<Hdf5Dataset> maps;
+  for (const Hdf5Dataset& dataset : file.datasets()) {
+    const bool is_map = dataset.shape.size() == 2 || dataset.shape.size() == 4;
+    if (!is_map || dataset.type != Hdf5Type::Float) continue;
+    maps.push_back(dataset);
+  }
+  if (maps.size() == 1) return maps.front();
+  // Several float datasets are not ambiguous if only one has the expected name.
+  const auto is_named = [](const Hdf5Dataset& map) {
+    return lower_case(map.name).find("disp") != std::string::npos;
+  };
+  if (std::ranges::count_if(maps, is_named) == 1) return *std::ranges::find_if(maps, is_named);
+  for (const Hdf5Dataset& map : maps) {
+    if (lower_case(map.name) == "disparity") return map;
+  }
+  const std::string found = maps.empty() ? "none was found"
+                                         : fmt::format("{} were found ({})", maps.size(),
+                                                       joined(maps, ", ", &Hdf5Dataset::name));
+  throw IoError(file.path(),
+                fmt::format("one dataset of float samples with 2 or 4 axes is expected, but {}; "
+                            "store the disparity alone",
+                            found));
+}
+
+DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
+  const Hdf5Input file(path);
+  const Hdf5Dataset map = find_map(file);
+  const auto length = [&](std::size_t axis) { return static_cast<int>(map.shape[axis]); };
+  const std::size_t rank = map.shape.size();
+  const bool is_single = rank == 2 || (map.shape[0] == 1 && map.shape[1] == 1);
+  const GridShape stored = is_single ? GridShape{1, 1} : GridShape{length(0), length(1)};
+  if (std::any_of(map.shape.begin(), map.shape.end(), [](std::size_t n) { return n == 0; })) {
+    throw IoError(path, "the dataset " + map.name + " is empty; export it again");
+  }
+  if (!is_single && !(stored == grid)) {
+    throw IoError(path, fmt::format("the dataset {} has the shape {}, but the light field has "
+                                    "{}×{} views; name the light field that it belongs to",
+                                    map.name, shape_text(map.shape), grid.v, grid.u));
+  }
+  DisparityField field;
+  field.disparity = ViewStack<float>(stored, length(rank - 2), length(rank - 1), 1,
+                                     is_single ? grid.center() : ViewIndex{});
+  file.read(map.name, {Hdf5Shape(rank, 0), map.shape}, field.disparity.data());
+  mark_invalid(field);
+  return field;
+}
+
+/// `[y][x]`, or `[v][u][y][x]`.
+DisparityField read_npy_field(const fs::path& path, GridShape grid) {
+  const NpyFile file(path);
+  if (file.shape().size() != 4) return center_field(path, read_npy_map(path), grid);
+  const ArrayLayout layout{
+      file.shape(), in_index_order(std::string("vuyx"),
+                                   file.header().is_fortran ? IndexOrder::Fortran : IndexOrder::C)};
+  if (layout.has_one_view()) return center_field(path, read_npy_map(path), grid);
+  if (!(layout.grid() == grid)) {
+    throw IoError(path, fmt::format("the array has the shape {}, but the light field has {}×{} "
+                                    "views; name the light field that it belongs to",
+                                    array_shape_text(file.header().shape), grid.v, grid.u));
+  }
+  DisparityField field;
+  field.disparity = read_map_stack<float>(file, layout, Progress(1));
+  mark_invalid(field);
+  return field;
+}
+
+/// `disp_maps/<scene>.pfm`, or the only map if no scene is named.
+fs::path submitted_map(const fs::path& folder, const std::string& scene) {
+  const fs::path named = submitted_map_file(folder, scene);
+  const fs::path maps = named.parent_path();
+  if (!fs::is_directory(maps)) {
+    throw IoError(folder,
+                  "this folder has no disp_maps, unlike a submission to the 2016 benchmark; name a "
+                  "result file");
+  }
+  if (!scene.empty() && fs::exists(named)) return named;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(maps)) {
+    if (suffix_of(entry.path()) == ".pfm") found.push_back(entry.path());
+  }
+  if (found.size() == 1 && scene.empty()) return found.front();
+  throw IoError(maps, fmt::format("there is no map {}.pfm among the {} here; name the scene",
+                                  scene.empty() ? "<scene>" : scene, found.size()));
+}
+
+double read_seconds(const fs::path& path) {
+  std::ifstream in(path);
+  std::string word;
+  if (!(in >> word)) return 0;
+  return std::max(0.0, parse_number(word).value_or(0));
+}
+
+}  // namespace
+
+void mark_invalid(DisparityField& field) {
+  float* begin = field.disparity.data();
+  float* end = begin + field.disparity.size();
+  if (std::all_of(begin, end, [](float d) { return std::isfinite(d); })) return;
+  if (field.valid.empty()) {
+    const ViewStack<float>& like = field.disparity;
+    field.valid =
+        ViewStack<std::uint8_t>(like.grid(), like.height(), like.width(), 1, like.first());
+    std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{1});
+  }
+  for (float* d = begin; d != end; ++d) {
+    if (std::isfinite(*d)) continue;
+    *d = 0;
+    field.valid.data()[d - begin] = 0;
+  }
+}
+
+DisparityField read_disparity_map(const fs::path& path, GridShape grid) {
+  require_readable_file(path);
+  const std::string suffix = suffix_of(path);
+  if (suffix == ".pfm") return center_field(path, read_pfm_map(path), grid);
+  if (suffix == ".npy") return read_npy_field(path, grid);
+  if (suffix == ".tif" || suffix == ".tiff") {
+    return center_field(path, read_float_tiff(path), grid);
+  }
+  if (has_hdf5_signature(path) || suffix == ".h5" || suffix == ".hdf5") {
+    return read_hdf5_map(path, grid);
+  }
+  throw IoError(
+      path,
+      "this is not a disparity map: a result file, another HDF5 file, a PFM, a float TIFF "
+      "or an .npy array is expected; choose another file");
+}
+
+Estimate read_external_result(const fs::path& path, GridShape grid, const std::string& scene) {
+  Estimate estimate;
+  if (!fs::is_directory(path)) {
+    estimate.field = read_disparity_map(path, grid);
+    estimate.method = path.stem().string();
+    return estimate;
+  }
+  const fs::path map = submitted_map(path, scene);
+  estimate.field = read_disparity_map(map, grid);
+  estimate.method = fs::absolute(path / "x").parent_path().filename().string();
+  estimate.source = map.stem().string();
+  estimate.seconds = read_seconds(submitted_runtime_file(path, map.stem().string()));
+  return estimate;
+}
+
+namespace {
+
+constexpr const char* kMaps = "disp_maps";
+constexpr const char* kRuntimes = "runtimes";
+
+/// Fills the gaps of a row with the farther of the values beside them; false if it has no value.
+bool fill_row(const DisparityView& map, int y, float* row) {
+  const int width = map.disparity.width;
+  std::optional<float> left;
+  for (int x = 0; x < width;) {
+    if (map.is_valid(y, x)) {
+      left = row[x] = map.disparity.at(y, x);
+      ++x;
+      continue;
+    }
+    int end = x;
+    while (end < width && !map.is_valid(y, end)) ++end;
+    if (end == width && !left) return false;
+    const float right = end < width ? map.disparity.at(y, end) : *left;
+    std::fill(row + x, row + end, std::min(left.value_or(right), right));
+    x = end;
+  }
+  return true;
+}
+
+/// Rows without a value become like the nearest that has some.
+void fill_bare_rows(const std::vector<bool>& is_bare, Image<float>& map) {
+  const int height = map.height();
+  for (int y = 0; y < height; ++y) {
+    if (!is_bare[y]) continue;
+    int distance = 1;
+    const auto has_values = [&](int row) { return row >= 0 && row < height && !is_bare[row]; };
+    while (!has_values(y - distance) && !has_values(y + distance)) ++distance;
+    const int from = has_values(y - distance) ? y - distance : y + distance;
+    std::copy_n(map.row(from), map.width(), map.row(y));
+  }
+}
+
+Image<float> filled(const DisparityView& map, std::size_t& gaps) {
+  Image<float> result(map.disparity.height, map.disparity.width);
+  std::vector<bool> is_bare(static_cast<std::size_t>(result.height()));
+  gaps = 0;
+  for (int y = 0; y < result.height(); ++y) {
+    for (int x = 0; x < result.width(); ++x) gaps += map.is_valid(y, x) ? 0 : 1;
+    is_bare[y] = !fill_row(map, y, result.row(y));
+  }
+  if (gaps == result.size()) throw InvalidInput("the map has no value that could be submitted");
+  fill_bare_rows(is_bare, result);
+  return result;
+}
+
+std::string first_line(const fs::path& path) {
+  std::ifstream in(path);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+
+/// Without white space around it.
+std::string trimmed(std::string text) {
+  while (!text.empty() && is_blank(text.back())) text.pop_back();
+  text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_blank));
+  return text;
+}
+
+/// The header as the benchmark's own tool reads it, line by line; what is wrong with it.
+struct PfmLines {
+  std::string kind, size, scale;
+  std::streamoff samples = 0;
+};
+
+PfmLines lines_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  const auto next = [&in] {
+    std::string line;
+    do {
+      line.clear();
+      std::getline(in, line);
+    } while (in && line.starts_with('#'));
+    return trimmed(line);
+  };
+  PfmLines lines;
+  lines.kind = next();
+  lines.size = next();
+  lines.scale = next();
+  lines.samples = in ? std::streamoff{in.tellg()} : 0;
+  return lines;
+}
+
+std::string map_problem(const fs::path& path, const SubmittedScene& scene) {
+  const PfmLines lines = lines_of(path);
+  if (lines.kind != "Pf") return "is not a PFM of one channel, which begins with the line Pf";
+  const std::string size = fmt::format("{} {}", scene.width, scene.height);
+  if (lines.size != size) {
+    return fmt::format("has the size \"{}\" in its second line, but \"{}\" is expected",
+                       lines.size.substr(0, 30), size);
+  }
+  const double scale = parse_number(lines.scale).value_or(0);
+  if (scale == 0 || !std::isfinite(scale)) return "has no scale in its third line";
+  if (scale > 0) return "is big endian: its scale is above 0; write it as little endian";
+  const std::uintmax_t samples = sizeof(float) * std::uintmax_t(scene.width) * scene.height;
+  if (fs::file_size(path) != static_cast<std::uintmax_t>(lines.samples) + samples) {
+    return "does not hold as many samples as its size says";
+  }
+  const Image<float> map = read_pfm(path);
+  const auto bad = std::ranges::count_if(map, [](float d) { return !std::isfinite(d); });
+  return bad == 0 ? "" : fmt::format("has {} samples that are not finite", bad);
+}
+
+std::string runtime_problem(const fs::path& path) {
+  const std::optional<double> seconds = parse_number(trimmed(first_line(path)));
+  const bool is_time = seconds && std::isfinite(*seconds) && *seconds > 0;
+  return is_time ? "" : "has no number of seconds above 0 in its first line";
+}
+
+/// Adds a sentence if the file is missing, or `problem_of` finds a problem.
+template <class ProblemOf>
+void check_file(const fs::path& path, const char* what, std::vector<std::string>& problems,
+                ProblemOf problem_of) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) {
+    problems.push_back(fmt::format("{} is missing: {}", path.string(), what));
+    return;
+  }
+  try {
+    const std::string problem = problem_of(path);
+    if (!problem.empty()) problems.push_back(path.string() + " " + problem);
+  } catch (const IoError& error) {
+    problems.emplace_back(error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<SubmittedScene> benchmark_scenes() {
+  std::vector<SubmittedScene> scenes;
+  for (const char* name : {"backgammon", "dots", "pyramids", "stripes", "boxes", "cotton", "dino",
+                           "sideboard", "bedroom", "bicycle", "herbs", "origami"}) {
+    scenes.push_back({.name = name});
+  }
+  return scenes;
+}
+
+fs::path submitted_map_file(const fs::path& folder, const std::string& scene) {
+  return folder / kMaps / (scene + ".pfm");
+}
+
+fs::path submitted_runtime_file(const fs::path& folder, const std::string& scene) {
+  return folder / kRuntimes / (scene + ".txt");
+}
+
+std::size_t write_submitted_scene(const fs::path& folder, const std::string& scene,
+                                  const DisparityView& map, double seconds) {
+  if (!(seconds > 0) || !std::isfinite(seconds)) {
+    throw InvalidInput(
+        "a submission states the seconds that every scene took, but those of this result are not "
+        "known; estimate it again");
+  }
+  std::size_t gaps = 0;
+  const Image<float> whole = filled(map, gaps);
+  for (const char* part : {kMaps, kRuntimes}) make_folder(folder / part);
+  write_pfm(submitted_map_file(folder, scene), whole.view());
+  const std::string text = fmt::format("{:.10f}\n", seconds);
+  write_atomically(submitted_runtime_file(folder, scene), text);
+  return gaps;
+}
+
+std::vector<std::string> submission_problems(const fs::path& folder,
+                                             const std::vector<SubmittedScene>& scenes) {
+  std::vector<std::string> problems;
+  for (const SubmittedScene& scene : scenes) {
+    check_file(submitted_map_file(folder, scene.name), "the map of the scene", problems,
+               [&](const fs::path& path) { return map_problem(path, scene); });
+    check_file(submitted_runtime_file(folder, scene.name), "the seconds that the scene took",
+               problems, [](const fs::path& path) { return runtime_problem(path); });
+  }
+  return problems;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/io/models/names/view_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// Called with an 8-bit RGB picture of the centre view before the others are read.
+using OnCenterView = std::function<void(const Image<std::uint8_t>& center_rgb)>;
+
+/// Decodes the views in parallel, upright, the centre first. Throws IoError that names the file if
+/// one cannot be decoded or differs in size, channels or depth from the centre view; Cancelled.
+[[nodiscard]] LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_center,
+                                             const Progress& progress);
+
+/// Samples of those views of a grid that can be used together.
+struct UsableViews {
+  LightField::Samples samples;
+  ViewFiles views;                   ///< All, or the part of them that `samples` holds.
+  std::optional<PartOfGrid> kept{};  ///< That part, if it is not all.
+  std::string warning{};             ///< What could not be used and why, and what is left.
+};
+
+/// The same for folders in which some files are damaged, or of another size or depth than most:
+/// these are as good as missing, and the largest part without them is kept (`without_views`).
+/// Throws IoError about the first of them if there is no such part; Cancelled.
+[[nodiscard]] UsableViews load_usable_views(const ViewFiles& views, const OnCenterView& on_center,
+                                            const Progress& progress);
+
+/// 8-bit RGB of one view, for the first look at a scene.
+template <class T>
+[[nodiscard]] Image<std::uint8_t> preview_rgb(ImageView<const T> view) {
+  Image<std::uint8_t> rgb(view.height, view.width, 3);
+  const auto to_byte = [](T value) {
+    if constexpr (std::is_same_v<T, std::uint8_t>) return value;
+    const double unit =
+        static_cast<double>(value) /
+        (std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1.0);
+    return static_cast<std::uint8_t>(255 * std::clamp(unit, 0.0, 1.0) + 0.5);
+  };
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      for (int c = 0; c < 3; ++c) rgb.at(y, x, c) = to_byte(view.at(y, x, c % view.channels));
+    }
+  }
+  return rgb;
+}
+
+/// Refuses views that fit neither into the memory of the machine nor, unpacked, into its scratch
+/// folder. The system would not refuse them at once: it would end the program later. Throws IoError
+/// for `path`.
+void require_view_memory(const std::filesystem::path& path, double bytes);
+
+}  // namespace episcope::io

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/models/array_file.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+struct matvar_t;
+
+namespace episcope::io {
+
+/// Whether a file begins as a MATLAB file of version 5 to 7, which is no HDF5 file.
+[[nodiscard]] bool is_mat5_file(const std::filesystem::path& path);
+
+/// Such a file; fields of structures are named "s/LF". Compressed variables are held in memory once
+/// they are read.
+class Mat5File : public ArrayFile {
+ public:
+  /// Throws IoError for a damaged file.
+  explicit Mat5File(const std::filesystem::path& path);
+  ~Mat5File() override;
+
+ private:
+  [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override;
+
+  class Content;
+  /// A variable, a field of a struct, or a cell array whose cells are views.
+  void add_variable(const std::string& name, matvar_t& variable, int depth);
+  [[nodiscard]] bool add_cells(const std::string& name, matvar_t& variable);
+
+  std::unique_ptr<Content> content_;
+};
+
+/// The arrays of a MATLAB file of version 5 to 7.3. Throws IoError for a file of another kind, or a
+/// damaged one.
+[[nodiscard]] std::unique_ptr<const ArrayFile> open_matlab_file(const std::filesystem::path& path);
+
+}  // namespace episcope::io

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/names/view_folders.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/io/base/image_list.h"
+#include "engine/io/models/names/index_fields.h"
+#include "engine/io/models/names/name_parts.h"
+#include "engine/io/models/names/view_names.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/models/sidecar_maps/map_name.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string_view>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kFewestFolders = 4;
+constexpr std::size_t kMostFolders = 10'000;
+
+/// The only picture of a folder that is no map; empty if there is none, or several.
+fs::path picture_in(const fs::path& folder) {
+  fs::path found;
+  for (const fs::path& image : list_images(folder)) {
+    const std::string stem = lower_case(image.stem().string());
+    if (map_kind(stem) || names_companions(stem)) continue;
+    if (!found.empty() || names_mosaics(stem) || stem == "lf") return {};
+    found = image;
+  }
+  return found;
+}
+
+bool speaks_of_views(const std::string& name) {
+  constexpr std::array<std::string_view, 3> kWords{"view", "cam", "sai"};
+  return std::ranges::any_of(kWords, [text = lower_case(name)](std::string_view word) {
+    return text.find(word) != std::string::npos;
+  });
+}
+
+/// Pictures by what the names of their folders would be if these were files.
+using Pictures = std::map<fs::path, fs::path>;
+
+/// Nothing if there are too many to be views.
+std::vector<fs::path> folders_in(const fs::path& folder) {
+  std::vector<fs::path> folders = list_folders(folder);
+  return folders.size() > kMostFolders ? std::vector<fs::path>() : folders;
+}
+
+/// Nothing if they are not alike.
+Pictures only_pictures(const fs::path& folder) {
+  Pictures pictures;
+  for (const fs::path& inside : folders_in(folder)) {
+    const fs::path picture = picture_in(inside);
+    const bool is_alike =
+        pictures.empty() || pictures.begin()->second.filename() == picture.filename();
+    if (picture.empty() || !is_alike) return {};
+    pictures[inside.string() + picture.extension().string()] = picture;
+  }
+  return pictures;
+}
+
+/// Those of one name.
+Pictures pictures_called(const fs::path& folder, const fs::path& name) {
+  Pictures pictures;
+  std::error_code error;
+  for (const fs::path& inside : folders_in(folder)) {
+    if (!fs::is_regular_file(inside / name, error)) continue;
+    pictures[inside.string() + name.extension().string()] = inside / name;
+  }
+  return pictures;
+}
+
+std::vector<fs::path> as_files(const Pictures& pictures) {
+  std::vector<fs::path> files;
+  files.reserve(pictures.size());
+  for (const auto& [file, picture] : pictures) files.push_back(file);
+  return files;
+}
+
+/// "cam_{index}.png" becomes "cam_{index}/0001.png".
+void name_pictures(ViewNames& names, const Pictures& pictures) {
+  const fs::path name = pictures.begin()->second.filename();
+  names.pattern.resize(names.pattern.size() - name.extension().string().size());
+  names.pattern += '/';
+  names.pattern += name.string();
+  for (NamedView& view : names.views) view.path = pictures.at(view.path);
+}
+
+std::optional<ViewNames> names_of_folders(const fs::path& folder, const Pictures& pictures) {
+  if (pictures.size() < kFewestFolders) return std::nullopt;
+  try {
+    ViewNames names = find_view_names(folder, as_files(pictures));
+    const bool has_both = names.views.front().row && names.views.front().column;
+    const bool is_counted = !has_both || names.pattern.find("}{") != std::string::npos;
+    if (names.views.size() != pictures.size()) return std::nullopt;
+    if (is_counted && !speaks_of_views(names.pattern)) return std::nullopt;
+    name_pictures(names, pictures);
+    return names;
+  } catch (const IoError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::optional<ViewNames> find_view_folders(const fs::path& folder, const std::string& pattern) {
+  if (count_images(folder) > 0) return std::nullopt;
+  if (pattern.empty()) return names_of_folders(folder, only_pictures(folder));
+  const std::size_t slash = pattern.rfind('/');
+  if (slash == pattern.npos || pattern.find_first_of("{*?", slash) != pattern.npos) {
+    return std::nullopt;
+  }
+  const fs::path name = pattern.substr(slash + 1);
+  const Pictures pictures = pictures_called(folder, name);
+  ViewNames names =
+      match_view_names(as_files(pictures), pattern.substr(0, slash) + name.extension().string());
+  if (names.views.empty()) return std::nullopt;
+  name_pictures(names, pictures);
+  return names;
+}
+
+std::optional<ViewNames> find_folders_with(const fs::path& folder, const std::string& picture) {
+  return names_of_folders(folder, pictures_called(folder, picture));
+}
+
+namespace {
+
+constexpr std::size_t kFewestOfSquare = 9;
+
+/// Images, or folders, in the order of the number in which their names differ, which is the
+/// `varying`-th.
+struct Numbered {
+  std::vector<fs::path> paths;
+  std::vector<double> numbers;
+  std::string skeleton;
+  std::size_t varying = 0;
+};
+
+/// Nothing if the names are not of one form, or differ in no number or in several.
+std::optional<Numbered> by_number(const std::vector<fs::path>& paths) {
+  std::vector<NameGroup> groups = group_by_name(paths);
+  if (groups.size() != 1 || paths.size() < 2) return std::nullopt;
+  std::vector<NumberedImage>& images = groups.front().images;
+  std::vector<std::size_t> varying;
+  for (std::size_t i = 0; i < images.front().numbers.size(); ++i) {
+    const auto differs = [&](const NumberedImage& image) {
+      return image.numbers[i].position() != images.front().numbers[i].position();
+    };
+    if (std::ranges::any_of(images, differs)) varying.push_back(i);
+  }
+  if (varying.size() != 1) return std::nullopt;
+  const auto number = [&](const NumberedImage& image) {
+    return image.numbers[varying.front()].position();
+  };
+  std::ranges::sort(images, {}, number);
+  const bool has_twins = std::ranges::adjacent_find(images, {}, number) != images.end();
+  if (has_twins) return std::nullopt;
+  Numbered found{{}, {}, groups.front().skeleton, varying.front()};
+  for (const NumberedImage& image : images) {
+    found.paths.push_back(image.path);
+    found.numbers.push_back(number(image));
+  }
+  return found;
+}
+
+/// The skeleton with `field` for the number that differs, and * for others.
+std::string pattern_of(const Numbered& numbered, const char* field) {
+  std::string text;
+  std::size_t number = 0;
+  for (const char c : numbered.skeleton) {
+    if (c != kNumberMark) {
+      text += c;
+    } else {
+      text += number++ == numbered.varying ? field : "*";
+    }
+  }
+  return text;
+}
+
+/// The letters of a name, without what stands between them.
+std::string letters_of(const std::string& skeleton) {
+  std::string letters;
+  std::ranges::copy_if(lower_case(skeleton), std::back_inserter(letters), is_letter);
+  return letters;
+}
+
+template <std::size_t N>
+bool is_one_of(const std::string& word, const std::array<std::string_view, N>& words) {
+  return std::ranges::find(words, std::string_view(word)) != words.end();
+}
+
+/// By their numbers, or by letters instead; then there are no numbers.
+std::optional<Numbered> folders_of_rows(const fs::path& folder) {
+  const std::vector<fs::path> folders = list_folders(folder);
+  if (auto numbered = by_number(folders)) return numbered;
+  const auto lettered = by_letter(folders);
+  if (!lettered) return std::nullopt;
+  return Numbered{*lettered, {}, std::string(1, kNumberMark)};
+}
+
+/// Of folders whose names are mere numbers.
+bool are_rather_rows(std::size_t folders, std::size_t images, const OpenOptions& options) {
+  if (const auto given = given_grid(options)) {
+    return given->v == static_cast<int>(folders) && given->u == static_cast<int>(images);
+  }
+  const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(images))));
+  const bool is_square = side * side == images && images >= kFewestOfSquare;
+  return options.frame == 0 && (folders == images || !is_square);
+}
+
+}  // namespace
+
+std::optional<RowFolders> find_row_folders(const fs::path& folder, const OpenOptions& options) {
+  constexpr std::array<std::string_view, 6> kRows{"row", "rows", "r", "v", "y", "line"};
+  constexpr std::array<std::string_view, 6> kColumns{"col", "column", "columns", "c", "u", "x"};
+  std::error_code error;
+  if (!fs::is_directory(folder, error) || !options.pattern.empty() || count_images(folder) > 0) {
+    return std::nullopt;
+  }
+  const auto folders = folders_of_rows(folder);
+  if (!folders) return std::nullopt;
+  const std::string word = letters_of(folders->skeleton);
+  RowFolders found{
+      .rows = {}, .numbers = {}, .are_columns = is_one_of(word, kColumns), .pattern = {}};
+  if (!word.empty() && !found.are_columns && !is_one_of(word, kRows)) return std::nullopt;
+  for (const fs::path& row : folders->paths) {
+    auto images = by_number(list_images(row));
+    if (!images) return std::nullopt;
+    if (found.pattern.empty()) {
+      found.pattern = pattern_of(*folders, found.are_columns ? "{col}" : "{row}") + "/" +
+                      pattern_of(*images, found.are_columns ? "{row}" : "{col}");
+    }
+    found.rows.push_back(std::move(images->paths));
+    found.numbers.push_back(std::move(images->numbers));
+  }
+  const bool is_certain = folders->numbers.empty() || !word.empty() ||
+                          are_rather_rows(found.rows.size(), found.rows.front().size(), options);
+  return is_certain ? std::optional(std::move(found)) : std::nullopt;
+}
+
+namespace {
+
+std::size_t most_in_a_row(const RowFolders& found) {
+  std::size_t most = 0;
+  for (const auto& row : found.rows) most = std::max(most, row.size());
+  return most;
+}
+
+/// Folders of which some hold less images than others: their numbers say which are missing.
+/// Throws IoError if images are numbered anew in no folder.
+PlacedViews place_with_gaps(const fs::path& folder, const RowFolders& found, bool is_snake) {
+  const std::size_t most = most_in_a_row(found);
+  ViewNames names{.pattern = found.pattern};
+  std::set<long long> columns;
+  for (std::size_t row = 0; row < found.rows.size(); ++row) {
+    for (std::size_t i = 0; i < found.rows[row].size(); ++i) {
+      NamedView view{.path = found.rows[row][i],
+                     .row = static_cast<long long>(row),
+                     .column = std::llround(found.numbers[row][i])};
+      columns.insert(*view.column);
+      if (found.are_columns) std::swap(view.row, view.column);
+      names.views.push_back(std::move(view));
+    }
+  }
+  names.images = static_cast<int>(names.views.size());
+  if (columns.size() == most) {
+    return place_views(folder, is_snake ? with_turned_rows(std::move(names)) : names);
+  }
+  const auto short_row = std::ranges::find_if(
+      found.rows, [&](const std::vector<fs::path>& row) { return row.size() < most; });
+  throw IoError(folder, fmt::format("{} holds {} images, but other folders of this light field "
+                                    "hold {}; add what is missing",
+                                    short_row->front().parent_path().filename().string(),
+                                    short_row->size(), most));
+}
+
+}  // namespace
+
+PlacedViews place_rows(const fs::path& folder, const RowFolders& found, bool is_snake) {
+  const std::size_t rows = found.rows.size();
+  const std::size_t most = most_in_a_row(found);
+  const bool is_full = std::ranges::all_of(
+      found.rows, [&](const std::vector<fs::path>& row) { return row.size() == most; });
+  if (!is_full) return place_with_gaps(folder, found, is_snake);
+  PlacedViews placed;
+  const auto length = [](std::size_t count) { return static_cast<int>(count); };
+  placed.views.grid = found.are_columns ? GridShape{length(most), length(rows)}
+                                        : GridShape{length(rows), length(most)};
+  for (int i = 0; i < placed.views.grid.count(); ++i) {
+    const ViewIndex view = placed.views.grid.view_at(i);
+    const auto [row, place] =
+        found.are_columns ? std::pair(view.u, view.v) : std::pair(view.v, view.u);
+    placed.views.files.push_back(
+        found.rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(place)]);
+  }
+  return placed;
+}
+
+}  // namespace episcope::io

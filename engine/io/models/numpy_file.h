@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/base/zip.h"
+#include "engine/io/models/array_file.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// `.npy` files, alone or in a folder, and `.npz` archives of them, by name without suffix.
+class NumpyFile : public ArrayFile {
+ public:
+  /// An archive, all of a folder, or one `.npy` with those beside it that hold no light field.
+  /// Throws IoError.
+  explicit NumpyFile(const std::filesystem::path& path);
+
+ private:
+  [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override;
+
+  struct Source {
+    std::string name;
+    std::filesystem::path path;
+    std::optional<ZipEntry> zipped;
+  };
+  void add_source(Source source, bool is_needed);
+  void add_archive(const std::filesystem::path& path);
+
+  std::vector<Source> sources_;
+};
+
+/// Whether a folder holds pictures as `.npy` files, numbered, and no images.
+[[nodiscard]] bool is_folder_of_views(const std::filesystem::path& folder);
+
+/// Whether a file can be one, by its suffix or how it begins.
+[[nodiscard]] bool is_numpy_file(const std::filesystem::path& path);
+
+}  // namespace episcope::io

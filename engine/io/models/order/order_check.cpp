@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/order/order_check.h"
+
+#include "engine/core/text_table.h"
+#include "engine/io/models/order/line_matches.h"
+#include "engine/io/models/order/sign_check.h"
+#include "engine/io/models/order/warp_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace episcope::io {
+namespace {
+
+/// Mean of the evidence of several maps (the two layers of a transparent scene).
+WarpErrors mean_errors(const LightField::Samples& samples,
+                       const std::vector<OrderEvidence>& truth) {
+  WarpErrors sum;
+  const auto add = [](AxisErrors& to, const AxisErrors& more) {
+    const auto total = static_cast<double>(to.pixels + more.pixels);
+    if (total == 0) return;
+    const double a = static_cast<double>(to.pixels) / total;
+    const double b = static_cast<double>(more.pixels) / total;
+    to = {a * to.forward + b * more.forward, a * to.reversed + b * more.reversed,
+          a * to.unwarped + b * more.unwarped, to.pixels + more.pixels};
+  };
+  for (const OrderEvidence& one : truth) {
+    const WarpErrors errors = warp_errors(samples, one.at, one.disparity);
+    add(sum.u, errors.u);
+    add(sum.v, errors.v);
+  }
+  return sum;
+}
+
+std::string axis_text(const char* name, const AxisErrors& errors, bool is_flipped) {
+  if (errors.pixels == 0) return std::string(name) + " not compared";
+  const double taken = is_flipped ? errors.reversed : errors.forward;
+  const double other = is_flipped ? errors.forward : errors.reversed;
+  return std::string(name) + " " + fixed_text(taken, 2) + " (other way " + fixed_text(other, 2) +
+         ")";
+}
+
+constexpr const char* kEitherWay =
+    "the truth fits this order of views, and negated the opposite one; nothing tells which is "
+    "right";
+
+struct Checked {
+  ViewFlip flip;
+  bool is_decided = false;
+  std::string text;
+  std::string warning = {};
+  bool is_sign_known = false;
+  std::string sign_text = {};
+  bool is_poor = false;  ///< Of a truth: it hardly explains the views in any order.
+
+  /// Whether another order contradicts what was found.
+  [[nodiscard]] bool contradicts(ViewFlip other) const {
+    if (is_sign_known) return !(flip == other);
+    return is_decided && (flip.u != flip.v) != (other.u != other.v);
+  }
+};
+
+/// Of a truth that explains the views better than one disparity for all nothing is said.
+std::string poor_truth(const WarpErrors& errors, const ConstantComparison& comparison) {
+  if (comparison.is_better()) return {};
+  if (!errors.u.is_poor() && !errors.v.is_poor()) {
+    if (!comparison.is_told()) return {};
+    return fmt::format(
+        "The values of the truth could not be checked: one disparity for all explains the views "
+        "as well, or better (where both differ, in {} squares of the view, the truth is better by "
+        "{:.1f} standard deviations of chance).",
+        comparison.squares, comparison.score);
+  }
+  const AxisErrors& worse = errors.u.is_poor() ? errors.u : errors.v;
+  return "The truth hardly explains the views: warped by it, they differ by " +
+         fixed_text(std::min(worse.forward, worse.reversed), 2) + " grey levels along " +
+         (errors.u.is_poor() ? "u" : "v") + ", the other way by " +
+         fixed_text(std::max(worse.forward, worse.reversed), 2) + " and unwarped by " +
+         fixed_text(worse.unwarped, 2) +
+         "; check the truth, and dH, focalLength and shift if it was stored as depth.";
+}
+
+Checked check_by_truth(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
+                       const ExpectedOrder& expected) {
+  const WarpErrors errors = mean_errors(samples, truth);
+  Checked checked{expected.flip, errors.u.is_decided() || errors.v.is_decided(), {}};
+  if (errors.u.is_decided()) checked.flip.u = errors.u.says_reversed();
+  if (errors.v.is_decided()) checked.flip.v = errors.v.says_reversed();
+  // The layers of a transparent scene explain views only together.
+  if (truth.size() == 1) {
+    const auto& [at, disparity] = truth.front();
+    checked.warning = poor_truth(errors, compare_with_constant(samples, at, disparity, errors));
+    checked.is_poor = !checked.warning.empty() && (errors.u.is_poor() || errors.v.is_poor());
+  }
+  if (checked.is_decided) {
+    const std::string errors_text =
+        axis_text("u", errors.u, checked.flip.u) + ", " + axis_text("v", errors.v, checked.flip.v);
+    const bool is_sure = checked.warning.empty();
+    checked.text = is_sure ? "checked against truth" : "by the truth, which is in doubt";
+    checked.text += ", mean grey error after warping: " + errors_text;
+    checked.is_sign_known = is_sure && !expected.is_truth_sign_assumed;
+    checked.sign_text = is_sure ? kEitherWay : "the truth is in doubt";
+    if (checked.is_sign_known) checked.sign_text = "by truth: " + errors_text;
+  }
+  return checked;
+}
+
+Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected,
+                        const Progress& progress) {
+  const SlopeCorrelation slopes = correlate_epi_slopes(samples, progress);
+  Checked checked{expected, slopes.is_decided(), {}};
+  if (!checked.is_decided) return checked;
+  const bool must_differ = slopes.value < 0;
+  if ((expected.u != expected.v) != must_differ) checked.flip.u = !checked.flip.u;
+  checked.text = fmt::format(
+      "checked by the slopes of horizontal and vertical EPIs: correlation {} as stored at {} "
+      "points, {}",
+      fixed_text(slopes.value, 2), slopes.points,
+      must_differ ? "so exactly one axis is reversed" : "so both axes agree");
+  return checked;
+}
+
+/// Near and far: what the slopes leave open, or, where they are undecided, all that is known.
+void add_occlusion(const LightField::Samples& samples, Checked& checked, const Progress& progress) {
+  const SignFinding sign = check_sign(samples, checked.flip, checked.is_decided, progress);
+  checked.is_sign_known = sign.is_decided;
+  checked.sign_text = sign.is_decided ? "by " + sign.evidence : sign.evidence;
+  if (!sign.is_decided) return;
+  checked.text = checked.is_decided ? checked.text + "; direction checked by " + sign.evidence
+                                    : "checked by " + sign.evidence;
+  checked.flip = sign.flip;
+  checked.is_decided = true;
+}
+
+std::string not_checked_text(GridShape grid) {
+  if (grid.count() == 1) return "not checked (a single view)";
+  if (grid.v == 1) return "not checked (one row of views)";
+  if (grid.u == 1) return "not checked (one column of views)";
+  return "not checked (too little depth or texture)";
+}
+
+/// The truth of one view: the disparity, or the two layers of a transparent scene.
+std::vector<OrderEvidence> evidence_of(const GroundTruth& truth, ViewIndex center) {
+  std::vector<OrderEvidence> found;
+  for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    if (field->empty() || (field != &truth.field && truth.has_disparity())) continue;
+    const ViewIndex at = field->contains(center) ? center : field->disparity.first();
+    found.push_back({at, field->view(at)});
+  }
+  return found;
+}
+
+ViewFlip chosen_flip(Flip choice) {
+  return {choice == Flip::U || choice == Flip::Both, choice == Flip::V || choice == Flip::Both};
+}
+
+/// The order chosen by a user, and what the check has to say to it.
+void follow(ViewFlip chosen, const Checked& checked, OrderFinding& finding) {
+  finding.flip = chosen;
+  finding.order = flip_text(chosen);
+  finding.was_chosen = true;
+  if (!(chosen == checked.flip)) {
+    finding.sign = "";
+    finding.sign_check = "the order was chosen by hand";
+    if (checked.is_sign_known) finding.sign_check += ", against the check " + checked.sign_text;
+  }
+  if (!checked.contradicts(chosen)) return;
+  finding.check = "the check favours \"" + flip_text(checked.flip) + "\": " + checked.text;
+  finding.warnings.push_back("The order of views was chosen by hand (" + flip_text(chosen) +
+                             "), but the check favours \"" + flip_text(checked.flip) + "\".");
+}
+
+}  // namespace
+
+Flip flip_choice(ViewFlip flip) {
+  if (flip.u && flip.v) return Flip::Both;
+  if (flip.u) return Flip::U;
+  return flip.v ? Flip::V : Flip::None;
+}
+
+OrderFinding find_order(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
+                        const ExpectedOrder& expected, Flip choice, const Progress& progress) {
+  progress.check();
+  Checked checked = check_by_truth(samples, truth, expected);
+  OrderFinding finding;
+  if (!checked.warning.empty()) finding.warnings.push_back(checked.warning);
+  if (!checked.is_decided || !checked.warning.empty()) {
+    Checked by_views = check_by_slopes(samples, expected.flip, progress);
+    add_occlusion(samples, by_views, progress);
+    const bool says_more = by_views.is_sign_known || by_views.contradicts(checked.flip);
+    // Truth that hardly explains the views says nothing of their order.
+    if (!checked.is_decided || (by_views.is_decided && (checked.is_poor || says_more))) {
+      checked = std::move(by_views);
+    }
+  }
+
+  finding.flip = checked.flip;
+  finding.check = checked.is_decided ? checked.text
+                                     : not_checked_text(grid_of(samples)) + "; " + expected.reason;
+  finding.sign = checked.is_sign_known ? "checked" : "";
+  finding.sign_check = checked.sign_text;
+  if (choice != Flip::Auto) {
+    follow(chosen_flip(choice), checked, finding);
+    return finding;
+  }
+  finding.order = flip_text(finding.flip);
+  if (!(finding.flip == expected.flip)) {
+    finding.warnings.push_back("The order of views is \"" + finding.order + "\" and not \"" +
+                               flip_text(expected.flip) + "\", which was expected because " +
+                               expected.reason + ".");
+  }
+  return finding;
+}
+
+void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
+                  Flip choice, ConventionReport& report, const Progress& progress) {
+  const GridShape grid = grid_of(samples);
+  const OrderFinding finding =
+      find_order(samples, evidence_of(truth, grid.center()), expected, choice, progress);
+  report.order = finding.order;
+  report.order_check = finding.check;
+  report.order_was_chosen = finding.was_chosen;
+  report.sign = finding.sign;
+  report.sign_check = finding.sign_check;
+  report.reversed_u = finding.flip.u;
+  report.reversed_v = finding.flip.v;
+  report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());
+
+  std::visit([&](auto& stack) { reverse_views(stack, grid, finding.flip); }, samples);
+  for (DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    reverse_views(*field, grid, finding.flip);
+  }
+  reverse_views(truth.labels, grid, finding.flip);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/models/order/view_order.h"
+
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// The order of views that a format suggests before it is checked.
+struct ExpectedOrder {
+  ViewFlip flip;
+  std::string reason;  ///< "raw files of the archive store h reversed", …
+  /// Rows and columns are beyond doubt: motion along the other axis is reported, not corrected.
+  bool are_axes_known = false;
+  /// Nothing tells near from far in the truth: negated, it would fit the opposite order as well.
+  bool is_truth_sign_assumed = false;
+};
+
+/// A disparity map as stored, by which neighbouring views can be warped.
+struct OrderEvidence {
+  ViewIndex at;
+  DisparityView disparity;
+};
+
+struct OrderFinding {
+  ViewFlip flip;
+  std::string order;        ///< As ConventionReport::order,
+  std::string check;        ///< `order_check`
+  bool was_chosen = false;  ///< and `order_was_chosen`.
+  std::string sign;         ///< As ConventionReport::sign
+  std::string sign_check;   ///< and `sign_check`.
+  std::vector<std::string> warnings;
+};
+
+/// Determines which view axes to reverse: by warping with the truth if there is any, which does
+/// not tell near from far where its sign is assumed. Else the sign of the correlation of EPI slopes
+/// tells whether the axes agree, and occlusion whether near and far do; what remains open is as
+/// expected. A `choice` other than Auto takes precedence, but is checked, and a contradiction is
+/// reported in the warnings. Nothing is reversed yet. Throws Cancelled.
+[[nodiscard]] OrderFinding find_order(const LightField::Samples& samples,
+                                      const std::vector<OrderEvidence>& truth,
+                                      const ExpectedOrder& expected, Flip choice,
+                                      const Progress& progress);
+
+/// The choice that reverses these axes.
+[[nodiscard]] Flip flip_choice(ViewFlip flip);
+
+/// Brings stored views and truth into canonical order, as `find_order` determines it with the
+/// disparity of the truth, and adds to `report`. Throws Cancelled.
+void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
+                  Flip choice, ConventionReport& report, const Progress& progress);
+
+}  // namespace episcope::io

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/io/models/order/view_order.h"
+
+#include <string>
+
+namespace episcope::io {
+
+/// What occlusion says of the directions of the view axes.
+struct SignFinding {
+  ViewFlip flip;            ///< The order that was asked about, or what occlusion makes of it.
+  bool is_decided = false;  ///< Whether near and far are told apart.
+  std::string evidence;     ///< With numbers: what was counted, and for which order.
+};
+
+/// Asks which axes are reversed, at several resolutions until that is clear. `flip` is the order
+/// that is known or expected so far; with `are_axes_related`, whether one axis is reversed against
+/// the other is certain, and the axes are judged together; else each axis by itself. Throws
+/// Cancelled.
+[[nodiscard]] SignFinding check_sign(const LightField::Samples& samples, ViewFlip flip,
+                                     bool are_axes_related, const Progress& progress);
+
+}  // namespace episcope::io

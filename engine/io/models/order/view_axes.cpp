@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/order/view_axes.h"
+
+#include "engine/core/image.h"
+#include "engine/core/indices.h"
+#include "engine/core/numbers.h"
+#include "engine/core/text_table.h"
+#include "engine/io/models/order/grey_picture.h"
+#include "engine/io/models/order/line_matches.h"
+#include "engine/io/models/order/warp_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+constexpr int kBlock = 12;
+
+/// Blocks side by side that no shift moves out of the picture.
+struct Blocks {
+  int rows = 0;
+  int columns = 0;
+  int margin = 0;
+
+  Blocks(const Image<float>& picture, int range)
+      : rows(std::max(picture.height() - 2 * range, 0) / kBlock),
+        columns(std::max(picture.width() - 2 * range, 0) / kBlock),
+        margin(range) {}
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(rows) * columns; }
+};
+
+/// What is left of every block, as the root of its mean square, when `other` is moved by whole
+/// pixels (dy, dx), of which one is 0, and along the axis by up to a pixel more: to first order,
+/// with the gradient of `other`.
+std::vector<float> left_over(const Image<float>& one, const Image<float>& other,
+                             const Blocks& blocks, PixelIndex shift, bool is_x) {
+  struct Sums {
+    float squares = 0, products = 0, gradients = 0;
+  };
+  std::vector<Sums> sums(blocks.count());
+  for (int y = 0; y < blocks.rows * kBlock; ++y) {
+    const int at = y + blocks.margin + shift.y;
+    const float* a = one.row(y + blocks.margin) + blocks.margin;
+    const float* b = other.row(at) + blocks.margin + shift.x;
+    const float* next = is_x ? b + 1 : other.row(at + 1) + blocks.margin + shift.x;
+    const float* last = is_x ? b - 1 : other.row(at - 1) + blocks.margin + shift.x;
+    for (int k = 0; k < blocks.columns; ++k) {
+      Sums row;
+      for (int x = k * kBlock; x < (k + 1) * kBlock; ++x) {
+        const float difference = a[x] - b[x];
+        const float gradient = 0.5F * (next[x] - last[x]);
+        row.squares += difference * difference;
+        row.products += difference * gradient;
+        row.gradients += gradient * gradient;
+      }
+      Sums& block = sums[static_cast<std::size_t>(y / kBlock) * blocks.columns + k];
+      block.squares += row.squares;
+      block.products += row.products;
+      block.gradients += row.gradients;
+    }
+  }
+  std::vector<float> left(sums.size());
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const Sums& block = sums[i];
+    const float more =
+        block.gradients > 0 ? std::clamp(block.products / block.gradients, -1.0F, 1.0F) : 0.0F;
+    const float rest = block.squares - 2 * more * block.products + more * more * block.gradients;
+    left[i] = std::sqrt(std::max(rest, 0.0F) / (kBlock * kBlock));
+  }
+  return left;
+}
+
+std::vector<float> unmoved_difference(const Image<float>& one, const Image<float>& other,
+                                      const Blocks& blocks) {
+  std::vector<float> sums(blocks.count());
+  for (int y = 0; y < blocks.rows * kBlock; ++y) {
+    for (int x = 0; x < blocks.columns * kBlock; ++x) {
+      const float difference = one.at(y + blocks.margin, x + blocks.margin) -
+                               other.at(y + blocks.margin, x + blocks.margin);
+      sums[static_cast<std::size_t>(y / kBlock) * blocks.columns + x / kBlock] +=
+          difference * difference;
+    }
+  }
+  for (float& sum : sums) sum = std::sqrt(sum / (kBlock * kBlock));
+  return sums;
+}
+
+void keep_smaller(std::vector<float>& best, const std::vector<float>& more) {
+  for (std::size_t i = 0; i < best.size(); ++i) best[i] = std::min(best[i], more[i]);
+}
+
+void add_pair(const Image<float>& one, const Image<float>& other, int range,
+              AxisEvidence::Sums& sums) {
+  // The gradient reaches one pixel further.
+  const Blocks blocks(one, range + 1);
+  const std::vector<float> unmoved = unmoved_difference(one, other, blocks);
+  std::vector<float> along_x = unmoved;
+  std::vector<float> along_y = unmoved;
+  for (int shift = -range; shift <= range; ++shift) {
+    keep_smaller(along_x, left_over(one, other, blocks, {0, shift}, true));
+    keep_smaller(along_y, left_over(one, other, blocks, {shift, 0}, false));
+  }
+  for (std::size_t i = 0; i < blocks.count(); ++i) {
+    const double difference = along_y[i] - along_x[i];
+    sums.blocks += 1;
+    sums.unmoved += unmoved[i];
+    sums.along_x += along_x[i];
+    sums.along_y += along_y[i];
+    sums.squares += difference * difference;
+  }
+}
+
+}  // namespace
+
+double AxisEvidence::Sums::score() const {
+  if (blocks < 2 || squares == 0) return 0;
+  const double mean = (along_y - along_x) / blocks;
+  const double variance = std::max(squares / blocks - mean * mean, 1e-12);
+  return mean / std::sqrt(variance / blocks);
+}
+
+void AxisEvidence::add(const MotionPictures& one, const MotionPictures& other) {
+  add_pair(one.scales[0], other.scales[0], 6, scales_[0]);
+  add_pair(one.scales[1], other.scales[1], 12, scales_[1]);
+}
+
+const AxisEvidence::Sums& AxisEvidence::clearest() const {
+  return std::abs(scales_[0].score()) >= std::abs(scales_[1].score()) ? scales_[0] : scales_[1];
+}
+
+double AxisEvidence::gone_along_x() const {
+  const Sums& sums = clearest();
+  return sums.unmoved > 0 ? 1 - sums.along_x / sums.unmoved : 0;
+}
+
+double AxisEvidence::gone_along_y() const {
+  const Sums& sums = clearest();
+  return sums.unmoved > 0 ? 1 - sums.along_y / sums.unmoved : 0;
+}
+
+double AxisEvidence::score() const {
+  return clearest().score();
+}
+
+bool AxisEvidence::is_x() const {
+  return score() > 5 && gone_along_x() > 1.25 * gone_along_y();
+}
+
+bool AxisEvidence::is_y() const {
+  return score() < -5 && gone_along_y() > 1.25 * gone_along_x();
+}
+
+namespace {
+
+constexpr int kFarthest = 8;
+/// Swapping axes against what names or files say takes more than looking at them.
+constexpr double kWithoutDoubt = 8;
+
+AxisEvidence evidence_along(const LightField::Samples& samples, bool is_v,
+                            const Progress& progress) {
+  const GridShape grid = grid_of(samples);
+  const ViewIndex center = grid.center();
+  const auto picture = [&](ViewIndex view) { return MotionPictures(grey_levels(samples, view)); };
+  AxisEvidence clearest;
+  if ((is_v ? grid.v : grid.u) < 2) return clearest;
+  const MotionPictures middle = picture(center);
+  for (int step = 1; step <= kFarthest; step *= 2) {
+    progress.check();
+    AxisEvidence evidence;
+    for (const int offset : {-step, step}) {
+      const ViewIndex view{center.v + (is_v ? offset : 0), center.u + (is_v ? 0 : offset)};
+      if (grid.contains(view)) evidence.add(middle, picture(view));
+    }
+    if (std::abs(evidence.score()) > std::abs(clearest.score())) clearest = evidence;
+    if (clearest.is_decided() && std::abs(clearest.score()) > kWithoutDoubt) break;
+  }
+  return clearest;
+}
+
+template <class T>
+void swap_axes(ViewStack<T>& stack) {
+  if (stack.empty()) return;
+  if (stack.kind() == LargeKind::File) return stack.transpose_in_place();
+  const GridShape grid = stack.grid();
+  const ViewIndex first = stack.first();
+  if (grid.u == grid.v && first.u == first.v) {
+    for (int v = 0; v < grid.v; ++v) {
+      for (int u = 0; u < v; ++u) {
+        T* a = stack.view({first.v + v, first.u + u}).data;
+        T* b = stack.view({first.v + u, first.u + v}).data;
+        std::swap_ranges(a, a + stack.view_size(), b);
+      }
+    }
+    return;
+  }
+  ViewStack<T> swapped({grid.u, grid.v}, stack.height(), stack.width(), stack.channels(),
+                       {first.u, first.v});
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = stack.view_at(i);
+    std::copy_n(stack.view(view).data, stack.view_size(), swapped.view({view.u, view.v}).data);
+  }
+  stack = std::move(swapped);
+}
+
+std::string share_text(const char* which, const AxisEvidence& evidence) {
+  return fmt::format("between {} {} % of the difference is motion along x and {} % along y", which,
+                     fixed_text(100 * evidence.gone_along_x(), 0),
+                     fixed_text(100 * evidence.gone_along_y(), 0));
+}
+
+}  // namespace
+
+bool ViewAxes::are_swapped() const {
+  const bool u_is_y = along_u.is_y() && along_u.score() < -kWithoutDoubt;
+  const bool v_is_x = along_v.is_x() && along_v.score() > kWithoutDoubt;
+  return (u_is_y && v_is_x) || (u_is_y && !along_v.has_pairs()) || (v_is_x && !along_u.has_pairs());
+}
+
+std::string ViewAxes::evidence() const {
+  std::string text;
+  if (along_u.has_pairs()) text = share_text("columns", along_u);
+  if (along_u.has_pairs() && along_v.has_pairs()) text += ", ";
+  if (along_v.has_pairs()) text += share_text("rows", along_v);
+  return text;
+}
+
+ViewAxes find_view_axes(const LightField::Samples& samples, const Progress& progress) {
+  const auto [u, v] =
+      along_both_axes(progress, [&](bool is_v) { return evidence_along(samples, is_v, progress); });
+  return {u, v};
+}
+
+void swap_view_axes(LightField::Samples& samples) {
+  std::visit([](auto& stack) { swap_axes(stack); }, samples);
+}
+
+void swap_view_axes(ViewStack<std::uint8_t>& stack) {
+  swap_axes(stack);
+}
+
+void swap_view_axes(GroundTruth& truth) {
+  for (DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    swap_axes(field->disparity);
+    swap_axes(field->valid);
+  }
+  swap_axes(truth.labels);
+}
+
+void swap_view_axes(std::vector<CameraPosition>& positions, GridShape stored) {
+  if (positions.size() != static_cast<std::size_t>(stored.count())) return;
+  std::vector<CameraPosition> swapped;
+  for (int u = 0; u < stored.u; ++u) {
+    for (int v = 0; v < stored.v; ++v) {
+      swapped.push_back(positions[static_cast<std::size_t>(v * stored.u + u)]);
+    }
+  }
+  positions = std::move(swapped);
+}
+
+namespace {
+
+constexpr int kSide = 512;
+constexpr int kSquare = 16;
+constexpr int kRange = 8;
+constexpr int kFewestSquares = 12;
+constexpr double kEnough_px = 1;   ///< Motion along the line that tells.
+constexpr double kBothWays = 0.1;  ///< Of the texture of a square across its main direction.
+constexpr double kLeast_px = 0.25;
+constexpr double kShare = 0.3;
+
+struct Motion {
+  double x = 0;
+  double y = 0;
+};
+
+/// Sums over a square of what a step to sub-pixel motion needs; all with their means taken off.
+struct Normal {
+  double xx = 0, xy = 0, yy = 0, xd = 0, yd = 0, dd = 0;
+};
+
+Normal normal_of(const Image<float>& a, const Image<float>& b, int top, int left, int shift) {
+  Normal sums;
+  double x = 0, y = 0, d = 0;
+  for (int row = top; row < top + kSquare; ++row) {
+    for (int column = left; column < left + kSquare; ++column) {
+      const int at = column + shift;
+      const double gx = 0.5 * (b.at(row, at + 1) - b.at(row, at - 1));
+      const double gy = 0.5 * (b.at(row + 1, at) - b.at(row - 1, at));
+      const double difference = a.at(row, column) - b.at(row, at);
+      x += gx;
+      y += gy;
+      d += difference;
+      sums.xx += gx * gx;
+      sums.xy += gx * gy;
+      sums.yy += gy * gy;
+      sums.xd += gx * difference;
+      sums.yd += gy * difference;
+      sums.dd += difference * difference;
+    }
+  }
+  constexpr double kCount = kSquare * kSquare;
+  return {sums.xx - x * x / kCount, sums.xy - x * y / kCount, sums.yy - y * y / kCount,
+          sums.xd - x * d / kCount, sums.yd - y * d / kCount, sums.dd - d * d / kCount};
+}
+
+/// Nothing where the texture does not fix both directions.
+std::optional<Motion> motion_of(const Image<float>& a, const Image<float>& b, int top, int left) {
+  Normal best;
+  best.dd = std::numeric_limits<double>::infinity();
+  int shift = 0;
+  for (int s = -kRange; s <= kRange; ++s) {
+    const Normal one = normal_of(a, b, top, left, s);
+    if (one.dd >= best.dd) continue;
+    best = one;
+    shift = s;
+  }
+  const double trace = best.xx + best.yy;
+  const double determinant = best.xx * best.yy - best.xy * best.xy;
+  // The smaller eigenvalue is about the determinant over the trace.
+  if (!(trace > 0) || determinant < kBothWays * trace * trace) return std::nullopt;
+  return Motion{shift + (best.yy * best.xd - best.xy * best.yd) / determinant,
+                (best.xx * best.yd - best.xy * best.xd) / determinant};
+}
+
+/// With the line along x.
+Image<float> picture_of(const LightField::Samples& samples, int place) {
+  const bool is_column = grid_of(samples).u == 1;
+  const ViewIndex view = is_column ? ViewIndex{place, 0} : ViewIndex{0, place};
+  Image<float> picture = smoothed(reduced(grey_levels(samples, view), kSide));
+  return is_column ? transposed(picture) : picture;
+}
+
+LineMotion motion_between(const Image<float>& a, const Image<float>& b, int step) {
+  std::vector<float> along;
+  std::vector<float> across;
+  constexpr int kMargin = kRange + 1;
+  for (int y = 1; y + kSquare < a.height(); y += kSquare) {
+    for (int x = kMargin; x + kSquare + kMargin <= a.width(); x += kSquare) {
+      const auto motion = motion_of(a, b, y, x);
+      if (!motion) continue;
+      along.push_back(static_cast<float>(std::abs(motion->x)));
+      across.push_back(static_cast<float>(std::abs(motion->y)));
+    }
+  }
+  const auto squares = static_cast<int>(along.size());
+  if (squares < kFewestSquares) return {0, 0, step, squares};
+  return {quantile(along, 0.5), quantile(across, 0.5), step, squares};
+}
+
+}  // namespace
+
+bool LineMotion::is_askew() const {
+  return across > kLeast_px && across > kShare * along;
+}
+
+std::string LineMotion::warning() const {
+  return fmt::format(
+      "Points move across the line of views as well: by {:.2f} px between views {} apart, beside "
+      "{:.2f} px along it. This may be a film of a camera that zooms or turns, or views that are "
+      "not rectified; disparity is not to be trusted then.",
+      across, step, along);
+}
+
+LineMotion measure_line_motion(const LightField::Samples& samples, const Progress& progress) {
+  const int count = grid_of(samples).count();
+  const int center = count / 2;
+  const Image<float> middle = picture_of(samples, center);
+  LineMotion motion;
+  for (int step = 1; step <= kFarthest && step <= center; step *= 2) {
+    progress.check();
+    motion = motion_between(middle, picture_of(samples, center - step), step);
+    if (motion.along > kEnough_px || motion.across > kEnough_px) break;
+  }
+  return motion;
+}
+
+}  // namespace episcope::io

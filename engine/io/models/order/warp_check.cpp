@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/order/warp_check.h"
+
+#include "engine/core/numbers.h"
+#include "engine/io/models/order/grey_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+/// How much brighter one view is than another, by the median ratio of grey levels of their pixels,
+/// whichever of them show the same.
+class PairGain {
+ public:
+  /// Grey levels (0 … 255); dark ones do not count.
+  void add(float here, float there);
+  /// What `there` is to be multiplied by; 1 where that is so within 2 %, or not known. Reorders
+  /// what was added.
+  [[nodiscard]] float value();
+
+ private:
+  std::vector<float> ratios_;
+};
+
+constexpr float kDark = 4;
+constexpr float kNearlyEven = 0.02F;
+constexpr std::size_t kFewest = 50;
+
+void PairGain::add(float here, float there) {
+  if (std::min(here, there) > kDark) ratios_.push_back(here / there);
+}
+
+float PairGain::value() {
+  if (ratios_.size() < kFewest) return 1;
+  const float gain = quantile(ratios_, 0.5);
+  return std::abs(gain - 1) > kNearlyEven ? gain : 1;
+}
+
+float sample(const Image<float>& image, double y, double x) {
+  const int x0 = static_cast<int>(x);
+  const int y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, image.width() - 1);
+  const int y1 = std::min(y0 + 1, image.height() - 1);
+  const auto fx = static_cast<float>(x - x0);
+  const auto fy = static_cast<float>(y - y0);
+  const float top = image.at(y0, x0) + fx * (image.at(y0, x1) - image.at(y0, x0));
+  const float bottom = image.at(y1, x0) + fx * (image.at(y1, x1) - image.at(y1, x0));
+  return top + fy * (bottom - top);
+}
+
+/// The value that counts as white: of 16-bit samples what as many bits hold as the view at the
+/// centre uses, since cameras give 10, 12 or 14 of them.
+template <class T>
+float white_of(const ViewStack<T>& stack) {
+  if constexpr (std::is_same_v<T, float>) return 1;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return 255;
+  constexpr std::size_t kStride = 7;
+  const auto center = stack.view(stack.grid().center());
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < center.size(); i += kStride) {
+    largest = std::max(largest, static_cast<std::size_t>(center.data[i]));
+  }
+  std::size_t white = 255;
+  while (white < largest) white = 2 * white + 1;
+  return static_cast<float>(white);
+}
+
+/// A view, and one next to it along an axis.
+struct ViewPair {
+  const Image<float>& center;
+  const Image<float>& neighbour;
+  bool is_u;
+  int step;  ///< +1 or −1.
+};
+
+/// Grey levels at a pixel, and where it is by each assumption.
+struct Moved {
+  float here;
+  float forward;
+  float reversed;
+  float unwarped;
+};
+
+/// Of every `stride`-th pixel whose targets lie inside the image.
+template <class Visit>
+void for_moved(const ViewPair& pair, const DisparityView& disparity, int stride,
+               const Visit& visit) {
+  const int width = pair.center.width();
+  const int height = pair.center.height();
+  for (int y = 0; y < height; y += stride) {
+    for (int x = 0; x < width; x += stride) {
+      if (!disparity.is_valid(y, x)) continue;
+      const double shift = pair.step * static_cast<double>(disparity.disparity.at(y, x));
+      const double place = pair.is_u ? x : y;
+      const double last = (pair.is_u ? width : height) - 1;
+      if (place - std::abs(shift) < 0 || place + std::abs(shift) > last) continue;
+      const auto moved = [&](double by) {
+        return pair.is_u ? sample(pair.neighbour, y, x - by) : sample(pair.neighbour, y - by, x);
+      };
+      visit(Moved{pair.center.at(y, x), moved(shift), moved(-shift), pair.neighbour.at(y, x)});
+    }
+  }
+}
+
+/// Adds the errors against the neighbour, of which brightness is evened out.
+void add_neighbour(const ViewPair& pair, const DisparityView& disparity, AxisErrors& sums) {
+  constexpr int kGainStride = 3;
+  PairGain forward, reversed, unwarped;
+  for_moved(pair, disparity, kGainStride, [&](const Moved& moved) {
+    forward.add(moved.here, moved.forward);
+    reversed.add(moved.here, moved.reversed);
+    unwarped.add(moved.here, moved.unwarped);
+  });
+  const float of_forward = forward.value();
+  const float of_reversed = reversed.value();
+  const float of_unwarped = unwarped.value();
+  for_moved(pair, disparity, 1, [&](const Moved& moved) {
+    sums.forward += std::abs(moved.here - of_forward * moved.forward);
+    sums.reversed += std::abs(moved.here - of_reversed * moved.reversed);
+    sums.unwarped += std::abs(moved.here - of_unwarped * moved.unwarped);
+    ++sums.pixels;
+  });
+}
+
+AxisErrors axis_errors(const LightField::Samples& samples, ViewIndex at, bool is_u,
+                       const DisparityView& disparity) {
+  const GridShape grid = grid_of(samples);
+  const Image<float> center = grey_levels(samples, at);
+  AxisErrors errors;
+  for (const int step : {-1, 1}) {
+    const ViewIndex next = is_u ? ViewIndex{at.v, at.u + step} : ViewIndex{at.v + step, at.u};
+    if (!grid.contains(next)) continue;
+    const Image<float> neighbour = grey_levels(samples, next);
+    add_neighbour({center, neighbour, is_u, step}, disparity, errors);
+  }
+  if (errors.pixels > 0) {
+    errors.forward /= static_cast<double>(errors.pixels);
+    errors.reversed /= static_cast<double>(errors.pixels);
+    errors.unwarped /= static_cast<double>(errors.pixels);
+  }
+  return errors;
+}
+
+/// Sums of the channels of a row.
+template <class T>
+void add_channels(const T* samples, int width, int channels, float* sums) {
+  for (int x = 0; x < width; ++x) {
+    const T* const pixel = samples + static_cast<std::ptrdiff_t>(x) * channels;
+    sums[x] = 0;
+    for (int c = 0; c < channels; ++c) sums[x] += static_cast<float>(pixel[c]);
+  }
+}
+
+/// The same of floats: one that is not finite counts as the last before it that is.
+void add_channels(const float* samples, int width, int channels, float* sums) {
+  std::array<float, 4> last{};
+  for (int x = 0; x < width; ++x) {
+    sums[x] = 0;
+    for (int c = 0; c < channels; ++c) {
+      const float value = samples[static_cast<std::ptrdiff_t>(x) * channels + c];
+      float& kept = last[static_cast<std::size_t>(c)];
+      if (std::isfinite(value)) kept = value;
+      sums[x] += kept;
+    }
+  }
+}
+
+}  // namespace
+
+bool AxisErrors::is_decided() const {
+  const double difference = std::abs(forward - reversed);
+  return pixels > 0 && difference > 0.02 && difference > 0.03 * std::min(forward, reversed);
+}
+
+bool AxisErrors::is_poor() const {
+  if (pixels == 0) return false;
+  const double best = std::min(forward, reversed);
+  const double other = std::max(forward, reversed);
+  if (is_decided()) return best > 0.9 * std::min(other, unwarped);
+  return best > 1.1 * unwarped + 0.5;
+}
+
+double WarpErrors::best() const {
+  if (u.pixels + v.pixels == 0) return std::numeric_limits<double>::infinity();
+  const double sum = std::min(u.forward, u.reversed) * static_cast<double>(u.pixels) +
+                     std::min(v.forward, v.reversed) * static_cast<double>(v.pixels);
+  return sum / static_cast<double>(u.pixels + v.pixels);
+}
+
+double WarpErrors::unwarped() const {
+  const auto pixels = static_cast<double>(u.pixels + v.pixels);
+  if (pixels == 0) return 0;
+  return (u.unwarped * static_cast<double>(u.pixels) + v.unwarped * static_cast<double>(v.pixels)) /
+         pixels;
+}
+
+Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view) {
+  const PixelRect all = std::visit(
+      [](const auto& stack) {
+        return PixelRect{0, 0, stack.height(), stack.width()};
+      },
+      samples);
+  return grey_levels(samples, view, all);
+}
+
+Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view,
+                         const PixelRect& part) {
+  return std::visit(
+      [&]<class T>(const ViewStack<T>& stack) {
+        const auto image = stack.view(view);
+        const float scale = 255.0F / white_of(stack) / static_cast<float>(image.channels);
+        Image<float> grey(part.y1 - part.y0, part.x1 - part.x0);
+        for (int y = 0; y < grey.height(); ++y) {
+          const T* const row = image.row(part.y0 + y) + part.x0 * image.channels;
+          add_channels(row, grey.width(), image.channels, grey.row(y));
+          for (int x = 0; x < grey.width(); ++x) grey.row(y)[x] *= scale;
+        }
+        return grey;
+      },
+      samples);
+}
+
+WarpErrors warp_errors(const LightField::Samples& samples, ViewIndex at,
+                       const DisparityView& disparity) {
+  return {axis_errors(samples, at, true, disparity), axis_errors(samples, at, false, disparity)};
+}
+
+namespace {
+
+constexpr int kSquare = 16;
+constexpr int kFewestSquares = 8;
+/// Standard deviations of chance. The constant is the best of many, which leaves less to it.
+constexpr double kSignificant = 2.7;
+constexpr int kSteps = 24;              ///< Constants tried to either side of 0.
+constexpr double kDiffers = 0.25;       ///< px between the map and the constant, or less in maps
+constexpr double kPartOfRange = 0.125;  ///< of which that is more than this part of the range;
+constexpr double kLeastRange = 0.05;    ///< those of less px are constants.
+constexpr float kLargestError = 40;     ///< Grey levels; what is hidden counts no more.
+constexpr double kMostPoints = 10000;
+
+struct Point {
+  int y = 0;
+  int x = 0;
+  double disparity = 0;
+};
+
+std::vector<Point> points_of(const DisparityView& map) {
+  const ImageView<const float>& values = map.disparity;
+  const double area = static_cast<double>(values.height) * values.width;
+  const int stride = std::max(1, static_cast<int>(std::sqrt(area / kMostPoints)));
+  std::vector<Point> points;
+  for (int y = 0; y < values.height; y += stride) {
+    for (int x = 0; x < values.width; x += stride) {
+      const double value = values.at(y, x);
+      if (map.is_valid(y, x) && std::isfinite(value)) points.push_back({y, x, value});
+    }
+  }
+  return points;
+}
+
+/// The view and one next to it; `shift`: of disparity 1 in the neighbour, to lower coordinates.
+struct Pair {
+  const Image<float>& here;
+  Image<float> there;
+  bool is_u;
+  int shift;
+  float gain = 1;
+
+  /// Negative outside of the picture.
+  [[nodiscard]] float moved(const Point& point, double disparity) const {
+    const double place = (is_u ? point.x : point.y) - shift * disparity;
+    const int last = (is_u ? there.width() : there.height()) - 1;
+    if (!(place >= 0 && place < last)) return -1;
+    const int first = static_cast<int>(place);
+    const auto part = static_cast<float>(place - first);
+    const float a = is_u ? there.at(point.y, first) : there.at(first, point.x);
+    const float b = is_u ? there.at(point.y, first + 1) : there.at(first + 1, point.x);
+    return a + part * (b - a);
+  }
+  /// Likewise.
+  [[nodiscard]] float error(const Point& point, double disparity) const {
+    const float grey = moved(point, disparity);
+    if (grey < 0) return -1;
+    return std::min(kLargestError, std::abs(here.at(point.y, point.x) - gain * grey));
+  }
+  void even_out(const std::vector<Point>& points) {
+    PairGain brightness;
+    for (const Point& point : points) {
+      brightness.add(here.at(point.y, point.x), moved(point, point.disparity));
+    }
+    gain = brightness.value();
+  }
+};
+
+/// Smoothed, or shifts between pixels would reduce noise, and so errors, more than others.
+Image<float> picture_of(const LightField::Samples& samples, ViewIndex view) {
+  return smoothed(grey_levels(samples, view));
+}
+
+std::vector<Pair> pairs_of(const LightField::Samples& samples, ViewIndex at,
+                           const Image<float>& here, const WarpErrors& errors, bool is_u) {
+  const bool is_reversed = (is_u ? errors.u : errors.v).says_reversed();
+  std::vector<Pair> pairs;
+  for (const int step : {-1, 1}) {
+    const ViewIndex next = is_u ? ViewIndex{at.v, at.u + step} : ViewIndex{at.v + step, at.u};
+    if (!grid_of(samples).contains(next)) continue;
+    pairs.push_back({here, picture_of(samples, next), is_u, is_reversed ? -step : step});
+  }
+  return pairs;
+}
+
+double best_constant(const std::vector<Pair>& pairs, const std::vector<Point>& points) {
+  double reach = 0;
+  for (const Point& point : points) reach = std::max(reach, std::abs(point.disparity));
+  std::pair<double, double> least{HUGE_VAL, 0};
+  for (int step = -kSteps; step <= kSteps; ++step) {
+    const double constant = reach * step / kSteps;
+    double sum = 0, inside = 0;
+    for (const Pair& pair : pairs) {
+      for (const Point& point : points) {
+        const float error = pair.error(point, constant);
+        if (error < 0) continue;
+        sum += error;
+        inside += 1;
+      }
+    }
+    if (2 * inside < static_cast<double>(pairs.size() * points.size())) continue;
+    least = std::min(least, {sum / inside, constant});
+  }
+  return least.second;
+}
+
+/// Of 90 % of the points.
+double range_of(const std::vector<Point>& points) {
+  std::vector<float> values;
+  for (const Point& point : points) values.push_back(static_cast<float>(point.disparity));
+  if (values.empty()) return 0;
+  return quantile(values, 0.95) - quantile(values, 0.05);
+}
+
+/// By how much the map is better than a constant in a square.
+struct Sum {
+  double better = 0;
+  int points = 0;
+};
+using Squares = std::map<std::pair<int, int>, Sum>;
+
+/// One disparity for all, and how far a map is from it that differs.
+struct Constant {
+  double disparity = 0;
+  double differs = 0;
+};
+
+void add_pair(const Pair& pair, const std::vector<Point>& points, const Constant& constant,
+              Squares& squares) {
+  for (const Point& point : points) {
+    if (std::abs(point.disparity - constant.disparity) < constant.differs) continue;
+    const float by_map = pair.error(point, point.disparity);
+    const float by_constant = pair.error(point, constant.disparity);
+    if (by_map < 0 || by_constant < 0) continue;
+    Sum& sum = squares[{point.y / kSquare, point.x / kSquare}];
+    sum.better += by_constant - by_map;
+    ++sum.points;
+  }
+}
+
+ConstantComparison compared(const Squares& squares) {
+  double sum = 0, square = 0;
+  for (const auto& [place, one] : squares) {
+    const double better = one.better / one.points;
+    sum += better;
+    square += better * better;
+  }
+  const auto count = static_cast<double>(squares.size());
+  if (count < kFewestSquares) return {static_cast<int>(count), 0};
+  const double mean = sum / count;
+  const double variance = std::max(square / count - mean * mean, 1e-9);
+  return {static_cast<int>(count), mean / std::sqrt(variance / count)};
+}
+
+}  // namespace
+
+bool ConstantComparison::is_told() const {
+  return squares >= kFewestSquares;
+}
+
+bool ConstantComparison::is_better() const {
+  return is_told() && score > kSignificant;
+}
+
+ConstantComparison compare_with_constant(const LightField::Samples& samples, ViewIndex at,
+                                         const DisparityView& disparity, const WarpErrors& errors) {
+  const std::vector<Point> points = points_of(disparity);
+  const double range = range_of(points);
+  if (range < kLeastRange) return {};
+  const double differs = std::min(kDiffers, kPartOfRange * range);
+  const Image<float> here = picture_of(samples, at);
+  Squares squares;
+  for (const bool is_u : {true, false}) {
+    std::vector<Pair> pairs = pairs_of(samples, at, here, errors, is_u);
+    for (Pair& pair : pairs) pair.even_out(points);
+    const double constant = best_constant(pairs, points);
+    for (const Pair& pair : pairs) add_pair(pair, points, {constant, differs}, squares);
+  }
+  return compared(squares);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/disparity_field.h"
+#include "engine/core/indices.h"
+#include "engine/core/light_field.h"
+
+namespace episcope::io {
+
+/// Mean absolute differences in grey levels (0…255) between a view and its neighbours along one
+/// view axis, warped onto it by a disparity map.
+struct AxisErrors {
+  double forward = 0;    ///< If the axis has the canonical direction,
+  double reversed = 0;   ///< and if it runs the other way.
+  double unwarped = 0;   ///< Without warping: as if all disparities were 0.
+  long long pixels = 0;  ///< Compared; 0 if the axis has one view only.
+
+  /// Whether the two differ by more than noise does: 3 % and 0.02 grey levels.
+  [[nodiscard]] bool is_decided() const;
+  /// Whether warping hardly explains the views: better than the other order or than no warping by
+  /// less than 10 %, or worse than no warping where the order is undecided.
+  [[nodiscard]] bool is_poor() const;
+  [[nodiscard]] bool says_reversed() const { return reversed < forward; }
+};
+
+struct WarpErrors {
+  AxisErrors u;
+  AxisErrors v;
+
+  /// Mean error of the better order of each axis.
+  [[nodiscard]] double best() const;
+  /// And without warping.
+  [[nodiscard]] double unwarped() const;
+};
+
+/// A view as grey values in 0…255, of 16-bit samples by as many bits as are used; a sample that is
+/// not finite takes the value to its left.
+[[nodiscard]] Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view);
+/// The same of a part of the view, which lies within it.
+[[nodiscard]] Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view,
+                                       const PixelRect& part);
+
+/// Warps the up to four neighbours of `at` onto it. Only pixels with a valid disparity whose
+/// targets lie inside the image for both orders count, so that both are judged on the same pixels.
+/// Neighbours that are brighter or darker by more than 2 % are evened out.
+[[nodiscard]] WarpErrors warp_errors(const LightField::Samples& samples, ViewIndex at,
+                                     const DisparityView& disparity);
+
+/// How much better a map explains the views next to its own than one disparity for all would.
+struct ConstantComparison {
+  int squares = 0;   ///< Of 16×16 px in which the map differs from that disparity.
+  double score = 0;  ///< By how many standard deviations of chance the map is better there.
+
+  /// Whether the map can be told from a constant.
+  [[nodiscard]] bool is_told() const;
+  /// And whether it is better by more than chance.
+  [[nodiscard]] bool is_better() const;
+};
+
+/// Warps the up to four neighbours of `at`, evened out in brightness, with the map, in the order of
+/// each axis that `errors` says, and with the constant disparity that explains that axis best,
+/// within the range of the map to either side of 0. A map that is wrong, but of the right mean, may
+/// explain views better than no warping, but hardly better than that. Looks at some 10,000 pixels.
+[[nodiscard]] ConstantComparison compare_with_constant(const LightField::Samples& samples,
+                                                       ViewIndex at, const DisparityView& disparity,
+                                                       const WarpErrors& errors);
+
+}  // namespace episcope::io

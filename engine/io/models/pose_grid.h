@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field.h"
+#include "engine/io/models/poses.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// How cameras of a light field may differ from a plane grid that is exact: orientations by half a
+/// degree, places by a tenth of a step, on the plane and off it, steps of rows and columns by a
+/// tenth.
+inline constexpr double kMostTurn_deg = 0.5;
+inline constexpr double kMostOff_steps = 0.1;
+
+/// In `PoseGrid::order`: no camera stands in this place.
+inline constexpr auto kNoCamera = static_cast<std::size_t>(-1);
+
+/// Cameras as the grid of a light field, in canonical order.
+struct PoseGrid {
+  GridShape grid{};
+  std::vector<std::size_t> order{};         ///< Of the poses, row by row; `kNoCamera` in gaps.
+  std::vector<CameraPosition> positions{};  ///< Row by row: right and down in the cameras' view.
+  double step = 0;                          ///< Of neighbours, in units of the scene.
+  double focal_widths = 0;                  ///< 0 = not stated.
+  std::string evidence{};  ///< "cameras in steps of 0.1, turned by 0.01° at most, …".
+  std::string problem{};   ///< Why they are no such grid, as a clause; empty if they are.
+};
+
+/// Whether cameras stand on the grid of a light field, and where each: rows and columns along what
+/// they see as down and right. O(N log N).
+[[nodiscard]] PoseGrid find_pose_grid(const std::vector<CameraPose>& poses);
+
+}  // namespace episcope::io

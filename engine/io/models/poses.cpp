@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/poses.h"
+
+#include "engine/core/error.h"
+#include "engine/io/base/files.h"
+#include "engine/io/base/json.h"
+#include "engine/io/base/npy.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+static_assert(std::endian::native == std::endian::little);
+
+/// Numbers one after the other; after the end of the file they are 0 and `is_whole` is false.
+class BinaryInput {
+ public:
+  explicit BinaryInput(const fs::path& path)
+      : in_(path, std::ios::binary), left_(fs::file_size(path)) {}
+
+  template <class T>
+  [[nodiscard]] T next() {
+    T value{};
+    if (take(sizeof(T))) in_.read(reinterpret_cast<char*>(&value), sizeof(T));
+    return value;
+  }
+  /// Up to a zero.
+  [[nodiscard]] std::string next_text() {
+    std::string text;
+    for (char c = next<char>(); c != '\0'; c = next<char>()) text += c;
+    return text;
+  }
+  void skip(std::uint64_t count, std::uint64_t bytes_each) {
+    if (count > left_ / bytes_each) {
+      is_whole_ = false;
+    } else if (take(count * bytes_each)) {
+      in_.ignore(static_cast<std::streamsize>(count * bytes_each));
+    }
+  }
+  [[nodiscard]] bool is_whole() const { return is_whole_ && !in_.fail(); }
+
+ private:
+  bool take(std::uint64_t bytes) {
+    is_whole_ = is_whole_ && bytes <= left_;
+    if (is_whole_) left_ -= bytes;
+    return is_whole_;
+  }
+
+  std::ifstream in_;
+  std::uint64_t left_;
+  bool is_whole_ = true;
+};
+
+/// By the ids of cameras, up to the first of a model that is not known: of every model the first
+/// parameter is a focal length.
+std::map<std::uint32_t, double> binary_focal_widths(const fs::path& path) {
+  constexpr std::array<std::uint64_t, 12> kParameters{3, 4, 4, 5, 8, 8, 12, 5, 4, 5, 12, 16};
+  std::map<std::uint32_t, double> focals;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return focals;
+  BinaryInput in(path);
+  const auto count = in.next<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto id = in.next<std::uint32_t>();
+    const auto model = in.next<std::uint32_t>();
+    const auto width = static_cast<double>(in.next<std::uint64_t>());
+    in.skip(1, sizeof(std::uint64_t));  // height
+    const auto focal = in.next<double>();
+    if (model >= kParameters.size()) break;
+    in.skip(kParameters[model] - 1, sizeof(double));
+    if (!in.is_whole()) break;
+    if (width > 0) focals[id] = focal / width;
+  }
+  return focals;
+}
+
+}  // namespace
+
+std::vector<CameraPose> read_binary_colmap_poses(const fs::path& path) {
+  constexpr std::uint64_t kPoint = 24;  // x, y and an id, of 8 bytes each
+  require_readable_file(path);
+  if (fs::file_size(path) > kLargestColmap) throw IoError(path, "this file is larger than 1 GB");
+  const std::map<std::uint32_t, double> focals =
+      binary_focal_widths(path.parent_path() / "cameras.bin");
+  std::vector<CameraPose> poses;
+  BinaryInput in(path);
+  const auto count = in.next<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count && in.is_whole(); ++i) {
+    in.skip(1, sizeof(std::uint32_t));  // id of the image
+    std::array<double, 7> numbers{};
+    for (double& number : numbers) number = in.next<double>();
+    CameraPose pose = colmap_pose(numbers);
+    const auto focal = focals.find(in.next<std::uint32_t>());
+    if (focal != focals.end()) pose.focal_widths = focal->second;
+    pose.image = in.next_text();
+    in.skip(in.next<std::uint64_t>(), kPoint);
+    poses.push_back(std::move(pose));
+  }
+  if (in.is_whole()) return poses;
+  throw IoError(path, fmt::format("it ends within image {} of {}; export it again or remove the "
+                                  "file",
+                                  poses.size(), count));
+}
+
+namespace {
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+[[noreturn]] void refuse(const fs::path& path, int line) {
+  throw IoError(path, fmt::format("line {} is not one of an export of COLMAP as text; export it "
+                                  "again or remove the file",
+                                  line));
+}
+
+double number_in(const fs::path& path, int line, const std::string& word) {
+  const auto number = parse_number(word);
+  if (!number) refuse(path, line);
+  return *number;
+}
+
+/// By the ids of cameras: of every model the first parameter is a focal length.
+std::map<std::string, double> text_focal_widths(const fs::path& path) {
+  std::map<std::string, double> focals;
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);) {
+    const std::vector<std::string> words = words_of(line);
+    if (words.size() < 5 || words[0].starts_with('#')) continue;
+    const auto width = parse_number(words[2]);
+    const auto focal = parse_number(words[4]);
+    if (width && focal && *width > 0) focals[words[0]] = *focal / *width;
+  }
+  return focals;
+}
+
+}  // namespace
+
+std::vector<CameraPose> read_colmap_poses(const fs::path& path) {
+  require_readable_file(path);
+  if (fs::file_size(path) > kLargestColmap) throw IoError(path, "this file is larger than 1 GB");
+  const std::map<std::string, double> focals =
+      text_focal_widths(path.parent_path() / "cameras.txt");
+  std::vector<CameraPose> poses;
+  std::ifstream in(path);
+  bool is_of_points = false;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (line.starts_with('#')) continue;
+    if (std::exchange(is_of_points, !is_of_points)) continue;
+    const std::vector<std::string> words = words_of(line);
+    if (words.size() < 10) refuse(path, number);
+    std::array<double, 7> numbers{};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      numbers[i] = number_in(path, number, words[i + 1]);
+    }
+    CameraPose pose = colmap_pose(numbers);
+    pose.image = words[9];
+    const auto focal = focals.find(words[8]);
+    if (focal != focals.end()) pose.focal_widths = focal->second;
+    poses.push_back(std::move(pose));
+  }
+  return poses;
+}
+
+std::vector<CameraPose> read_llff_poses(const std::filesystem::path& path) {
+  constexpr std::size_t kNumbers = 17;
+  constexpr std::size_t kMostImages = 100'000;
+  const NpyFile file(path);
+  const ArrayShape& shape = file.shape();
+  const bool is_sound = shape.size() == 2 && shape[1] == kNumbers && shape[0] <= kMostImages &&
+                        !file.header().is_fortran;
+  if (!is_sound) {
+    throw IoError(path, fmt::format("the array has the shape {}, but poses are N×17 in C order; "
+                                    "export them again or remove the file",
+                                    array_shape_text(file.header().shape)));
+  }
+  std::vector<float> all(shape[0] * kNumbers);
+  file.read(ArrayShape(2, 0), shape, all.data());
+  std::vector<CameraPose> poses;
+  for (std::size_t i = 0; i < shape[0]; ++i) {
+    const auto column = [&](std::size_t c) {
+      const float* matrix = &all[i * kNumbers];
+      return Direction{matrix[c], matrix[5 + c], matrix[10 + c]};
+    };
+    const auto [height, width, focal] = column(4);
+    poses.push_back({.image = {},
+                     .center = column(3),
+                     .right = normalized(column(1)),
+                     .down = normalized(column(0)),
+                     .ahead = normalized(times(-1, column(2))),
+                     .focal_widths = width > 0 ? focal / width : 0});
+  }
+  return poses;
+}
+
+namespace {
+
+using Json = nlohmann::json;
+
+double focal_widths(const Json& json) {
+  if (json.contains("camera_angle_x")) {
+    return 0.5 / std::tan(0.5 * json.at("camera_angle_x").get<double>());
+  }
+  if (!json.contains("fl_x") || !json.contains("w")) return 0;
+  return json.at("fl_x").get<double>() / json.at("w").get<double>();
+}
+
+CameraPose pose_of(const Json& frame, double focal) {
+  const auto rows = frame.at("transform_matrix").get<std::vector<std::vector<double>>>();
+  const auto column = [&](std::size_t c) {
+    return Direction{rows.at(0).at(c), rows.at(1).at(c), rows.at(2).at(c)};
+  };
+  const double own = focal_widths(frame);
+  return {.image = frame.at("file_path").get<std::string>(),
+          .center = column(3),
+          .right = normalized(column(0)),
+          .down = normalized(times(-1, column(1))),
+          .ahead = normalized(times(-1, column(2))),
+          .focal_widths = own > 0 ? own : focal};
+}
+
+}  // namespace
+
+std::vector<CameraPose> read_nerf_poses(const std::filesystem::path& path) {
+  try {
+    const Json json = read_json<Json>(path);
+    const double focal = focal_widths(json);
+    std::vector<CameraPose> poses;
+    for (const Json& frame : json.at("frames")) poses.push_back(pose_of(frame, focal));
+    return poses;
+  } catch (const Json::exception& error) {
+    throw IoError(path, std::string("these are no poses of cameras (") + error.what() +
+                            "); export them again or remove the file");
+  } catch (const InvalidInput& error) {
+    throw IoError(path, std::string("these are no poses of cameras (") + error.what() +
+                            "); export them again or remove the file");
+  } catch (const std::out_of_range&) {
+    throw IoError(path,
+                  "a transform_matrix has less than 3 rows of 4 numbers; export it again or "
+                  "remove the file");
+  }
+}
+
+namespace {
+
+struct PoseForm {
+  const char* name;
+  std::vector<CameraPose> (*read)(const fs::path&);
+  const char* cameras = nullptr;  ///< A file beside it that is read, too.
+};
+
+constexpr PoseForm kForms[] = {{"transforms.json", read_nerf_poses},
+                               {"poses_bounds.npy", read_llff_poses},
+                               {"images.txt", read_colmap_poses, "cameras.txt"},
+                               {"images.bin", read_binary_colmap_poses, "cameras.bin"}};
+
+constexpr std::array kParts{"train", "val", "test"};  ///< Of data sets for learning.
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+/// The last folder and the name, which with and without a suffix are the same image.
+fs::path place_of(std::string image) {
+  std::ranges::replace(image, '\\', '/');
+  const fs::path path = image;
+  return path.parent_path().filename() / path.stem();
+}
+
+/// The poses of images by folder and name, or by name alone where no folder agrees.
+void match_names(const std::vector<CameraPose>& all, const std::vector<fs::path>& images,
+                 FoundPoses& found) {
+  for (const bool by_folder : {true, false}) {
+    const auto key_of = [&](const std::string& image) {
+      const fs::path place = place_of(image);
+      return by_folder ? place : place.filename();
+    };
+    std::map<fs::path, const CameraPose*> by_name;
+    for (const CameraPose& pose : all) by_name.emplace(key_of(pose.image), &pose);
+    for (const fs::path& image : images) {
+      const auto named = by_name.find(key_of(image.string()));
+      if (named == by_name.end()) continue;
+      found.poses.push_back(*named->second);
+      found.images.push_back(image);
+    }
+    if (!found.images.empty()) return;
+  }
+  found.problem = "it knows none of the images";
+}
+
+/// The poses of the images, in their order where there are no names.
+void match(std::vector<CameraPose> all, const std::vector<fs::path>& images, FoundPoses& found) {
+  const bool has_names = !all.empty() && !all.front().image.empty();
+  if (has_names) {
+    match_names(all, images, found);
+  } else if (all.size() == images.size()) {
+    found.poses = std::move(all);
+    found.images = images;
+  } else {
+    found.problem = fmt::format("it has {} poses for {} images", all.size(), images.size());
+  }
+}
+
+FoundPoses read_form(const fs::path& folder, const PoseForm& form,
+                     const std::vector<fs::path>& images) {
+  const fs::path file = folder / form.name;
+  FoundPoses found{.files = {file}, .poses = {}, .images = {}, .problem = {}};
+  if (form.cameras && is_file(folder / form.cameras)) found.files.push_back(folder / form.cameras);
+  try {
+    match(form.read(file), images, found);
+  } catch (const IoError& damaged) {
+    const std::string text = damaged.what();
+    const std::string path = damaged.path().string() + ": ";
+    found.problem = text.starts_with(path) ? text.substr(path.size()) : text;
+  }
+  return found;
+}
+
+std::string part_file(const char* part) {
+  return fmt::format("transforms_{}.json", part);
+}
+
+/// All parts together, then each; an image of several parts counts once.
+std::vector<FoundPoses> read_parts(const fs::path& folder, const std::vector<fs::path>& images) {
+  std::vector<FoundPoses> parts;
+  FoundPoses all;
+  std::set<fs::path> known;
+  for (const char* part : kParts) {
+    const std::string name = part_file(part);
+    if (!is_file(folder / name)) continue;
+    FoundPoses found = read_form(folder, {name.c_str(), read_nerf_poses}, images);
+    if (found.problem.empty()) {
+      all.files.push_back(found.files.front());
+      for (std::size_t i = 0; i < found.images.size(); ++i) {
+        if (!known.insert(found.images[i]).second) continue;
+        all.images.push_back(found.images[i]);
+        all.poses.push_back(found.poses[i]);
+      }
+    }
+    parts.push_back(std::move(found));
+  }
+  std::ranges::stable_sort(parts, {}, [](const FoundPoses& part) { return !part.problem.empty(); });
+  if (all.files.size() > 1) parts.insert(parts.begin(), std::move(all));
+  return parts;
+}
+
+}  // namespace
+
+std::vector<FoundPoses> find_poses(const fs::path& folder, const fs::path& scene,
+                                   const std::vector<fs::path>& images) {
+  for (const fs::path& base : {folder, scene}) {
+    for (const char* inside : {"", "sparse/0", "sparse", "colmap"}) {
+      for (const PoseForm& form : kForms) {
+        if (is_file(base / inside / form.name)) return {read_form(base / inside, form, images)};
+      }
+    }
+    if (auto parts = read_parts(base, images); !parts.empty()) return parts;
+  }
+  return {};
+}
+
+std::vector<fs::path> folders_of_parts(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  for (const char* part : kParts) {
+    std::error_code error;
+    if (is_file(folder / part_file(part)) && fs::is_directory(folder / part, error)) {
+      folders.push_back(folder / part);
+    }
+  }
+  return folders;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/result_file.h"
+
+#include "engine/core/error.h"
+#include "engine/core/hash.h"
+#include "engine/core/numbers.h"
+#include "engine/core/version.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/json.h"
+#include "engine/io/models/external_result.h"
+#include "engine/io/models/stored_maps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace episcope::io {
+namespace {
+
+/// Bytes of all maps, with some room for the structure of the file.
+std::uintmax_t result_bytes(const Estimate& estimate) {
+  std::uintmax_t bytes = 1 << 16;
+  for (const DisparityField* field :
+       {&estimate.field, &estimate.layered.foreground, &estimate.layered.background}) {
+    if (!field->empty()) bytes += field->disparity.size() * sizeof(float);
+    if (!field->valid.empty()) bytes += field->valid.size();
+  }
+  if (!estimate.confidence.empty()) bytes += estimate.confidence.size() * sizeof(float);
+  if (!estimate.layered.layers.empty()) bytes += estimate.layered.layers.size();
+  return bytes;
+}
+
+std::vector<std::string> split_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+void write_layers(Hdf5Output& file, const LayeredDisparity& layered, const Progress& progress) {
+  const auto write = [&](const DisparityField& field, const char* name, const char* valid) {
+    if (field.empty()) return;
+    write_disparity(file, in_group(name), field, progress);
+    if (!field.valid.empty()) write_stack(file, in_group(valid), field.valid, "", progress);
+  };
+  write(layered.foreground, "disparity_foreground", "valid_foreground");
+  write(layered.background, "disparity_background", "valid_background");
+  if (!layered.layers.empty()) {
+    write_stack(file, in_group("layers"), layered.layers, "surfaces", progress);
+  }
+}
+
+/// Reads the maps of an own result file, which all have the same views.
+class ResultReader {
+ public:
+  ResultReader(const std::filesystem::path& path, GridShape grid) : file_(path), grid_(grid) {}
+
+  [[nodiscard]] Estimate read() const {
+    Estimate estimate;
+    estimate.field = read_field("disparity", "valid");
+    estimate.confidence = read_if_there<float>("confidence");
+    estimate.layered.foreground = read_field_if_there("disparity_foreground", "valid_foreground");
+    estimate.layered.background = read_field_if_there("disparity_background", "valid_background");
+    estimate.layered.layers = read_if_there<std::uint8_t>("layers");
+    read_provenance(estimate);
+    return estimate;
+  }
+
+ private:
+  [[nodiscard]] ViewIndex first_view(bool is_single) const {
+    const std::vector<double> view = file_.numbers(kResultGroup, is_single ? "view" : "first_view");
+    if (view.size() == 2) return {whole_int(view[0]).value_or(-1), whole_int(view[1]).value_or(-1)};
+    return is_single ? grid_.center() : ViewIndex{};
+  }
+
+  template <class T>
+  [[nodiscard]] ViewStack<T> read_stack(const char* name) const {
+    const Hdf5Dataset map = file_.dataset(in_group(name));
+    const std::size_t rank = map.shape.size();
+    if (rank != 2 && rank != 4) {
+      throw IoError(
+          file_.path(),
+          fmt::format("the dataset {} has {} axes, but 2 or 4 are expected; write the result again",
+                      map.name, rank));
+    }
+    const auto length = [&](std::size_t axis) { return static_cast<int>(map.shape[axis]); };
+    const GridShape views = rank == 2 ? GridShape{1, 1} : GridShape{length(0), length(1)};
+    const ViewIndex first = first_view(views == GridShape{1, 1});
+    const bool fits = views.v > 0 && views.u > 0 && grid_.contains(first) &&
+                      views.v <= grid_.v - first.v && views.u <= grid_.u - first.u;
+    if (!fits || length(rank - 2) < 1 || length(rank - 1) < 1) {
+      throw IoError(file_.path(),
+                    fmt::format("the dataset {} of {} does not fit a light field of {}×{} views; "
+                                "name the light field that it belongs to",
+                                map.name, shape_text(map.shape), grid_.v, grid_.u));
+    }
+    ViewStack<T> stack(views, length(rank - 2), length(rank - 1), 1, first);
+    file_.read(map.name, {Hdf5Shape(rank, 0), map.shape}, stack.data());
+    return stack;
+  }
+
+  template <class T>
+  [[nodiscard]] ViewStack<T> read_if_there(const char* name) const {
+    return file_.has(in_group(name)) ? read_stack<T>(name) : ViewStack<T>();
+  }
+
+  [[nodiscard]] DisparityField read_field(const char* name, const char* valid) const {
+    DisparityField field{read_stack<float>(name), read_if_there<std::uint8_t>(valid)};
+    if (!field.valid.empty() && field.valid.size() != field.disparity.size()) {
+      throw IoError(file_.path(), "the datasets " + in_group(name) + " and " + in_group(valid) +
+                                      " differ in size; write the result again");
+    }
+    mark_invalid(field);
+    return field;
+  }
+
+  [[nodiscard]] DisparityField read_field_if_there(const char* name, const char* valid) const {
+    return file_.has(in_group(name)) ? read_field(name, valid) : DisparityField{};
+  }
+
+  void read_provenance(Estimate& estimate) const {
+    const auto text = [&](const char* name) { return file_.text(kResultGroup, name).value_or(""); };
+    estimate.method = text("method");
+    estimate.parameters = parameters_from_json(text("parameters"));
+    estimate.seconds = file_.number(kResultGroup, "seconds").value_or(0);
+    estimate.version = text("version");
+    estimate.source = text("source");
+    estimate.source_hash = hash_from_digits(text("source_hash"));
+    estimate.reading = reading_in(file_, kResultGroup);
+    estimate.notes = split_lines(text("notes"));
+    constexpr int widest = 1 << 16;
+    const double border_px = file_.number(kResultGroup, "border_px").value_or(0);
+    estimate.border_px = std::clamp(whole_int(border_px).value_or(0), 0, widest);
+    const std::vector<double> range = file_.numbers(kResultGroup, "range");
+    if (range.size() == 2) estimate.range = {range[0], range[1]};
+  }
+
+  Hdf5Input file_;
+  GridShape grid_;
+};
+
+}  // namespace
+
+void write_result(const std::filesystem::path& path, const Estimate& estimate,
+                  const Progress& progress, const std::optional<std::string>& source) {
+  if (estimate.field.empty()) throw InvalidInput("an estimate without disparity cannot be written");
+  progress.check();
+  AtomicFile target(path, result_bytes(estimate));
+  Hdf5Output file(target);
+  file.add_group(kResultGroup);
+  write_disparity(file, in_group("disparity"), estimate.field, progress.part(0, 0.5));
+  if (!estimate.field.valid.empty()) {
+    write_stack(file, in_group("valid"), estimate.field.valid, "", progress.part(0.5, 0.6));
+  }
+  if (!estimate.confidence.empty()) {
+    write_stack(file, in_group("confidence"), estimate.confidence, "", progress.part(0.6, 0.9));
+  }
+  write_layers(file, estimate.layered, progress.part(0.9, 1));
+  write_provenance(file, estimate, geometry_of(estimate.field.disparity),
+                   source.value_or(estimate.source));
+  file.close();
+  progress.check();
+  target.commit();
+}
+
+Estimate read_result(const std::filesystem::path& path, GridShape grid, const std::string& scene) {
+  if (is_result_file(path)) return ResultReader(path, grid).read();
+  return read_external_result(path, grid, scene);
+}
+
+Reading read_reading(const std::filesystem::path& path) {
+  return is_result_file(path) ? reading_in(Hdf5Input(path), kResultGroup) : Reading{};
+}
+
+bool is_result_file(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path) || !has_hdf5_signature(path)) return false;
+  return Hdf5Input(path).has(kResultGroup);
+}
+
+namespace {
+
+std::string join_lines(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+}  // namespace
+
+std::string in_group(const char* name) {
+  return std::string(kResultGroup) + "/" + name;
+}
+
+void write_provenance(Hdf5Output& file, const Provenance& estimate, const MapGeometry& maps,
+                      const std::string& source) {
+  file.set_text(kResultGroup, "method", estimate.method);
+  file.set_text(kResultGroup, "parameters", parameters_to_json(estimate.parameters));
+  file.set_number(kResultGroup, "seconds", estimate.seconds);
+  file.set_text(kResultGroup, "version", estimate.version.empty() ? kVersion : estimate.version);
+  file.set_text(kResultGroup, "source", source);
+  if (estimate.source_hash != 0) {
+    file.set_text(kResultGroup, "source_hash", hash_digits(estimate.source_hash));
+  }
+  write_reading(file, kResultGroup, estimate.reading);
+  if (!(estimate.range == Interval{})) {
+    file.set_numbers(kResultGroup, "range", {estimate.range.min, estimate.range.max});
+  }
+  if (maps.grid.count() == 1) {
+    file.set_integers(kResultGroup, "view", {maps.first.v, maps.first.u});
+  } else if (!(maps.first == ViewIndex{})) {
+    file.set_integers(kResultGroup, "first_view", {maps.first.v, maps.first.u});
+  }
+  if (!estimate.notes.empty()) file.set_text(kResultGroup, "notes", join_lines(estimate.notes));
+  if (estimate.border_px > 0) file.set_number(kResultGroup, "border_px", estimate.border_px);
+}
+
+void write_reading(Hdf5Output& file, const std::string& group, const Reading& reading) {
+  if (reading.reader.empty()) return;
+  file.set_text(group, "reader", reading.reader);
+  file.set_text(group, "reading", parameters_to_json(reading.options));
+}
+
+Reading reading_in(const Hdf5Input& file, const std::string& group) {
+  const auto options = file.text(group, "reading");
+  return {file.text(group, "reader").value_or(""),
+          options ? parameters_from_json(*options) : ParameterSet()};
+}
+
+}  // namespace episcope::io

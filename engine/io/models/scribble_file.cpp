@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/scribble_file.h"
+
+#include "engine/core/error.h"
+#include "engine/core/numbers.h"
+#include "engine/core/shear.h"
+#include "engine/core/text.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/models/label_list.h"
+#include "engine/io/models/order/view_order.h"
+#include "engine/io/models/stored_maps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kScribbles = "SCRIBBLES";
+constexpr const char* kOwner = "light_field";
+
+FieldShape shape_of(const Scene& scene) {
+  const LightField& field = *scene.light_field;
+  return {field.grid(), field.height(), field.width()};
+}
+
+/// With the views that were left out on opening.
+FieldShape stored_shape_of(const Scene& scene) {
+  FieldShape shape = shape_of(scene);
+  if (scene.convention.crop.leaves_out()) shape.grid = scene.convention.crop.stored;
+  return shape;
+}
+
+/// Name of the light-field file, if it is one that labels may lie beside.
+std::string owner_name(const Scene& scene) {
+  const fs::path source = scene.light_field->info().source;
+  std::error_code ignored;
+  return fs::is_regular_file(source, ignored) ? source.filename().string() : std::string();
+}
+
+/// What must stay of the file that is there; empty if there is none.
+std::unique_ptr<Hdf5Input> open_former(const fs::path& path, const Scene& scene) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return nullptr;
+  auto former = std::make_unique<Hdf5Input>(path);
+  if (former->has("LF")) {
+    throw IoError(path,
+                  "this file holds a light field and is not overwritten; save scribbles beside it, "
+                  "for example as labels.h5");
+  }
+  const auto owner = former->text("/", kOwner);
+  const std::string name = owner_name(scene);
+  if (owner && !name.empty() && *owner != name) {
+    throw IoError(path, "these labels belong to the light field " + *owner + ", not to " + name +
+                            "; choose another name");
+  }
+  return former;
+}
+
+void require_fitting(const fs::path& path, const Scribbles& scribbles, const FieldShape& shape) {
+  for (const auto& [view, labels] : scribbles.views) {
+    if (shape.grid.contains(view) && labels.height() == shape.height &&
+        labels.width() == shape.width) {
+      continue;
+    }
+    throw IoError(path, fmt::format("scribbles of {}×{} px on view ({}) do not fit the light field "
+                                    "of {}×{} views of {}×{} px; open the one that they belong to",
+                                    labels.height(), labels.width(), view_text(view), shape.grid.v,
+                                    shape.grid.u, shape.height, shape.width));
+  }
+}
+
+std::uintmax_t file_bytes(const Scribbles& scribbles, const FieldShape& shape,
+                          const fs::path& former) {
+  std::error_code error;
+  const std::uintmax_t kept = fs::file_size(former, error);
+  const int views = scribbles.views.size() > 1 ? shape.grid.count() : 1;
+  return (error ? 0 : kept) +
+         sizeof(std::int32_t) * static_cast<std::uintmax_t>(views) * shape.height * shape.width +
+         (1 << 16);
+}
+
+/// In canonical order, on all views as they are stored.
+Scribbles read_stored(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
+  const FieldShape shape = stored_shape_of(scene);
+  StoredScribbles stored =
+      read_scribble_dataset(file, shape, scene.convention.raised_labels, progress);
+  put_in_order(stored.scribbles, shape.grid, flip_of(scene.convention));
+  return std::move(stored.scribbles);
+}
+
+/// On the views of the scene, as these are stored.
+Scribbles read_unmoved(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
+  Scribbles stored = read_stored(file, scene, progress);
+  const ViewCrop& crop = scene.convention.crop;
+  return crop.leaves_out() ? cropped(std::move(stored), crop) : stored;
+}
+
+/// As they belong on the views as they are stored, where `former` may have more.
+Scribbles put_back(const Scribbles& scribbles, const Hdf5Input* former, const Scene& scene,
+                   const Progress& progress) {
+  const bool has_more = former && former->has(kScribbles);
+  const auto before = [&](auto& read) {
+    return has_more ? read(*former, scene, progress) : Scribbles();
+  };
+  const ViewCrop& crop = scene.convention.crop;
+  Scribbles unmoved = unsheared(scribbles, before(read_unmoved), scene.light_field->center(),
+                                scene.convention.focus_px);
+  return crop.leaves_out() ? uncropped(std::move(unmoved), before(read_stored), crop) : unmoved;
+}
+
+}  // namespace
+
+Scribbles read_scribbles(const fs::path& path, const Scene& scene, const Progress& progress) {
+  Scribbles stored = read_unmoved(Hdf5Input(path), scene, progress);
+  const double focus_px = scene.convention.focus_px;
+  return focus_px == 0 ? std::move(stored) : sheared(stored, scene.light_field->center(), focus_px);
+}
+
+void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Scene& scene,
+                     const Progress& progress) {
+  progress.check();
+  require_fitting(path, scribbles, shape_of(scene));
+  const FieldShape shape = stored_shape_of(scene);
+  const std::unique_ptr<Hdf5Input> former = open_former(path, scene);
+  const bool is_as_stored = scene.convention.focus_px == 0 && !scene.convention.crop.leaves_out();
+  const Scribbles moved =
+      is_as_stored ? Scribbles() : put_back(scribbles, former.get(), scene, progress);
+  const Scribbles& stored = is_as_stored ? scribbles : moved;
+  AtomicFile target(path, file_bytes(stored, shape, path));
+  Hdf5Output file(target);
+  const std::string owner = owner_name(scene);
+  if (former) {
+    file.copy_all(*former, {kScribbles, "scribble_view"});
+  } else if (!owner.empty()) {
+    file.set_text("/", kOwner, owner);
+  }
+  const bool raises_labels = former && former->has(kTrueLabels) && scene.convention.raised_labels;
+  add_scribbles(file, stored, {shape, flip_of(scene.convention), raises_labels}, progress);
+  file.close();
+  progress.check();
+  target.commit();
+}
+
+namespace {
+
+constexpr const char* kName = "SCRIBBLES";
+
+struct Census {
+  std::size_t zeros = 0;
+  std::size_t nones = 0;  ///< −1 or 255.
+  std::size_t painted = 0;
+};
+
+bool is_none(std::int32_t label) {
+  return label == -1 || label == 255;
+}
+
+void count(const Image<std::int32_t>& labels, Census& census) {
+  for (const std::int32_t label : labels) {
+    if (label == 0) {
+      ++census.zeros;
+    } else if (is_none(label)) {
+      ++census.nones;
+    } else {
+      ++census.painted;
+    }
+  }
+}
+
+/// A view of nothing but one value that means "none" somewhere is not painted.
+bool is_painted(const Image<std::int32_t>& labels) {
+  Census census;
+  count(labels, census);
+  return census.painted > 0 || (census.zeros > 0 && census.nones > 0);
+}
+
+ViewIndex stated_view(const Hdf5Input& file, const FieldShape& shape, ViewIndex otherwise) {
+  const std::vector<double> stated = file.numbers("/", "scribble_view");
+  if (stated.size() != 2) return otherwise;
+  const ViewIndex view{whole_int(stated[0]).value_or(-1), whole_int(stated[1]).value_or(-1)};
+  if (!shape.grid.contains(view)) {
+    throw IoError(file.path(), fmt::format("the attribute scribble_view names view ({}, {}), which "
+                                           "the light field does not have; correct it",
+                                           view.v, view.u));
+  }
+  return view;
+}
+
+std::vector<ViewScribbles> read_views(const Hdf5Input& file, const FieldShape& shape,
+                                      const Progress& progress) {
+  const ViewStack<std::int32_t> stack = read_maps<std::int32_t>(file, kName, shape, progress);
+  std::vector<ViewScribbles> views;
+  for (int i = 0; i < stack.grid().count(); ++i) {
+    const ViewIndex view = stack.view_at(i);
+    Image<std::int32_t> labels(shape.height, shape.width);
+    std::copy_n(stack.view(view).data, labels.size(), labels.data());
+    views.push_back({view, std::move(labels)});
+  }
+  if (views.size() == 1) views[0].view = stated_view(file, shape, views[0].view);
+  return views;
+}
+
+/// Ids of other programs. Returns whether they were raised.
+bool decode(std::vector<ViewScribbles>& views, bool has_label_zero) {
+  std::erase_if(views, [](const ViewScribbles& one) { return !is_painted(one.labels); });
+  Census census;
+  for (const ViewScribbles& one : views) count(one.labels, census);
+  const bool is_zero_a_label = census.zeros > 0 && census.nones > census.zeros && has_label_zero;
+  for (ViewScribbles& one : views) {
+    for (std::int32_t& label : one.labels) {
+      if (is_none(label)) {
+        label = 0;
+      } else if (is_zero_a_label) {
+        raise_label(label);
+      }
+    }
+  }
+  return is_zero_a_label;
+}
+
+}  // namespace
+
+StoredScribbles read_scribble_dataset(const Hdf5Input& file, const FieldShape& shape,
+                                      bool has_label_zero, const Progress& progress) {
+  StoredScribbles stored;
+  std::vector<ViewScribbles>& views = stored.scribbles.views;
+  views = read_views(file, shape, progress);
+  if (const auto unpainted = file.number(kName, "unpainted")) {
+    const std::int32_t none = whole_int(*unpainted).value_or(0);
+    for (ViewScribbles& one : views) std::ranges::replace(one.labels, none, 0);
+    stored.raises_labels = file.number(kName, "raises_labels").value_or(0) != 0;
+  } else {
+    stored.raises_labels = decode(views, has_label_zero);
+  }
+  std::erase_if(views, [](const ViewScribbles& one) {
+    return std::ranges::all_of(one.labels, [](std::int32_t label) { return label == 0; });
+  });
+  stored.scribbles.labels = read_label_list(file, kName);
+  return stored;
+}
+
+void put_in_order(Scribbles& scribbles, GridShape grid, ViewFlip flip) {
+  for (ViewScribbles& one : scribbles.views) one.view = flipped(one.view, grid, flip);
+  std::ranges::sort(scribbles.views, {},
+                    [](const ViewScribbles& one) { return std::pair(one.view.v, one.view.u); });
+}
+
+void add_scribbles(Hdf5Output& file, const Scribbles& scribbles, const ScribblePlace& place,
+                   const Progress& progress) {
+  const FieldShape& shape = place.shape;
+  const Image<std::int32_t> bare(shape.height, shape.width);
+  const bool has_many = scribbles.views.size() > 1;
+  MapGeometry maps{{1, 1}, shape.grid.center(), shape.height, shape.width};
+  if (has_many) maps = {shape.grid, {}, shape.height, shape.width};
+  if (scribbles.views.size() == 1) {
+    maps.first = flipped(scribbles.views[0].view, shape.grid, place.flip);
+  }
+  write_maps<std::int32_t>(file, kName, maps, "", progress, [&](ViewIndex stored) {
+    const auto painted = std::ranges::find(scribbles.views, flipped(stored, shape.grid, place.flip),
+                                           &ViewScribbles::view);
+    return painted == scribbles.views.end() ? bare.data() : painted->labels.data();
+  });
+  if (!has_many) file.set_integers("/", "scribble_view", {maps.first.v, maps.first.u});
+  file.set_integers(kName, "unpainted", {0});
+  if (place.raises_labels) file.set_integers(kName, "raises_labels", {1});
+  add_label_list(file, kName, scribbles.labels);
+}
+
+namespace {
+
+constexpr int kRgba = 4;
+
+std::string stem_of(ViewIndex view) {
+  return fmt::format("scribbles_{:02}_{:02}", view.v, view.u);
+}
+
+std::optional<ViewIndex> view_of(const std::string& name) {
+  static const std::regex pattern("scribbles_([0-9]{2,5})_([0-9]{2,5})\\.png");
+  std::smatch found;
+  if (!std::regex_match(name, found, pattern)) return std::nullopt;
+  return ViewIndex{std::stoi(found[1]), std::stoi(found[2])};
+}
+
+template <class T>
+void write_ids(const fs::path& path, const Image<std::int32_t>& labels) {
+  Image<T> ids(labels.height(), labels.width());
+  std::ranges::transform(labels, ids.begin(), [](std::int32_t id) { return static_cast<T>(id); });
+  write_png(path, ids.view());
+}
+
+Image<std::uint8_t> preview(const Image<std::int32_t>& labels,
+                            const std::vector<LabelInfo>& known) {
+  Image<std::uint8_t> picture(labels.height(), labels.width(), kRgba);
+  std::uint8_t* pixel = picture.data();
+  for (const std::int32_t id : labels) {
+    if (id > 0) {
+      const auto label = std::ranges::find(known, id, &LabelInfo::id);
+      const Rgb color = label == known.end() ? label_color(id) : label->color;
+      std::ranges::copy(color, pixel);
+      pixel[kRgba - 1] = 255;
+    }
+    pixel += kRgba;
+  }
+  return picture;
+}
+
+ViewIndex require_view(const fs::path& path, ViewIndex view, GridShape grid) {
+  if (grid.contains(view)) return view;
+  throw IoError(path, "the light field has no view (" + view_text(view) +
+                          "); choose pictures of this light field");
+}
+
+ViewScribbles read_picture(const fs::path& path, ViewIndex view, const PixelIndex& size) {
+  ViewScribbles one{view, decode_numbers(path)};
+  if (one.labels.height() == size.y && one.labels.width() == size.x) return one;
+  throw IoError(
+      path,
+      fmt::format(
+          "the picture has {}×{} px, but views have {}×{} px; choose pictures of this light field",
+          one.labels.height(), one.labels.width(), size.y, size.x));
+}
+
+}  // namespace
+
+std::vector<fs::path> write_scribble_pictures(const fs::path& folder, const Scribbles& scribbles) {
+  std::vector<fs::path> written;
+  for (const auto& [view, labels] : scribbles.views) {
+    const std::string stem = stem_of(view);
+    written.push_back(folder / (stem + ".png"));
+    const bool fits_byte = std::ranges::all_of(labels, [](std::int32_t id) { return id <= 255; });
+    if (fits_byte) {
+      write_ids<std::uint8_t>(written.back(), labels);
+    } else {
+      write_ids<std::uint16_t>(written.back(), labels);
+    }
+    written.push_back(folder / (stem + "_preview.png"));
+    write_png(written.back(), preview(labels, scribbles.labels).view());
+  }
+  return written;
+}
+
+bool holds_scribble_pictures(const fs::path& path) {
+  constexpr std::array kSuffixes{".png", ".bmp", ".tif", ".tiff", ".pgm"};
+  std::error_code ignored;
+  return fs::is_directory(path, ignored) ||
+         std::ranges::find(kSuffixes, suffix_of(path)) != kSuffixes.end();
+}
+
+Scribbles read_scribble_pictures(const fs::path& path, GridShape grid, int height, int width) {
+  std::error_code error;
+  Scribbles scribbles;
+  if (!fs::is_directory(path, error)) {
+    const ViewIndex view = view_of(path.filename().string()).value_or(grid.center());
+    scribbles.views.push_back(read_picture(path, require_view(path, view, grid), {height, width}));
+    return scribbles;
+  }
+  const fs::path& folder = path;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const auto view = view_of(entry.path().filename().string());
+    if (!view) continue;
+    scribbles.views.push_back(
+        read_picture(entry.path(), require_view(entry.path(), *view, grid), {height, width}));
+  }
+  if (error) throw IoError(folder, "the folder cannot be read; check its permissions");
+  if (scribbles.empty()) {
+    throw IoError(folder, "there is no picture scribbles_<v>_<u>.png here; choose another folder");
+  }
+  std::ranges::sort(scribbles.views, {},
+                    [](const ViewScribbles& one) { return std::pair(one.view.v, one.view.u); });
+  return scribbles;
+}
+
+ViewStack<std::int32_t> read_true_labels(const std::filesystem::path& path, const Scene& scene,
+                                         const Progress& progress) {
+  const Hdf5Input file(path);
+  const LightField& field = *scene.light_field;
+  const ViewCrop& crop = scene.convention.crop;
+  const FieldShape shape{crop.leaves_out() ? crop.stored : field.grid(), field.height(),
+                         field.width()};
+  auto labels = read_maps<std::int32_t>(file, kTrueLabels, shape, progress);
+  if (scene.convention.raised_labels) {
+    std::for_each(labels.data(), labels.data() + labels.size(), raise_label);
+  }
+  reverse_views(labels, shape.grid, flip_of(scene.convention));
+  if (crop.leaves_out()) labels = cropped(std::move(labels), crop);
+  const double focus_px = scene.convention.focus_px;
+  return focus_px == 0 ? std::move(labels) : sheared(labels, field.center(), focus_px, progress);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/camera_grid.h"
+#include "engine/core/disparity_field.h"
+#include "engine/core/light_field.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// What numbers of a disparity map may mean: times `factor` they are px per view step.
+struct MapUnit {
+  double factor = 1;
+  std::string text;  ///< "px per view step", "px over the 8 steps of the whole baseline", …
+};
+
+/// Units in use, the most common first, for maps of these views.
+[[nodiscard]] std::vector<MapUnit> common_units(GridShape grid, int width);
+
+/// How well a map explains the views next to its own.
+struct Explanation {
+  double error = 0;  ///< Mean grey error (0 … 255) after warping, each axis in its better order,
+  double unwarped = 0;         ///< and without warping.
+  bool is_transposed = false;  ///< Rows and columns of views are exchanged.
+  bool reversed_u = false;     ///< The better order of each axis of the image,
+  bool reversed_v = false;     ///< x and y.
+
+  [[nodiscard]] bool is_good() const { return error < 0.9 * unwarped; }
+};
+
+/// Warps the neighbours of view `at` with the map times `factor`, in the stored order of views and
+/// in the exchanged one. Linear in the pixels.
+[[nodiscard]] Explanation explain_views(const LightField::Samples& samples, ViewIndex at,
+                                        const DisparityView& map, double factor);
+
+/// The unit that explains the views; the first one unless another explains them clearly better.
+struct SettledUnit {
+  MapUnit unit;
+  Explanation explanation;
+  Explanation first;  ///< By the first of the units, for comparison.
+};
+/// Precondition: `units` is not empty.
+[[nodiscard]] SettledUnit settle_unit(const LightField::Samples& samples, ViewIndex at,
+                                      const DisparityView& map, const std::vector<MapUnit>& units);
+
+/// Which values of a disparity map hide the others: where two pixels of a view fall on the same
+/// pixel of another view, that one shows the nearer of them.
+struct NearSide {
+  double larger = 0;   ///< Mean grey error (0 … 255) of the pixels of larger disparity,
+  double smaller = 0;  ///< and of those of smaller disparity.
+  int points = 0;      ///< Pairs that were compared.
+  double doubt = 0;    ///< Standard error of the difference of these means.
+
+  [[nodiscard]] bool is_decided() const;
+  [[nodiscard]] bool larger_is_nearer() const { return larger < smaller; }
+};
+
+/// Moves view `at` by the map times `factor` into views up to four steps away, in the order of
+/// views that `explanation` found, and compares pairs of clearly different grey: first by 15
+/// levels, where that decides nothing by more than noise. The order alone does not tell near from
+/// far: reversing it together with the signs moves every pixel to the same place. Linear in the
+/// pixels.
+[[nodiscard]] NearSide find_near_side(const LightField::Samples& samples, ViewIndex at,
+                                      const DisparityView& map, double factor,
+                                      const Explanation& explanation);
+
+/// What the nearer values do, for reports: "hide others in other views (…)".
+[[nodiscard]] std::string hiding_text(const NearSide& side);
+
+/// Whether larger values of a disparity map are nearer.
+struct TruthSign {
+  bool is_negated = false;  ///< Values are to be negated.
+  bool is_known = false;    ///< Else it is only assumed.
+  std::string evidence;     ///< For reports; empty if values are assumed to be as they should.
+};
+
+/// What `side` says; else what hides what in the views (`check_sign`), in the order that
+/// `explanation` found for them. Where that is not decided either, values are negated if only that
+/// puts the views into the order in which they are stored, since maps of the other sign are more
+/// common than views that run backwards along every axis.
+[[nodiscard]] TruthSign find_truth_sign(const LightField::Samples& samples, const NearSide& side,
+                                        const Explanation& explanation);
+
+/// The camera that turns a depth map into a disparity map: d = a/Z − b.
+struct DepthFit {
+  double a = 0;            ///< B·f: px · unit of depth. Negative if disparity grows with depth.
+  double b = 0;            ///< Δx: px.
+  double exact_share = 0;  ///< Of the pixels, that agree within 0.01 px.
+  std::size_t pixels = 0;
+
+  /// Whether the two maps state the same. Depth far away may be cut off (a sky), so that not all
+  /// pixels need to agree.
+  [[nodiscard]] bool is_exact() const { return pixels >= 100 && exact_share > 0.9 && a != 0; }
+  /// With B = a and f = 1. Precondition: `a` > 0.
+  [[nodiscard]] CameraGrid camera() const;
+};
+
+/// Least squares over pixels that are valid in both maps of the same size and agree with the best
+/// of the lines through pairs of them (RANSAC, seeded). `factor` is applied to the disparity.
+[[nodiscard]] DepthFit fit_depth(const DisparityView& disparity, double factor,
+                                 const DisparityView& depth);
+
+}  // namespace episcope::io

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/sidecar_maps/find_maps.h"
+
+#include "engine/core/text.h"
+#include "engine/io/models/names/views_folder.h"
+#include "engine/io/models/sidecar_maps/map_file.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFiles = 200'000;
+constexpr int kLeftOut = -1;  ///< Instead of the number of a view that is not opened.
+
+/// One or two numbers that vary among names: a count, or a row and a column.
+using Key = std::vector<long>;
+
+bool has_map_suffix(const fs::path& path) {
+  constexpr std::array<std::string_view, 15> suffixes{".npy",  ".npz", ".pfm", ".png",  ".tif",
+                                                      ".tiff", ".exr", ".bmp", ".pgm",  ".jpg",
+                                                      ".jpeg", ".mat", ".h5",  ".hdf5", ".gif"};
+  return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
+}
+
+std::vector<fs::path> list_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const bool is_hidden = it->path().filename().string().starts_with('.');
+    std::error_code ignored;
+    const bool may_be_map = has_map_suffix(it->path()) || has_text_suffix(it->path());
+    if (is_hidden || !it->is_regular_file(ignored) || !may_be_map) continue;
+    files.push_back(it->path());
+    if (files.size() == kMostFiles) break;
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+std::vector<fs::path> map_folders_in(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    // Links are not followed: they may lead around in circles.
+    if (it->is_symlink(ignored) || !it->is_directory(ignored)) continue;
+    if (is_map_folder(it->path().filename().string())) folders.push_back(it->path());
+  }
+  std::ranges::sort(folders);
+  return folders;
+}
+
+/// Whether the folder is only that of the pictures of a scene, whose other files lie beside it.
+bool is_inner_folder(const fs::path& folder) {
+  constexpr std::array<std::string_view, 12> names{"lf",    "views", "images", "rectified",
+                                                   "image", "rgb",   "color",  "input",
+                                                   "sai",   "sais",  "png",    "subaperture"};
+  const std::string name = numbered_name(folder.filename().string()).text;
+  return std::ranges::find(names, name) != names.end() ||
+         only_grid_inside(folder.parent_path()) == folder;
+}
+
+/// Places of the first two numbers that vary.
+std::vector<std::size_t> varying_places(const std::vector<NumberedName>& names) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < names.front().numbers.size() && places.size() < 2; ++i) {
+    const bool varies = std::ranges::any_of(names, [&](const NumberedName& name) {
+      return name.numbers[i] != names.front().numbers[i];
+    });
+    if (varies) places.push_back(i);
+  }
+  return places;
+}
+
+Key key_of(const NumberedName& name, const std::vector<std::size_t>& places) {
+  Key key;
+  for (const std::size_t place : places) key.push_back(name.numbers[place]);
+  return key;
+}
+
+/// The numbers by which names of views tell them apart.
+struct ViewKeys {
+  std::map<Key, int> view_of;
+  std::map<std::string, int> view_by_stem;
+  std::size_t length = 0;  ///< 1 or 2; 0 if names do not tell.
+  GridShape grid;
+  std::optional<PartOfGrid> part;
+
+  /// The number of a view that is counted in the whole grid; `kLeftOut` for one left out.
+  [[nodiscard]] int number_of(ViewIndex view) const {
+    const auto at = part ? part->in_part(view) : std::optional(view);
+    return at ? at->v * grid.u + at->u : kLeftOut;
+  }
+};
+
+ViewKeys keys_of_views(const ViewFiles& views) {
+  ViewKeys keys;
+  keys.grid = views.grid;
+  keys.part = views.part;
+  std::vector<NumberedName> names;
+  std::vector<int> numbers;
+  const auto add = [&](const fs::path& file, int number) {
+    keys.view_by_stem[file.stem().string()] = number;
+    names.push_back(numbered_name(file.filename().string()));
+    numbers.push_back(number);
+  };
+  for (const fs::path& file : views.files) add(file, static_cast<int>(names.size()));
+  for (const fs::path& file : views.left_out) add(file, kLeftOut);
+  if (names.empty()) return keys;
+  const bool is_alike = std::ranges::all_of(names, [&](const NumberedName& name) {
+    return name.numbers.size() == names.front().numbers.size();
+  });
+  if (!is_alike) return keys;
+  const std::vector<std::size_t> places = varying_places(names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    keys.view_of[key_of(names[i], places)] = numbers[i];
+  }
+  keys.length = keys.view_of.size() == names.size() ? places.size() : 0;
+  return keys;
+}
+
+/// The smallest number of each place.
+template <class Range, class Projection>
+Key smallest(const Range& range, Projection key) {
+  Key least;
+  for (const auto& one : range) {
+    const Key& k = key(one);
+    if (least.empty()) least = k;
+    for (std::size_t i = 0; i < k.size(); ++i) least[i] = std::min(least[i], k[i]);
+  }
+  return least;
+}
+
+struct KeyedFile {
+  Key key;
+  fs::path file;
+};
+
+/// Numbers as those of the views, or beginning elsewhere.
+std::vector<MapSet::Entry> match_numbers(const std::vector<KeyedFile>& files,
+                                         const ViewKeys& views) {
+  const auto match = [&](const Key& shift) {
+    std::vector<MapSet::Entry> entries;
+    for (const KeyedFile& one : files) {
+      Key key = one.key;
+      for (std::size_t i = 0; i < key.size(); ++i) key[i] += shift[i];
+      const auto found = views.view_of.find(key);
+      if (found != views.view_of.end()) entries.push_back({found->second, one.file});
+    }
+    return entries;
+  };
+  std::vector<MapSet::Entry> entries = match(Key(views.length, 0));
+  if (entries.size() == files.size()) return entries;
+  Key shift = smallest(views.view_of, [](const auto& one) -> const Key& { return one.first; });
+  const Key least = smallest(files, [](const KeyedFile& one) -> const Key& { return one.key; });
+  for (std::size_t i = 0; i < shift.size(); ++i) shift[i] -= least[i];
+  std::vector<MapSet::Entry> shifted = match(shift);
+  const bool are_all = files.size() == views.view_of.size() || views.part;
+  return are_all && shifted.size() > entries.size() ? shifted : entries;
+}
+
+/// Where views are counted and maps have rows and columns, or the other way round: all or none.
+std::vector<MapSet::Entry> match_order(std::vector<KeyedFile> files, const ViewKeys& views) {
+  const GridShape grid = views.part ? views.part->whole : views.grid;
+  if (static_cast<int>(files.size()) != grid.count()) return {};
+  std::ranges::sort(files, {}, &KeyedFile::key);
+  std::set<long> rows;
+  std::set<long> columns;
+  for (const KeyedFile& one : files) {
+    rows.insert(one.key.front());
+    columns.insert(one.key.back());
+  }
+  const bool is_grid =
+      static_cast<int>(rows.size()) == grid.v && static_cast<int>(columns.size()) == grid.u;
+  if (files.front().key.size() == 2 && !is_grid) return {};
+  std::vector<MapSet::Entry> entries;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    entries.push_back({views.number_of(grid.view_at(static_cast<int>(i))), files[i].file});
+  }
+  return entries;
+}
+
+/// The view whose whole name the name of the map holds: 5_5 in "5_5_depth" and "depth_5_5".
+std::optional<int> view_in_name(const std::string& stem, const ViewKeys& views) {
+  std::optional<int> found;
+  for (const auto& [name, view] : views.view_by_stem) {
+    for (std::size_t at = stem.find(name); at != std::string::npos; at = stem.find(name, at + 1)) {
+      const auto is_inside = [&](std::size_t i) { return i < stem.size() && is_digit(stem[i]); };
+      if (is_inside(at + name.size()) || (at > 0 && is_inside(at - 1))) continue;
+      if (found && *found != view) return std::nullopt;
+      found = view;
+    }
+  }
+  return found;
+}
+
+/// Of the whole grid.
+int center_of(const ViewKeys& views) {
+  return views.number_of(views.part ? views.part->whole.center() : views.grid.center());
+}
+
+void match_single(const fs::path& file, const ViewKeys& views, MapSet& set) {
+  std::optional<int> view = view_in_name(file.stem().string(), views);
+  const NumberedName name = numbered_name(file.stem().string());
+  if (!view && views.length > 0 && name.numbers.size() == views.length) {
+    const auto found = views.view_of.find(name.numbers);
+    if (views.length == 2 && found != views.view_of.end()) view = found->second;
+  }
+  set.entries.push_back({view.value_or(center_of(views)), file});
+}
+
+void drop_left_out(MapSet& set) {
+  for (MapSet::Entry& entry : set.entries) {
+    if (entry.view == kLeftOut) set.of_left_out.push_back(entry.file);
+  }
+  std::erase_if(set.entries, [](const MapSet::Entry& entry) { return entry.view == kLeftOut; });
+}
+
+/// Two files of one view leave open which of them counts.
+void drop_doubles(MapSet& set) {
+  std::ranges::stable_sort(set.entries, {}, &MapSet::Entry::view);
+  std::set<int> seen;
+  std::vector<MapSet::Entry> kept;
+  for (MapSet::Entry& entry : set.entries) {
+    if (seen.insert(entry.view).second) {
+      kept.push_back(std::move(entry));
+    } else {
+      set.strays.push_back(std::move(entry.file));
+    }
+  }
+  set.entries = std::move(kept);
+}
+
+void match(const std::vector<fs::path>& files, const ViewKeys& views, MapSet& set) {
+  if (files.size() == 1) {
+    match_single(files.front(), views, set);
+    return drop_left_out(set);
+  }
+  std::vector<NumberedName> names;
+  for (const fs::path& file : files) names.push_back(numbered_name(file.filename().string()));
+  const std::vector<std::size_t> places = varying_places(names);
+  std::vector<KeyedFile> keyed;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    keyed.push_back({key_of(names[i], places), files[i]});
+  }
+  if (!places.empty() && places.size() == views.length) set.entries = match_numbers(keyed, views);
+  if (set.entries.empty() && !places.empty()) set.entries = match_order(keyed, views);
+  std::set<fs::path> matched;
+  for (const MapSet::Entry& entry : set.entries) matched.insert(entry.file);
+  for (const fs::path& file : files) {
+    if (!matched.contains(file)) set.strays.push_back(file);
+  }
+  drop_left_out(set);
+  drop_doubles(set);
+}
+
+/// A folder to look at, and what its own name says about its files.
+struct Place {
+  fs::path folder;
+  std::optional<MapKind> kind;
+  std::string prefix = {};  ///< Of patterns: "disparity/".
+};
+
+std::vector<Place> places_of(const fs::path& folder) {
+  std::vector<Place> places{{folder, std::nullopt}};
+  const auto add_inside = [&](const fs::path& outer) {
+    for (const fs::path& inner : map_folders_in(outer)) {
+      if (fs::equivalent(inner, folder)) continue;
+      const auto kind = map_kind(inner.filename().string());
+      const std::string prefix = inner.filename().string() + "/";
+      places.push_back({inner, kind, prefix});
+      for (const fs::path& deep : map_folders_in(inner)) {
+        const auto own = map_kind(deep.filename().string());
+        places.push_back({deep, own ? own : kind, prefix + deep.filename().string() + "/"});
+      }
+    }
+  };
+  add_inside(folder);
+  std::error_code error;
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  const fs::path clean = whole.has_filename() ? whole : whole.parent_path();
+  if (is_inner_folder(clean)) {
+    places.push_back({clean.parent_path(), std::nullopt});
+    add_inside(clean.parent_path());
+  } else if (fs::exists(folder / kBaselineFile, error)) {
+    places.push_back({clean.parent_path(), std::nullopt});
+  }
+  return places;
+}
+
+/// By its own name, else by that of its folder.
+std::optional<MapKind> kind_of(const fs::path& file, std::optional<MapKind> of_folder) {
+  constexpr std::array<std::string_view, 3> kTruth{"gt", "ground_truth", "groundtruth"};
+  const std::string stem = file.stem().string();
+  std::optional<MapKind> kind = map_kind(stem);
+  if (!kind) kind = of_folder;
+  const bool is_truth = std::ranges::find(kTruth, lower_case(stem)) != kTruth.end();
+  if (!kind && is_truth && can_hold_values(file)) kind = MapKind::Disparity;
+  if (!kind || !has_text_suffix(file)) return kind;
+  const bool may_be_text = kind == MapKind::Disparity || kind == MapKind::Depth;
+  return may_be_text && is_text_map(file) ? kind : std::nullopt;
+}
+
+/// Maps that lie with their view in a folder of its own, and are called the same in all of these.
+std::vector<MapSet> maps_with_views(const ViewFiles& views, const fs::path& folder) {
+  std::map<std::pair<MapKind, std::string>, MapSet> sets;
+  std::set<fs::path> seen;
+  for (std::size_t i = 0; i < views.files.size(); ++i) {
+    const fs::path inside = views.files[i].parent_path();
+    if (inside == folder || !seen.insert(inside).second) return {};
+    for (const fs::path& file : list_files(inside)) {
+      const auto kind = file == views.files[i] ? std::nullopt : kind_of(file, std::nullopt);
+      if (!kind) continue;
+      MapSet& set = sets[{*kind, file.filename().string()}];
+      set.kind = *kind;
+      set.pattern = "*/" + file.filename().string();
+      set.entries.push_back({static_cast<int>(i), file});
+    }
+  }
+  std::vector<MapSet> all;
+  for (auto& [key, set] : sets) all.push_back(std::move(set));
+  return all;
+}
+
+}  // namespace
+
+std::vector<fs::path> MapSet::files() const {
+  std::vector<fs::path> files;
+  for (const Entry& entry : entries) files.push_back(entry.file);
+  return files;
+}
+
+fs::path MapSet::file_of(int view) const {
+  const auto found = std::ranges::find(entries, view, &Entry::view);
+  return found == entries.end() ? fs::path() : found->file;
+}
+
+MapsBeside find_maps(const ViewFiles& views, const fs::path& folder, const IsOwnFile& is_own) {
+  std::set<fs::path> taken(views.files.begin(), views.files.end());
+  taken.insert(views.left_out.begin(), views.left_out.end());
+  const ViewKeys keys = keys_of_views(views);
+  MapsBeside found;
+  found.sets = maps_with_views(views, folder);
+  for (const Place& place : places_of(folder)) {
+    std::map<std::pair<MapKind, std::string>, std::vector<fs::path>> groups;
+    for (const fs::path& file : list_files(place.folder)) {
+      if (taken.contains(file) || (is_own && !is_own(file))) continue;
+      const auto kind = kind_of(file, place.kind);
+      if (!kind) continue;
+      const std::string pattern =
+          place.prefix + numbered_name(file.stem().string()).text + suffix_of(file);
+      groups[{*kind, pattern}].push_back(file);
+    }
+    for (const auto& [key, files] : groups) {
+      MapSet set{.kind = key.first, .pattern = key.second, .entries = {}, .strays = {}};
+      match(files, keys, set);
+      found.sets.push_back(std::move(set));
+    }
+    const bool is_other = place.folder != folder;
+    if (is_other && !groups.empty()) found.folders.push_back(place.folder);
+  }
+  return found;
+}
+
+}  // namespace episcope::io

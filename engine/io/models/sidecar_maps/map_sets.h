@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/io/models/file_usage.h"
+#include "engine/io/models/open_options.h"
+#include "engine/io/models/sidecar_maps/find_maps.h"
+#include "engine/io/models/sidecar_maps/map_file.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// Views, as stored, beside which maps lie.
+struct BesideViews {
+  const ViewFiles& files;
+  std::filesystem::path folder;  ///< Of the views.
+  const LightField::Samples& samples;
+  CameraGrid camera;  ///< As far as it is known.
+  MapViews map_views = MapViews::All;
+  bool needs_truth = true;
+  bool is_shift_unknown = false;  ///< Views may be shifted against what `camera` says.
+  IsOwnFile is_own{};             ///< Which files may belong to the views; empty = all.
+
+  [[nodiscard]] GridShape grid() const { return files.grid; }
+  [[nodiscard]] int height() const;
+  [[nodiscard]] int width() const;
+  [[nodiscard]] int center() const {  ///< Number of the centre view.
+    const ViewIndex center = grid().center();
+    return center.v * grid().u + center.u;
+  }
+};
+
+/// Where readers of maps tell what they found.
+struct BesideNotes {
+  FolderAccount& account;
+  ConventionReport& report;
+};
+
+/// What reading the files of a set came to.
+struct SetOutcome {
+  std::vector<std::filesystem::path> read;
+  std::vector<std::filesystem::path> failed;
+  std::string first_error;  ///< A sentence that names the file.
+  std::string note;         ///< A sentence on how maps of another size were fitted, or empty.
+  double map_scale = 1;     ///< Pixels of such a map in a pixel of the view.
+
+  void take(const ResampledMaps& fitted) {
+    note = fitted.note;
+    map_scale = fitted.scale;
+  }
+
+  /// Adds to the account, and a warning if files failed or were fitted.
+  void tell(const std::string& kind, const BesideNotes& notes) const;
+};
+
+/// Throws IoError unless a map has the size of the views.
+void require_view_size(const std::filesystem::path& path, int height, int width,
+                       const BesideViews& views);
+
+/// The entries to read: all, or that of the centre view alone, or of the first.
+[[nodiscard]] std::vector<MapSet::Entry> entries_to_read(const MapSet& set,
+                                                         const BesideViews& views);
+
+/// Sets of one kind that `can_hold` the wanted data, those of most views first, then arrays before
+/// images, and before text; the others go to `unfit`.
+struct RankedSets {
+  std::vector<const MapSet*> fit;
+  std::vector<const MapSet*> unfit;
+};
+[[nodiscard]] RankedSets rank_sets(const std::vector<MapSet>& sets, MapKind kind,
+                                   bool (*can_hold)(const std::filesystem::path&));
+
+/// Values of a set as stored, of all views of the grid or of the only one that the set holds; in
+/// views without a map no pixel is valid. Empty if no file could be read. Throws Cancelled.
+[[nodiscard]] DisparityField read_value_set(const MapSet& set, const BesideViews& views,
+                                            SetOutcome& outcome, const Progress& progress);
+
+/// Labels of a set as stored, likewise; `kNoMap` in views without a map.
+inline constexpr std::int32_t kNoMap = std::numeric_limits<std::int32_t>::min();
+struct LabelMaps {
+  ViewStack<std::int32_t> numbers;  ///< Labels, or colours as 0xRRGGBB.
+  bool are_colors = false;
+};
+[[nodiscard]] LabelMaps read_label_set(const MapSet& set, const BesideViews& views,
+                                       SetOutcome& outcome, const Progress& progress);
+
+/// Marks values that are not finite as invalid and drops a mask in which all is valid.
+void tidy_valid(DisparityField& field);
+
+}  // namespace episcope::io

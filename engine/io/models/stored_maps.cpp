@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/stored_maps.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/io/base/files.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+Hdf5Shape reversed(Hdf5Shape shape) {
+  std::ranges::reverse(shape);
+  return shape;
+}
+
+/// How a dataset holds maps.
+struct MapForm {
+  bool is_one_view = false;
+  /// `[x][y][h][v]` or `[x][y]`: as MATLAB and Fortran write `[v][h][y][x]`.
+  bool is_column_major = false;
+};
+
+/// A channel axis of length 1 behind the others says nothing.
+Hdf5Shape map_shape(const Hdf5Dataset& dataset) {
+  Hdf5Shape shape = dataset.shape;
+  const bool has_channel = shape.size() == 3 || shape.size() == 5;
+  if (has_channel && shape.back() == 1) shape.pop_back();
+  return shape;
+}
+
+struct ExpectedShapes {
+  Hdf5Shape view, all;
+};
+
+ExpectedShapes expected_shapes(const FieldShape& shape) {
+  const auto length = [](int value) { return static_cast<std::size_t>(value); };
+  const Hdf5Shape view{length(shape.height), length(shape.width)};
+  return {view, {length(shape.grid.v), length(shape.grid.u), view[0], view[1]}};
+}
+
+std::optional<MapForm> find_form(const Hdf5Dataset& dataset, const FieldShape& shape) {
+  const auto [view, all] = expected_shapes(shape);
+  const Hdf5Shape stored = map_shape(dataset);
+  for (const bool is_column_major : {false, true}) {
+    const Hdf5Shape found = is_column_major ? reversed(stored) : stored;
+    if (found == view || found == Hdf5Shape{1, 1, view[0], view[1]})
+      return {{true, is_column_major}};
+    if (found == all) return {{false, is_column_major}};
+  }
+  return std::nullopt;
+}
+
+MapForm form_of(const Hdf5Input& file, const Hdf5Dataset& dataset, const FieldShape& shape) {
+  if (const auto form = find_form(dataset, shape)) return *form;
+  const auto [view, all] = expected_shapes(shape);
+  const std::string expected = shape_text(all) + " or " + shape_text(view);
+  const std::string what = "the dataset " + dataset.name + " has ";
+  const std::size_t axes = map_shape(dataset).size();
+  if (axes != 2 && axes != 4) {
+    throw IoError(file.path(),
+                  fmt::format("{}{} axes ({}), but {} is expected; store it in this form", what,
+                              dataset.shape.size(), shape_text(dataset.shape), expected));
+  }
+  throw IoError(file.path(), what + "the shape " + shape_text(dataset.shape) + ", but " + expected +
+                                 " is expected to fit the light field; store it in this form");
+}
+
+/// Reads `[x][y][h][v]`, or of one view `[x][y]`, all of it, since every view is spread over it.
+template <class T>
+void read_column_major(const Hdf5Input& file, const Hdf5Dataset& dataset, GridShape grid,
+                       ViewStack<T>& stack) {
+  const std::size_t count = static_cast<std::size_t>(grid.count()) * stack.view_size();
+  std::vector<T> stored(count);
+  file.read(dataset.name, {Hdf5Shape(dataset.shape.size(), 0), dataset.shape}, stored.data());
+  const auto rows = static_cast<std::size_t>(stack.height());
+  for (int i = 0; i < stack.grid().count(); ++i) {
+    const ViewIndex view = stack.view_at(i);
+    const ViewIndex at = grid.count() == 1 ? ViewIndex{} : view;
+    const auto out = stack.view(view);
+    for (int y = 0; y < out.height; ++y) {
+      for (int x = 0; x < out.width; ++x) {
+        const std::size_t pixel = static_cast<std::size_t>(x) * rows + static_cast<std::size_t>(y);
+        const std::size_t column =
+            pixel * static_cast<std::size_t>(grid.u) + static_cast<std::size_t>(at.u);
+        out.at(y, x) =
+            stored[column * static_cast<std::size_t>(grid.v) + static_cast<std::size_t>(at.v)];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+template <class T>
+ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name, const FieldShape& shape,
+                       const Progress& progress, MapViews views) {
+  const Hdf5Dataset dataset = file.dataset(name);
+  const auto height = static_cast<std::size_t>(shape.height);
+  const auto width = static_cast<std::size_t>(shape.width);
+  const MapForm form = form_of(file, dataset, shape);
+  if (form.is_one_view) {
+    progress.check();
+    ViewStack<T> stack({1, 1}, shape.height, shape.width, 1, shape.grid.center());
+    if (form.is_column_major) {
+      read_column_major(file, dataset, {1, 1}, stack);
+      return stack;
+    }
+    const Hdf5Shape origin(dataset.shape.size(), 0);
+    file.read(name, {origin, dataset.shape}, stack.data());
+    return stack;
+  }
+  const bool is_center = views == MapViews::Center;
+  const ViewIndex first = is_center ? shape.grid.center() : ViewIndex{};
+  const GridShape grid = is_center ? GridShape{1, 1} : shape.grid;
+  ViewStack<T> stack(grid, shape.height, shape.width, 1, first);
+  if (form.is_column_major) {
+    progress.check();
+    read_column_major(file, dataset, shape.grid, stack);
+    return stack;
+  }
+  if (!is_center && read_stored_views(file, name, stack, progress)) return stack;
+  for (int i = 0; i < grid.count(); ++i) {
+    progress.check();
+    const ViewIndex view = grid.view_at(i, first);
+    Hdf5Block block{{static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0},
+                    {1, 1, height, width}};
+    block.start.resize(dataset.shape.size(), 0);
+    block.count.resize(dataset.shape.size(), 1);
+    file.read(name, block, stack.view(view).data);
+    progress.report((i + 1.0) / grid.count());
+  }
+  return stack;
+}
+
+FieldShape field_shape(const LightField::Samples& samples) {
+  return std::visit(
+      [](const auto& stack) {
+        return FieldShape{stack.grid(), stack.height(), stack.width()};
+      },
+      samples);
+}
+
+bool holds_maps(const Hdf5Input& file, const std::string& name, const FieldShape& shape) {
+  return find_form(file.dataset(name), shape).has_value();
+}
+
+bool is_column_major(const Hdf5Input& file, const std::string& name, const FieldShape& shape) {
+  return form_of(file, file.dataset(name), shape).is_column_major;
+}
+
+template ViewStack<std::uint8_t> read_maps(const Hdf5Input&, const std::string&, const FieldShape&,
+                                           const Progress&, MapViews);
+template ViewStack<std::int32_t> read_maps(const Hdf5Input&, const std::string&, const FieldShape&,
+                                           const Progress&, MapViews);
+template ViewStack<float> read_maps(const Hdf5Input&, const std::string&, const FieldShape&,
+                                    const Progress&, MapViews);
+
+template <class T>
+bool read_stored_views(const Hdf5Input& file, const std::string& name, ViewStack<T>& views,
+                       const Progress& progress) {
+  const Hdf5Shape shape = file.dataset(name).shape;
+  const std::size_t size =
+      std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+  const auto begin = file.place_in_file<T>(name);
+  if (!begin || size != views.size()) return false;
+  const FileDescriptor descriptor(file.path(), O_RDONLY | O_CLOEXEC);
+  if (!descriptor.ok()) return false;
+  const std::size_t bytes = views.view_size() * sizeof(T);
+  std::atomic<bool> is_read = true;
+  parallel_for(views.grid().count(), progress, [&](int i) {
+    auto* const out = reinterpret_cast<std::uint8_t*>(views.view(views.view_at(i)).data);
+    const std::uintmax_t place = *begin + static_cast<std::uintmax_t>(i) * bytes;
+    if (is_read && !read_all_at(descriptor.id(), std::span(out, bytes), place)) is_read = false;
+  });
+  return is_read;
+}
+
+template bool read_stored_views(const Hdf5Input&, const std::string&, ViewStack<std::uint8_t>&,
+                                const Progress&);
+template bool read_stored_views(const Hdf5Input&, const std::string&, ViewStack<std::int32_t>&,
+                                const Progress&);
+template bool read_stored_views(const Hdf5Input&, const std::string&, ViewStack<std::uint16_t>&,
+                                const Progress&);
+template bool read_stored_views(const Hdf5Input&, const std::string&, ViewStack<float>&,
+                                const Progress&);
+
+Hdf5Shape map_shape(GridShape grid, int height, int width) {
+  const Hdf5Shape view{static_cast<std::size_t>(height), static_cast<std::size_t>(width)};
+  if (grid.count() == 1) return view;
+  return {static_cast<std::size_t>(grid.v), static_cast<std::size_t>(grid.u), view[0], view[1]};
+}
+
+const char* map_axes(GridShape grid) {
+  return grid.count() == 1 ? "y,x" : "v,u,y,x";
+}
+
+template <class T>
+void write_maps(Hdf5Output& file, const std::string& name, const MapGeometry& maps,
+                const std::string& units, const Progress& progress,
+                const std::function<const T*(ViewIndex)>& samples) {
+  const GridShape grid = maps.grid;
+  const Hdf5Shape shape = map_shape(grid, maps.height, maps.width);
+  file.add_dataset<T>(name, shape, map_axes(grid), units);
+  for (int i = 0; i < grid.count(); ++i) {
+    progress.check();
+    const ViewIndex place = grid.view_at(i);
+    Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
+    if (grid.count() > 1) {
+      block.start[0] = static_cast<std::size_t>(place.v);
+      block.start[1] = static_cast<std::size_t>(place.u);
+      block.count[0] = block.count[1] = 1;
+    }
+    file.write(name, block, samples({maps.first.v + place.v, maps.first.u + place.u}));
+    progress.report((i + 1.0) / grid.count());
+  }
+}
+
+template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, const std::string&,
+                         const Progress&, const std::function<const std::uint8_t*(ViewIndex)>&);
+template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, const std::string&,
+                         const Progress&, const std::function<const std::int32_t*(ViewIndex)>&);
+template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, const std::string&,
+                         const Progress&, const std::function<const float*(ViewIndex)>&);
+
+void write_disparity(Hdf5Output& file, const std::string& name, const DisparityField& field,
+                     const Progress& progress) {
+  std::vector<float> marked;
+  write_maps<float>(file, name, geometry_of(field.disparity), "px per view step", progress,
+                    [&](ViewIndex view) -> const float* {
+                      const auto disparity = field.disparity.view(view);
+                      if (field.valid.empty()) return disparity.data;
+                      const auto valid = field.valid.view(view);
+                      marked.assign(disparity.data, disparity.data + disparity.size());
+                      for (std::size_t i = 0; i < marked.size(); ++i) {
+                        if (valid.data[i] == 0) marked[i] = std::numeric_limits<float>::quiet_NaN();
+                      }
+                      return marked.data();
+                    });
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/estimate.h"
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/core/view_stack.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/models/open_options.h"
+
+#include <functional>
+#include <string>
+
+namespace episcope::io {
+
+/// Size of the light field that maps must fit.
+struct FieldShape {
+  GridShape grid;
+  int height = 0;
+  int width = 0;
+};
+
+[[nodiscard]] FieldShape field_shape(const LightField::Samples& samples);
+
+/// Reads `[v][h][y][x]`, `[1][1][y][x]` or `[y][x]` view by view, in the stored order; the latter
+/// two belong to the centre view; `Center` reads that alone. Also with a last axis of length 1, and
+/// all at once with all axes in the opposite order, as MATLAB writes them, where the lengths tell:
+/// `[x][y]` of a square view cannot be told from `[y][x]`. T: uint8, int32 or float. Throws IoError
+/// for another rank or size.
+template <class T>
+[[nodiscard]] ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name,
+                                     const FieldShape& shape, const Progress& progress,
+                                     MapViews views = MapViews::All);
+
+/// Whether the rank and size of a dataset are those that `read_maps` reads.
+[[nodiscard]] bool holds_maps(const Hdf5Input& file, const std::string& name,
+                              const FieldShape& shape);
+/// Whether the axes are stored in the opposite order. Throws as `read_maps`.
+[[nodiscard]] bool is_column_major(const Hdf5Input& file, const std::string& name,
+                                   const FieldShape& shape);
+
+/// Fills `views` from a dataset that the file stores just as they are in memory
+/// (Hdf5Input::place_in_file), on several threads: most of the time of reading a large light field
+/// is that of the system giving memory for it, which HDF5 would have one thread wait for. False,
+/// with `views` undefined, if it is stored otherwise, in another size, or cannot be read in this
+/// way. T: uint8, int32, uint16 or float. Throws IoError, Cancelled.
+template <class T>
+[[nodiscard]] bool read_stored_views(const Hdf5Input& file, const std::string& name,
+                                     ViewStack<T>& views, const Progress& progress);
+
+/// Which views a stack of maps holds, as a shape of a dataset: `[y][x]` for a single view, else
+/// `[v][u][y][x]`.
+[[nodiscard]] Hdf5Shape map_shape(GridShape grid, int height, int width);
+
+/// "y,x" or "v,u,y,x".
+[[nodiscard]] const char* map_axes(GridShape grid);
+
+/// Adds a dataset and writes it view by view: `samples(view)` gives those of each. T: uint8, int32
+/// or float.
+template <class T>
+void write_maps(Hdf5Output& file, const std::string& name, const MapGeometry& maps,
+                const std::string& units, const Progress& progress,
+                const std::function<const T*(ViewIndex)>& samples);
+
+/// Writes a stack as it is.
+template <class T>
+void write_stack(Hdf5Output& file, const std::string& name, const ViewStack<T>& stack,
+                 const std::string& units, const Progress& progress) {
+  write_maps<T>(file, name, geometry_of(stack), units, progress,
+                [&](ViewIndex view) { return stack.view(view).data; });
+}
+
+/// Writes disparity with NaN at invalid pixels.
+void write_disparity(Hdf5Output& file, const std::string& name, const DisparityField& field,
+                     const Progress& progress);
+
+}  // namespace episcope::io

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/ray_labeling.h"
+
+#include "engine/core/parallel.h"
+#include "engine/labeling/ray_kernel.h"
+#include "engine/labeling/ray_targets.h"
+#include "engine/solvers/pair_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace episcope {
+
+double RayLabeling::relative_gap() const {
+  return labeling_gap(energy, bound);
+}
+
+RayLabeling unlabeled(const LabelProbabilities& p) {
+  RayLabeling result;
+  result.labels =
+      ViewStack<std::int32_t>(p.grid, p.views[0].height(), p.views[0].width(), 1, p.first);
+  return result;
+}
+
+RayLabeling unlabeled(const LabelProbabilities& p, ViewIndex view) {
+  RayLabeling result;
+  result.labels =
+      ViewStack<std::int32_t>({1, 1}, p.view(view).height(), p.view(view).width(), 1, view);
+  return result;
+}
+
+namespace {
+
+// What one thread sums up of one row.
+struct Row {
+  explicit Row(int width) : targets(width), trusts(width), weight(width) {}
+  std::vector<std::int32_t> targets;
+  std::vector<float> trusts;  // How much each ray is trusted, 0 where it arrives nowhere,
+  std::vector<float> weight;  // and of all views, by column.
+};
+
+void find_rays(const TrackSources& sources, ViewIndex other, int y, Row& row) {
+  const auto& [probabilities, disparity, view, others, colors] = sources;
+  find_ray_targets(disparity.view(view), disparity.view(other),
+                   {other.v - view.v, other.u - view.u}, y, row.targets.data());
+  const int width = static_cast<int>(row.targets.size());
+  if (colors != nullptr) {
+    colors->trusts(colors->pair(view, y, other), {0, width}, row.targets.data(), row.trusts.data());
+  } else {
+    std::ranges::transform(row.targets, row.trusts.begin(),
+                           [](std::int32_t target) { return target < 0 ? 0.0F : 1.0F; });
+  }
+  for (int x = 0; x < width; ++x) row.weight[x] += row.trusts[x];
+}
+
+void add_view(VolumeView<const std::uint8_t> p, const CostTable& table, const Row& row,
+              float* costs) {
+  static const RayKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kRayKernel);
+  RayCosts rays;
+  rays.codes = p.data;
+  rays.size = static_cast<long>(p.size());
+  rays.table = table.data();
+  rays.labels = p.layers;
+  rays.width = p.width;
+  rays.targets = row.targets.data();
+  rays.trusts = row.trusts.data();
+  kernel.add_costs(rays, costs);
+}
+
+// Whether `at` of `count` places is among those nearest to `here`, as many at the border.
+bool is_near(int at, int here, int count) {
+  const int first = std::clamp(here - kNearViews / 2, 0, std::max(count - kNearViews, 0));
+  return at >= first && at < first + kNearViews;
+}
+
+bool is_asked(const TrackSources& sources, ViewIndex other) {
+  const ViewIndex view = sources.view;
+  if (other == view || !sources.disparity.contains(other)) return false;
+  if (sources.others == TrackViews::All) return true;
+  const auto& [v, u] = sources.probabilities.first;
+  const GridShape grid = sources.probabilities.grid;
+  return is_near(other.v - v, view.v - v, grid.v) && is_near(other.u - u, view.u - u, grid.u);
+}
+
+void fill_row(const TrackSources& sources, const CostTable& table, VolumeView<float> costs, int y,
+              Row& row) {
+  const LabelProbabilities& probabilities = sources.probabilities;
+  const std::uint8_t* const own = probabilities.view(sources.view).view().row(y, 0);
+  float* const sums = costs.row(y, 0);
+  std::transform(own, own + static_cast<std::ptrdiff_t>(costs.layers) * costs.width, sums,
+                 [&table](std::uint8_t p) { return table[p]; });
+  std::fill(row.weight.begin(), row.weight.end(), 1.0F);
+  for (int i = 0; i < probabilities.grid.count(); ++i) {
+    const ViewIndex other = probabilities.view_at(i);
+    if (!is_asked(sources, other)) continue;
+    find_rays(sources, other, y, row);
+    add_view(probabilities.view(other).view(), table, row, sums);
+  }
+  for (int layer = 0; layer < costs.layers; ++layer) {
+    float* const sum = costs.row(y, layer);
+    for (int x = 0; x < costs.width; ++x) sum[x] /= row.weight[x];
+  }
+}
+
+}  // namespace
+
+CostTable cost_table(double floor) {
+  CostTable table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    table[i] = static_cast<float>(-std::log(std::max(static_cast<double>(i) / 255, floor)));
+  }
+  return table;
+}
+
+void fill_costs(VolumeView<const std::uint8_t> probabilities, const CostTable& table,
+                VolumeView<float> costs) {
+  std::transform(probabilities.data, probabilities.data + probabilities.size(), costs.data,
+                 [&table](std::uint8_t p) { return table[p]; });
+}
+
+void fill_track_costs(const TrackSources& sources, const CostTable& table, const Progress& progress,
+                      VolumeView<float> costs) {
+  parallel_for_workers(costs.height, progress, [&] {
+    return [&, row = Row(costs.width)](int y) mutable { fill_row(sources, table, costs, y, row); };
+  });
+}
+
+Image<float> larger_edge_probability(ImageView<const float> edge_probability) {
+  const auto& edge = edge_probability;
+  Image<float> larger(edge.height, edge.width);
+  for (int y = 0; y < edge.height; ++y) {
+    for (int x = 0; x < edge.width; ++x) {
+      larger.at(y, x) = std::max(edge.at(y, x), edge.at(y, x, edge.channels - 1));
+    }
+  }
+  return larger;
+}
+
+Image<float> boundary_weights(ImageView<const float> edge_probability) {
+  Image<float> weights = larger_edge_probability(edge_probability);
+  for (float& weight : weights) weight = std::clamp(1 - weight, kMinBoundaryWeight, 1.0F);
+  return weights;
+}
+
+}  // namespace episcope

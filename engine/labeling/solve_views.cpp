@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/solve_views.h"
+
+#include "engine/core/hash.h"
+#include "engine/core/parallel.h"
+#include "engine/labeling/ray_labeling.h"
+#include "engine/labeling/ray_targets.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace episcope {
+namespace {
+
+// Views of one row of the grid that are solved one after the other, each beginning where the last
+// ended, and how many such chains there are at least, for as many threads.
+constexpr int kLongestChain = 9;
+constexpr int kMinChains = 8;
+
+void add(const SimplexResult& part, RayLabeling& result) {
+  result.energy += part.energy;
+  result.bound += part.bound;
+  result.iterations = std::max(result.iterations, part.iterations);
+}
+
+}  // namespace
+
+std::vector<ViewChain> view_chains(GridShape grid) {
+  std::vector<ViewChain> chains;
+  for (int v = 0; v < grid.v; ++v) {
+    int length = std::clamp(grid.count() / kMinChains, 1, kLongestChain);
+    // An odd number of long chains would leave one of two threads without work.
+    if (v == grid.v - 1) length = (length + 1) / 2;
+    for (int u = 0; u < grid.u; u += length) {
+      chains.push_back({v * grid.u + u, v * grid.u + std::min(u + length, grid.u)});
+    }
+  }
+  return chains;
+}
+
+RayLabeling solve_views(const ViewProblems& problems, const Progress& progress) {
+  const LabelProbabilities& p = *problems.input.probabilities;
+  RayLabeling result = unlabeled(p);
+  const std::vector<ViewChain> chains = view_chains(p.grid);
+  std::vector<SimplexResult> parts(p.views.size());
+  progress.step("views");
+  // Whole views side by side: threads that share a view wait for each other at every iteration.
+  const Progress alone = progress.part(0, 0).on_one_thread();
+  parallel_for_workers(static_cast<int>(chains.size()), progress, [&] {
+    return [&, problem = ViewProblem(problems.input, problems.parameters, problems.colors)](
+               int k) mutable {
+      ViewProblem::Task task{{}, problems.parameters.gap_all_views, {}};
+      for (int i = chains[k].begin; i < chains[k].end; ++i) {
+        task.view = p.view_at(i);
+        problems.fill(problem, task.view, alone);
+        parts[i] = problem.solve(task, alone, result.labels.view(task.view));
+        task.last = task.view;
+      }
+    };
+  });
+  for (const auto& part : parts) add(part, result);
+  return result;
+}
+
+RayLabeling solve_view(const ViewProblems& problems, ViewIndex view, const Progress& progress) {
+  RayLabeling result = unlabeled(*problems.input.probabilities, view);
+  ViewProblem problem(problems.input, problems.parameters, problems.colors);
+  problems.fill(problem, view, progress.part(0, 0.2));
+  const ViewProblem::Task task{view, problems.parameters.gap, {}};
+  add(problem.solve(task, progress.part(0.2, 1), result.labels.view(view)), result);
+  return result;
+}
+
+void replace_layers_by_ids(const std::vector<std::int32_t>& ids, RayLabeling& labeling) {
+  ViewStack<std::int32_t>& labels = labeling.labels;
+  std::for_each(labels.data(), labels.data() + labels.size(),
+                [&ids](std::int32_t& label) { label = ids[label]; });
+}
+
+ViewProblem::ViewProblem(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+                         const RayColors& colors)
+    : input_(input),
+      parameters_(parameters),
+      colors_(colors),
+      table_(cost_table(parameters.floor)),
+      costs_(input.probabilities->views[0].height(), input.probabilities->views[0].layers(),
+             input.probabilities->views[0].width()) {}
+
+Image<float> ViewProblem::weights(ViewIndex view) const {
+  if (input_.edges == nullptr || input_.edges->empty() || !input_.edges->contains(view)) return {};
+  return boundary_weights(input_.edges->view(view));
+}
+
+void ViewProblem::fill_own(ViewIndex view) {
+  fill_costs(input_.probabilities->view(view).view(), table_, costs_.view());
+}
+
+void ViewProblem::fill_tracks(ViewIndex view, TrackViews others, const Progress& progress) {
+  fill_track_costs({*input_.probabilities, *input_.disparity, view, others, &colors_}, table_,
+                   progress, costs_.view());
+}
+
+// Where the pixels of `view` were in `last`; empty if that is not known.
+ImageView<const std::int32_t> ViewProblem::places_in(ViewIndex last, ViewIndex view) {
+  const DisparityField* const disparity = input_.disparity;
+  if (disparity == nullptr || !disparity->contains(last) || !disparity->contains(view)) return {};
+  const int height = costs_.view().height, width = costs_.view().width;
+  if (disparity->disparity.height() != height || disparity->disparity.width() != width) return {};
+  if (places_.empty()) places_ = Image<std::int32_t>(height, width);
+  for (int y = 0; y < height; ++y) {
+    find_ray_targets(disparity->view(view), disparity->view(last),
+                     {last.v - view.v, last.u - view.u}, y, places_.row(y));
+  }
+  return places_;
+}
+
+SimplexResult ViewProblem::solve(const Task& task, const Progress& progress,
+                                 ImageView<std::int32_t> labels) {
+  const Image<float> g = weights(task.view);
+  SimplexOptions options;
+  options.gap = task.gap;
+  options.max_iterations = parameters_.max_iterations;
+  options.check_every = kGapCheckEvery;
+  options.racing_iterations = kRacingIterations;
+  const SimplexProblem problem{costs_.view(), g, parameters_.smoothness};
+  if (KeptSolver* const kept = input_.kept) {
+    options.goes_on = kept->prepare(*input_.probabilities, task.view);
+    if (options.goes_on) options.racing_iterations = kRacingWhenGoingOn;
+    return kept->solve(problem, options, progress, labels);
+  }
+  if (task.last) options.from_last = places_in(*task.last, task.view);
+  return own_solver().solve(problem, options, progress, labels);
+}
+
+SimplexSolver& ViewProblem::own_solver() {
+  if (!solver_) solver_.emplace(costs_.height(), costs_.layers(), costs_.width());
+  return *solver_;
+}
+
+namespace {
+
+// As far as one undoes without a thought.
+constexpr std::size_t kMostSolved = 16;
+
+void add(const float* values, std::size_t count, Fnv1a& hash) {
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, values + i, sizeof word);
+    hash.add_word(word);
+  }
+}
+
+std::uint64_t hash_of(const SimplexProblem& problem) {
+  Fnv1a hash;
+  const VolumeView<const float>& cost = problem.cost;
+  add(cost.data, static_cast<std::size_t>(cost.height) * cost.layers * cost.width, hash);
+  add(problem.g.data, problem.g.size(), hash);
+  const auto smoothness = static_cast<float>(problem.smoothness);
+  add(&smoothness, 1, hash);
+  return hash.value();
+}
+
+}  // namespace
+
+double KeptSolver::bytes(double pixels, int labels) {
+  return (8 * 4.0 / 3 + 1.0 / 3) * sizeof(float) * pixels * labels;
+}
+
+bool KeptSolver::prepare(const LabelProbabilities& probabilities, ViewIndex view) {
+  const ProbabilityMap& map = probabilities.view(view);
+  if (solver_ && view == view_ && map.height() == height_ && map.width() == width_ &&
+      probabilities.ids == ids_) {
+    return true;
+  }
+  drop();
+  solver_.emplace(map.height(), map.layers(), map.width());
+  view_ = view;
+  height_ = map.height();
+  width_ = map.width();
+  ids_ = probabilities.ids;
+  return false;
+}
+
+SimplexResult KeptSolver::solve(const SimplexProblem& problem, const SimplexOptions& options,
+                                const Progress& progress, ImageView<int> labels) {
+  const std::uint64_t hash = hash_of(problem);
+  const auto known = std::ranges::find_if(solved_, [&](const Solved& each) {
+    return each.problem == hash && each.result.converged && each.gap <= options.gap;
+  });
+  if (known != solved_.end()) {
+    std::ranges::copy(known->labels, labels.data);
+    return known->result;
+  }
+  const SimplexResult result = solver_->solve(problem, options, progress, labels);
+  if (solved_.size() == kMostSolved) solved_.pop_front();
+  solved_.push_back({hash, options.gap, result, {labels.data, labels.data + labels.size()}});
+  return result;
+}
+
+void KeptSolver::drop() {
+  solver_.reset();
+  solved_.clear();
+}
+
+}  // namespace episcope

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/labeling/label_probabilities.h"
+#include "engine/labeling/ray_labeling.h"
+#include "engine/solvers/simplex_labeling.h"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace episcope {
+
+/// The solver of one view's problem, kept between calls while the user paints: a stroke changes
+/// little, so the next call takes a few iterations from where the last one ended. The labels of the
+/// last problems are kept as well: a stroke that is undone gives the labels from before it, to the
+/// last pixel.
+class KeptSolver {
+ public:
+  /// What the solver takes: of its levels 8 floats a pixel and label, and the costs of all but the
+  /// first.
+  [[nodiscard]] static double bytes(double pixels, int labels);
+
+  /// For the problem of `view`. Whether the last one was of the same view, size and labels, and the
+  /// solver goes on from there; else it begins afresh.
+  bool prepare(const LabelProbabilities& probabilities, ViewIndex view);
+  /// After `prepare`: the labels of an equal problem if it was one of the last, else those that the
+  /// solver finds; as SimplexSolver::solve.
+  SimplexResult solve(const SimplexProblem& problem, const SimplexOptions& options,
+                      const Progress& progress, ImageView<int> labels);
+  /// Frees all memory.
+  void drop();
+
+ private:
+  struct Solved {
+    std::uint64_t problem = 0;  // hash
+    double gap = 0;
+    SimplexResult result;
+    std::vector<std::uint8_t> labels;
+  };
+
+  std::optional<SimplexSolver> solver_;
+  std::deque<Solved> solved_;  // The newest last.
+  ViewIndex view_;
+  int height_ = 0, width_ = 0;
+  std::vector<std::int32_t> ids_;
+};
+
+/// Iterations between two looks at the gap: one costs half an iteration, and 30 iterations are
+/// enough.
+inline constexpr int kGapCheckEvery = 5;
+
+/// At first far labels are left out of the race for so many, and for so many where a kept solver
+/// goes on.
+inline constexpr int kRacingIterations = 25, kRacingWhenGoingOn = 10;
+
+/// The labeling of one view as a problem of its own, and room to solve it for many views: costs of
+/// its labels, weights of its boundaries, the solver. One object per solving thread.
+class ViewProblem {
+ public:
+  /// Borrows the input. All views have the size of the first.
+  ViewProblem(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+              const RayColors& colors);
+
+  /// Costs of each ray by its own probabilities.
+  void fill_own(ViewIndex view);
+  /// Costs of each ray's track.
+  void fill_tracks(ViewIndex view, TrackViews others, const Progress& progress);
+  /// Solves with the costs last filled, to a relative duality gap of `gap`. `labels` become layers
+  /// of the probabilities, 0 … L − 1. Begins where the problem of the view `last` ended, moved
+  /// along the rays, if that was solved last and the disparities of both are known. With a kept
+  /// solver, begins where that ended.
+  struct Task {
+    ViewIndex view;
+    double gap = 0;
+    std::optional<ViewIndex> last;
+  };
+  SimplexResult solve(const Task& task, const Progress& progress, ImageView<std::int32_t> labels);
+
+ private:
+  [[nodiscard]] Image<float> weights(ViewIndex view) const;
+  [[nodiscard]] ImageView<const std::int32_t> places_in(ViewIndex last, ViewIndex view);
+  [[nodiscard]] SimplexSolver& own_solver();
+
+  const RayLabelingInput& input_;
+  const RayLabelingParameters& parameters_;
+  const RayColors& colors_;
+  CostTable table_;
+  std::optional<SimplexSolver> solver_;
+  Volume<float> costs_;
+  Image<std::int32_t> places_;
+};
+
+/// Views of one row of the grid, numbers [begin, end), that are solved one after the other.
+struct ViewChain {
+  int begin = 0, end = 0;
+};
+[[nodiscard]] std::vector<ViewChain> view_chains(GridShape grid);
+
+/// The separate problems of the views, and how the costs of a view get into its problem. Borrows
+/// the input and the parameters.
+struct ViewProblems {
+  const RayLabelingInput& input;
+  const RayLabelingParameters& parameters;
+  RayColors colors;
+  std::function<void(ViewProblem&, ViewIndex, const Progress&)> fill;
+};
+
+/// Solves the problems of all views that have probabilities, to a gap of
+/// `parameters.gap_all_views`, in chains along rows of the grid: each view starts from the result
+/// of its neighbour, moved along the disparities, if there are any. Labels are layers of the
+/// probabilities, 0 … L − 1. Throws Cancelled.
+[[nodiscard]] RayLabeling solve_views(const ViewProblems& problems, const Progress& progress);
+
+/// Solves the problem of one view, to a gap of `parameters.gap`.
+[[nodiscard]] RayLabeling solve_view(const ViewProblems& problems, ViewIndex view,
+                                     const Progress& progress);
+
+/// Replaces layers by their ids.
+void replace_layers_by_ids(const std::vector<std::int32_t>& ids, RayLabeling& labeling);
+
+}  // namespace episcope

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/indices.h"
+#include "engine/scenes/draw.h"
+#include "engine/scenes/random_kind.h"
+#include "engine/scenes/stage.h"
+
+namespace episcope::scenes {
+
+/// Largest disparity of a random scene, px per view step, of either sign.
+inline constexpr double kMostDisparity = 3.5;
+
+/// What an object is made of.
+enum class Finish { Textured, Plain, Periodic, Shiny };
+inline constexpr std::size_t kFinishes = 4;
+
+/// What an object is.
+enum class Form { Ball, Box, Cylinder, Cone, Vase, Disc, Panel, Bar, Lattice, Leaf, Plant, Drape };
+inline constexpr std::size_t kForms = 12;
+
+/// What all textures of a scene have in common.
+struct Detail {
+  double contrast = 1;  ///< Factor.
+  /// Factor of the size of grain and of the width of the edges of patterns; below 1 they are finer
+  /// than pixels show, and do not fade.
+  double size = 1;
+};
+
+/// What a random scene is to be like, before anything is placed.
+struct Plan {
+  Interval range;  ///< All disparities lie in it, within the views of a 9×9 grid.
+  int objects = 3;
+  std::array<double, kFinishes> finishes{};  ///< Weights.
+  std::array<double, kForms> forms{};        ///< Weights.
+  bool has_ground = true;
+  bool has_layers = false;    ///< Bars before flat layers instead of objects in a room.
+  bool is_furnished = false;  ///< What stands in every room, instead of drawn ones.
+  bool is_defocused = false;  ///< The background.
+  Detail detail;
+  bool is_lit = true;
+  bool has_moving_highlights = false;
+  Sensor sensor;
+};
+
+[[nodiscard]] Plan draw_plan(Draw draw, RandomKind kind);
+
+/// Cameras that see `range` with a depth that looks natural: the far end 1.3 to 3 times as far away
+/// as the near end.
+[[nodiscard]] Stage draw_stage(int width, int height, const Interval& range, Draw draw);
+
+/// A random texture of a surface where a pixel has size `pixel_units`: unless detail is smaller,
+/// band-limited there, and fading where the surface slants away. Flat things keep their pattern in
+/// their plane.
+[[nodiscard]] Texture draw_texture(Draw draw, Finish finish, double pixel_units,
+                                   const Detail& detail);
+
+/// What is seen of a far background out of focus: large soft blobs.
+[[nodiscard]] Texture draw_defocused_texture(Draw draw, double pixel_units, const Detail& detail);
+
+/// A chequered floor: tiles in the plane of what is flat, about 30 px wide.
+[[nodiscard]] Texture draw_chequered_texture(Draw draw, double pixel_units, const Detail& detail);
+
+}  // namespace episcope::scenes

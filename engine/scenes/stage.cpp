@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/scenes/stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope::scenes {
+namespace {
+
+// Half sizes of the box around a primitive, and the middle of its y range.
+struct Hull {
+  Vector3 half{};
+  double middle_y = 0;
+};
+
+Hull hull_of(const Primitive& primitive) {
+  const double* e = primitive.extent;
+  switch (primitive.shape) {
+    case Shape::Rectangle:
+    case Shape::Leaf:
+    case Shape::Triangle:
+    case Shape::Lattice:
+      return {{e[0], e[1], 0}, 0};
+    case Shape::Disc:
+      return {{e[0], e[0], 0}, 0};
+    case Shape::Box:
+      return {{e[0], e[1], e[2]}, 0};
+    case Shape::Revolution:
+      break;
+  }
+  const double* p = primitive.profile;
+  const auto squared = [p](double y) { return p[0] + p[1] * y + p[2] * y * y; };
+  double widest = std::max(squared(e[0]), squared(e[1]));
+  if (p[2] < 0) widest = std::max(widest, squared(std::clamp(-p[1] / (2 * p[2]), e[0], e[1])));
+  const double radius = std::sqrt(std::max(widest, 0.0));
+  return {{radius, (e[1] - e[0]) / 2, radius}, (e[0] + e[1]) / 2};
+}
+
+}  // namespace
+
+Stage make_stage(int width, int height) {
+  Stage stage;
+  stage.width = width;
+  stage.height = height;
+  stage.focal_px = 1.5 * std::max(width, height);
+  return stage;
+}
+
+int Model::add(const Texture& texture) {
+  textures.push_back(texture);
+  return static_cast<int>(textures.size()) - 1;
+}
+
+ModelView Model::view() const {
+  return {primitives.data(), static_cast<int>(primitives.size()), textures.data(),
+          occluders.data(),  static_cast<int>(occluders.size()),  lighting};
+}
+
+Texture noise_texture(double pixel_units, unsigned seed, const std::array<float, 3>& color,
+                      float contrast) {
+  // Finest octave with the most contrast: it carries most of what an estimator can measure. The
+  // channels differ, so that colour helps too.
+  constexpr float shares[3][3] = {
+      {0.42F, 0.36F, 0.40F}, {0.26F, 0.36F, 0.30F}, {0.32F, 0.28F, 0.30F}};
+  constexpr double finest_px = 4.5;
+  Texture texture;
+  texture.seed = seed;
+  for (int o = 0; o < 3; ++o) {
+    texture.spacing[o] = pixel_units * finest_px * (1 << o);
+    for (int c = 0; c < 3; ++c) texture.gain[o][c] = contrast * shares[o][c];
+  }
+  for (auto& side : texture.color) std::copy(color.begin(), color.end(), side);
+  return texture;
+}
+
+void revolve(Primitive& piece, double height, const Radii& radii) {
+  const double bottom = radii.bottom * radii.bottom;
+  const double middle = radii.middle * radii.middle;
+  const double top = radii.top * radii.top;
+  piece.shape = Shape::Revolution;
+  piece.extent[0] = 0;
+  piece.extent[1] = height;
+  piece.profile[0] = bottom;
+  piece.profile[1] = (4 * middle - 3 * bottom - top) / height;
+  piece.profile[2] = 2 * (bottom + top - 2 * middle) / (height * height);
+}
+
+void set_pattern(Texture& texture, Pattern pattern, double pixel_units, double period,
+                 const std::array<Vector3, 2>& axes) {
+  constexpr double step_px = 3;
+  texture.pattern = pattern;
+  texture.pattern_step = step_px * pixel_units;
+  texture.pattern_sharpness = static_cast<float>(period / 2 / texture.pattern_step);
+  for (int i = 0; i < 2; ++i) {
+    for (int k = 0; k < 3; ++k) texture.pattern_axis[i][k] = axes[i][k] / period;
+  }
+}
+
+Primitive make_card(const Stage& stage, const Card& card) {
+  const double depth = stage.depth(card.disparity_px);
+  const Vector3 center =
+      stage.point((card.left + card.right) / 2, (card.top + card.bottom) / 2, depth);
+  Primitive primitive;
+  std::copy(center.begin(), center.end(), primitive.center);
+  primitive.extent[0] = (card.right - card.left) / 2 * stage.pixel(depth);
+  primitive.extent[1] = (card.bottom - card.top) / 2 * stage.pixel(depth);
+  return primitive;
+}
+
+Primitive make_plane(const Stage& stage, const DisparityPlane& plane) {
+  // d + shift = parallax / Z is affine in the pixel exactly where a·X + b·Y + c·Z = parallax.
+  const Vector3 normal{plane.per_x * stage.focal_px, plane.per_y * stage.focal_px,
+                       plane.center + stage.parallax / stage.zero_depth};
+  const Vector3 z = normalized(normal);
+  const Vector3 x = normalized(cross({0, 1, 0}, z));
+  const Vector3 y = cross(z, x);
+  Primitive primitive;
+  primitive.center[2] = stage.parallax / normal[2];
+  int row = 0;
+  for (const Vector3& axis : {x, y, z}) std::copy(axis.begin(), axis.end(), primitive.axes[row++]);
+  primitive.extent[0] = primitive.extent[1] = 1e6;
+  return primitive;
+}
+
+Interval depths_of(const Primitive& primitive) {
+  const Hull hull = hull_of(primitive);
+  const double middle = primitive.center[2] + hull.middle_y * primitive.axes[1][2];
+  double reach = 0;
+  for (int i = 0; i < 3; ++i) reach += hull.half[i] * std::abs(primitive.axes[i][2]);
+  return {middle - reach, middle + reach};
+}
+
+Bounds bounds_in_view(const Primitive& primitive, const ViewCamera& camera, int width, int height) {
+  const Hull hull = hull_of(primitive);
+  double low[2] = {1e9, 1e9};
+  double high[2] = {-1e9, -1e9};
+  for (int corner = 0; corner < 8; ++corner) {
+    Vector3 at{primitive.center[0], primitive.center[1], primitive.center[2]};
+    for (int i = 0; i < 3; ++i) {
+      const double along = (corner >> i & 1 ? 1 : -1) * hull.half[i] + (i == 1 ? hull.middle_y : 0);
+      for (int k = 0; k < 3; ++k) at[k] += along * primitive.axes[i][k];
+    }
+    if (at[2] < 1e-3) return {0, width, 0, height};
+    for (int k = 0; k < 2; ++k) {
+      const double pixel =
+          camera.principal[k] + camera.focal_px * (at[k] - camera.origin[k]) / at[2];
+      low[k] = std::min(low[k], pixel);
+      high[k] = std::max(high[k], pixel);
+    }
+  }
+  const auto begin = [](double pixel, int size) {
+    return static_cast<int>(std::clamp(std::floor(pixel) - 1, 0.0, static_cast<double>(size)));
+  };
+  const auto end = [](double pixel, int size) {
+    return static_cast<int>(std::clamp(std::ceil(pixel) + 2, 0.0, static_cast<double>(size)));
+  };
+  return {begin(low[0], width), end(high[0], width), begin(low[1], height), end(high[1], height)};
+}
+
+}  // namespace episcope::scenes

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/isa.h"
+
+#include <cstdint>
+
+namespace episcope {
+
+/// Floats that a row is padded to, the widest vector.
+inline constexpr long kLayerRowUnit = 16;
+/// Pairs of neighbours of a pixel's cell: right, down, down-right, and its right with its lower
+/// neighbour.
+inline constexpr int kPairKinds = 4;
+
+/// What the rows of a problem on layers (levels, labels) have in common. `steps` is the number of
+/// layers of the unknown φ; rows of φ, of its duals and of `ahead` are `[step][x]`, `pitch` apart,
+/// pitch > width, readable for 16 floats before the first. Beyond the width duals are 0.
+struct LayeredShape {
+  int steps = 0;
+  int width = 0;
+  long pitch = 0;
+  float primal_step = 0, dual_step = 0;
+  float relaxation = 1;
+};
+
+/// Columns walked through all layers before the next ones: what is kept of each fits the first
+/// cache, and a run within a layer is long enough for the prefetcher.
+inline constexpr int kLayerColumns = 128;
+
+/// Of a problem on layers without order.
+inline constexpr int kMaxSimplexLayers = 256;
+
+/// Numbers of layers, ascending.
+struct LayerList {
+  const std::uint16_t* layers = nullptr;
+  int count = 0;
+};
+
+/// The layers of `kLayerColumns` columns of a row that take part. On others φ stays 0.
+struct LayerBlock {
+  LayerList moving;  ///< φ moves on these;
+  LayerList paired;  ///< so do duals: pairs begin here that have one of `moving` at either end;
+  LayerList still;   ///< φ does not move here but next to the block.
+};
+
+/// Duals of the pairs of one row, and the largest size each may have (the same on every layer).
+struct PairDuals {
+  float* pair[kPairKinds] = {};
+  const float* limit[kPairKinds] = {};
+  const LayerBlock* blocks = nullptr;  ///< Of this row; null = all layers take part.
+};
+
+inline constexpr int kMaxLiftedLayers = 512;
+/// Thresholds of φ that a labeling is read from.
+inline constexpr float kLiftedThresholds[] = {0.25F, 0.5F, 0.75F};
+inline constexpr int kLiftedCuts = 3;
+
+/// The kernel's entry points, one set for each instruction set.
+struct LiftedKernel {
+  /// One row of φ: a step along the divergence and down the costs, projected to 1 ≥ φ_1 ≥ … ≥ 0
+  /// `ahead` = 2·projected − old. `cost` is `[layer][x]`, `width` apart.
+  void (*move_primal)(const LayeredShape&, const float* cost, const PairDuals& here,
+                      const PairDuals& above, float* phi, float* ahead);
+  /// One row of the duals: a step along the gradient of `ahead`, projected to the limits.
+  void (*move_dual)(const LayeredShape&, const float* ahead, const float* ahead_below,
+                    const PairDuals& here);
+  /// Σ_x min_k [ρ_k − Σ_{l ≤ k} div p_l] of one row, with the duals projected to the limits.
+  double (*bound)(const LayeredShape&, const float* cost, const PairDuals& here,
+                  const PairDuals& above);
+  /// The labels of one row at each threshold.
+  void (*cut)(const LayeredShape&, const float* phi, int* const labels[kLiftedCuts]);
+};
+
+EPISCOPE_DECLARE_KERNEL(extern const LiftedKernel kLiftedKernel);
+
+/// The kernel's entry points, one set for each instruction set. Rows of u are `[layer][x]`, `pitch`
+/// apart; of the costs `width` apart.
+struct SimplexKernel {
+  /// One row of u: a step along the divergence and down the costs, projected to u ≥ 0, Σ u = 1;
+  /// `ahead` = 2·projected − old. Only on layers that the blocks of `here` name.
+  void (*move_primal)(const LayeredShape&, const float* cost, const PairDuals& here,
+                      const PairDuals& above, float* u, float* ahead);
+  /// One row of the duals: a step along the gradient of `ahead`, projected to the limits;
+  /// likewise.
+  void (*move_dual)(const LayeredShape&, const float* ahead, const float* ahead_below,
+                    const PairDuals& here);
+  /// Projects the columns of a row to u ≥ 0, Σ u = 1.
+  void (*project)(const LayeredShape&, const float* from, float* to);
+  /// Σ_x min_l [c_l − div p_l] of one row, with the duals projected to the limits.
+  double (*bound)(const LayeredShape&, const float* cost, const PairDuals& here,
+                  const PairDuals& above);
+  /// Σ_x <c, u> + Σ limit·|difference of u| over the pairs of one row.
+  double (*energy)(const LayeredShape&, const float* cost, const PairDuals& here, const float* u,
+                   const float* u_below);
+  /// The layer of the largest u of each pixel of one row; of equals the lowest.
+  void (*cut)(const LayeredShape&, const float* u, int* labels);
+};
+
+EPISCOPE_DECLARE_KERNEL(extern const SimplexKernel kSimplexKernel);
+
+}  // namespace episcope

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/image.h"
+#include "engine/core/memory.h"
+#include "engine/core/progress.h"
+#include "engine/core/volume.h"
+#include "engine/solvers/layered_kernel.h"
+#include "engine/solvers/pair_limits.h"
+
+#include <bitset>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace episcope {
+
+/// Which layers take part where in a problem on layers without order, as long as it need not be
+/// solved exactly: where a layer is far from the cheapest at every pixel around, it hardly ever
+/// wins, and neither φ nor the duals of its pairs move from 0.
+class RacingLayers {
+ public:
+  /// Decided for tiles of `kLayerColumns` by so many pixels.
+  static constexpr int kTileRows = 8;
+
+  /// For images of this size, at most kMaxSimplexLayers layers; all of them take part.
+  RacingLayers(int height, int layers, int width);
+
+  void take_all() { takes_all_ = true; }
+  /// Those that cost less than `behind` more than the cheapest one somewhere in the tile or in
+  /// those above and below it, and those of `labels` (`[y][x]`, a layer each) there.
+  void choose(VolumeView<const float> cost, float behind, ImageView<const int> labels,
+              const Progress& progress);
+
+  /// The blocks of row y, for PairDuals; null = all layers take part.
+  [[nodiscard]] const LayerBlock* row(int y) const {
+    return takes_all_ ? nullptr : blocks_.data() + static_cast<std::ptrdiff_t>(y) * across_;
+  }
+
+ private:
+  using Layers = std::bitset<kMaxSimplexLayers>;
+  struct Lists {
+    std::vector<std::uint16_t> moving, paired, still;
+  };
+
+  [[nodiscard]] Layers& at(std::vector<Layers>& tiles, int row, int column) const {
+    return tiles[static_cast<std::size_t>(row) * across_ + column];
+  }
+  // In any of the tiles from these to those, as far as there are any.
+  [[nodiscard]] Layers in_any(const std::vector<Layers>& tiles, int first_row, int first_column,
+                              int last_row, int last_column) const;
+  void find_near(VolumeView<const float> cost, float behind, ImageView<const int> labels, int row);
+  void list(int row, int column);
+
+  int height_, layers_, width_;
+  int across_, down_;  // tiles
+  bool takes_all_ = true;
+  std::vector<Layers> near_, moving_;  // of each tile
+  std::vector<Lists> lists_;
+  std::vector<LayerBlock> blocks_;  // [y][tile]
+};
+
+/// Moves of one row, in the form that the kernels of the solvers have them.
+struct LayeredMoves {
+  /// One row of φ: a step along the divergence and down the costs, projected to what is allowed;
+  /// `ahead` = 2·projected − old. `cost` is `[layer][x]`, `width` apart.
+  void (*primal)(const LayeredShape&, const float* cost, const PairDuals& here,
+                 const PairDuals& above, float* phi, float* ahead);
+  /// One row of the duals: a step along the gradient of `ahead`, projected to the limits.
+  void (*dual)(const LayeredShape&, const float* ahead, const float* ahead_below,
+               const PairDuals& here);
+};
+
+/// The unknowns of a primal-dual method on an image with layers, φ and the duals of its pairs, and
+/// the order in which they are updated: bands of rows in parallel, within a band φ of a row and the
+/// duals of the row above in turn, so that memory is traversed once per iteration and everything is
+/// updated in place. Few threads take several iterations through the image at once, each two rows
+/// behind the one before, so that memory is traversed once for all of them. The result is the same.
+/// 5 floats per pixel and layer.
+class LayeredSweep {
+ public:
+  /// Rows that one thread takes through an iteration on its own.
+  static constexpr int kBandRows = 32;
+  struct Band {
+    int begin = 0, end = 0;
+  };
+
+  /// Room for images of this size. What is there is not initialised: call `clear` on every band.
+  LayeredSweep(int height, int layers, int width);
+
+  /// φ and duals of a band become 0.
+  void clear(const Band& band);
+  /// φ becomes 0 on layers that do not move, and the duals on those that are not paired.
+  void clear_all_but(const RacingLayers& racing, const Band& band);
+  /// What an iteration needs; borrowed. May change from one call to the next, as the steps may.
+  struct Terms {
+    VolumeView<const float> cost;
+    const PairLimits& limits;
+    const LayeredMoves& moves;
+    const RacingLayers* racing = nullptr;  // null = all layers take part
+  };
+  /// Several iterations. Throws Cancelled.
+  void iterate(const Terms& terms, int count, const Progress& progress);
+
+  [[nodiscard]] LayeredShape& shape() { return shape_; }
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] int bands() const { return (height_ + kBandRows - 1) / kBandRows; }
+  [[nodiscard]] Band band(int i) const;
+  /// Row y of φ, `[layer][x]`, and of the duals; above the first row there are no pairs.
+  [[nodiscard]] float* phi(int y) { return phi_.get() + kLayerRowUnit + y * row_size(); }
+  [[nodiscard]] PairDuals duals(int y);  // without limits
+  [[nodiscard]] PairDuals duals_above(int y);
+  [[nodiscard]] PairDuals duals(int y, const PairLimits& limits);
+  [[nodiscard]] PairDuals duals_above(int y, const PairLimits& limits);
+  [[nodiscard]] long row_size() const { return shape_.steps * shape_.pitch; }
+
+ private:
+  void iterate_bands(const Terms& terms, const Progress& progress);
+  struct Part;
+  // Moves row y of φ and the duals of the row above it.
+  void move_primal(const Terms& terms, int y, float* ahead);
+  void move_dual(const Terms& terms, int y, const float* ahead, const float* ahead_below);
+  void iterate_part(const Terms& terms, const Part& part, const Progress& progress);
+  // Row y of 2φ' − φ of a band: its first and last row are kept for the neighbouring bands.
+  [[nodiscard]] float* ahead(int y, float* scratch);
+  // Kernels read a lane beyond a row: it must not be where another thread writes.
+  [[nodiscard]] long edges_size() const { return 2 * row_size() + kLayerRowUnit; }
+
+  LayeredShape shape_;
+  int height_;
+  LargeArray<float> phi_;
+  LargeArray<float> duals_;  // [y][pair][layer][x]
+  std::vector<float> edges_;
+  std::vector<float> nothing_;
+};
+
+/// Means of blocks of 2×2 pixels (fewer at the right and lower border), `[y][layer][x]`. `to` has
+/// half the size of `from`, rounded up.
+void halve(VolumeView<const float> from, const Progress& progress, VolumeView<float> to);
+[[nodiscard]] Image<float> halved(ImageView<const float> from);
+
+/// Initialises `fine` with the result of `coarse`, of half the size: φ is repeated, duals are
+/// distributed over the two pairs of pixels that replace one, and interpolated in between. Costs of
+/// both are per pixel, so duals and smoothness of the finer level are twice those of the coarser
+/// one.
+void begin_from(LayeredSweep& coarse, const Progress& progress, LayeredSweep& fine);
+
+/// Initialises `to` with the result of `from`, of the same size, for an image whose pixels have
+/// moved: each pixel takes φ and the duals of the pixel y'·width + x' given in `places` `[y][x]`,
+/// or of the one at its own place where that is −1. On layers that do not take part both are 0.
+void begin_from_moved(LayeredSweep& from, ImageView<const std::int32_t> places,
+                      const RacingLayers& racing, const Progress& progress, LayeredSweep& to);
+
+}  // namespace episcope

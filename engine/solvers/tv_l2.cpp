@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/solvers/tv_l2.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/solvers/tv_l2_grid.h"
+#include "engine/solvers/tv_l2_kernel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+constexpr float kMinWeight = 1e-4F;
+// Iterations on each level below the finest, and between two fits of the penalty.
+constexpr int kCoarseIterations = 20;
+constexpr int kPenaltyEvery = 10;
+
+// Between Galerkin's coarse edges (1, always stable) and those right for smooth corrections (½),
+// and ADMM's over-relaxation. Should the gap grow, the safe values take their place.
+struct Pace {
+  float coarse_edge = 0.75F;
+  float relaxation = 1.7F;
+};
+constexpr Pace kSafePace = {1.0F, 1.0F};
+
+// The penalty, in units of the spread of f; found on structure-tensor disparities of several
+// scenes. A weaker one leaves u, not the dual, behind: it stays uneven where the solution is flat.
+constexpr float kPenaltyScale = 5.0F;
+constexpr float kPenaltyKnee = 0.07F;
+constexpr float kPenaltySpread = 16.0F;
+
+template <class T>
+void check_shape(const ImageView<T>& image, int height, int width, const char* what) {
+  if (image.height != height || image.width != width || image.channels != 1 || image.empty()) {
+    throw InvalidInput(fmt::format("TV-L2 needs {} as one channel of {} by {}, not {} of {} by {}",
+                                   what, width, height, image.channels, image.width, image.height));
+  }
+}
+
+// Σ c, Σ c·f and Σ c·f² over pixels, in several sums at a time that processors can add together.
+class Moments {
+ public:
+  void add(const float* c, const float* cf, int count) {
+    for (int i = 0; i < count; ++i) {
+      double* const sums = sums_[i % kSums].data();
+      const double weight = c[i], value = cf[i];
+      sums[0] += weight;
+      sums[1] += value;
+      sums[2] += value * value / weight;
+    }
+  }
+  [[nodiscard]] double weight() const { return total(0); }
+  [[nodiscard]] double sum() const { return total(1); }
+  [[nodiscard]] double squares() const { return total(2); }
+
+ private:
+  static constexpr int kSums = 4;
+
+  [[nodiscard]] double total(int which) const {
+    double sum = 0;
+    for (const auto& sums : sums_) sum += sums[which];
+    return sum;
+  }
+
+  std::array<std::array<double, 3>, kSums> sums_{};
+};
+
+}  // namespace
+
+struct TvL2Solver::State {
+  const TvL2Kernel& kernel;
+  const TvL2PenaltyKernel& penalties;
+  std::vector<TvL2Grid> grids;
+  float offset = 0;  // weighted mean of f, taken off for the sake of float32
+  TvL2Penalty penalty;
+  Pace pace;
+  bool paused = true;  // whether z of the level being solved is z itself: TvL2Step
+
+  State(int height, int width, Isa isa);
+  void load(const TvL2Problem& problem);
+  void centre(const Moments& moments);
+  void renew_penalty(std::size_t stage, bool first);
+  void correct(std::size_t stage);
+  void iterate(std::size_t stage, int iteration, bool pauses, const Progress& progress);
+  void climb(const Progress& progress);
+  TvL2Result finish(const TvL2Options& options, const Progress& progress);
+  void copy_to(ImageView<float> u) const;
+};
+
+TvL2Solver::State::State(int height, int width, Isa isa)
+    : kernel(EPISCOPE_CHOOSE_KERNEL(isa, kTvL2Kernel)),
+      penalties(EPISCOPE_CHOOSE_KERNEL(isa, kTvL2PenaltyKernel)) {
+  grids.emplace_back(height, width);
+  // Down to a single pixel, whose equation is the mean of all: no smoother would ever find that.
+  while (std::max(height, width) > 1 || grids.size() < 2) {
+    height = (height + 1) / 2;
+    width = (width + 1) / 2;
+    grids.emplace_back(height, width);
+  }
+}
+
+void TvL2Solver::State::load(const TvL2Problem& problem) {
+  const TvL2Level& level = grids[0].level;
+  const float inverse_lambda = static_cast<float>(1 / problem.lambda);
+  Moments moments;
+  for (int y = 0; y < level.height; ++y) {
+    const float* const f = problem.f.row(y);
+    const float* const w = problem.w.empty() ? nullptr : problem.w.row(y);
+    const float* const g = problem.g.empty() ? nullptr : problem.g.row(y);
+    for (int odd = 0; odd < 2; ++odd) {
+      const int count = (level.width + 1 - odd) / 2;
+      const long at = y * level.pitch + odd * level.odd;
+      for (int i = 0; i < count; ++i) {
+        const float value = f[2 * i + odd];
+        const bool known = std::abs(value) <= std::numeric_limits<float>::max();
+        const float weight = known ? (w != nullptr ? w[2 * i + odd] : 1.0F) : 0.0F;
+        level.c[at + i] = std::max(weight, kMinWeight) * inverse_lambda;
+        level.cf[at + i] = known ? level.c[at + i] * value : 0.0F;
+        level.g[at + i] = g != nullptr ? std::max(g[2 * i + odd], kMinWeight) : 1.0F;
+      }
+      moments.add(level.c + at, level.cf + at, count);
+    }
+  }
+  centre(moments);
+  for (std::size_t k = 1; k < grids.size(); ++k)
+    coarsen_problem(grids[k - 1].level, grids[k].level);
+}
+
+void TvL2Solver::State::centre(const Moments& moments) {
+  const TvL2Level& level = grids[0].level;
+  const double weight = moments.weight(), mean = moments.sum() / weight;
+  offset = static_cast<float>(mean);
+  const double variance = moments.squares() / weight - mean * mean;
+  const float spread = variance > 1e-12 ? static_cast<float>(std::sqrt(variance)) : 1.0F;
+  for (int y = 0; y < level.height; ++y) {
+    for (int odd = 0; odd < 2; ++odd) {
+      const long at = y * level.pitch + odd * level.odd;
+      for (int i = 0; i < (level.width + 1 - odd) / 2; ++i) {
+        level.cf[at + i] -= offset * level.c[at + i];
+      }
+    }
+  }
+  penalty = {kPenaltyScale / spread, kPenaltyKnee * spread, kPenaltySpread, false};
+}
+
+void TvL2Solver::State::renew_penalty(std::size_t stage, bool first) {
+  TvL2Level& level = grids[stage].level;
+  penalty.first = first;
+  penalties.penalise(level, penalty);
+  level.data_scale = 1;
+  penalties.invert_diagonal(level);
+  for (std::size_t k = stage + 1; k < grids.size(); ++k) {
+    // A multigrid cell weighs as much as its pixels together; coarsen_problem halves that.
+    grids[k].level.data_scale = 2 * grids[k - 1].level.data_scale;
+    penalties.coarsen_penalty(grids[k - 1].level, grids[k].level, pace.coarse_edge);
+    penalties.invert_diagonal(grids[k].level);
+  }
+}
+
+void TvL2Solver::State::correct(std::size_t stage) {
+  const std::size_t last = grids.size() - 1;
+  for (std::size_t k = stage + 1; k < last; ++k) {
+    kernel.descend(grids[k].level, grids[k + 1].level);
+  }
+  kernel.solve(grids[last].level);
+  for (std::size_t k = last; --k > stage;) kernel.ascend(grids[k].level, grids[k + 1].level);
+}
+
+void TvL2Solver::State::iterate(std::size_t stage, int iteration, bool pauses,
+                                const Progress& progress) {
+  progress.check();
+  if (iteration % kPenaltyEvery == 0) renew_penalty(stage, iteration == 0);
+  if (iteration > 0) correct(stage);
+  pauses = pauses || (iteration + 1) % kPenaltyEvery == 0;
+  kernel.iterate(grids[stage].level, grids[stage + 1].level,
+                 {pace.relaxation, iteration == 0, !paused, pauses, grids[stage].row});
+  paused = pauses;
+}
+
+// Coarse to fine, up to the start of the finest level.
+void TvL2Solver::State::climb(const Progress& progress) {
+  pace = {};
+  paused = true;
+  // The single pixel below has no level to correct it.
+  std::size_t stage = grids.size() - 2;
+  start_from_data(grids[stage].level);
+  for (; stage > 0; --stage) {
+    for (int i = 0; i < kCoarseIterations; ++i) {
+      iterate(stage, i, i + 1 == kCoarseIterations, progress);
+    }
+    penalties.project(grids[stage].level);
+    prolong(grids[stage].level, grids[stage - 1].level);
+    penalties.project(grids[stage - 1].level);
+  }
+}
+
+TvL2Result TvL2Solver::State::finish(const TvL2Options& options, const Progress& progress) {
+  const int check_every = std::max(1, options.check_every);
+  TvL2Result result;
+  double gap_before = std::numeric_limits<double>::infinity();
+  bool is_last = false;
+  while (!is_last && !result.converged) {
+    is_last = result.iterations + 1 >= options.max_iterations || progress.finish_requested();
+    const bool checks = is_last || (result.iterations + 1) % check_every == 0;
+    iterate(0, result.iterations++, checks, progress);
+    if (!checks) continue;
+    const TvL2Sums sums = penalties.measure(grids[0].level, grids[0].row);
+    result.energy = sums.energy;
+    result.gap = sums.energy - sums.dual;
+    result.converged = result.gap <= options.gap * sums.energy;
+    if (result.gap > 2 * gap_before) {
+      pace = kSafePace;
+      renew_penalty(0, false);
+    }
+    gap_before = result.gap;
+  }
+  return result;
+}
+
+void TvL2Solver::State::copy_to(ImageView<float> u) const {
+  const TvL2Level& level = grids[0].level;
+  for (int y = 0; y < level.height; ++y) {
+    for (int odd = 0; odd < 2; ++odd) {
+      const float* const from = level.u + level.at(y, odd);
+      float* const to = u.row(y) + odd;
+      for (int i = 0; i < (level.width + 1 - odd) / 2; ++i) to[2 * i] = from[i] + offset;
+    }
+  }
+}
+
+TvL2Solver::TvL2Solver(int height, int width, Isa isa) {
+  if (height < 1 || width < 1) {
+    throw InvalidInput(
+        fmt::format("TV-L2 needs an image of at least one pixel, not {} by {}", width, height));
+  }
+  state_ = std::make_unique<State>(height, width, isa);
+}
+TvL2Solver::~TvL2Solver() = default;
+TvL2Solver::TvL2Solver(TvL2Solver&&) noexcept = default;
+
+TvL2Result TvL2Solver::solve(const TvL2Problem& problem, const TvL2Options& options,
+                             const Progress& progress, ImageView<float> u) {
+  State& state = *state_;
+  const TvL2Level& finest = state.grids[0].level;
+  check_shape(problem.f, finest.height, finest.width, "f");
+  check_shape(u, finest.height, finest.width, "u");
+  if (!problem.w.empty()) check_shape(problem.w, finest.height, finest.width, "w");
+  if (!problem.g.empty()) check_shape(problem.g, finest.height, finest.width, "g");
+  if (!(problem.lambda > 0)) throw InvalidInput("TV-L2 needs a positive lambda");
+  const FlushDenormals flush;
+  state.load(problem);
+  state.climb(progress);
+  const TvL2Result result = state.finish(options, progress);
+  state.copy_to(u);
+  return result;
+}
+
+TvL2Result segment_binary(TvL2Solver& solver, const BinarySegmentationProblem& problem,
+                          const TvL2Options& options, const Progress& progress,
+                          ImageView<float> scratch, ImageView<std::uint8_t> region) {
+  const TvL2Result result = solver.solve(
+      {problem.score, problem.weight, problem.border, problem.lambda}, options, progress, scratch);
+  if (region.height != scratch.height || region.width != scratch.width || region.channels != 1) {
+    throw InvalidInput("the region and the score of a segmentation must have the same size");
+  }
+  for (int y = 0; y < region.height; ++y) {
+    const float* const from = scratch.row(y);
+    std::uint8_t* const to = region.row(y);
+    for (int x = 0; x < region.width; ++x) to[x] = from[x] > 0 ? 1 : 0;
+  }
+  return result;
+}
+
+}  // namespace episcope

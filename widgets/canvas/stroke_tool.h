@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "widgets/canvas/canvas_tool.h"
+
+#include <QColor>
+
+namespace episcope {
+
+/// How a stroke or a fill begins, in image coordinates.
+struct StrokeStart {
+  QPointF at;
+  bool erases = false;
+  bool protects_others = false;  ///< Shift was held.
+};
+
+/// Brush and eraser: drags are strokes, and a ring of the exact size shows what they would cover.
+/// The right button erases, whichever is in use.
+class StrokeTool : public CanvasTool {
+  Q_OBJECT
+
+ public:
+  /// Half the side of a ring's surroundings beyond its radius, logical pixels.
+  static constexpr double kRingMargin = 4;
+
+  using CanvasTool::CanvasTool;
+
+  /// The eraser instead of the brush.
+  void setErasing(bool erases);
+  /// Diameters in image pixels, 1 … 100.
+  void setBrushSize(double diameter_px);
+  void setEraserSize(double diameter_px);
+  /// Colour of the current label, shown in the middle of the ring; invalid = there is none.
+  void setColor(const QColor& color);
+
+  [[nodiscard]] bool isErasing() const { return is_eraser_; }
+  [[nodiscard]] double brushSize() const { return brush_px_; }
+  [[nodiscard]] double eraserSize() const { return eraser_px_; }
+  [[nodiscard]] bool isStroking() const { return is_stroking_; }
+  /// Diameter of the ring, in image pixels.
+  [[nodiscard]] double ringDiameter() const { return erases() ? eraser_px_ : brush_px_; }
+
+  void press(const ToolPress& press) override;
+  void drag(QPointF image) override;
+  bool end() override;
+  bool cancel() override;
+  void step(double steps) override { emit sizeStepped(steps); }
+  [[nodiscard]] QCursor cursor() const override { return Qt::BlankCursor; }
+  [[nodiscard]] QRectF markRect(QPointF center, double scale) const override;
+  void paintMark(QPainter& painter, QPointF center, double scale) const override;
+
+ signals:
+  void strokeStarted(const episcope::StrokeStart& start);
+  void strokeExtended(QPointF image);
+  void strokeFinished();
+  void strokeCancelled();
+  /// Notches, positive = larger.
+  void sizeStepped(double steps);
+
+ private:
+  [[nodiscard]] bool erases() const { return is_eraser_ || erases_by_button_; }
+  void paintTicks(QPainter& painter, QPointF center, double radius) const;
+
+  bool is_eraser_ = false;
+  double brush_px_ = 10;
+  double eraser_px_ = 20;
+  QColor color_;
+  bool is_stroking_ = false;
+  bool erases_by_button_ = false;
+};
+
+/// Fills the region under a click, or empties it with the right button.
+class FillTool : public CanvasTool {
+  Q_OBJECT
+
+ public:
+  using CanvasTool::CanvasTool;
+
+  void press(const ToolPress& press) override;
+  [[nodiscard]] QCursor cursor() const override { return Qt::CrossCursor; }
+
+ signals:
+  void fillRequested(const episcope::StrokeStart& start);
+};
+
+}  // namespace episcope

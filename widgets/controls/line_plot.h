@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QColor>
+#include <QPalette>
+#include <QPointF>
+#include <QString>
+#include <QWidget>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace episcope {
+
+class PlotChart;
+
+struct PlotAxis {
+  QString title;                ///< With its unit: "MSE×100 [px²]".
+  bool is_logarithmic = false;  ///< Ignored if not all values are positive.
+};
+
+struct PlotSeries {
+  QString name;                 ///< In the legend, which there is with two series or more.
+  std::vector<QPointF> points;  ///< In the order of x; those that are not finite are left out.
+};
+
+struct Plot {
+  PlotAxis x;
+  PlotAxis y;
+  std::vector<PlotSeries> series;
+};
+
+/// A point of a plot.
+struct PlotPlace {
+  std::size_t series = 0;
+  std::size_t point = 0;
+  friend bool operator==(const PlotPlace&, const PlotPlace&) = default;
+};
+
+enum class PlotMarker { Circle, Square, Diamond, Cross, Plus };
+
+/// How a line of a plot looks: colours of Okabe and Ito, which the colour-blind tell apart, and a
+/// marker of its own, so that colour is not the only difference.
+struct SeriesLook {
+  QColor color;  ///< Contrast ≥ 3 against the base of the palette.
+  PlotMarker marker;
+};
+
+/// Colours repeat after six series, markers after five.
+[[nodiscard]] SeriesLook series_look(std::size_t series, const QPalette& palette);
+
+/// Lines over an axis, with their points. A click near a point chooses it; with the focus, the
+/// arrows walk over points and lines, and Return chooses. Setters never emit.
+class LinePlot : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit LinePlot(QWidget* parent = nullptr);
+  ~LinePlot() override;
+
+  void setPlot(const Plot& plot);
+  /// Said in place of a plot without points.
+  void setEmptyText(const QString& text);
+  /// The point that is marked; none = no mark.
+  void setMark(std::optional<PlotPlace> place);
+
+  [[nodiscard]] const Plot& plot() const { return plot_; }
+  [[nodiscard]] const QString& emptyText() const { return empty_text_; }
+  [[nodiscard]] std::optional<PlotPlace> mark() const { return mark_; }
+  /// Where a point was drawn last, in widget coordinates.
+  [[nodiscard]] QPointF positionOf(PlotPlace place) const;
+  /// The point nearest to a position, within reach of the mouse.
+  [[nodiscard]] std::optional<PlotPlace> placeAt(QPointF position) const;
+
+  [[nodiscard]] QSize sizeHint() const override;
+  [[nodiscard]] QSize minimumSizeHint() const override;
+
+ signals:
+  void pointChosen(episcope::PlotPlace place);
+
+ protected:
+  bool event(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  [[nodiscard]] QPointF valueOf(PlotPlace place) const;
+  [[nodiscard]] std::optional<PlotPlace> firstPoint() const;
+  void walk(int points, int series);
+  void setHovered(std::optional<PlotPlace> place);
+  void paintMark(QPainter& painter, PlotPlace place, double radius) const;
+
+  Plot plot_;
+  QString empty_text_;
+  std::unique_ptr<PlotChart> chart_;
+  std::optional<PlotPlace> mark_;
+  std::optional<PlotPlace> walked_;  // with the keys
+  std::optional<PlotPlace> hovered_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QColor>
+#include <QIcon>
+#include <QPalette>
+#include <QProxyStyle>
+#include <QRectF>
+#include <QString>
+
+class QPainter;
+
+namespace episcope::theme {
+
+/// Colours of our own dark canvases, which do not follow the desktop theme.
+inline constexpr QColor kCanvas{0x26, 0x28, 0x2b};
+inline constexpr QColor kCanvasText{0xd6, 0xd9, 0xdd};
+inline constexpr QColor kCanvasMuted{0x9a, 0xa0, 0xa8};
+inline constexpr QColor kCrossHair{0xff, 0xd1, 0x4a};
+inline constexpr QColor kEstimate{0x4a, 0xc8, 0xff};  ///< Slope of the estimate.
+inline constexpr QColor kTruth{0x7d, 0xe0, 0x6b};     ///< Slope of the truth.
+inline constexpr QColor kPainted{0xff, 0x6a, 0x3d};   ///< Marks views that are painted.
+inline constexpr QColor kMeasured{0xff, 0x8b, 0xd1};  ///< A line drawn by hand.
+
+inline constexpr int kSpacing = 6;  ///< Between controls, logical pixels.
+inline constexpr int kMargin = 8;   ///< Around groups.
+
+/// Whether the palette is a dark one.
+[[nodiscard]] bool is_dark(const QPalette& palette);
+/// Text of lesser weight, still legible: contrast ≥ 4.5 against window and tabs.
+[[nodiscard]] QColor muted_text(const QPalette& palette);
+/// Frames of controls that nothing else sets off: contrast ≥ 3 against window and tabs, less where
+/// they are disabled.
+[[nodiscard]] QColor frame(const QPalette& palette);
+/// Text colours of meanings, legible on the palette's window.
+[[nodiscard]] QColor error_text(const QPalette& palette);
+[[nodiscard]] QColor warning_text(const QPalette& palette);
+[[nodiscard]] QColor success_text(const QPalette& palette);
+
+/// `part` of the way from one colour to the other.
+[[nodiscard]] QColor blend(const QColor& from, const QColor& to, double part);
+
+/// A palette that sets nothing but the colour of labels, so that all else is still inherited.
+[[nodiscard]] QPalette text_palette(const QColor& color);
+
+/// Contrast ratio of two opaque colours, 1 … 21 (WCAG 2.1, relative luminance).
+[[nodiscard]] double contrast_ratio(const QColor& a, const QColor& b);
+
+/// Complete light and dark palettes, for `--theme` options, screenshots and tests.
+[[nodiscard]] QPalette light_palette();
+[[nodiscard]] QPalette dark_palette();
+
+}  // namespace episcope::theme
+
+namespace episcope {
+
+/// The two that are compared: A is the result shown, B the one it is compared with.
+enum class Side { None, A, B };
+
+/// "A", "B" or nothing.
+[[nodiscard]] QString side_letter(Side side);
+/// Blue for A, orange for B: told apart on any picture and by the colour-blind.
+[[nodiscard]] QColor side_color(Side side);
+/// The letter on its colour, for lists; null for None.
+[[nodiscard]] QIcon side_icon(Side side);
+/// Draws the letter on its colour.
+void draw_side(QPainter& painter, const QRectF& badge, Side side);
+
+/// The Fusion style, with frames of check boxes that are seen in a dark theme as well: Fusion draws
+/// them darker than the window, whatever that is. Tabs stand closer together, and buttons of
+/// dialogs have no icons, which Fusion draws dark, too. Handles of splitters are a short line in
+/// the middle instead of a row of dark dots as wide as the handle. Names that are too long for a
+/// combo box end in "…".
+class OutlinedStyle : public QProxyStyle {
+  Q_OBJECT
+
+ public:
+  OutlinedStyle();
+
+  void drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
+                   const QWidget* widget = nullptr) const override;
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget = nullptr) const override;
+  int pixelMetric(PixelMetric metric, const QStyleOption* option = nullptr,
+                  const QWidget* widget = nullptr) const override;
+  int styleHint(StyleHint hint, const QStyleOption* option = nullptr,
+                const QWidget* widget = nullptr, QStyleHintReturn* data = nullptr) const override;
+};
+
+}  // namespace episcope

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/panels/brush_panel.h"
+
+#include "annotation/brush.h"
+#include "widgets/controls/labels.h"
+#include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QSpinBox>
+#include <QStandardItemModel>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+constexpr double kFirstGradient = 8;
+constexpr int kFirstOpacity = 70;
+
+}  // namespace
+
+BrushPanel::BrushPanel(QWidget* parent)
+    : QWidget(parent),
+      buttons_(new QHBoxLayout),
+      protects_(new QCheckBox(tr("Protect other labels"), this)),
+      bound_(new QComboBox(this)),
+      gradient_(new QDoubleSpinBox(this)),
+      opacity_(new QSlider(Qt::Horizontal, this)) {
+  setObjectName("brushPanel");
+  buttons_->setSpacing(2);
+  buttons_->addStretch(1);
+  auto* form = new QFormLayout;
+  form->setContentsMargins(0, 0, 0, 0);
+  form->setSpacing(theme::kSpacing);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  brush_ = addSize(*form, "brush", tr("Brush"), &BrushPanel::brushSizeEdited);
+  eraser_ = addSize(*form, "eraser", tr("Eraser"), &BrushPanel::eraserSizeEdited);
+  setSizeKeys({});
+  addFill(*form);
+  opacity_->setObjectName("brush.opacity");
+  opacity_->setRange(0, 100);
+  opacity_->setValue(kFirstOpacity);
+  opacity_->setToolTip(tr("Opacity of what is painted"));
+  form->addRow(tr("Opacity"), opacity_);
+  protects_->setObjectName("brush.protect");
+  protects_->setToolTip(
+      tr("The brush paints only unpainted pixels, and the eraser erases only the current label. "
+         "Holding Shift does the same."));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, theme::kSpacing, 0, 0);
+  layout->setSpacing(theme::kSpacing);
+  layout->addLayout(buttons_);
+  layout->addLayout(form);
+  layout->addWidget(protects_);
+  connect(protects_, &QCheckBox::toggled, this, &BrushPanel::protectsOthersEdited);
+  connect(opacity_, &QSlider::valueChanged, this,
+          [this] { emit scribbleOpacityEdited(scribbleOpacity()); });
+}
+
+BrushPanel::SizeRow BrushPanel::addSize(QFormLayout& form, const QString& name, const QString& text,
+                                        void (BrushPanel::*edited)(double)) {
+  const SizeRow row{new QSlider(Qt::Horizontal, this), new QSpinBox(this)};
+  row.slider->setObjectName(name + ".slider");
+  row.spin->setObjectName(name + ".spin");
+  row.slider->setAccessibleName(text);
+  row.spin->setAccessibleName(text);
+  row.slider->setRange(static_cast<int>(kMinBrush_px), static_cast<int>(kMaxBrush_px));
+  row.spin->setRange(static_cast<int>(kMinBrush_px), static_cast<int>(kMaxBrush_px));
+  row.spin->setSuffix(tr(" px"));
+  row.spin->setKeyboardTracking(false);
+  auto* line = new QHBoxLayout;
+  line->setSpacing(theme::kSpacing);
+  line->addWidget(row.slider, 1);
+  line->addWidget(row.spin);
+  form.addRow(text, line);
+  connect(row.slider, &QSlider::valueChanged, row.spin, &QSpinBox::setValue);
+  connect(row.spin, &QSpinBox::valueChanged, this, [this, row, edited](int diameter_px) {
+    const QSignalBlocker blocker(row.slider);
+    row.slider->setValue(diameter_px);
+    emit(this->*edited)(diameter_px);
+  });
+  return row;
+}
+
+void BrushPanel::addFill(QFormLayout& form) {
+  bound_->setObjectName("fill.bound");
+  bound_->addItem(tr("up to edges"), static_cast<int>(FillBound::Edges));
+  bound_->addItem(tr("its segment"), static_cast<int>(FillBound::Segmentation));
+  bound_->setToolTip(
+      tr("What bounds a fill: edges of the view, or the segment of the current segmentation"));
+  gradient_->setObjectName("fill.gradient");
+  gradient_->setLocale(QLocale::c());
+  gradient_->setRange(0.5, 99);
+  gradient_->setDecimals(1);
+  gradient_->setValue(kFirstGradient);
+  gradient_->setToolTip(
+      tr("Edge threshold: the change of colour from pixel to pixel that counts as an edge, in grey "
+         "levels (0 … 255)"));
+  auto* line = new QHBoxLayout;
+  line->setSpacing(theme::kSpacing);
+  line->addWidget(bound_, 1);
+  line->addWidget(gradient_);
+  form.addRow(tr("Fill"), line);
+  connect(bound_, &QComboBox::currentIndexChanged, this,
+          [this] { gradient_->setEnabled(fillBound() == FillBound::Edges); });
+  setSegmentationAvailable(false);
+}
+
+void BrushPanel::addAction(QAction* action, const QString& object_name) {
+  buttons_->insertWidget(buttons_->count() - 1, make_action_button(action, object_name, this));
+}
+
+void BrushPanel::addGap() {
+  buttons_->insertSpacing(buttons_->count() - 1, theme::kMargin);
+}
+
+void BrushPanel::setSize(const SizeRow& row, double diameter_px) {
+  const QSignalBlocker slider(row.slider);
+  const QSignalBlocker spin(row.spin);
+  row.slider->setValue(static_cast<int>(std::lround(diameter_px)));
+  row.spin->setValue(static_cast<int>(std::lround(diameter_px)));
+}
+
+void BrushPanel::setBrushSize(double diameter_px) {
+  setSize(brush_, diameter_px);
+}
+
+void BrushPanel::setEraserSize(double diameter_px) {
+  setSize(eraser_, diameter_px);
+}
+
+void BrushPanel::setSizeKeys(const QString& keys) {
+  const QString tip =
+      tr("Diameter in pixels of the view (%1)")
+          .arg(keys.isEmpty() ? tr("Ctrl+Shift+wheel") : tr("%1, or Ctrl+Shift+wheel").arg(keys));
+  for (const SizeRow& row : {brush_, eraser_}) {
+    row.slider->setToolTip(tip);
+    row.spin->setToolTip(tip);
+  }
+}
+
+void BrushPanel::setProtectsOthers(bool protects) {
+  const QSignalBlocker blocker(protects_);
+  protects_->setChecked(protects);
+}
+
+void BrushPanel::setScribbleOpacity(double opacity) {
+  const QSignalBlocker blocker(opacity_);
+  opacity_->setValue(static_cast<int>(std::lround(100 * opacity)));
+}
+
+void BrushPanel::setSegmentationAvailable(bool is_available) {
+  auto* model = qobject_cast<QStandardItemModel*>(bound_->model());
+  model->item(1)->setEnabled(is_available);
+  if (!is_available) bound_->setCurrentIndex(0);
+}
+
+FillBound BrushPanel::fillBound() const {
+  return static_cast<FillBound>(bound_->currentData().toInt());
+}
+
+double BrushPanel::fillGradient() const {
+  return gradient_->value();
+}
+
+bool BrushPanel::protectsOthers() const {
+  return protects_->isChecked();
+}
+
+double BrushPanel::scribbleOpacity() const {
+  return opacity_->value() / 100.0;
+}
+
+AnnotationBar::AnnotationBar(QWidget* parent)
+    : QWidget(parent),
+      carried_(new QCheckBox(tr("Carry to all views by"), this)),
+      by_(new QComboBox(this)),
+      carry_state_(new ElidedLabel(this)),
+      file_state_(new ElidedLabel(this, Qt::ElideMiddle)),
+      buttons_(new QHBoxLayout) {
+  setObjectName("annotationBar");
+  carried_->setObjectName("carry.on");
+  carried_->setToolTip(
+      tr("Shows the scribbles of every view on all others, as stripes: carried along the rays, "
+         "except where they are occluded. They never replace what you painted."));
+  by_->setObjectName("carry.by");
+  by_->addItem(tr("the shown estimate"), static_cast<int>(CarriedBy::Estimate));
+  by_->addItem(tr("the ground truth"), static_cast<int>(CarriedBy::Truth));
+  by_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  by_->setToolTip(tr("Disparity along which scribbles are carried"));
+  carry_state_->setObjectName("carry.state");
+  file_state_->setObjectName("annotation.file");
+  auto* carry = new QHBoxLayout;
+  carry->setSpacing(theme::kSpacing);
+  carry->addWidget(carried_);
+  carry->addWidget(by_, 1);
+  buttons_->setSpacing(2);
+  buttons_->addWidget(file_state_, 1);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, theme::kSpacing);
+  layout->setSpacing(4);
+  layout->addLayout(carry);
+  layout->addWidget(carry_state_);
+  layout->addLayout(buttons_);
+  connect(carried_, &QCheckBox::toggled, this, &AnnotationBar::carriedEdited);
+  connect(by_, &QComboBox::activated, this, [this] {
+    is_chosen_ = true;
+    emit carriedByEdited();
+  });
+  setSources(false, false);
+  setCarryState({});
+}
+
+void AnnotationBar::addAction(QAction* action, const QString& object_name) {
+  buttons_->insertWidget(buttons_->count() - 1, make_action_button(action, object_name, this));
+}
+
+void AnnotationBar::setSources(bool has_estimate, bool has_truth) {
+  auto* model = qobject_cast<QStandardItemModel*>(by_->model());
+  const bool has[] = {has_estimate, has_truth};
+  for (int i = 0; i < 2; ++i) model->item(i)->setEnabled(has[i]);
+  const int wanted = is_chosen_ ? by_->currentIndex() : 0;
+  by_->setCurrentIndex(has[wanted] || !has[1 - wanted] ? wanted : 1 - wanted);
+  by_->setEnabled(has_estimate || has_truth);
+}
+
+void AnnotationBar::setCarried(bool is_carried) {
+  const QSignalBlocker blocker(carried_);
+  carried_->setChecked(is_carried);
+}
+
+void AnnotationBar::setCarryState(const QString& state) {
+  carry_state_->setFullText(state);
+  carry_state_->setVisible(!state.isEmpty());
+}
+
+void AnnotationBar::setFileState(const QString& state) {
+  file_state_->setFullText(state);
+}
+
+bool AnnotationBar::isCarried() const {
+  return carried_->isChecked();
+}
+
+AnnotationBar::CarriedBy AnnotationBar::carriedBy() const {
+  return static_cast<CarriedBy>(by_->currentData().toInt());
+}
+
+}  // namespace episcope
+
+#include "moc_brush_panel.cpp"

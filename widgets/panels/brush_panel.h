@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "widgets/canvas/stroke_tool.h"
+
+#include <QString>
+#include <QWidget>
+
+class QAction;
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QHBoxLayout;
+class QSlider;
+class QSpinBox;
+
+namespace episcope {
+
+class ElidedLabel;
+
+/// What stops a fill.
+enum class FillBound { Edges, Segmentation };
+
+/// Buttons of the tools, sizes of brush and eraser, and what bounds a fill. Setters never emit.
+class BrushPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit BrushPanel(QWidget* parent = nullptr);
+
+  /// A button for an action, in order of the calls; a gap before those of another group.
+  void addAction(QAction* action, const QString& object_name);
+  void addGap();
+  void setBrushSize(double diameter_px);
+  void setEraserSize(double diameter_px);
+  /// Keys that change the size, for its tool tips; empty if there are none.
+  void setSizeKeys(const QString& keys);
+  void setProtectsOthers(bool protects);
+  void setScribbleOpacity(double opacity);
+  /// Without a segmentation, fills can be bounded by edges only.
+  void setSegmentationAvailable(bool is_available);
+
+  [[nodiscard]] FillBound fillBound() const;
+  /// Change of colour from pixel to pixel that is an edge, in grey levels of 255.
+  [[nodiscard]] double fillGradient() const;
+  [[nodiscard]] bool protectsOthers() const;
+  [[nodiscard]] double scribbleOpacity() const;
+
+ signals:
+  void brushSizeEdited(double diameter_px);
+  void eraserSizeEdited(double diameter_px);
+  void protectsOthersEdited(bool protects);
+  void scribbleOpacityEdited(double opacity);
+
+ private:
+  struct SizeRow {
+    QSlider* slider;
+    QSpinBox* spin;
+  };
+  [[nodiscard]] SizeRow addSize(QFormLayout& form, const QString& name, const QString& text,
+                                void (BrushPanel::*edited)(double));
+  void setSize(const SizeRow& row, double diameter_px);
+  void addFill(QFormLayout& form);
+
+  QHBoxLayout* buttons_;
+  SizeRow brush_{};
+  SizeRow eraser_{};
+  QCheckBox* protects_;
+  QComboBox* bound_;
+  QDoubleSpinBox* gradient_;
+  QSlider* opacity_;
+};
+
+/// What is done with all scribbles: carrying them to all views, saving, exporting, importing.
+/// Setters never emit.
+class AnnotationBar : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// What scribbles are carried by.
+  enum class CarriedBy { Estimate, Truth };
+
+  explicit AnnotationBar(QWidget* parent = nullptr);
+
+  /// A button for an action, in order of the calls.
+  void addAction(QAction* action, const QString& object_name);
+  /// Which disparities there are; what is missing cannot be chosen.
+  void setSources(bool has_estimate, bool has_truth);
+  void setCarried(bool is_carried);
+  /// What carrying is about, e.g. "carrying …"; empty = nothing.
+  void setCarryState(const QString& state);
+  /// The file and whether it holds what is painted.
+  void setFileState(const QString& state);
+
+  [[nodiscard]] bool isCarried() const;
+  [[nodiscard]] CarriedBy carriedBy() const;
+
+ signals:
+  void carriedEdited(bool is_carried);
+  void carriedByEdited();
+
+ private:
+  QCheckBox* carried_;
+  QComboBox* by_;
+  ElidedLabel* carry_state_;
+  ElidedLabel* file_state_;
+  QHBoxLayout* buttons_;
+  bool is_chosen_ = false;  // by the user; until then the estimate goes before the truth
+};
+
+}  // namespace episcope

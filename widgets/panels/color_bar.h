@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/render/shade.h"
+
+#include <QString>
+#include <QWidget>
+
+class QAction;
+class QLabel;
+class QToolButton;
+
+namespace episcope {
+
+class ColorRamp;
+class NumberSpin;
+
+/// Legend of an overlay: name and unit, the colour map between two range ends that can be edited,
+/// the colour of invalid pixels, a lock, and a button for the automatic range. Setters never emit.
+class ColorBar : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ColorBar(QWidget* parent = nullptr);
+
+  void setShading(const QString& title, const QString& unit, const render::Shading& shading);
+  /// Marks a value on the ramp, e.g. at the cursor; NaN = none.
+  void setMarker(double value);
+  void setRangeLocked(bool locked);
+
+  /// The buttons take the tool tips of what they do, with the keys in them.
+  void followTips(const QAction* automatic, const QAction* own);
+
+  [[nodiscard]] Interval range() const;
+  [[nodiscard]] bool isRangeLocked() const;
+
+ signals:
+  void rangeEdited(episcope::Interval range);
+  void rangeLockToggled(bool locked);
+  /// From the data of this map.
+  void automaticRangeRequested();
+  /// The quantity's own range.
+  void ownRangeRequested();
+
+ private:
+  void editRange();
+
+  QLabel* title_;
+  ColorRamp* ramp_;
+  NumberSpin* min_;
+  NumberSpin* max_;
+  QLabel* invalid_;
+  QToolButton* lock_;
+  QToolButton* automatic_;
+  QToolButton* own_;
+};
+
+/// The painted colour map of a ColorBar, low to high from left to right.
+class ColorRamp : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ColorRamp(QWidget* parent = nullptr);
+
+  void setShading(const render::Shading& shading);
+  /// NaN = none.
+  void setMarker(double value);
+  [[nodiscard]] const render::Shading& shading() const { return shading_; }
+  [[nodiscard]] QSize sizeHint() const override;
+  [[nodiscard]] QSize minimumSizeHint() const override;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  render::Shading shading_;
+  double marker_;
+};
+
+}  // namespace episcope

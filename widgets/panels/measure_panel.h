@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+#include <QWidget>
+
+#include <vector>
+
+class QAction;
+class QBoxLayout;
+class QLabel;
+class QTreeWidget;
+
+namespace episcope {
+
+/// The disparities that were measured by hand and kept: a click on one goes there, a double click
+/// renames it, Delete removes it. Setters never emit; what the user wants is a signal.
+class MeasurePanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// A measurement, as text.
+  struct Row {
+    QString name;
+    QString disparity;  ///< "0.42"
+    QString depth;      ///< Empty = unknown.
+    QString place;      ///< "row 12 · (4, 4)"
+    QString tip;
+  };
+
+  explicit MeasurePanel(QWidget* parent = nullptr);
+
+  /// Buttons above the list, and under it those of what is done with the chosen one, in order of
+  /// the calls.
+  void addAction(QAction* action);
+  void addChosenAction(QAction* action);
+  void setRows(const std::vector<Row>& rows, int current);
+  /// Shown while there are none.
+  void setHint(const QString& hint);
+  /// Begins to edit the name of a measurement in its row.
+  void editName(int index);
+
+ signals:
+  void chosen(int index);
+  void renameRequested(int index, const QString& name);
+  void removeRequested(int index);
+
+ private:
+  void setUpList();
+
+  QBoxLayout* actions_;
+  QTreeWidget* list_;
+  QLabel* hint_;
+  QBoxLayout* chosen_actions_;
+};
+
+}  // namespace episcope

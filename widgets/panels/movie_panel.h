@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/render/movie.h"
+
+#include <QWidget>
+
+#include <set>
+
+class QCheckBox;
+class QComboBox;
+class QFormLayout;
+class QSpinBox;
+
+namespace episcope {
+
+class NumberSpin;
+
+/// What a movie shows, how the camera moves, how long it lasts and how large it is. Rows that do
+/// not belong to the kind of movie are disabled. Setters never emit.
+class MoviePanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit MoviePanel(QWidget* parent = nullptr);
+
+  /// Kinds that there can be now; at least the parallax.
+  void setAvailable(const std::set<render::MovieKind>& kinds);
+  /// Whether there is a map to show over the views.
+  void setOverlayAvailable(bool is_available);
+  void setFocusRange(Interval range_px);
+  [[nodiscard]] render::MovieChoice choice() const;
+  [[nodiscard]] bool showsOverlay() const;
+
+ signals:
+  void saveRequested();
+  void cancelRequested();
+
+ private:
+  void addKinds(QFormLayout& form);
+  void addFocus(QFormLayout& form);
+  void addSizes(QFormLayout& form);
+  void adapt();
+
+  QComboBox* kind_;
+  QComboBox* path_;
+  NumberSpin* nearest_;
+  NumberSpin* farthest_;
+  NumberSpin* seconds_;
+  QSpinBox* width_;
+  QCheckBox* overlay_;
+  bool has_overlay_ = false;
+};
+
+}  // namespace episcope

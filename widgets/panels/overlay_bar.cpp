@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/panels/overlay_bar.h"
+
+#include "widgets/controls/number_spin.h"
+#include "widgets/controls/text.h"
+#include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QStandardItemModel>
+#include <QToolButton>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+using render::Quantity;
+
+constexpr double kFocusStep = 0.01;  // px a slider step.
+
+int focus_step(double focus_px) {
+  return static_cast<int>(std::lround(focus_px / kFocusStep));
+}
+
+}  // namespace
+
+OverlayBar::OverlayBar(QWidget* parent)
+    : QWidget(parent),
+      title_(new QLabel(tr("Overlay"), this)),
+      quantity_(new QComboBox(this)),
+      opacity_(new QSlider(Qt::Horizontal, this)),
+      focus_slider_(new QSlider(Qt::Horizontal, this)),
+      focus_spin_(new NumberSpin(this)),
+      row_(new QHBoxLayout(this)) {
+  setObjectName("overlayBar");
+  quantity_->setObjectName("overlay.quantity");
+  quantity_->setToolTip(tr("What is drawn over the view (M: next)"));
+  for (const render::QuantityInfo& info : render::quantities()) {
+    if (info.quantity == Quantity::Difference) continue;  // chosen by a command of its own
+    quantity_->addItem(quantity_label(info.quantity), static_cast<int>(info.quantity));
+  }
+  opacity_->setObjectName("overlay.opacity");
+  opacity_->setRange(0, 100);
+  opacity_->setMinimumWidth(40);
+  opacity_->setMaximumWidth(70);
+  opacity_->setToolTip(tr("Opacity of the overlay"));
+  focus_slider_->setObjectName("overlay.focusSlider");
+  focus_slider_->setMinimumWidth(44);
+  focus_slider_->setMaximumWidth(220);
+  focus_slider_->setToolTip(
+      tr("Focus plane: shears EPIs and view so that this disparity appears as zero (Alt+wheel, "
+         "Ctrl+wheel, "
+         "Shift+click)"));
+  focus_spin_->setObjectName("overlay.focusSpin");
+  focus_spin_->setAccessibleName(tr("Focus plane"));
+  focus_spin_->setDecimals(2);
+  focus_spin_->setSingleStep(0.05);
+  focus_spin_->setRange(-kFarthestFocus, kFarthestFocus);
+  focus_spin_->setSuffix(tr(" px"));
+  auto* reset =
+      make_tool_button({"overlay.focusReset", "reset", tr("Reset the focus plane to 0 px")}, this);
+
+  row_->setContentsMargins(0, 0, 0, 0);
+  row_->setSpacing(theme::kSpacing);
+  row_->addWidget(title_);
+  row_->addWidget(quantity_);
+  row_->addWidget(opacity_);
+  row_->addSpacing(2 * theme::kMargin);
+  row_->addWidget(new QLabel(tr("Focus plane"), this));
+  row_->addWidget(focus_slider_, 1);
+  row_->addWidget(focus_spin_);
+  row_->addWidget(reset);
+  row_->addStretch();
+  for (auto* label : findChildren<QLabel*>()) {
+    label->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
+  }
+  quantity_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+  focus_spin_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+
+  setOpacity(0.7);
+  setFocusRange({-2, 2});
+  setAvailable({});
+  connect(quantity_, &QComboBox::activated, this, [this] {
+    opacity_->setEnabled(quantity() != Quantity::View);
+    emit quantitySelected(quantity());
+  });
+  connect(opacity_, &QSlider::valueChanged, this, [this] { emit opacityChanged(opacity()); });
+  connect(focus_slider_, &QSlider::valueChanged, this,
+          [this](int value) { changeFocus(value * kFocusStep); });
+  connect(focus_spin_, &NumberSpin::valueChanged, this, &OverlayBar::changeFocus);
+  connect(reset, &QToolButton::clicked, this, [this] { changeFocus(0); });
+}
+
+void OverlayBar::setAvailable(const std::vector<Quantity>& quantities) {
+  auto* model = qobject_cast<QStandardItemModel*>(quantity_->model());
+  for (int i = 0; i < quantity_->count(); ++i) {
+    const auto quantity = static_cast<Quantity>(quantity_->itemData(i).toInt());
+    const bool is_available =
+        quantity == Quantity::View ||
+        std::find(quantities.begin(), quantities.end(), quantity) != quantities.end();
+    model->item(i)->setEnabled(is_available);
+  }
+}
+
+void OverlayBar::setSelectorVisible(bool visible) {
+  quantity_->setVisible(visible);
+  title_->setText(visible ? tr("Overlay") : tr("Opacity"));
+}
+
+void OverlayBar::setQuantity(Quantity quantity) {
+  const QSignalBlocker blocker(quantity_);
+  quantity_->setCurrentIndex(quantity_->findData(static_cast<int>(quantity)));
+  opacity_->setEnabled(quantity != Quantity::View);
+}
+
+void OverlayBar::setOpacity(double opacity) {
+  const QSignalBlocker blocker(opacity_);
+  opacity_->setValue(static_cast<int>(std::lround(100 * opacity)));
+}
+
+void OverlayBar::setFocusRange(Interval range_px) {
+  const QSignalBlocker slider_blocker(focus_slider_);
+  // Zero, the plane of the files, is always within reach, and so is what is in focus.
+  const double min = std::min({0.0, focus(), range_px.min});
+  const double max = std::max({0.0, focus(), range_px.max});
+  focus_slider_->setRange(focus_step(min), focus_step(max));
+  focus_slider_->setPageStep(10);
+}
+
+void OverlayBar::addFocusAction(QAction* action) {
+  row_->insertWidget(row_->count() - 1,
+                     make_action_button(action, "button." + action->objectName(), this));
+}
+
+void OverlayBar::setFocus(double focus_px) {
+  showFocus(focus_px);
+}
+
+void OverlayBar::showFocus(double focus_px) {
+  const QSignalBlocker slider_blocker(focus_slider_);
+  const QSignalBlocker spin_blocker(focus_spin_);
+  const int place = focus_step(focus_px);
+  focus_slider_->setRange(std::min(focus_slider_->minimum(), place),
+                          std::max(focus_slider_->maximum(), place));
+  focus_slider_->setValue(place);
+  focus_spin_->setValue(focus_px);
+}
+
+void OverlayBar::changeFocus(double focus_px) {
+  showFocus(focus_px);
+  emit focusChanged(focus());
+}
+
+Quantity OverlayBar::quantity() const {
+  return static_cast<Quantity>(quantity_->currentData().toInt());
+}
+
+double OverlayBar::opacity() const {
+  return opacity_->value() / 100.0;
+}
+double OverlayBar::focus() const {
+  return focus_spin_->value();
+}
+
+void OverlayBar::selectNextQuantity() {
+  const auto* model = qobject_cast<QStandardItemModel*>(quantity_->model());
+  int index = quantity_->currentIndex();
+  do {
+    index = (index + 1) % quantity_->count();
+  } while (!model->item(index)->isEnabled());
+  setQuantity(static_cast<Quantity>(quantity_->itemData(index).toInt()));
+  emit quantitySelected(quantity());
+}
+
+void OverlayBar::stepFocus(double steps) {
+  changeFocus(focus() + steps * focus_spin_->singleStep());
+}
+
+}  // namespace episcope
+
+#include "moc_overlay_bar.cpp"

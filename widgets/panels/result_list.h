@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+#include <QWidget>
+
+#include <optional>
+#include <vector>
+
+class QLabel;
+class QToolButton;
+class QTreeWidget;
+
+namespace episcope {
+
+/// One result as the list shows it.
+struct ResultRow {
+  quint64 id = 0;
+  QString method;
+  QString parameters;  ///< Summary; the whole of it is the tool tip.
+  double seconds = 0;  ///< 0 = unknown.
+  std::optional<double> mse_100;
+  QString detail;  ///< Further tool tip: source, notes.
+  QString note{};  ///< What the user wrote.
+};
+
+/// Results of this light field, newest last, with the shown one (A) and the compared one (B)
+/// marked. Choosing a row is an intent to show it, a click on its mark to compare with it, a double
+/// click on its name to change that; remove, export and the rest are in buttons and in the context
+/// menu.
+class ResultList : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ResultList(QWidget* parent = nullptr);
+
+  void setResults(const std::vector<ResultRow>& results);
+  /// Whether a method runs whose result will come; an empty list says so.
+  void setExpecting(bool is_expecting);
+  /// Marks the row whose picture is on screen and the one it is compared with; none = no mark.
+  void setShown(std::optional<quint64> id, std::optional<quint64> compared = std::nullopt);
+
+  [[nodiscard]] std::optional<quint64> selectedId() const;
+
+ signals:
+  void selected(quint64 id);
+  void compareRequested(quint64 id);
+  void removeRequested(quint64 id);
+  void renameRequested(quint64 id, const QString& name);
+  void exportRequested(quint64 id);
+  void copyCommandRequested(quint64 id);
+  /// Bring its parameters back into the form.
+  void reuseRequested(quint64 id);
+  void noteRequested(quint64 id);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void setUpColumns();
+  void setUpTree();
+  void fitMethods();
+  void showMenu(const QPoint& position);
+  void editName(quint64 id);
+  [[nodiscard]] bool hasRowsOf(const std::vector<ResultRow>& results) const;
+  /// What the buttons act on: the selected result, else the shown one.
+  [[nodiscard]] std::optional<quint64> target() const;
+  void updateButtons();
+
+  QTreeWidget* tree_;
+  QLabel* hint_;
+  QToolButton* export_;
+  QToolButton* remove_;
+  QToolButton* reuse_;
+  std::optional<quint64> shown_;
+  std::optional<quint64> compared_;
+};
+
+}  // namespace episcope

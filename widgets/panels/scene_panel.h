@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QAbstractListModel>
+#include <QHash>
+#include <QImage>
+#include <QString>
+#include <QStringList>
+#include <QWidget>
+
+#include <vector>
+
+class QAction;
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QListView;
+class QSlider;
+class QSortFilterProxyModel;
+
+namespace episcope {
+
+class ElidedLabel;
+class SceneList;
+
+/// The light fields of a folder: a list with thumbnails, filtered by a text and sorted. Double
+/// click or Return asks to open one.
+class ScenePanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// `list` must outlive this.
+  ScenePanel(SceneList* list, QWidget* parent);
+
+  /// The button beside the filter, and in the empty panel.
+  void setOpenAction(QAction* action);
+  /// Which folder is shown; while it is searched, the count goes on. Empty = none.
+  void setFolder(const QString& folder, bool is_searching);
+  /// Scrolls to a light field and selects it.
+  void reveal(const QString& path);
+  /// The path `step` rows from that of `path` among those shown that can be opened; of a path that
+  /// is not shown, the first or last of them. Empty if there is none.
+  [[nodiscard]] QString neighbour(const QString& path, int step) const;
+
+ signals:
+  void openRequested(const QString& path);
+
+ private:
+  void buildRows();
+  void showCount();
+  void sort();
+  [[nodiscard]] QString countText() const;
+
+  SceneList* list_;
+  QSortFilterProxyModel* shown_;
+  QLineEdit* filter_;
+  QComboBox* order_;
+  QListView* view_;
+  QLabel* hint_;
+  ElidedLabel* folder_label_;
+  ElidedLabel* count_;
+  QWidget* head_;
+  QString folder_;
+  bool is_searching_ = false;
+};
+
+/// A slider over the frames of a sequence.
+class TimeBar : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit TimeBar(QWidget* parent = nullptr);
+
+  /// The button that plays; takes its icon, tip and state from the action.
+  void setPlayAction(QAction* action);
+  /// Shows frame `frame` of `count`; emits nothing.
+  void setFrame(int frame, int count);
+
+ signals:
+  void frameChosen(int frame);
+
+ private:
+  void showNumber();
+
+  QSlider* slider_;
+  QLabel* number_;
+};
+
+/// One light field as the list shows it.
+struct SceneItem {
+  QString path;  ///< What opens it; unique.
+  QString name;
+  QString form;        ///< "archive"
+  QString shape;       ///< "9×9 · 512×512 RGB"; empty = unknown.
+  QStringList parts;   ///< "disparity of all views", "labels", "2 results": what it comes with.
+  QString problem;     ///< Why it cannot be opened; empty = it can.
+  qint64 samples = 0;  ///< Pixels of all views, to sort by.
+  bool has_truth = false;
+};
+
+/// The light fields of a folder, in the order in which they were found. Thumbnails are asked for
+/// when they are first to be painted.
+class SceneList : public QAbstractListModel {
+  Q_OBJECT
+
+ public:
+  enum Role {
+    kPath = Qt::UserRole + 1,
+    kForm,
+    kShape,
+    kParts,
+    kProblem,
+    kSamples,
+    kHasTruth,
+    kIsOpen,
+    kSearchText
+  };
+
+  using QAbstractListModel::QAbstractListModel;
+
+  void clear();
+  /// A light field of the same path is replaced.
+  void add(const SceneItem& item);
+  /// Replaces all; thumbnails of the same paths stay.
+  void setItems(const std::vector<SceneItem>& items);
+  void setThumbnail(const QString& path, const QImage& thumbnail);
+  /// Marks the light field that is open; none if there is no such path.
+  void setOpen(const QString& path);
+  [[nodiscard]] const SceneItem& item(int row) const { return rows_[row].item; }
+
+  [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
+  [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
+
+ signals:
+  /// Emitted once for each path, as long as its row exists.
+  void thumbnailWanted(const QString& path) const;
+
+ private:
+  struct Row {
+    SceneItem item;
+    QImage thumbnail;
+    mutable bool is_asked = false;
+  };
+
+  [[nodiscard]] int rowOf(const QString& path) const;
+
+  std::vector<Row> rows_;
+  QHash<QString, int> places_;
+  QString open_;
+};
+
+}  // namespace episcope

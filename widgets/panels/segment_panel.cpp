@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/panels/segment_panel.h"
+
+#include "annotation/document.h"
+#include "widgets/controls/number_spin.h"
+#include "widgets/controls/parameter_form.h"
+#include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QScrollArea>
+#include <QSignalBlocker>
+#include <QStandardItemModel>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+constexpr int kSettingsHeight = 170;
+
+}  // namespace
+
+SegmentPanel::SegmentPanel(QWidget* parent)
+    : QWidget(parent),
+      chip_(new QLabel(this)),
+      actions_(new QHBoxLayout),
+      overlays_(new QHBoxLayout),
+      note_(new QLabel(this)),
+      fold_(new QToolButton(this)),
+      settings_(new QScrollArea(this)),
+      source_(new QComboBox(this)),
+      all_views_(new QCheckBox(tr("All views after each stroke"), this)),
+      smoothing_(new NumberSpin(this)),
+      form_(new ParameterForm(this)) {
+  setObjectName("segmentPanel");
+  chip_->setObjectName("segment.state");
+  chip_->setTextFormat(Qt::PlainText);
+  note_->setObjectName("segment.note");
+  note_->setTextFormat(Qt::PlainText);
+  note_->setWordWrap(true);
+  fold_->setObjectName("segment.settings");
+  fold_->setText(tr("Settings"));
+  fold_->setToolTip(tr("Shows the settings of the segmentation"));
+  fold_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  fold_->setArrowType(Qt::RightArrow);
+  fold_->setAutoRaise(true);
+  fold_->setFocusPolicy(Qt::NoFocus);
+  actions_->setSpacing(2);
+  actions_->addStretch(1);
+  actions_->addWidget(chip_);
+  overlays_->setSpacing(2);
+  overlays_->addStretch(1);
+  auto* below = new QHBoxLayout;
+  below->setSpacing(theme::kSpacing);
+  below->addWidget(fold_, 0, Qt::AlignTop);
+  below->addWidget(note_, 1);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+  layout->addLayout(actions_);
+  layout->addLayout(overlays_);
+  layout->addLayout(below);
+  layout->addWidget(makeSettings());
+  connect(fold_, &QToolButton::clicked, this,
+          [this] { setSettingsVisible(settings_->isHidden()); });
+  connect(form_, &ParameterForm::valuesChanged, this, &SegmentPanel::parametersEdited);
+  connect(source_, &QComboBox::activated, this, &SegmentPanel::sourceEdited);
+  connect(all_views_, &QCheckBox::toggled, this, &SegmentPanel::keepsAllViewsEdited);
+  setSettingsVisible(false);
+  setNote({});
+}
+
+QWidget* SegmentPanel::makeSettings() {
+  source_->setObjectName("segment.source");
+  source_->setToolTip(
+      tr("Disparity that carries labels from view to view, and that the classifier may use as a "
+         "feature"));
+  source_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  all_views_->setObjectName("segment.keepAll");
+  all_views_->setToolTip(tr("Segments all views whenever the labels of this one are ready"));
+  auto* row = new QHBoxLayout;
+  row->setSpacing(theme::kSpacing);
+  row->addWidget(new QLabel(tr("Disparity"), this));
+  row->addWidget(source_, 1);
+  auto* content = new QWidget(settings_);
+  auto* layout = new QVBoxLayout(content);
+  layout->setContentsMargins(0, 0, theme::kSpacing, 0);
+  layout->setSpacing(theme::kSpacing);
+  layout->addLayout(row);
+  layout->addWidget(makeSmoothing());
+  layout->addWidget(form_);
+  layout->addWidget(all_views_);
+  layout->addStretch(1);
+  settings_->setObjectName("segment.form");
+  settings_->setFrameShape(QFrame::NoFrame);
+  settings_->setWidgetResizable(true);
+  settings_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  settings_->setFixedHeight(kSettingsHeight);
+  settings_->setWidget(content);
+  return settings_;
+}
+
+QWidget* SegmentPanel::makeSmoothing() {
+  const QString tip =
+      tr("Smooths the boundaries of all labels; 0 shows them as they were computed. Can be undone");
+  smoothing_->setObjectName("segment.smoothing");
+  smoothing_->setRange(0, AnnotationDocument::kMaxSmoothing_px);
+  smoothing_->setDecimals(2);
+  smoothing_->setLeastDecimals(1);
+  smoothing_->setSingleStep(0.5);
+  smoothing_->setKeyboardTracking(false);
+  smoothing_->setSuffix(tr(" px"));
+  smoothing_->setToolTip(tip);
+  auto* row = new QWidget(this);
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(theme::kSpacing);
+  auto* label = new QLabel(tr("Smooth boundaries by"), row);
+  label->setBuddy(smoothing_);
+  label->setToolTip(tip);
+  layout->addWidget(label);
+  layout->addWidget(smoothing_);
+  layout->addStretch(1);
+  connect(smoothing_, &NumberSpin::valueChanged, this, &SegmentPanel::smoothingEdited);
+  return row;
+}
+
+void SegmentPanel::setSmoothing(double smoothing_px) {
+  const QSignalBlocker blocker(smoothing_);
+  smoothing_->setValue(smoothing_px);
+}
+
+void SegmentPanel::addAction(QAction* action, const QString& object_name) {
+  actions_->insertWidget(actions_->count() - 2, make_action_button(action, object_name, this));
+}
+
+void SegmentPanel::addOverlay(QAction* action, const QString& object_name) {
+  overlays_->insertWidget(overlays_->count() - 1, make_action_button(action, object_name, this));
+}
+
+void SegmentPanel::setState(const QString& text, ChipMood mood, const QString& detail) {
+  chip_->setText(text);
+  chip_->setToolTip(detail);
+  mood_ = mood;
+  showMood();
+}
+
+void SegmentPanel::showMood() {
+  QColor color = theme::muted_text(palette());
+  if (mood_ == ChipMood::Busy) color = palette().color(QPalette::WindowText);
+  if (mood_ == ChipMood::Stale || mood_ == ChipMood::Hint) color = theme::warning_text(palette());
+  if (mood_ == ChipMood::Failed) color = theme::error_text(palette());
+  chip_->setPalette(theme::text_palette(color));
+}
+
+void SegmentPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) showMood();
+}
+
+void SegmentPanel::setNote(const QString& sentence) {
+  note_->setText(sentence);
+}
+
+void SegmentPanel::setParameters(const std::vector<ParameterDescription>& parameters) {
+  form_->setParameters(parameters);
+}
+
+void SegmentPanel::setSources(const std::vector<Source>& sources, int current) {
+  const QSignalBlocker blocker(source_);
+  source_->clear();
+  auto* model = qobject_cast<QStandardItemModel*>(source_->model());
+  for (const Source& source : sources) {
+    source_->addItem(source.name, source.id);
+    source_->setItemData(source_->count() - 1, source.name, Qt::ToolTipRole);
+    model->item(source_->count() - 1)->setEnabled(source.is_available);
+  }
+  source_->setCurrentIndex(std::max(0, source_->findData(current)));
+}
+
+void SegmentPanel::setSettingsVisible(bool are_visible) {
+  settings_->setVisible(are_visible);
+  fold_->setArrowType(are_visible ? Qt::DownArrow : Qt::RightArrow);
+}
+
+ParameterSet SegmentPanel::parameters() const {
+  return form_->values();
+}
+
+int SegmentPanel::source() const {
+  return source_->currentData().toInt();
+}
+
+bool SegmentPanel::keepsAllViews() const {
+  return all_views_->isChecked();
+}
+
+QString SegmentPanel::state() const {
+  return chip_->text();
+}
+
+QString SegmentPanel::note() const {
+  return note_->text();
+}
+
+}  // namespace episcope
+
+#include "moc_segment_panel.cpp"

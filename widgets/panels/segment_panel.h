@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/parameter.h"
+
+#include <QString>
+#include <QWidget>
+
+#include <vector>
+
+class QAction;
+class QCheckBox;
+class QComboBox;
+class QHBoxLayout;
+class QLabel;
+class QScrollArea;
+class QToolButton;
+
+namespace episcope {
+
+class NumberSpin;
+class ParameterForm;
+
+/// What the state chip is coloured by.
+enum class ChipMood { Quiet, Busy, Stale, Hint, Failed };
+
+/// The segmentation learnt from scribbles: its state and quality, buttons of what is done and
+/// shown, and, folded away, its settings. Setters never emit.
+class SegmentPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// A disparity that can be chosen.
+  struct Source {
+    int id = 0;
+    QString name;
+    bool is_available = true;
+  };
+
+  explicit SegmentPanel(QWidget* parent = nullptr);
+
+  /// Buttons for actions, in order of the calls: above what is done, below what is shown.
+  void addAction(QAction* action, const QString& object_name);
+  void addOverlay(QAction* action, const QString& object_name);
+  /// "refining …", "idle · 2.1 s"; `detail` is its tool tip.
+  void setState(const QString& text, ChipMood mood, const QString& detail);
+  /// A sentence on what is missing or what was found; empty = none.
+  void setNote(const QString& sentence);
+  void setParameters(const std::vector<ParameterDescription>& parameters);
+  void setSources(const std::vector<Source>& sources, int current);
+  void setSettingsVisible(bool are_visible);
+  void setSmoothing(double smoothing_px);
+
+  [[nodiscard]] ParameterSet parameters() const;
+  /// Id of the disparity that was chosen.
+  [[nodiscard]] int source() const;
+  /// Whether all views are wanted after each stroke.
+  [[nodiscard]] bool keepsAllViews() const;
+  [[nodiscard]] QString state() const;
+  [[nodiscard]] QString note() const;
+
+ signals:
+  void parametersEdited();
+  void sourceEdited();
+  void keepsAllViewsEdited();
+  void smoothingEdited(double smoothing_px);
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  QWidget* makeSettings();
+  QWidget* makeSmoothing();
+  void showMood();
+
+  QLabel* chip_;
+  ChipMood mood_ = ChipMood::Quiet;
+  QHBoxLayout* actions_;
+  QHBoxLayout* overlays_;
+  QLabel* note_;
+  QToolButton* fold_;
+  QScrollArea* settings_;
+  QComboBox* source_;
+  QCheckBox* all_views_;
+  NumberSpin* smoothing_;
+  ParameterForm* form_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/render/region_statistics.h"
+#include "engine/render/shade.h"
+
+#include <QString>
+#include <QWidget>
+
+#include <array>
+#include <optional>
+
+class QGridLayout;
+class QLabel;
+
+namespace episcope {
+
+class ElidedLabel;
+class HistogramView;
+class LinePlot;
+class NumberSpin;
+struct Plot;
+
+/// What is in sight of a map: a histogram and a few numbers. Setters never emit.
+class StatisticsPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  struct Summary {
+    QString title;  ///< "error of EPI_L"
+    QString unit;   ///< "px"; may be empty.
+    render::RegionStatistics statistics;
+    std::optional<double> bad_percent;  ///< Off by more than the threshold.
+    render::Shading shading;
+  };
+
+  explicit StatisticsPanel(QWidget* parent = nullptr);
+
+  void setSummary(const Summary& summary);
+  void setBadThreshold(double threshold_px);
+  /// No map: says why.
+  void clear(const QString& why);
+  /// "min −0.120, median …", "–" where nothing is known.
+  [[nodiscard]] QString text() const;
+
+ signals:
+  void rangeEdited(episcope::Interval range);
+  void badThresholdEdited(double threshold_px);
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void addThreshold(QGridLayout& layout);
+  void updateColors();
+
+  ElidedLabel* title_;
+  HistogramView* histogram_;
+  std::array<QLabel*, 6> names_;
+  std::array<QLabel*, 6> values_;
+  NumberSpin* threshold_;
+};
+
+/// A histogram in the colours of its map, with a handle at each end of the colour range. Dragging a
+/// handle is an intent to change the range, dragging between them moves both. Setters never emit.
+class HistogramView : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit HistogramView(QWidget* parent = nullptr);
+
+  /// No counts: nothing but the handles is drawn.
+  void setHistogram(const render::Histogram& histogram, const render::Shading& shading);
+  [[nodiscard]] const render::Histogram& histogram() const { return histogram_; }
+  [[nodiscard]] Interval range() const { return shading_.range; }
+  /// Where a value stands, in widget coordinates.
+  [[nodiscard]] double xOf(double value) const;
+
+  [[nodiscard]] QSize sizeHint() const override;
+  [[nodiscard]] QSize minimumSizeHint() const override;
+
+ signals:
+  void rangeEdited(episcope::Interval range);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+
+ private:
+  enum class Grip { None, Min, Max, Both };
+  [[nodiscard]] QRectF area() const;
+  [[nodiscard]] double valueAt(double x) const;
+  [[nodiscard]] Grip gripAt(QPointF position) const;
+  void paintBars(QPainter& painter) const;
+  void paintHandles(QPainter& painter) const;
+
+  render::Histogram histogram_;
+  render::Shading shading_;
+  Grip grip_ = Grip::None;
+  double pressed_value_ = 0;
+  Interval pressed_range_;
+};
+
+/// Errors by true disparity: two plots under each other, or why there are none.
+class ErrorPlotPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ErrorPlotPanel(QWidget* parent = nullptr);
+
+  void setPlots(const QString& title, const Plot& squares, const Plot& bad);
+  /// No plots: says why.
+  void clear(const QString& why);
+
+ private:
+  ElidedLabel* title_;
+  LinePlot* squares_;
+  LinePlot* bad_;
+};
+
+}  // namespace episcope

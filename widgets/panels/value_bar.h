@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/indices.h"
+
+#include <QColor>
+#include <QString>
+#include <QWidget>
+
+#include <optional>
+#include <vector>
+
+class QLabel;
+
+namespace episcope {
+
+class PartsLabel;
+
+/// Value of one estimate at the cursor.
+struct EstimateReading {
+  QString name;
+  std::optional<double> disparity_px;  ///< None = invalid there.
+  /// Where two surfaces are seen: what lies behind the first.
+  std::optional<double> background_px = {};
+};
+
+/// All that is known about one pixel.
+struct PixelReading {
+  PixelIndex pixel;
+  QString samples;  ///< As stored, e.g. "120 88 40"; colour of the swatch beside it:
+  QColor color;
+  bool has_truth = false;          ///< The scene has truth for this view;
+  std::optional<double> truth_px;  ///< none = invalid at this pixel.
+  std::vector<EstimateReading> estimates;
+  std::optional<double> background_truth_px = {};  ///< Where two surfaces are seen: the second.
+};
+
+/// The line at the bottom: pixel, colour, truth, every estimate with its difference (estimate −
+/// truth); at the right end a short state ("1 job · ready").
+class ValueBar : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ValueBar(QWidget* parent = nullptr);
+
+  /// None = the cursor is not on a pixel.
+  void setReading(const std::optional<PixelReading>& reading);
+  void setStatus(const QString& status);
+
+  /// The line as plain text, e.g. "x 301 y 417 · rgb 120 88 40 · truth 0.312 · EPI_S 0.318
+  /// (−0.006)".
+  [[nodiscard]] QString text() const;
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void updateColors();
+
+  bool has_reading_ = false;
+  QLabel* swatch_;
+  PartsLabel* values_;
+  QLabel* status_;
+};
+
+}  // namespace episcope

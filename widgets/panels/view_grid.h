@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/indices.h"
+#include "engine/render/movie.h"
+
+#include <QImage>
+#include <QTimer>
+#include <QWidget>
+
+#include <optional>
+#include <vector>
+
+class QAction;
+class QComboBox;
+class QLabel;
+class QPainter;
+class QToolButton;
+
+namespace episcope {
+
+class ViewGridCells;
+
+/// The camera grid as v × u thumbnails with the current view marked, and a play button. Any grid
+/// from 1×1 up is usable: cells scale with the panel, down to plain squares. Keys are left to the
+/// host.
+class ViewGrid : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ViewGrid(QWidget* parent = nullptr);
+
+  /// A new light field: no thumbnails yet, centre view current, playing stops.
+  void setGrid(GridShape grid);
+  void setCurrent(ViewIndex view);
+  /// A light field is being read: as long as there is no grid, that is said in its place.
+  void setOpening(bool is_opening);
+  /// Ignored for a view outside the grid.
+  void setThumbnail(ViewIndex view, const QImage& thumbnail);
+  /// Marks views that are painted.
+  void setPainted(const std::vector<ViewIndex>& views);
+
+  [[nodiscard]] GridShape grid() const;
+  [[nodiscard]] ViewIndex current() const;
+  [[nodiscard]] bool isPlaying() const { return timer_.isActive(); }
+  [[nodiscard]] ViewGridCells* cells() const { return cells_; }
+  /// Size in device pixels that a thumbnail need not exceed.
+  [[nodiscard]] QSize thumbnailSize() const;
+  /// The button that plays shows the tool tip of this command, with its key.
+  void followTip(const QAction* play);
+
+ public slots:
+  void setPlaying(bool playing);
+  void setPlayPath(episcope::render::CameraPath path);
+
+ signals:
+  /// The user, or the player, wants to see this view.
+  void viewSelected(episcope::ViewIndex view);
+  void playingChanged(bool playing);
+
+ private:
+  void select(ViewIndex view);
+  void playNext();
+
+  ViewGridCells* cells_;
+  QToolButton* play_;
+  QComboBox* path_;
+  QLabel* position_;
+  QTimer timer_;
+  std::vector<ViewIndex> loop_;
+  std::size_t place_ = 0;  ///< In `loop_`.
+};
+
+/// The painted cells of a ViewGrid: input and painting, nothing of playing.
+class ViewGridCells : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ViewGridCells(QWidget* parent = nullptr);
+
+  void setGrid(GridShape grid);
+  void setCurrent(ViewIndex view);
+  void setOpening(bool is_opening);
+  void setThumbnail(ViewIndex view, const QImage& thumbnail);
+  /// Marks views that are painted.
+  void setPainted(const std::vector<ViewIndex>& views);
+
+  [[nodiscard]] GridShape grid() const { return grid_; }
+  [[nodiscard]] ViewIndex current() const { return current_; }
+  /// Place of a cell in widget coordinates.
+  [[nodiscard]] QRectF cellRect(ViewIndex view) const;
+  [[nodiscard]] std::optional<ViewIndex> viewAt(QPointF position) const;
+
+  [[nodiscard]] QSize sizeHint() const override;
+  [[nodiscard]] QSize minimumSizeHint() const override;
+  [[nodiscard]] bool hasHeightForWidth() const override { return true; }
+  [[nodiscard]] int heightForWidth(int width) const override;
+
+ signals:
+  void viewClicked(episcope::ViewIndex view);
+
+ protected:
+  bool event(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+
+ private:
+  void paintMark(QPainter& painter, const QRectF& cell) const;
+  [[nodiscard]] double aspect() const;  ///< Height over width of a cell.
+
+  GridShape grid_;
+  ViewIndex current_;
+  bool is_opening_ = false;
+  std::vector<QImage> thumbnails_;
+  std::vector<ViewIndex> painted_;
+};
+
+}  // namespace episcope
