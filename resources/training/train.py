@@ -1,0 +1,286 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Trains the network in pieces. Each piece goes on where the checkpoint ended.
+
+    train.py --seconds 540 --checkpoint checkpoints [--warm old.pt] [--decay]
+
+--decay: the last piece: starts from the averaged weights, holds BatchNorm still and lowers the
+rate to nothing.
+"""
+import argparse
+import copy
+import csv
+import json
+import math
+import os
+import time
+
+import numpy as np
+import torch
+import torch.nn as nn
+import torch.nn.functional as F
+
+import generator
+import network
+import scenes
+
+SHAPES = ((32, 12), (40, 10), (56, 7))  # labels, scenes a batch
+PARTS = ('volume', 'selection', 'refinement')
+
+
+def arguments():
+    p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument('--seconds', type=float, required=True)
+    p.add_argument('--checkpoint', default='checkpoints')
+    p.add_argument('--out', help='where the checkpoint is written (default: where it was read)')
+    p.add_argument('--warm', help='weights of an earlier network with the same volume')
+    p.add_argument('--decay', action='store_true')
+    p.add_argument('--rate', type=float, default=1.5e-3)
+    p.add_argument('--volume-rate', type=float, default=.4, help='of the rate, for the volume')
+    p.add_argument('--volume-every', type=int, default=2, help='batches between updates of the volume')
+    p.add_argument('--seed', type=int, default=1)
+    p.add_argument('--scenes', help='scenes to watch: a packed file or a folder')
+    p.add_argument('--without', default='', help='parts of the generator to leave out')
+    p.add_argument('--set', default='', help='name=value of constants of the network, for ablations')
+    p.add_argument('--every', type=float, default=90, help='seconds between looks')
+    p.add_argument('--report', action='store_true', help='print every scene at the end')
+    return p.parse_args()
+
+
+def spoil(d):
+    """Truth with the faults of estimates: fat, thin and soft silhouettes, shifts, noise, patches."""
+    B, H, W = d.shape
+    dev = d.device
+    field = lambda n, c=1: F.interpolate(torch.randn(B, c, n, n, device=dev), (H, W), mode='bicubic', align_corners=True)[:, 0]
+    chance = lambda p: (torch.rand(B, 1, 1, device=dev) < p).float()
+    size = int(np.random.choice([3, 5, 5, 7]))
+    f = field(int(np.random.choice([6, 12, 24])))
+    s = torch.where(f > .4, network.highest(d, size), torch.where(f < -.4, network.lowest(d, size), d))
+    dx, dy = np.random.randint(-1, 2, 2)
+    s = torch.where(chance(.3) > 0, torch.roll(s, (int(dy), int(dx)), (1, 2)), s)
+    soft = F.avg_pool2d(s[:, None], 5, 1, 2, count_include_pad=False)[:, 0]
+    s = torch.where((chance(.35) > 0) & (field(12) > -.3), soft, s)
+    s = s + chance(.7) * .08 * torch.rand(B, 1, 1, device=dev) * field(24) + chance(.4) * .03 * torch.randn_like(s)
+    patch = field(24)
+    other = torch.roll(s, (int(np.random.randint(-20, 21)), int(np.random.randint(-20, 21))), (1, 2))
+    return torch.where((patch > 2.) & (chance(.5) > 0), other, s)
+
+
+def ranges(d):
+    """The labels' range: the truth's with a margin, in a quarter of the scenes up to twice as wide."""
+    B, dev = len(d), d.device
+    u = lambda lo, hi: torch.rand(B, device=dev) * (hi - lo) + lo
+    low, high = d.flatten(1).min(1).values, d.flatten(1).max(1).values
+    w = (high - low).clamp_min(.4)
+    wide = (torch.rand(B, device=dev) < .25).float() * u(0, 1)
+    side = u(0, 1)
+    return low - w * (u(.02, .15) + wide * side), low + w * (1 + u(.02, .15) + wide * (1 - side))
+
+
+class Trainer:
+    def __init__(self, a):
+        self.a, dev = a, 'cuda'
+        self.net = network.channels_last(network.Net().to(dev))
+        self.done = dict(iteration=0, seconds=0., pieces=[])
+        path = lambda n: os.path.join(a.checkpoint, n)
+        if os.path.exists(path('net.pt')):
+            print('new:', network.load(self.net, torch.load(path('net.pt'), map_location=dev)))
+            self.done = json.load(open(path('state.json')))
+        elif a.warm:
+            print('taken from the earlier network:', network.from_prototype(self.net, a.warm, dev))
+        self.ema = copy.deepcopy(self.net).eval().requires_grad_(False)
+        if os.path.exists(path('ema.pt')):
+            network.load(self.ema, torch.load(path('ema.pt'), map_location=dev))
+        if a.decay:
+            self.net.load_state_dict(self.ema.state_dict())
+        groups = [dict(params=list(getattr(self.net, n).parameters()), name=n) for n in PARTS]
+        self.opt = torch.optim.AdamW(groups, a.rate, weight_decay=1e-4, betas=(.9, .99), fused=True)
+        if os.path.exists(path('opt.pt')):
+            self.opt.load_state_dict(torch.load(path('opt.pt'), map_location=dev))
+        self.seed = a.seed * 1000003 + self.done['iteration']
+        torch.manual_seed(self.seed)
+        np.random.seed(self.seed % (1 << 32))
+        without = [w for w in a.without.split(',') if w]
+        self.gen = generator.Generator(self.seed, without=without)
+        self.net.train()
+        if a.decay:
+            for m in self.net.modules():
+                if isinstance(m, (nn.BatchNorm2d, nn.BatchNorm3d)):
+                    m.eval()
+        self.kept = None
+
+    def save(self, out):
+        os.makedirs(out, exist_ok=True)
+        torch.save(self.net.state_dict(), f'{out}/net.pt')
+        torch.save({k: v.half() if v.is_floating_point() else v for k, v in self.ema.state_dict().items()}, f'{out}/ema.pt')
+        state = self.opt.state_dict()  # moments in half as many bytes
+        for s in state['state'].values():
+            for k in ('exp_avg', 'exp_avg_sq'):
+                s[k] = s[k].bfloat16()
+        torch.save(state, f'{out}/opt.pt')
+        json.dump(self.done, open(f'{out}/state.json', 'w'))
+
+    def losses(self, B, D, train_volume):
+        net = self.net
+        # Each batch is used twice, the second time turned.
+        if self.kept is None:
+            self.kept = self.gen.batch(B)
+            packed, d, off, few, many = self.kept
+        else:
+            packed, d, off, few, many = generator.turned(*self.kept)
+            self.kept = None
+        margin = self.gen.margin
+        lo, hi = ranges(d)
+        out = {}
+        with torch.autocast('cuda', torch.bfloat16):
+            with torch.set_grad_enabled(train_volume):
+                logits, labels, image = net.start(packed, margin, off, few, lo, hi, D)
+            step = (labels[:, 1] - labels[:, 0])[:, None, None]
+            with torch.autocast('cuda', enabled=False), torch.set_grad_enabled(train_volume):
+                own, second, logp = network.modes(logits, labels)
+                if train_volume:
+                    q = ((d - lo[:, None, None]) / step).clamp(0, D - 1.001)
+                    i = q.floor().long()
+                    w = q - i
+                    out['ce'] = -(logp.gather(1, i[:, None])[:, 0] * (1 - w) + logp.gather(1, i[:, None] + 1)[:, 0] * w).mean()
+                    good = ((own - d).abs() < 1.5 * step).float()
+                    out['peak'] = (F.smooth_l1_loss(own / step, d / step, beta=.1, reduction='none') * good).mean()
+            known = (torch.rand(B, device=d.device) < .7).float()
+            k = known[:, None, None] > 0
+            given = spoil(d)
+            own, second = torch.where(k, own.detach(), given), torch.where(k, second.detach(), given)
+            h, lg = net.select(packed, margin, off, few, image, own, second, logp.detach(), labels, known)
+            with torch.autocast('cuda', enabled=False):
+                w = lg.softmax(1)
+                spread = (h.max(1).values - h.min(1).values).clamp(max=2)
+                like = (w * torch.exp(-(h - d[:, None]).abs() / .08)).sum(1)
+                out['select'] = (-torch.log(like + 1e-3) * (.3 + spread)).mean()
+                out['mean'] = F.smooth_l1_loss((w * h).sum(1), d, beta=.1, reduction='none').clamp(max=1.5).mean()
+                with torch.no_grad():
+                    mode, p, _, _ = network.decide(h, w)
+                    shake = (torch.rand(B, 1, 1, device=d.device) < .4).float() * .05
+                    mode = mode + shake * torch.rand(B, 1, 1, device=d.device) * torch.randn_like(mode)
+            d1, _ = net.refine(packed, margin, off, many, image, mode, p, 0)
+            d2, c = net.refine(packed, margin, off, many, image, d1, p, 1)
+            with torch.autocast('cuda', enabled=False):
+                near = ((mode - d).abs() < .4).float()
+                out['refine1'] = (F.smooth_l1_loss(d1 / .25, d / .25, beta=.1, reduction='none') * near).mean()
+                near = ((d1.detach() - d).abs() < .15).float()
+                out['refine2'] = (F.smooth_l1_loss(d2 / .06, d / .06, beta=.2, reduction='none') * near).mean()
+                out['certain'] = F.binary_cross_entropy_with_logits(c, ((d2.detach() - d).abs() < .07).float())
+        with torch.no_grad():
+            out['mse'] = 100 * ((d2 - d) ** 2).mean()
+            out['bad'] = 100 * ((d2 - d).abs() > .07).float().mean()
+        return out
+
+    def average(self, share):
+        pairs = [(x, y) for x, y in zip(self.ema.state_dict().values(), self.net.state_dict().values()) if x.is_floating_point()]
+        with torch.no_grad():
+            torch._foreach_lerp_([x for x, _ in pairs], [y for _, y in pairs], share)
+
+    def step(self, rate):
+        it = self.done['iteration']
+        if self.kept is None:
+            self.shape = SHAPES[int(np.random.choice(3, p=(.35, .45, .2)))]
+        D, B = self.shape
+        train_volume = it % 4 in ((0, 1, 2, 3), (0, 3), (0,))[self.a.volume_every - 1]
+        out = self.losses(B, D, train_volume)
+        loss = out['select'] + 2 * out['mean'] + out['refine1'] + out['refine2'] + .3 * out['certain']
+        if train_volume:
+            loss = loss + .5 * out['ce'] + .3 * out['peak']
+        self.opt.zero_grad(set_to_none=True)
+        loss.backward()
+        for g in self.opt.param_groups:
+            g['lr'] = rate * (self.a.volume_rate if g['name'] == 'volume' else 1.)
+            nn.utils.clip_grad_norm_(g['params'], 2.)
+        self.opt.step()
+        if it % 4 == 3:
+            self.average(max(.004, 1 / (it / 4 + 5.)) if not self.a.decay else .008)
+        self.done['iteration'] += 1
+        return out
+
+
+def procedural(seed, batches=8):
+    """Batches of scenes with a seed of their own, to choose with."""
+    g = generator.Generator(seed, bank=256)
+    state = np.random.get_state(), torch.get_rng_state(), torch.cuda.get_rng_state()
+    torch.manual_seed(seed)
+    kept = [g.batch(6, margin=12) for _ in range(batches)]
+    np.random.set_state(state[0]), torch.set_rng_state(state[1]), torch.cuda.set_rng_state(state[2])
+    return kept
+
+
+def look(net, batches, D=40):
+    """As scenes.errors, but no error counts for more than 1 px: some scenes cannot be seen."""
+    total = {k: [] for k in scenes.MAPS}
+    with torch.no_grad(), torch.autocast('cuda', torch.bfloat16):
+        for packed, d, off, few, many in batches:
+            low, high = d.flatten(1).min(1).values - .1, d.flatten(1).max(1).values + .1
+            r = net.infer(packed, 12, off, few, many, low, high, D)
+            for k in scenes.MAPS:
+                e = (r[k] - d).abs().clamp(max=1)
+                total[k].append(np.array([100 * (e ** 2).mean().item()] + [100 * (e > t).float().mean().item() for t in (.07, .03, .01)]))
+    return {k: np.mean(v, 0) for k, v in total.items()}
+
+
+def main():
+    a = arguments()
+    torch.backends.cuda.matmul.allow_tf32 = torch.backends.cudnn.allow_tf32 = True
+    torch.backends.cudnn.benchmark = True
+    begun = time.time()
+    for pair in filter(None, a.set.split(',')):
+        name, value = pair.split('=')
+        setattr(network, name, json.loads(value))
+    held_out = procedural(999000 + a.seed)
+    t = Trainer(a)
+    watched = scenes.read_all(a.scenes) if a.scenes else []
+    print(torch.cuda.get_device_name(), {n: sum(p.numel() for p in getattr(t.net, n).parameters()) for n in PARTS},
+          'starts at', t.done['iteration'], 'after %.0f s' % (time.time() - begun), flush=True)
+    first, start, looked, seconds = t.done['iteration'], time.time(), time.time(), t.done['seconds']
+    budget = a.seconds - (start - begun)
+    sums, rows, marks = {}, [], {100, 400}
+    while (elapsed := time.time() - start) < budget:
+        it = t.done['iteration'] - first
+        rate = a.rate * min(1., (it + 1) / 200)
+        if a.decay:
+            rate *= .5 * (1 + math.cos(math.pi * min(1., elapsed / budget)))
+        out = t.step(rate)
+        for k, v in out.items():
+            s = sums.setdefault(k, [0., 0])
+            s[0], s[1] = s[0] + v.detach(), s[1] + 1
+        it += 1
+        if it in marks or time.time() - looked > a.every or time.time() - start >= budget:
+            looked = time.time()
+            t.done['seconds'] = seconds + looked - start
+            shown = {k: float(s[0] / s[1]) for k, s in sums.items()}
+            sums = {}
+            m = look(t.ema, held_out)
+            row = dict(iteration=t.done['iteration'], seconds=round(t.done['seconds']), rate='%.2e' % rate,
+                       **{k: '%.4f' % v for k, v in shown.items()})
+            for k in scenes.MAPS:
+                row.update({f'procedural_{k}_mse': '%.3f' % m[k][0], f'procedural_{k}_bad': '%.3f' % m[k][1]})
+            if watched:
+                r = scenes.judge(t.ema, watched)
+                m2 = scenes.means(r)
+                for k in scenes.MAPS:
+                    row.update({f'choosing_{k}_mse': '%.3f' % m2[k][0], f'choosing_{k}_bad': '%.3f' % m2[k][1]})
+            rows.append(row)
+            short = lambda m: ' '.join('%s %.2f/%.2f/%.1f' % (k[:3], *m[k][:3]) for k in scenes.MAPS)
+            print('%d %.0f s %.1f GB' % (t.done['iteration'], elapsed, torch.cuda.max_memory_allocated() / 1e9),
+                  ' '.join('%s %.3f' % (k, v) for k, v in shown.items()), '| procedural', short(m),
+                  '| choosing ' + short(m2) if watched else '', flush=True)
+    t.done['pieces'].append(dict(seed=t.seed, iterations=t.done['iteration'] - first, seconds=round(time.time() - start),
+                                 card=torch.cuda.get_device_name(), decay=a.decay))
+    out = a.out or a.checkpoint
+    t.save(out)
+    path = os.path.join(out, 'curve.csv')
+    with open(path, 'w', newline='') as f:
+        w = csv.DictWriter(f, sorted({k for r in rows for k in r}, key=list(rows[-1]).index))
+        w.writeheader()
+        w.writerows(rows)
+    if a.report and watched:
+        for name, m in scenes.judge(t.ema, watched).items():
+            print('%-40s' % name, ' | '.join('%s %.3f/%.2f/%.1f/%.1f' % (k, *m[k]) for k in scenes.MAPS))
+
+
+if __name__ == '__main__':
+    main()
