@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures a checkpoint on scenes: evaluate.py CHECKPOINT SCENES [OUT.json] [variant ...]
+"""Measures a checkpoint or released weights on scenes: evaluate.py WEIGHTS SCENES [OUT.json] [variant ...]
 
 SCENES: a packed file or a folder (scenes.py). A variant is name=value,...: labels (0: automatic),
-few, many, rounds, wide, exact (float throughout). The first one is printed scene by scene.
+few, many, rounds, wide, polish (the rival's map), exact (float throughout). The first one is printed scene by scene.
 """
 import json
 import sys
@@ -10,6 +10,7 @@ import sys
 import numpy as np
 import torch
 
+import export
 import network
 import scenes
 
@@ -29,8 +30,11 @@ def calibration(kept, all_scenes):
 
 def main():
     torch.backends.cuda.matmul.allow_tf32 = torch.backends.cudnn.allow_tf32 = True
-    net = network.Net().cuda().eval()
-    net.load_state_dict({k: v.float() if v.is_floating_point() else v for k, v in torch.load(sys.argv[1], map_location='cuda').items()})
+    if sys.argv[1].endswith('.npz'):
+        net = export.read(sys.argv[1])
+    else:
+        net = network.Net().cuda().eval()
+        net.load_state_dict({k: v.float() if v.is_floating_point() else v for k, v in torch.load(sys.argv[1], map_location='cuda').items()})
     network.channels_last(net)
     found = scenes.read_all(sys.argv[2])
     rival = {s.name: scenes.errors(s.rival, s.truth) for s in found if s.rival is not None}
@@ -38,6 +42,7 @@ def main():
     for number, text in enumerate(sys.argv[4:] or ['labels=40']):
         o = {k: float(v) if k == 'wide' else int(v) for k, v in (p.split('=') for p in text.split(','))}
         exact = o.pop('exact', 0)
+        torch.backends.cudnn.allow_tf32 = torch.backends.cuda.matmul.allow_tf32 = not exact
         kept = {}
         r = scenes.judge(net, found, D=o.pop('labels', 40), dtype=torch.float if exact else torch.half, autocast=not exact, keep=kept, **o)
         if number == 0:

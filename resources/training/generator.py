@@ -111,8 +111,8 @@ class Generator:
         angle = u(B, K, hi=6.28)
         slope = torch.randn(B, K, device=dev) * steep * (1 - .3 * back) + ground
         size = S * 10 ** u(B, K, lo=-1.35, hi=-.2)
-        thin = chance(.28) * (1 - back)
-        sx = torch.where(thin > 0, u(B, K, lo=.4, hi=3.5), size)
+        thin = chance(.34) * (1 - back)
+        sx = torch.where(thin > 0, 10 ** u(B, K, lo=-.5, hi=.5), size)
         sy = torch.where(thin > 0, size * 2, size * 10 ** u(B, K, lo=-.4, hi=.4))
         reach_of = torch.maximum(sx, sy)
         slope = torch.where(back > 0, slope, torch.minimum(slope.abs(), .8 * half / reach_of) * slope.sign())
@@ -122,7 +122,7 @@ class Generator:
         bump = chance(.35) * u(B, K, lo=-.12, hi=.9) * (size / S * 3).clamp(max=1) * (1 - back) * (1 - thin)
         bump = torch.minimum(bump, half * 1.2)
         round_ = chance(.5) * (1 - box)
-        period = torch.where((chance(.12) > 0) & (thin > 0), sx * u(B, K, lo=3, hi=8), 1e6)
+        period = torch.where((chance(.25) > 0) & (thin > 0), 2 * sx + 10 ** u(B, K, lo=.4, hi=1.3), 1e6)
         wave = chance(.35) * u(B, K, hi=.12) * half.clamp(max=1) * (1 - thin) * self.has('wave')
         length = S * 10 ** u(B, K, lo=-.8, hi=0.) / 6.28
         turn = u(B, K, hi=6.28)
@@ -191,6 +191,11 @@ class Generator:
         # A layer that is gone must not come back by its period.
         L[..., P['RADIUS']] = torch.where(gone > 0, 0., L[..., P['RADIUS']])
         L[..., P['SLACK']] = 1.5 * (bump.abs() + wave + slope.abs() * extent.clamp(max=2 * S))
+        # Meshes: bars that repeat, and the next layer crosses them.
+        cross = L[:, :-1].clone()
+        cross[..., P['COS']], cross[..., P['SIN']] = -L[:, :-1, P['SIN']], L[:, :-1, P['COS']]
+        mesh = (period[:, :-1] < 1e5) & (chance(.6, B, K - 1) > 0)
+        L[:, 1:] = torch.where(mesh[..., None], cross, L[:, 1:])
         return L.contiguous()
 
     def batch(self, B, S=96, margin=None, samples=3):

@@ -96,7 +96,9 @@ def judge(net, scenes, D=40, dtype=torch.half, autocast=True, **options):
             lo, hi = scene.range(wide=options.get('wide', 0.))
             labels = D if D else automatic(lo, hi)
             p, off, few, many = scene.prepared(dtype, few=options.get('few', 6), many=options.get('many', 12))
-            r = net.infer(p, 0, off, few, many, lo, hi, labels, rounds=options.get('rounds', 1))
+            given = torch.tensor(scene.rival, device='cuda')[None] if options.get('polish') else None
+            r = net.infer(p, 0, off, few, many, lo, hi, labels, given, options.get('rounds', 1))
+            r.setdefault('volume', given)
             result[scene.name] = {k: errors(r[k][0].float().cpu().numpy(), scene.truth) for k in MAPS}
             if options.get('keep') is not None:
                 options['keep'][scene.name] = {k: v[0].float().cpu().numpy() for k, v in r.items()}

@@ -82,7 +82,10 @@ class Trainer:
         self.net = network.channels_last(network.Net().to(dev))
         self.done = dict(iteration=0, seconds=0., pieces=[])
         path = lambda n: os.path.join(a.checkpoint, n)
-        if os.path.exists(path('net.pt')):
+        if a.decay and os.path.exists(path('ema.pt')):
+            network.load(self.net, torch.load(path('ema.pt'), map_location=dev))
+            self.done = json.load(open(path('state.json')))
+        elif os.path.exists(path('net.pt')):
             print('new:', network.load(self.net, torch.load(path('net.pt'), map_location=dev)))
             self.done = json.load(open(path('state.json')))
         elif a.warm:
@@ -90,8 +93,6 @@ class Trainer:
         self.ema = copy.deepcopy(self.net).eval().requires_grad_(False)
         if os.path.exists(path('ema.pt')):
             network.load(self.ema, torch.load(path('ema.pt'), map_location=dev))
-        if a.decay:
-            self.net.load_state_dict(self.ema.state_dict())
         groups = [dict(params=list(getattr(self.net, n).parameters()), name=n) for n in PARTS]
         self.opt = torch.optim.AdamW(groups, a.rate, weight_decay=1e-4, betas=(.9, .99), fused=True)
         if os.path.exists(path('opt.pt')):
@@ -129,6 +130,7 @@ class Trainer:
             packed, d, off, few, many = generator.turned(*self.kept)
             self.kept = None
         margin = self.gen.margin
+        few = many if np.random.rand() < .5 else few
         lo, hi = ranges(d)
         out = {}
         with torch.autocast('cuda', torch.bfloat16):
@@ -141,19 +143,24 @@ class Trainer:
                     q = ((d - lo[:, None, None]) / step).clamp(0, D - 1.001)
                     i = q.floor().long()
                     w = q - i
-                    out['ce'] = -(logp.gather(1, i[:, None])[:, 0] * (1 - w) + logp.gather(1, i[:, None] + 1)[:, 0] * w).mean()
+                    at_jumps = 1 + 2. * (network.highest(d, 3) - network.lowest(d, 3) > .3)
+                    out['ce'] = -(at_jumps * (logp.gather(1, i[:, None])[:, 0] * (1 - w) + logp.gather(1, i[:, None] + 1)[:, 0] * w)).mean()
                     good = ((own - d).abs() < 1.5 * step).float()
                     out['peak'] = (F.smooth_l1_loss(own / step, d / step, beta=.1, reduction='none') * good).mean()
             known = (torch.rand(B, device=d.device) < .7).float()
             k = known[:, None, None] > 0
             given = spoil(d)
             own, second = torch.where(k, own.detach(), given), torch.where(k, second.detach(), given)
+            if np.random.rand() < .35:  # a second selection goes on from the first one's result
+                with torch.no_grad():
+                    h, lg = net.select(packed, margin, off, few, image, own, second, logp.detach(), labels, known)
+                    own, _, second, _ = network.decide(h, lg.softmax(1))
             h, lg = net.select(packed, margin, off, few, image, own, second, logp.detach(), labels, known)
             with torch.autocast('cuda', enabled=False):
                 w = lg.softmax(1)
-                spread = (h.max(1).values - h.min(1).values).clamp(max=2)
+                spread = (h.max(1).values - h.min(1).values).clamp(max=3)
                 like = (w * torch.exp(-(h - d[:, None]).abs() / .08)).sum(1)
-                out['select'] = (-torch.log(like + 1e-3) * (.3 + spread)).mean()
+                out['select'] = (-torch.log(like + 1e-3) * (.3 + spread + .5 * spread ** 2)).mean()
                 out['mean'] = F.smooth_l1_loss((w * h).sum(1), d, beta=.1, reduction='none').clamp(max=1.5).mean()
                 with torch.no_grad():
                     mode, p, _, _ = network.decide(h, w)
