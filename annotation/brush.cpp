@@ -164,7 +164,7 @@ std::vector<Crossing> crossings_at(double y, std::span<const StrokePoint> corner
   return crossings;
 }
 
-// The first pixel whose centre does not lie left of `x`.
+// The first pixel whose center does not lie left of `x`.
 int first_at(double x, int width) {
   return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(width)));
 }

@@ -8,7 +8,7 @@
 
 namespace episcope {
 
-/// A position on a view in px: the pixel (y, x) covers [x, x + 1) × [y, y + 1), its centre lies at
+/// A position on a view in px: the pixel (y, x) covers [x, x + 1) × [y, y + 1), its center lies at
 /// (x + 0.5, y + 0.5).
 struct StrokePoint {
   double y = 0;
@@ -25,17 +25,17 @@ struct BrushPath {
 constexpr double kMinBrush_px = 1;
 constexpr double kMaxBrush_px = 100;
 
-/// Pixels of a `height` × `width` view that the brush covers: those whose centre lies within half
+/// Pixels of a `height` × `width` view that the brush covers: those whose center lies within half
 /// the diameter of the segment from → to, and the two that contain its ends, so that even the
 /// thinnest brush leaves a mark wherever it is set down. At most one span per row, from top to
 /// bottom. Complexity O(rows). Throws InvalidInput for a diameter outside [1, 100] or a point that
 /// is not finite.
 [[nodiscard]] PixelRegion covered_pixels(const BrushPath& path, int height, int width);
 
-/// Pixels of a `height` × `width` view whose centres a closed polygon goes around (non-zero winding
+/// Pixels of a `height` × `width` view whose centers lie inside a closed polygon (non-zero winding
 /// number, so that a loop which crosses itself encloses all its parts), as spans from top to
-/// bottom, left to right within a row. Fewer than three corners enclose nothing. Complexity
-/// O(rows · corners). Throws InvalidInput for a corner that is not finite.
+/// bottom, left to right within a row. Fewer than three corners enclose nothing. Complexity O(rows
+/// · corners). Throws InvalidInput for a corner that is not finite.
 [[nodiscard]] PixelRegion pixels_in_polygon(std::span<const StrokePoint> corners, int height,
                                             int width);
 
@@ -46,8 +46,7 @@ struct PaintStyle {
   PaintTool tool = PaintTool::Brush;
   int label = 1;  ///< The current label.
   double diameter_px = 10;
-  /// If set, a brush paints over unpainted pixels only, and an eraser erases the current label
-  /// only.
+  /// If set, a brush changes unpainted pixels only, and an eraser erases the current label only.
   bool protects_others = false;
   /// Labels that are neither painted nor painted over.
   LabelIds locked{};
@@ -58,8 +57,8 @@ struct PaintStyle {
 [[nodiscard]] Ink ink_of(const PaintStyle& style);
 [[nodiscard]] EditKind kind_of(const PaintStyle& style);
 
-/// A stroke of a round brush on one view, in progress: what is painted appears in the document at
-/// once, and is reverted if the stroke is destroyed before `commit`.
+/// A stroke of a round brush on one view, in progress. Painted pixels appear in the document at
+/// once, and are reverted if the stroke is destroyed before `commit`.
 class Stroke {
  public:
   /// Throws InvalidInput for an unknown label, a diameter outside [1, 100], a view outside the
@@ -82,7 +81,7 @@ class Stroke {
   std::optional<StrokePoint> last_;
 };
 
-/// Paints or erases a region within the view, as one edit: a fill, or what was drawn around.
+/// Paints or erases a region within the view as one edit: a fill, or the inside of a polygon.
 /// Returns whether that changed anything. Throws InvalidInput as Stroke does.
 bool fill_region(AnnotationDocument& document, ViewIndex view, const PixelRegion& region,
                  const PaintStyle& style, EditKind kind = EditKind::Fill);

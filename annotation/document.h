@@ -17,7 +17,7 @@
 
 namespace episcope {
 
-/// What a step of the history changed, so that a window can redraw it and show the view.
+/// Changes of one step of the history, for redrawing.
 struct DocumentChange {
   struct Part {
     ViewIndex view;
@@ -31,14 +31,14 @@ struct DocumentChange {
   }
 };
 
-/// What happened to the document. `edit` is the one made, undone or redone.
+/// Kind of a change of the document. `edit` is the one made, undone or redone.
 enum class DocumentStep : std::uint8_t { Edited, Undone, Redone, Saved };
 struct DocumentEvent {
   DocumentStep step = DocumentStep::Edited;
   const Edit* edit = nullptr;  ///< Null for Saved.
 };
 
-/// What a user paints on a light field: labels, scribbles on every view, and their history. Pixels
+/// Labels, scribbles on every view, and their history. Pixels
 /// change only through PendingEdit and Stroke, one edit at a time; while one is in progress, every
 /// other change throws InvalidInput.
 class AnnotationDocument {
@@ -54,7 +54,7 @@ class AnnotationDocument {
   AnnotationDocument(LabelSet labels, ScribbleLayer scribbles,
                      std::size_t history_bytes = kHistoryBytes, double smoothing_px = 0);
 
-  /// How far the boundaries of segments learnt from it are smoothed (smooth_boundaries), in px.
+  /// Smoothing of the boundaries of learned segments (smooth_boundaries), in px.
   [[nodiscard]] double boundary_smoothing_px() const { return boundary_smoothing_px_; }
   /// One edit, as those below; rounded to 0.01 px and clamped to [0, kMaxSmoothing_px].
   void set_boundary_smoothing(double smoothing_px);
@@ -126,7 +126,7 @@ struct Ink {
   LabelIds kept{};         ///< Pixels that have one of these stay as they are.
 };
 
-/// An edit in progress: what it paints appears in the document at once, and is reverted if the edit
+/// An edit in progress. Painted pixels appear in the document at once, and are reverted if the edit
 /// is destroyed before `commit`. At most one per document, which must outlive it.
 class PendingEdit {
  public:

@@ -10,7 +10,7 @@
 
 namespace episcope {
 
-/// What the user did, for the menu entry "Undo …".
+/// Kind of an edit, for the menu entry "Undo …".
 enum class EditKind : std::uint8_t {
   Paint,
   Erase,
@@ -53,7 +53,7 @@ struct LabelSetEdit {
   friend bool operator==(const LabelSetEdit&, const LabelSetEdit&) = default;
 };
 
-/// How far boundaries between segments are smoothed, in px (AnnotationDocument).
+/// Change of the smoothing of segment boundaries, in px (AnnotationDocument).
 struct SmoothingEdit {
   double before = 0;
   double after = 0;

@@ -6,13 +6,13 @@
 
 namespace episcope {
 
-/// The painted views and the labels of a document, as they are written to files.
+/// The painted views and the labels of a document, for writing to files.
 [[nodiscard]] Scribbles scribbles_of(const AnnotationDocument& document);
-/// Painted views alone, without names and colours.
+/// Painted views alone, without names and colors.
 [[nodiscard]] Scribbles scribbles_of(const ScribbleLayer& layer);
 
 /// A document with the scribbles of a file. Painted ids without a name get a default name and a
-/// colour of the palette. Throws InvalidInput for ids above 255 or below 0, bad names, or views
+/// color of the palette. Throws InvalidInput for ids above 255 or below 0, bad names, or views
 /// that do not fit.
 [[nodiscard]] AnnotationDocument document_from(
     const Scribbles& scribbles, GridShape grid, int height, int width,

@@ -71,7 +71,7 @@ PixelRegion connected_region(int height, int width, PixelIndex seed, const OpenR
   return region;
 }
 
-/// Squared norms of the colour gradient along a row; one-sided at the border.
+/// Squared norms of the color gradient along a row; one-sided at the border.
 class GradientRow {
  public:
   explicit GradientRow(ImageView<const float> picture)
@@ -90,7 +90,7 @@ class GradientRow {
   }
 
  private:
-  // By samples, not by pixels: neighbours in memory are computed side by side.
+  // By samples, not by pixels: neighbors in memory are computed side by side.
   void add_up(int y) {
     const int channels = picture_.channels;
     const int count = picture_.width * channels;

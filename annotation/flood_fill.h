@@ -9,9 +9,9 @@
 
 namespace episcope {
 
-/// Pixels connected to `seed` by steps to the left, right, up and down over pixels whose colour
+/// Pixels connected to `seed` by steps to the left, right, up and down over pixels whose color
 /// changes slowly: central differences along x and y, combined over the channels (Euclidean norm),
-/// stay below `max_gradient`, in units of colour per px. Edges thus form a band that is not
+/// stay below `max_gradient`, in units of color per px. Edges thus form a band that is not
 /// crossed, as wide as the blur of the picture plus 1 px on each side. `picture` is `[y][x][c]`.
 /// Empty if the seed itself lies on an edge or outside. Throws InvalidInput for a negative
 /// gradient.

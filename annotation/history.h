@@ -8,7 +8,7 @@
 
 namespace episcope {
 
-/// A step that a user made on a document of any kind.
+/// An undoable step on a document of any kind.
 template <class E>
 concept EditOfDocument = requires(const E& edit, std::size_t bytes) {
   bytes = edit.byte_size();  // memory that it takes

@@ -26,7 +26,7 @@ class LabelSet {
   [[nodiscard]] int last_id() const { return last_id_; }
 
   /// Adds a label under the next id and returns the id. An empty name becomes "label <id>"; without
-  /// a colour it gets the first palette colour, starting from its id, that no other label has.
+  /// a color it gets the first palette color, starting from its id, that no other label has.
   /// Throws InvalidInput for a bad name or if all ids are taken.
   int add(const std::string& name = {}, std::optional<Rgb> color = std::nullopt);
   /// Adds a label of a known id, as read from a file. Throws InvalidInput for an id out of range or

@@ -227,7 +227,7 @@ std::string scene_html(const BenchmarkReport& report, const BenchmarkScene& scen
                                    fixed_text(scene.range.max, 2) + " px"
                              : ""),
                     "faint") +
-          "<div class=\"tiles\">\n" + tile_html(scene, "view", "centre view");
+          "<div class=\"tiles\">\n" + tile_html(scene, "view", "center view");
   if (scene.has_truth_picture) html += tile_html(scene, "truth", "true disparity");
   if (scene.has_label_picture) html += tile_html(scene, "labels", "true labels");
   html += "</div>\n<div class=\"entries\">\n";
@@ -250,7 +250,7 @@ std::string scores_text(const BenchmarkReport& report) {
   std::string text;
   if (report.has_disparities) {
     text +=
-        " Disparities are evaluated in the centre view: mean squared errors are in px² × 100, "
+        " Disparities are evaluated in the center view: mean squared errors are in px² × 100, "
         "lower is better.";
   }
   if (report.has_labels) text += " Labels are evaluated in all views, in %: higher is better.";
@@ -264,7 +264,7 @@ std::string pictures_text(const BenchmarkReport& report) {
         "Errors are truth − estimate from −0.2 (blue: too near) to 0.2 px (red: too far). The "
         "name of a method links to its result file. ";
   }
-  if (report.has_labels) text += "Beside the labels of the centre view stands what is wrong. ";
+  if (report.has_labels) text += "Beside the labels of the center view stands what is wrong. ";
   return text + "Click a picture to see it in full size.";
 }
 

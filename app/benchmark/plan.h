@@ -12,7 +12,7 @@
 
 namespace episcope {
 
-/// The size of a scene, as far as the time of a run depends on it.
+/// Size of a scene, on which the time of a run depends.
 struct SceneSize {
   std::size_t views = 0;
   std::size_t pixels = 0;  ///< Of one view.
@@ -89,12 +89,12 @@ struct BenchmarkPlan {
 [[nodiscard]] std::filesystem::path task_log(const std::filesystem::path& folder,
                                              std::size_t number);
 
-/// Makes this the plan of the folder. The same plan is kept as it is; before another is replaced,
-/// what its tasks finished goes into the log of the benchmark. Throws IoError, also while a task of
-/// the other one is running.
+/// Makes this the plan of the folder. An equal plan stays as it is. Before another one is replaced,
+/// its finished runs go into the log of the benchmark. Throws IoError, also while a task of the
+/// other one is running.
 void install_plan(const BenchmarkPlan& plan, const BenchmarkOptions& options);
 
-/// Cuts a sequence of runs into bundles of neighbours, each as short as possible with at least
+/// Cuts a sequence of runs into bundles of neighbors, each as short as possible with at least
 /// `least_seconds` of work (the last may be shorter); returns the first run of each bundle. A
 /// bundle is never longer than `least_seconds` plus its last run. Linear.
 [[nodiscard]] std::vector<std::size_t> bundle_starts(const std::vector<double>& seconds,

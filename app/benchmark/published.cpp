@@ -88,7 +88,7 @@ TitledTable published_table(const BenchmarkReport& report) {
   const PublishedFigures& figures = published_figures();
   const std::vector<MethodSearch> searches = gather_searches(report.searched);
   TitledTable titled{
-      "Beside figure 7 of the paper: mean squared error × 100 of the centre view (vmv2013)",
+      "Beside figure 7 of the paper: mean squared error × 100 of the center view (vmv2013)",
       "The paper searched for the best parameters of each scene; ratios are to its figure. Speed "
       "is "
       "that of figure 8: fast, less than five seconds; medium, less than a minute.",

@@ -26,7 +26,7 @@ struct PublishedAlgorithm {
 };
 
 /// Figures 7 and 8 of the paper [WMG13], from resources/vmv2013.json: mean squared errors in px² ×
-/// 100 of the centre view, each with the best parameters for its scene.
+/// 100 of the center view, each with the best parameters for its scene.
 struct PublishedFigures {
   std::vector<std::string> algorithms;
   std::vector<PublishedScene> scenes;
@@ -43,9 +43,9 @@ struct PublishedFigures {
 };
 [[nodiscard]] const PublishedFigures& published_figures();
 
-/// Scores of the paper's algorithms on the paper's scenes beside those of figure 7: of the runs,
-/// and of a search the best point of each scene, which is how the paper chose its parameters. No
-/// rows if the report has none of these scenes.
+/// Scores of the paper's algorithms on its scenes beside figure 7: of the runs, and of a search the
+/// best point of each scene, which is how the paper chose its parameters. No rows if the report has
+/// none of these scenes.
 [[nodiscard]] TitledTable published_table(const BenchmarkReport& report);
 
 /// The text of resources/vmv2013.json, compiled in: its source is made when the build is

@@ -12,16 +12,16 @@ namespace episcope {
 
 /// A light field of a benchmark.
 struct BenchmarkScene {
-  std::string name;   ///< Unique in the benchmark; also that of its folder below `scenes`.
+  std::string name;   ///< Unique in the benchmark; names its folder below `scenes`.
   std::string input;  ///< As it was asked for.
   std::string shape;  ///< "9×9 views of 512×512 px".
-  Interval range;     ///< Disparities at the ends of the colour map; {0, 0} if each has its own.
+  Interval range;     ///< Disparities at the ends of the color map; {0, 0} if each has its own.
   bool has_truth_picture = false;
   std::string problem;  ///< Why nothing was run on it; empty = it could be read.
   bool has_label_picture = false;
 };
 
-/// All that a benchmark found out; files with pictures and maps lie in `scenes/<scene>/`.
+/// Results of a benchmark; files with pictures and maps lie in `scenes/<scene>/`.
 struct BenchmarkReport {
   std::vector<BenchmarkScene> scenes;
   std::vector<BenchmarkResult> results;  ///< By scene, then by entry.
@@ -57,7 +57,7 @@ struct BenchmarkReport {
 
 /// The tables one below the other, each after a line with its title.
 [[nodiscard]] std::string tables_to_csv(const std::vector<TitledTable>& tables);
-/// The same as LaTeX, titles and notes as comments.
+/// The tables as LaTeX, titles and notes as comments.
 [[nodiscard]] std::string tables_to_latex(const std::vector<TitledTable>& tables);
 
 /// Writes index.html, tables.csv, tables.tex, results.csv (a result a line, every metric) and

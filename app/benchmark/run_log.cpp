@@ -186,7 +186,7 @@ namespace {
 /// Raised when a metric changes its meaning, so that kept results are judged anew.
 constexpr int kMetricRules = 2;
 
-/// The view that is judged: the centre, else the only one that there is.
+/// The view that is judged: the center, else the only one that there is.
 void add_truth(Fingerprint& fingerprint, const DisparityField& field, ViewIndex center) {
   if (field.empty()) return;
   const DisparityView view = field.view(field.contains(center) ? center : field.disparity.first());

@@ -19,10 +19,10 @@
 
 namespace episcope {
 
-/// What a run is for. The names are those of the log.
+/// What a run is for; named so in the log.
 enum class RunKind {
-  Table,   ///< A method, judged for the tables,
-  Search,  ///< or as a point of a search.
+  Table,   ///< A method, judged for the tables.
+  Search,  ///< A method, as a point of a search.
   Labels   ///< Labels from strokes.
 };
 [[nodiscard]] Names<RunKind> names_of(RunKind);
@@ -42,8 +42,8 @@ struct BenchmarkRun {
 [[nodiscard]] BenchmarkRun plan_run(const Estimator& estimator, const ParameterSet& point,
                                     const RunOptions& options, RunKind kind);
 
-/// Names the result of a run on a scene with this fingerprint, by all that it depends on, the
-/// version of the program included.
+/// Key of the result of a run on a scene with this fingerprint: changes with all that the result
+/// depends on, including the version of the program.
 [[nodiscard]] std::string record_key(const BenchmarkRun& run, const std::string& fingerprint);
 
 /// One finished run, a line of the log.
@@ -60,15 +60,15 @@ struct BenchmarkRecord {
 /// Empty for a line that is no record.
 [[nodiscard]] std::optional<BenchmarkRecord> record_from_json(const std::string& line);
 
-/// What is known of finished runs, in the order in which they were made.
+/// Finished runs, in the order in which they were made.
 class RunRecords {
  public:
   /// `folder`: of the benchmark, which the files of runs are named below.
   explicit RunRecords(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   void keep(BenchmarkRecord record);
-  /// Keeps what a log holds, also while another program writes it; a log that is not there holds
-  /// nothing. Lines that are no records are passed over. Throws IoError.
+  /// Keeps the records of a log, even while another program writes it. A missing log holds nothing;
+  /// other lines are skipped. Throws IoError.
   void read(const std::filesystem::path& log);
 
   /// The finished run of this key for the scene of this name, if it did not fail, its files are
@@ -76,7 +76,7 @@ class RunRecords {
   [[nodiscard]] const BenchmarkRecord* find(const std::string& key, const std::string& scene) const;
   /// The last run of this key and scene, failed or not; else null. Valid until the next `keep`.
   [[nodiscard]] const BenchmarkRecord* last(const std::string& key, const std::string& scene) const;
-  /// Of every key and scene the last run.
+  /// The last run of every key and scene.
   [[nodiscard]] std::vector<BenchmarkRecord> last_of_each() const;
 
   [[nodiscard]] const std::vector<BenchmarkRecord>& all() const { return records_; }
@@ -94,8 +94,7 @@ class RunLog {
  public:
   static constexpr const char* kFileName = "log.jsonl";
 
-  /// Throws IoError, also if another program works in the folder. Lines that are no records are
-  /// passed over.
+  /// Throws IoError, also if another program works in the folder. Skips lines that are no records.
   explicit RunLog(const std::filesystem::path& folder) : RunLog(folder, folder / kFileName) {}
   /// A log of that name of a benchmark in that folder.
   RunLog(const std::filesystem::path& folder, const std::filesystem::path& file);
@@ -111,7 +110,7 @@ class RunLog {
   }
   /// Throws IoError.
   void add(const BenchmarkRecord& record);
-  /// Adds what it does not hold yet of runs that were made elsewhere. Throws IoError.
+  /// Adds runs that were made elsewhere and are not in the log yet. Throws IoError.
   void take_over(const std::vector<BenchmarkRecord>& records);
 
   [[nodiscard]] const std::vector<BenchmarkRecord>& records() const { return known_.all(); }
@@ -145,7 +144,7 @@ class Fingerprint {
 };
 
 /// 16 hexadecimal digits that change with anything of a scene that a judged run depends on: the
-/// samples, camera and promised range of the light field, truth and region masks of its centre
+/// samples, camera and promised range of the light field, truth and region masks of its center
 /// view. Linear in the samples.
 [[nodiscard]] std::string scene_fingerprint(const Scene& scene);
 

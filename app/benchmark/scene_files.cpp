@@ -34,7 +34,7 @@ DisparityField one_view(const DisparityField& field, ViewIndex view) {
   return {one_view(field.disparity, view), one_view(field.valid, view)};
 }
 
-// Labels of the centre view of a scene.
+// Labels of the center view of a scene.
 MapSource labels_source(const Scene& scene, Quantity quantity) {
   MapSource source;
   source.quantity = quantity;

@@ -25,30 +25,29 @@ namespace episcope {
 /// "scenes/cotton/epi_l.h5".
 [[nodiscard]] std::string map_file(const std::string& scene, const std::string& entry);
 
-/// Pictures of the centre view and, if there is one, of its true disparity; returns whether there
-/// is.
+/// Writes pictures of the center view and of its true disparity; returns whether there is one.
 bool write_scene_pictures(const std::filesystem::path& folder, const std::string& name,
                           const Scene& scene, Interval range);
 
-/// Pictures of an estimate of the centre view alone (`center_of`) and, unless `evaluation` is null,
+/// Pictures of an estimate of the center view alone (`center_of`) and, unless `evaluation` is null,
 /// of its error. Returns what was written.
 std::vector<std::string> write_pictures(const std::filesystem::path& folder,
                                         const std::string& scene, const EstimatePtr& center,
                                         const std::string& entry, const EvaluationPtr& evaluation,
                                         Interval range);
 
-/// A picture of the true labels of the centre view, if it has any; returns whether it has.
+/// Writes a picture of the true labels of the center view; returns whether it has any.
 bool write_label_truth(const std::filesystem::path& folder, const std::string& name,
                        const Scene& scene);
 
-/// Pictures of the labels of the centre view and, where true labels are known, of what is wrong.
+/// Pictures of the labels of the center view and, where true labels are known, of what is wrong.
 /// Returns what was written.
 std::vector<std::string> write_label_pictures(const std::filesystem::path& folder,
                                               const std::string& name, const Scene& scene,
                                               const LabelingPtr& labeling,
                                               const std::string& entry);
 
-/// The centre view alone of an estimate, with a note if its seconds are those of all views.
+/// The center view of an estimate, with a note if its seconds are for all views.
 [[nodiscard]] Estimate center_of(const Estimate& estimate, ViewIndex center);
 
 }  // namespace episcope

@@ -4,6 +4,7 @@
 #include "app/benchmark/run_log.h"
 #include "app/benchmark/scene_files.h"
 #include "app/session/judge.h"
+#include "app/session/known_files.h"
 #include "app/session/label_review.h"
 #include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
@@ -21,11 +22,11 @@
 namespace episcope {
 namespace {
 
-void take(Verdict verdict, BenchmarkResult& result) {
-  result.vmv2013 = std::move(verdict.vmv2013);
-  result.benchmark2016 = std::move(verdict.benchmark2016);
-  result.notes.insert(result.notes.end(), verdict.notes.begin(), verdict.notes.end());
-  result.problem = std::move(verdict.problem);
+void take(ResultScores scores, BenchmarkResult& result) {
+  result.vmv2013 = std::move(scores.vmv2013);
+  result.benchmark2016 = std::move(scores.benchmark2016);
+  result.notes.insert(result.notes.end(), scores.notes.begin(), scores.notes.end());
+  result.problem = std::move(scores.problem);
 }
 
 void fail(BenchmarkResult& result, const std::string& problem) {
@@ -58,7 +59,7 @@ BenchmarkRecord SceneRuns::make(const PlannedRun& planned, const Progress& progr
   } catch (const Error& error) {
     fail(record.result, error.what());
   } catch (const std::bad_alloc&) {
-    fail(record.result, "not enough memory");
+    fail(record.result, kNotEnoughMemory);
   }
   progress.check();
   return record;
@@ -67,9 +68,9 @@ BenchmarkRecord SceneRuns::make(const PlannedRun& planned, const Progress& progr
 std::vector<std::string> SceneRuns::judge_and_write(const EstimatePtr& center,
                                                     BenchmarkResult& result,
                                                     const Progress& progress) const {
-  Verdict verdict = judge_by_both(*center, open_.scene, progress);
-  const EvaluationPtr evaluation = verdict.evaluation;
-  take(std::move(verdict), result);
+  ResultScores scores = judge_by_both(*center, open_.scene, progress);
+  const EvaluationPtr evaluation = scores.evaluation;
+  take(std::move(scores), result);
   return write_pictures(options_.folder, open_.name, center, result.entry, evaluation, open_.range);
 }
 
@@ -122,9 +123,7 @@ void require_unchanged(const LoadedScene& open, const std::string& whole_fingerp
 }
 
 std::string unused_name(const std::string& wanted, const std::set<std::string>& taken) {
-  std::string name = wanted;
-  for (int copy = 2; taken.contains(name); ++copy) name = fmt::format("{}-{}", wanted, copy);
-  return name;
+  return unique_name(wanted, "-", [&](const std::string& name) { return taken.contains(name); });
 }
 
 namespace {

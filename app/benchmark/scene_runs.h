@@ -71,7 +71,7 @@ class LabelRuns {
  public:
   LabelRuns(const Scene& scene, std::string name);
 
-  /// Labels all views, judges them, and writes pictures of the labels of the centre view and of
+  /// Labels all views, judges them, and writes pictures of the labels of the center view and of
   /// what is wrong below `folder`; score, seconds without the disparity, and files go into the
   /// record. Throws InvalidInput without strokes or what the features need, IoError, Cancelled.
   void run(const LabelerParameters& parameters, const std::filesystem::path& folder,
@@ -98,7 +98,7 @@ class SceneRuns {
   /// problem of the result. Throws Cancelled.
   [[nodiscard]] BenchmarkRecord make(const PlannedRun& planned, const Progress& progress);
 
-  /// Judges the centre view by both protocols and writes its pictures, which are returned. Throws
+  /// Judges the center view by both protocols and writes its pictures, which are returned. Throws
   /// IoError, Cancelled.
   std::vector<std::string> judge_and_write(const EstimatePtr& center, BenchmarkResult& result,
                                            const Progress& progress) const;

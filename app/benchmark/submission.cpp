@@ -64,7 +64,7 @@ double seconds_of(const fs::path& folder, const std::string& scene) {
 void check_values(const fs::path& map, ViewIndex view, Estimate& estimate) {
   if (!estimate.field.contains(view)) {
     throw IoError(map,
-                  "does not cover the centre view " + view_text(view) + ", which is evaluated");
+                  "does not cover the center view " + view_text(view) + ", which is evaluated");
   }
   const DisparityView values = estimate.field.view(view);
   std::size_t missing = 0, count = 0;
@@ -80,7 +80,7 @@ void check_values(const fs::path& map, ViewIndex view, Estimate& estimate) {
       }
     }
   }
-  if (missing == count) throw IoError(map, "contains no finite value in the centre view");
+  if (missing == count) throw IoError(map, "contains no finite value in the center view");
   const auto note = [&](const std::string& what) {
     estimate.notes.push_back(map.filename().string() + ": " + what);
   };

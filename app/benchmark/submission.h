@@ -23,7 +23,7 @@ namespace episcope {
 void check_submission(const std::filesystem::path& folder);
 
 /// The map for this light field, empty if the submission has none. Its notes tell how much of the
-/// centre view is missing and whether values lie beyond ±20 px, which no densely sampled light
+/// center view is missing and whether values lie beyond ±20 px, which no densely sampled light
 /// field has. Throws IoError, InvalidInput if it cannot be read, if there are several, if size or
 /// views do not fit, or if the view holds no finite value.
 [[nodiscard]] std::optional<Estimate> read_submission(const std::filesystem::path& folder,

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string failure_text(const BenchmarkResult& result) {
+std::string failure_line(const BenchmarkResult& result) {
   return result.entry + " on " + result.scene + ": " + result.problem;
 }
 
@@ -40,7 +40,7 @@ class TaskRunner {
     for (const PlanPoint& point : left) {
       const BenchmarkRecord record = run_point(point);
       log.add(record);
-      if (record.result.has_failed) report.failures.push_back(failure_text(record.result));
+      if (record.result.has_failed) report.failures.push_back(failure_line(record.result));
     }
     return report;
   }
@@ -116,7 +116,7 @@ void count_task(const BenchmarkPlan& plan, std::size_t number, const KnownRuns& 
     if (known.has(point, scene)) {
       ++done;
     } else if (const BenchmarkRecord* failure = known.failure(point, scene)) {
-      status.failures.push_back(failure_text(failure->result));
+      status.failures.push_back(failure_line(failure->result));
       ++failed;
     }
   }

@@ -16,9 +16,9 @@ struct TaskReport {
   std::vector<std::string> failures;
 };
 
-/// Makes the runs of task `number` that are not finished yet, each of which is in the task's log as
-/// soon as it is finished: what ends the program costs one run. Scenes without such runs are not
-/// opened. What fails is told and goes into the log; it is tried again the next time.
+/// Makes the unfinished runs of task `number`. Each is in the task's log as soon as it is finished,
+/// so that an interruption costs one run. Scenes without such runs are not opened. Failures are
+/// reported and logged, and tried again the next time.
 ///
 /// Throws InvalidInput if there is no such task or a scene has changed since the plan was made,
 /// IoError, also if a scene cannot be read or another program runs this task, Cancelled.
@@ -26,7 +26,7 @@ struct TaskReport {
                                   const BenchmarkOptions& options, const SceneLoader& load,
                                   const Progress& progress);
 
-/// How far the tasks of a plan are.
+/// Progress of the tasks of a plan.
 struct PlanStatus {
   struct Count {
     std::size_t all = 0;
@@ -47,9 +47,9 @@ struct PlanStatus {
 [[nodiscard]] PlanStatus plan_status(const BenchmarkPlan& plan,
                                      const std::filesystem::path& folder);
 
-/// Takes what the tasks finished into the log of the benchmark and writes the tables, those that
-/// `run_benchmark` would write; what failed or is missing is told there. Opens every scene once.
-/// Throws as `run_benchmark`.
+/// Takes the finished runs of all tasks into the log of the benchmark and writes the tables that
+/// `run_benchmark` would write; they name what failed or is missing. Opens every scene once. Throws
+/// as `run_benchmark`.
 [[nodiscard]] BenchmarkReport collect_plan(const BenchmarkPlan& plan, BenchmarkOptions options,
                                            const SceneLoader& load, const Progress& progress);
 

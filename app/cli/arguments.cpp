@@ -76,6 +76,17 @@ std::string sentence_of(const CLI::ParseError& error, const CLI::App& app) {
   return text;
 }
 
+/// The American spelling of a name: earlier versions had options in British English.
+std::string american(std::string name) {
+  constexpr std::pair<std::string_view, std::string_view> kSpellings[] = {
+      {"alise", "alize"}, {"centre", "center"}, {"colour", "color"}};
+  for (const auto& [british, here] : kSpellings) {
+    const std::size_t place = name.find(british);
+    if (place != std::string::npos) name.replace(place, british.size(), here);
+  }
+  return name;
+}
+
 constexpr const char* kHelpAsJson = "--help-json";
 
 }  // namespace
@@ -143,7 +154,7 @@ struct Arguments::State {
   [[nodiscard]] std::vector<std::string> checked(const std::vector<std::string>& arguments) const {
     std::vector<std::string> result;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
-      std::string argument = arguments[i];
+      std::string argument = known_spelling(arguments[i]);
       if (argument.size() > 1 && argument[0] == '-' && !is_number_like(argument)) {
         check_option(name_of(argument));
         const auto found = takes_value.find(argument);
@@ -156,6 +167,14 @@ struct Arguments::State {
       result.push_back(argument);
     }
     return result;
+  }
+
+  /// An option in the spelling that it is declared with, if it is known in one.
+  [[nodiscard]] std::string known_spelling(const std::string& argument) const {
+    const std::string name = name_of(argument);
+    const std::string here = american(name);
+    const bool is_old = name != here && !takes_value.contains(name) && takes_value.contains(here);
+    return is_old ? here + argument.substr(name.size()) : argument;
   }
 
   void check_option(const std::string& name) const {
@@ -387,9 +406,7 @@ UsageError unknown_name(const std::string& kind, const std::string& name,
   if (const std::string nearest = nearest_name(name, names); !nearest.empty()) {
     return UsageError(beginning + "did you mean '" + nearest + "'?");
   }
-  std::string list;
-  for (const auto& each : names) list += (list.empty() ? "" : ", ") + each;
-  return UsageError(beginning + "use one of " + list);
+  return UsageError(beginning + "use one of " + joined(names, ", "));
 }
 
 }  // namespace episcope::cli

@@ -119,7 +119,7 @@ void note_other_source(const Estimate& estimate, const LightField& light_field, 
   } else if (const std::string less = options_missing_in(own, other); !less.empty()) {
     how = "; its own were read without" + less;
   }
-  job.note("the result was estimated from other samples than those of " + light_field.info().name +
+  job.note("the result was estimated from other samples than " + light_field.info().name + " has" +
            how);
 }
 

@@ -38,7 +38,7 @@ void check_input(const std::string& input);
 /// Throws UsageError for an unknown built-in scene or a bad option, IoError, Cancelled.
 [[nodiscard]] Scene load_input(const std::string& input, const ReadOptions& options,
                                const Progress& progress);
-/// The same with options of another origin.
+/// Opens an INPUT with options that do not come from the command line.
 [[nodiscard]] Scene load_input(const std::string& input, io::OpenOptions open, bool needs_truth,
                                const Progress& progress);
 
@@ -58,12 +58,12 @@ struct NamedReading {
 [[nodiscard]] Scene load_input_of(const NamedReading& result, const std::string& input,
                                   const ReadOptions& options, const Progress& progress);
 
-/// Notes that the estimate was made from other samples than those of the light field, if so, and
-/// which reading options may explain it.
+/// Notes if the estimate was made from samples of another light field, and which reading options
+/// may explain it.
 void note_other_source(const Estimate& estimate, const LightField& light_field, Job& job);
 
-/// Notes reading options, the focus plane left aside, that one of two results has and the other has
-/// not, if both say how their light field was read.
+/// Notes reading options, except the focus plane, that one of two results has and the other lacks,
+/// if both say how their light field was read.
 void note_other_options(const NamedReading& first, const NamedReading& second, Job& job);
 
 /// One light field of many.
@@ -83,8 +83,8 @@ enum class Frames { One, All };
                                                    const ReadOptions& options, Frames frames,
                                                    const Progress& progress);
 
-/// The same, for runs of which one that fails does not stop the others: an INPUT that cannot be
-/// read stands for itself, so that opening it says why.
+/// As `scene_inputs`, but an INPUT that cannot be read stands for itself: opening it then says why,
+/// and does not stop the others.
 [[nodiscard]] std::vector<SceneInput> scene_inputs_and_failed(
     const std::vector<std::string>& inputs, const ReadOptions& options, Frames frames,
     const Progress& progress);

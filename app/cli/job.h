@@ -26,7 +26,7 @@ class ProgressBar {
   [[nodiscard]] bool is_shown() const { return is_shown_; }
   /// To be called by one thread at a time.
   void draw(const ProgressState& state);
-  /// Wipes the line, so that something else can be written; drawing goes on after that.
+  /// Wipes the line, so that something else can be written; later states are drawn again.
   void wipe();
 
  private:
@@ -72,7 +72,7 @@ class Job {
 /// Largest resident memory of this process so far.
 [[nodiscard]] double peak_memory_mib();
 
-/// What failed of many light fields, of which the others go on.
+/// Counts light fields that failed while others continue.
 class Failures {
  public:
   void add(const std::string& sentence) {
@@ -91,9 +91,9 @@ class Failures {
 };
 
 /// Turns Ctrl+C (SIGINT) and SIGTERM into a stop request while it lives. Further signals change
-/// nothing: the stop under way first removes what is half-written. To be made before any other
-/// thread: it blocks the signals in the calling thread and all threads begun later, and waits for
-/// them in a thread of its own.
+/// nothing, since a stopping job first removes half-written files. Make it before any other thread:
+/// it blocks the signals in the calling thread and all later threads, and waits for them in a
+/// thread of its own.
 class Interrupt {
  public:
   Interrupt();

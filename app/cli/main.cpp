@@ -3,6 +3,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/job.h"
 #include "app/cli/verbs/verbs.h"
+#include "app/session/run_estimator.h"
 #include "app/session/user_folders.h"
 #include "engine/io/base/files.h"
 
@@ -62,7 +63,7 @@ int main(int argc, char** argv) {
     std::cerr << "episcope-cli: cancelled\n";
     return kCancelled;
   } catch (const std::bad_alloc&) {
-    return fail(Error("not enough memory for this light field"), kFailed);
+    return fail(Error(kNotEnoughMemory), kFailed);
   } catch (const std::exception& error) {
     return fail(error, kFailed);
   }

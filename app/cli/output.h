@@ -29,7 +29,8 @@ enum class Overwrite { No, Yes };
 /// Refuses an output file that cannot be written, before hours are spent. Throws IoError.
 void check_output_file(const std::filesystem::path& path);
 
-/// The same for an output of HDF5, which must be named so; throws UsageError, naming the verb.
+/// Refuses an output that cannot be written or is not named like HDF5. Throws IoError, UsageError
+/// naming the verb.
 void check_hdf5_output(const std::string& verb, const std::filesystem::path& path);
 
 /// Refuses to replace anything but a result file. Throws IoError.

@@ -61,7 +61,7 @@ bool differs_in_focus(const ShownMap& shown) {
   return !first.reader.empty() && !second.reader.empty() && first.focus_px() != second.focus_px();
 }
 
-/// Whether colours or numbers come from the scene as well.
+/// Whether colors or numbers come from the scene as well.
 bool needs_scene(const ShownMap& shown) {
   const bool is_alone = shown.quantity == Quantity::Confidence ||
                         shown.quantity == Quantity::Layers ||

@@ -10,26 +10,26 @@
 
 namespace episcope::cli {
 
-/// What `show` is given.
+/// Kind of the subject of `show`.
 enum class ShownKind { LightField, Result, Labels };
 
-/// What `show` is asked for.
+/// The map that `show` is asked for.
 struct ShownMap {
   std::string subject;
   ShownKind kind = ShownKind::LightField;
   render::Quantity quantity = render::Quantity::View;
   std::string truth;  ///< Light field of a result or of labels; empty = the one its file names.
   std::string minus;  ///< For a difference: the result that is subtracted.
-  std::optional<ViewIndex> view;  ///< The centre, or the middle of those there are.
+  std::optional<ViewIndex> view;  ///< The center, or the middle of those there are.
   int label = 1;                  ///< Whose probability.
   bool needs_light_field = false;
 };
 
-/// The map, with the scene it belongs to as far as one was needed and is known.
+/// The map, with its scene if one was needed and is known.
 struct LoadedMap {
   std::optional<Scene> scene;
   MapSource source;
-  Interval disparity_range{};  ///< Of the colours of a disparity.
+  Interval disparity_range{};  ///< Of the colors of a disparity.
 };
 
 /// Reads what the map is made from; judges where it is an error. Throws UsageError if the subject

@@ -9,8 +9,8 @@
 
 namespace episcope::cli {
 
-/// Options for sbatch as one text, "--partition=gpu --time=1:00:00": words between spaces, of which
-/// '…' and "…" keep theirs. Throws InvalidInput for a quotation mark without its partner.
+/// Splits options for sbatch, given as one text such as "--partition=gpu --time=1:00:00", at spaces
+/// outside '…' and "…". Throws InvalidInput for an open quotation mark.
 [[nodiscard]] std::vector<std::string> option_words(const std::string& text);
 
 /// Options of sbatch with a GPU for each task, unless they say how many themselves.
@@ -19,7 +19,7 @@ namespace episcope::cli {
 /// Ascending numbers as ranges, "0-3,7".
 [[nodiscard]] std::string ranges_text(std::span<const std::size_t> numbers);
 
-/// An array of jobs: the tasks of which `SLURM_ARRAY_TASK_ID + offset` are the numbers.
+/// An array of jobs for the tasks `SLURM_ARRAY_TASK_ID + offset`.
 struct JobArray {
   std::size_t offset = 0;
   std::string indices;  ///< As sbatch takes them: "0-3,7".
@@ -42,7 +42,7 @@ struct SubmittedJobs {
                                          const std::vector<std::size_t>& numbers,
                                          const std::vector<std::string>& options);
 
-/// What a program that has ended left.
+/// Exit code and output of a program.
 struct ProgramAnswer {
   int exit_code = 0;  ///< 128 and the signal if it was killed by one.
   std::string out;

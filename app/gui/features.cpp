@@ -18,6 +18,7 @@
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/compare/error_plot_controller.h"
 #include "app/gui/compare/metric_controller.h"
+#include "app/gui/compare/movie_export.h"
 #include "app/gui/compare/picture_export.h"
 #include "app/gui/compare/region_controller.h"
 #include "app/gui/compare/statistics_controller.h"
@@ -105,21 +106,22 @@ void add_capture(const Workbench& bench) {
 }
 
 void add_commands(const Workbench& bench, CloudController* cloud) {
-  bench.commands.add({.id = "cloud.large",
-                      .menu = Menu::Panes,
-                      .text = CloudController::tr("3D in the place of the view"),
-                      .tip = CloudController::tr("Shows the 3D view large, in the place of the "
-                                                 "view, or puts it back into its tab"),
-                      .icon = "cube",
-                      .keys = {Qt::Key_F4},
-                      .run = [cloud] { cloud->setLarge(!cloud->isLarge()); },
-                      .checked = [cloud] { return cloud->isLarge(); }});
+  bench.commands.add(
+      {.id = "cloud.large",
+       .menu = Menu::Panes,
+       .text = CloudController::tr("3D in place of the view"),
+       .tip = CloudController::tr(
+           "Shows the 3D view in place of the current view, or moves it back into its tab"),
+       .icon = "cube",
+       .keys = {Qt::Key_F4},
+       .run = [cloud] { cloud->setLarge(!cloud->isLarge()); },
+       .checked = [cloud] { return cloud->isLarge(); }});
   bench.commands.add(
       {.id = "cloud.window",
        .menu = Menu::Panes,
        .text = CloudController::tr("3D in its own window"),
-       .tip = CloudController::tr("Gives the 3D view with its controls a window of "
-                                  "its own, or takes it back"),
+       .tip = CloudController::tr(
+           "Detaches the 3D view and its controls into their own window, or docks them again"),
        .icon = "sides",
        .keys = {CloudController::tr("Shift+F4")},
        .run =
@@ -271,14 +273,14 @@ void add_project(const Workbench& bench) {
 
 // Adds the Check tab and what goes from one place to check to the next.
 void add_reviewing(const Workbench& bench) {
-  auto* panel = new CheckPanel(&bench.frame);
+  auto* panel = new LabelReviewPanel(&bench.frame);
   bench.frame.addTab({.id = "check",
-                      .title = ReviewController::tr("Check"),
-                      .command_text = ReviewController::tr("Check tab"),
-                      .command_tip = ReviewController::tr(
+                      .title = LabelReviewController::tr("Check"),
+                      .command_text = LabelReviewController::tr("Check tab"),
+                      .command_tip = LabelReviewController::tr(
                           "Shows where labels are in doubt, their islands and holes"),
                       .widget = panel});
-  new ReviewController(bench, panel);
+  new LabelReviewController(bench, panel);
   new StripController(bench, panel);
 }
 

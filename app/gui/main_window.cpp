@@ -173,7 +173,7 @@ void Layout::addScreenCommands() {
   bench_.commands.add({.id = "view.full_screen",
                        .menu = Menu::View,
                        .text = tr("Full screen"),
-                       .tip = tr("Fills the screen with the window, or gives it back"),
+                       .tip = tr("Turns full screen on or off"),
                        .keys = {Qt::Key_F11},
                        .run = [this] { toggleFullScreen(); },
                        .section = section::kTabs,
@@ -199,8 +199,8 @@ void Layout::addPaneCommands() {
   bench_.commands.add({.id = "panes.tab",
                        .menu = Menu::Panes,
                        .text = tr("Tab in its own window"),
-                       .tip = tr("Gives the tab that is shown a window of its own; closing that "
-                                 "brings it back. So does a double click on the tab"),
+                       .tip = tr("Detaches the current tab, as a double click on it does; close "
+                                 "its window to dock it again"),
                        .keys = {Qt::Key_F6},
                        .run = [&panes, this] { panes.tear("tab." + bench_.frame.shownTab()); }});
   const auto add_epi = [&panes, this](const QString& id, const QString& text, const QString& tip,
@@ -214,13 +214,13 @@ void Layout::addPaneCommands() {
                          .checked = [&panes, id] { return panes.isTorn(id); }});
   };
   add_epi("epi.horizontal", tr("Horizontal EPI in its own window"),
-          tr("Gives the horizontal EPI a window of its own, or takes it back"), Qt::Key_F7);
+          tr("Detaches the horizontal EPI into its own window, or docks it again"), Qt::Key_F7);
   add_epi("epi.vertical", tr("Vertical EPI in its own window"),
-          tr("Gives the vertical EPI a window of its own, or takes it back"), Qt::Key_F8);
+          tr("Detaches the vertical EPI into its own window, or docks it again"), Qt::Key_F8);
   bench_.commands.add({.id = "panes.reset",
                        .menu = Menu::Panes,
                        .text = tr("Reset layout"),
-                       .tip = tr("Brings all panes back and divides the window as at first"),
+                       .tip = tr("Docks all panes and restores the default layout"),
                        .keys = {tr("Ctrl+Shift+F11")},
                        .run = [this] { reset(); },
                        .section = 2});
@@ -231,8 +231,8 @@ void Layout::addStackCommands() {
   bench_.commands.add({.id = "panes.stack_tab",
                        .menu = Menu::Panes,
                        .text = tr("Tab below the others"),
-                       .tip = tr("Puts the tab that is shown into a second set of tabs below the "
-                                 "others, so that both are seen; its cross brings it back"),
+                       .tip = tr("Moves the current tab into a second set of tabs below the "
+                                 "others; its cross moves it back"),
                        .keys = {tr("Shift+F6")},
                        .run =
                            [&panes, this] {
@@ -256,11 +256,10 @@ void Layout::addStackCommands() {
                          .checked = [&panes, id] { return panes.isStacked(id); }});
   };
   add_stacked("epi.horizontal", tr("Horizontal EPI below the tabs"),
-              tr("Puts the horizontal EPI into the tabs below the others, or takes it back"),
+              tr("Moves the horizontal EPI into the tabs below the others, or back"),
               tr("Shift+F7"));
   add_stacked("epi.vertical", tr("Vertical EPI below the tabs"),
-              tr("Puts the vertical EPI into the tabs below the others, or takes it back"),
-              tr("Shift+F8"));
+              tr("Moves the vertical EPI into the tabs below the others, or back"), tr("Shift+F8"));
 }
 
 void Layout::reset() {

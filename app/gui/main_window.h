@@ -9,7 +9,7 @@
 
 namespace episcope {
 
-/// Joins the session, the places of the window and the features; does nothing itself.
+/// Joins the session, the places of the window and the features.
 class MainWindow : public QMainWindow {
   Q_OBJECT
 
@@ -17,7 +17,8 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  /// Opens a path or a built-in scene, and lets features offer what an earlier session left behind.
+  /// Opens a path or a built-in scene, then lets features offer what an earlier session left
+  /// behind.
   void start(const QString& input);
 
   /// What features work with.

@@ -58,7 +58,7 @@ class AnnotationJournal {
   std::uintmax_t first_bytes_ = 0;  ///< Of the file when it was last written anew.
 };
 
-/// What a crashed session left behind.
+/// The document of a crashed session.
 struct RecoveredAnnotation {
   JournalOwner owner;
   AnnotationDocument document;  ///< With its history.
@@ -74,10 +74,10 @@ struct RecoverableJournal {
   std::filesystem::file_time_type last_change;
 };
 
-/// Journals in `folder` whose session crashed with unsaved changes, the latest first. Those of
-/// running sessions are skipped, and those that cannot be read; those with nothing unsaved are
-/// removed.
-[[nodiscard]] std::vector<RecoverableJournal> recoverable_journals(const std::filesystem::path& folder);
+/// Journals in `folder` whose session crashed with unsaved changes, the latest first. Skips
+/// journals of running sessions and unreadable ones; removes journals without unsaved changes.
+[[nodiscard]] std::vector<RecoverableJournal> recoverable_journals(
+    const std::filesystem::path& folder);
 
 /// Removes a journal that the user does not want or that was recovered.
 void discard_journal(const std::filesystem::path& path);
@@ -96,11 +96,11 @@ class Annotation {
 
   /// LightField::sample_hash for a journal that is begun later; until then it is unknown, 0.
   void set_sample_hash(std::uint64_t hash) { owner_.sample_hash = hash; }
-  /// Where the document was saved last; a later crash does not forget it. Throws IoError if the
+  /// Sets where the document was saved last, which a crash does not forget. Throws IoError if the
   /// journal cannot be written.
   void set_file(const std::string& file);
   [[nodiscard]] const std::string& file() const { return owner_.file; }
-  /// What opens the light field now, which was moved. Throws IoError likewise.
+  /// Sets what opens the light field, which was moved. Throws IoError as `set_file`.
   void set_source(const std::string& source);
   /// Begins the journal unless it is there, or is not wanted. To be called before each edit. Throws
   /// IoError if it cannot be kept: then there will be none.
@@ -110,7 +110,7 @@ class Annotation {
   [[nodiscard]] const std::filesystem::path& journal_path() const { return journal_->path(); }
   /// Abandons the journal, which can no longer be written.
   void drop_journal();
-  /// The session ended normally or its changes were discarded: the journal is removed.
+  /// Removes the journal, since the session ended normally or its changes were discarded.
   void finish();
 
  private:
@@ -120,8 +120,8 @@ class Annotation {
   std::optional<AnnotationJournal> journal_;
 };
 
-/// What a journal of a document as it is now holds: the owner, the document before the oldest edit
-/// of the history, then the steps that lead to the present state.
+/// Records of a journal of the present document: the owner, the document before the oldest edit of
+/// the history, then the steps up to the present state.
 [[nodiscard]] std::vector<io::LogRecord> journal_records(const JournalOwner& owner,
                                                          const AnnotationDocument& document);
 
@@ -129,7 +129,7 @@ class Annotation {
 /// of the first two is.
 [[nodiscard]] RecoveredAnnotation replay(const std::vector<io::LogRecord>& records);
 
-/// A journal of a session that ended unexpectedly, with or without unsaved changes.
+/// Journal of a session that ended unexpectedly, with or without unsaved changes.
 struct OrphanedJournal {
   std::filesystem::path path;
   std::filesystem::file_time_type last_change;

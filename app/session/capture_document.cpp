@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/capture_document.h"
 
+#include "app/session/known_files.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -26,11 +28,12 @@ bool is_taken(const std::vector<Named>& all, const std::string& name) {
 /// `stem`, with a number where that is empty or taken.
 template <class Named>
 std::string free_name(const std::vector<Named>& all, const std::string& stem) {
-  std::string name = stem;
-  for (int number = stem.empty() ? 1 : 2; name.empty() || is_taken(all, name); ++number) {
-    name = stem.empty() ? std::to_string(number) : stem + " " + std::to_string(number);
+  if (!stem.empty()) {
+    return unique_name(stem, " ", [&](const std::string& name) { return is_taken(all, name); });
   }
-  return name;
+  int number = 1;
+  while (is_taken(all, std::to_string(number))) ++number;
+  return std::to_string(number);
 }
 
 CaptureObject new_object(const CaptureWork& work, const std::string& mesh) {

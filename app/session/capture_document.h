@@ -11,7 +11,7 @@
 
 namespace episcope {
 
-/// A step of the user, as the work was before and after it.
+/// One step of the user: the work before and after it.
 struct CaptureEdit {
   CaptureWork before;
   CaptureWork after;
@@ -19,15 +19,15 @@ struct CaptureEdit {
 };
 
 /// The work of a user on one light field: lens, settings, objects with their meshes and pairs.
-/// Every change is undoable; one that changes nothing is no step. Changes of pairs and meshes are
-/// of the current object, which is made where there is none.
+/// Every change is undoable; a change to the same is no step. Pairs and meshes belong to the
+/// current object, which is made if there is none.
 class CaptureDocument {
  public:
-  /// As it was kept; nothing of it can be undone.
+  /// Starts from work that was kept, with nothing to undo.
   explicit CaptureDocument(CaptureWork work = {});
 
   [[nodiscard]] const CaptureWork& work() const { return work_; }
-  /// Of the current object; none if there is no object.
+  /// Pairs of the current object; empty if there is no object.
   [[nodiscard]] const std::vector<capture::PointPair>& pairs() const;
   [[nodiscard]] const History<CaptureEdit>& history() const { return history_; }
 
@@ -36,7 +36,7 @@ class CaptureDocument {
 
   /// Adds an object with this mesh, named after its file, and chooses it.
   void add_object(const std::string& mesh);
-  /// Removes the current one.
+  /// Removes the current object.
   void remove_object();
   /// Ignored if the name is empty or taken.
   void rename_object(const std::string& name);

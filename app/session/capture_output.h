@@ -14,32 +14,32 @@
 
 namespace episcope {
 
-/// A mesh before the cameras.
+/// A mesh and its pose before the cameras.
 struct PosedMesh {
   std::shared_ptr<const capture::TriangleMesh> mesh;
   capture::RigidPose pose;
 };
 
-/// The disparity of meshes in the centre view, as a result to be drawn and compared. Throws what
+/// The disparity of meshes in the center view, as a result to be drawn and compared. Throws what
 /// capture::visible_depth does.
 [[nodiscard]] Estimate mesh_estimate(std::span<const PosedMesh> meshes, const Scene& scene,
                                      const Progress& progress);
 
 /// The scene with the depth of meshes in all views as its ground truth, and as labels which mesh is
-/// seen, from 1 on. Throws likewise.
+/// seen, from 1 on. Throws as `mesh_estimate`.
 [[nodiscard]] Scene with_mesh_truth(std::span<const PosedMesh> meshes, const Scene& scene,
                                     const Progress& progress);
 
-/// Photographs of a gantry, and what is to become of them.
+/// Photographs of a gantry and where the light field made of them goes.
 struct RectifyTask {
   Scene photographs;
-  CaptureWork work;              ///< With lens and settings; pairs in the centre photograph.
+  CaptureWork work;              ///< With lens and settings; pairs in the center photograph.
   std::filesystem::path output;  ///< Light field to write.
 };
 
 struct RectifiedFile {
   capture::Rectified rectified;
-  /// As it goes on there: pairs in the rectified centre view, how well rows are aligned, no poses.
+  /// Work on the new light field: pairs in its center view, how well rows are aligned, no poses.
   CaptureWork work;
 };
 

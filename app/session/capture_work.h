@@ -22,40 +22,40 @@ struct CalibratedPhotograph {
   friend bool operator==(const CalibratedPhotograph&, const CalibratedPhotograph&) = default;
 };
 
-/// A lens, and where it is known from.
+/// A lens and where it comes from.
 struct CaptureLens {
   capture::LensCamera camera;
-  std::string file{};  ///< It was read from; empty = it was calibrated.
+  std::string file{};  ///< The lens was read from; empty = it was calibrated.
   std::vector<CalibratedPhotograph> photographs{};
   friend bool operator==(const CaptureLens&, const CaptureLens&) = default;
 };
 
-/// How well the rows of a light field were aligned that was made of photographs.
+/// How well the rows of a rectified light field are aligned.
 struct RowAlignment {
   capture::RowErrors before;
   capture::RowErrors after;
   friend bool operator==(const RowAlignment&, const RowAlignment&) = default;
 };
 
-/// A thing before the cameras.
+/// An object before the cameras.
 struct CaptureObject {
   std::string name;    ///< No other has it.
   std::string mesh{};  ///< File; empty = none was opened.
   std::vector<capture::PointPair> pairs{};
-  /// That follows from the pairs; nothing = there is none, or it was not computed yet.
+  /// Computed from the pairs; none if that is impossible or was not done yet.
   std::optional<capture::SolvedPose> pose{};
 
-  /// What the user did; the pose follows from it.
+  /// Compares what the user did; the pose follows from it.
   friend bool operator==(const CaptureObject& a, const CaptureObject& b) {
     return a.name == b.name && a.mesh == b.mesh && a.pairs == b.pairs;
   }
 };
 
-/// All that a user does on the way from photographs to ground truth, of one light field.
+/// The user's work between photographs and ground truth, for one light field.
 struct CaptureWork {
   std::optional<CaptureLens> lens{};
-  capture::Pattern pattern{};          ///< To calibrate with next,
-  capture::RectifyOptions rectify{};   ///< and to rectify with; of a rectified one, as it was.
+  capture::Pattern pattern{};          ///< Of the next calibration.
+  capture::RectifyOptions rectify{};   ///< Of the next rectification, or as it was made.
   std::optional<RowAlignment> rows{};  ///< Of a light field that was rectified.
   std::vector<CaptureObject> objects{};
   int current = 0;  ///< The object that is worked on.
@@ -66,11 +66,11 @@ struct CaptureWork {
   friend bool operator==(const CaptureWork&, const CaptureWork&) = default;
 };
 
-/// What is kept of a calibration.
+/// The lens of a calibration.
 [[nodiscard]] CaptureLens lens_of(const capture::Calibration& calibration);
 
-/// Computes the pose of every object from 4 pairs on. Returns why the current one has none, empty
-/// if that is only for lack of pairs. `camera` without a pinhole: there are no poses.
+/// Computes the pose of every object with at least 4 pairs. Returns why the current object has
+/// none; empty if it has one or too few pairs. There are no poses if `camera` has no pinhole.
 std::string solve_poses(CaptureWork& work, const CameraGrid& camera);
 
 /// What a project file holds of CaptureWork, as JSON: the lens with its photographs, settings,

@@ -162,7 +162,7 @@ void keep(const fs::path& file, const Picture& picture) {
   }
 }
 
-/// Reading ends as soon as the centre view is there.
+/// Reading ends as soon as the center view is there.
 Picture center_view(const fs::path& path, const Progress& progress) {
   Picture center;
   std::stop_source enough;
@@ -180,7 +180,7 @@ Picture center_view(const fs::path& path, const Progress& progress) {
   } catch (const Cancelled&) {
     progress.check();
   }
-  if (center.empty()) throw IoError(path, "it has no centre view to show");
+  if (center.empty()) throw IoError(path, "it has no center view to show");
   return center;
 }
 

@@ -29,23 +29,23 @@ using OnEntry = std::function<void(const io::CollectionEntry&)>;
     const std::string& input, const io::OpenOptions& options,
     const std::filesystem::path& cache_folder, const Progress& progress);
 
-/// A folder that was to be opened as a light field holds several.
+/// Thrown for a folder that was to be opened as a light field but holds several.
 class IsCollection : public IoError {
  public:
   IsCollection(const std::filesystem::path& folder, std::size_t count);
 };
 
-/// A name for each entry that no other has, for files made from them: that of the scene, after
-/// those of as many folders around it as it takes, joined by "_".
+/// Names for files made from entries, each unique: the name of the scene, preceded by as many of
+/// its folders as it takes, joined by "_".
 [[nodiscard]] std::vector<std::string> unique_names(
     const std::vector<io::CollectionEntry>& entries);
 
 /// Longer side of thumbnails at most, px.
 inline constexpr int kThumbnailSide = 160;
 
-/// The centre view, RGB, scaled down by the means of areas. Kept as a PNG in `cache_folder`, which
-/// holds those of the last few thousand light fields; empty = none is kept. Reads no more than it
-/// must: as a rule the centre view alone. Throws IoError, Cancelled.
+/// The center view, RGB, scaled down by area means. Kept as a PNG in `cache_folder`, up to a few
+/// thousand of them; empty = none is kept. Reads no more than it must: as a rule the center view
+/// alone. Throws IoError, Cancelled.
 [[nodiscard]] Image<std::uint8_t> scene_thumbnail(const io::CollectionEntry& entry,
                                                   const std::filesystem::path& cache_folder,
                                                   const Progress& progress);

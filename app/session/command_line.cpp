@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/command_line.h"
 
-#include "engine/disparity/registry.h"
+#include "app/session/run_estimator.h"
 #include "engine/io/models/open_options.h"
 
 #include <fmt/format.h>
@@ -37,8 +37,8 @@ std::string shell_quoted(const std::string& word) {
 
 ParameterSet changed_parameters(const std::string& method, const ParameterSet& values) {
   std::vector<ParameterDescription> descriptions;
-  for (const Estimator& estimator : registered_estimators()) {
-    if (estimator.info.id == method) descriptions = described_under(estimator.parameters, values);
+  if (const Estimator* known = known_estimator(method)) {
+    descriptions = described_under(known->parameters, values);
   }
   ParameterSet changed;
   for (const auto& [key, value] : values) {

@@ -15,7 +15,7 @@ namespace episcope {
 [[nodiscard]] std::string command_line_for(const Estimate& estimate, const std::string& input,
                                            const ParameterSet& reading = {});
 
-/// The same for a run that was not started yet.
+/// The line for a run that was not started yet.
 [[nodiscard]] std::string command_line_for(const std::string& method, const ParameterSet& values,
                                            ViewSelection views, const std::string& input,
                                            const ParameterSet& reading = {});
@@ -28,7 +28,7 @@ namespace episcope {
 /// stand by themselves.
 [[nodiscard]] std::string options_text(const ParameterSet& options,
                                        const std::vector<ParameterDescription>& descriptions);
-/// The same of reading options (io::open_schema): " --flip=u --snake".
+/// Reading options (io::open_schema) as on the command line: " --flip=u --snake".
 [[nodiscard]] std::string reading_options_text(const ParameterSet& options);
 
 /// A word as a POSIX shell reads it back: quoted where it must be.

@@ -140,7 +140,7 @@ std::optional<GantryFolder> gantry_folder(const std::string& input, const fs::pa
 
 Scene load_gantry(const std::string& id, const LoadOptions& options, const Progress& progress) {
   const capture::DemoOptions demo = gantry_options(id);
-  progress.step("photographing the centre view");
+  progress.step("photographing the center view");
   show_center(demo, options.open, progress.part(0, 0.05));
   LightFieldInfo info;
   info.name = kGantryScene;

@@ -12,8 +12,7 @@
 
 namespace episcope {
 
-/// The synthesised gantry as an input: `demo:gantry`, whose light field are photographs that are
-/// not rectified.
+/// Id of the synthetic gantry, `demo:gantry`: a light field of photographs that are not rectified.
 inline constexpr const char* kGantryScene = "gantry";
 
 /// Whether what follows `demo:` is the gantry, with options or without.
@@ -22,7 +21,7 @@ inline constexpr const char* kGantryScene = "gantry";
 /// Options as of other built-in scenes: seed, size, grid, noise. Throws InvalidInput.
 [[nodiscard]] capture::DemoOptions gantry_options(const std::string& id);
 
-/// What lies beside the photographs of the demo, in a folder of the cache.
+/// Files of the gantry, in a folder of the cache.
 struct GantryFolder {
   std::filesystem::path path;
 
@@ -30,18 +29,18 @@ struct GantryFolder {
   /// Of the calibration pattern (capture::demo_pattern), by name.
   [[nodiscard]] std::vector<std::filesystem::path> pattern() const;
   [[nodiscard]] std::filesystem::path mesh() const { return path / "mesh.ply"; }
-  /// Points that were picked in the photograph of the centre.
+  /// Points that were picked in the photograph of the center.
   [[nodiscard]] std::filesystem::path picks() const { return path / "picks.csv"; }
 };
 
-/// The folder that an input belongs to: that of `demo:gantry`, or the one that a file lies in.
-/// None for all else, and if it is not there.
+/// The folder that an input belongs to: the folder of `demo:gantry`, or the one that a file lies
+/// in. None for other inputs and missing folders.
 [[nodiscard]] std::optional<GantryFolder> gantry_folder(const std::string& input,
                                                         const std::filesystem::path& cache_folder);
 
-/// The photographs, read from the cache or made, with everything that belongs to them, and kept
-/// there; without a cache folder, or where that cannot be written, they alone. The centre view is
-/// shown first. Throws InvalidInput, Cancelled.
+/// Reads the photographs from the cache, or makes them and keeps them there with pattern, mesh and
+/// picks. Without a writable cache folder, makes the photographs only. The center view is shown
+/// first. Throws InvalidInput, Cancelled.
 [[nodiscard]] Scene load_gantry(const std::string& id, const LoadOptions& options,
                                 const Progress& progress);
 

@@ -22,25 +22,24 @@ namespace episcope {
 
 using EvaluationPtr = std::shared_ptr<const Evaluation>;
 
-/// The view in which a result is judged if nobody asks for another: the centre, or the first that
-/// the truth covers where that is not the centre. The centre if there is no truth.
+/// The view in which a result is judged if nobody asks for another: the center, or the first that
+/// the truth covers where that is not the center. The center if there is no truth.
 [[nodiscard]] ViewIndex judged_view(const Scene& scene);
 
 /// Whether scene and result have what `judge` compares in this view.
 [[nodiscard]] bool can_judge(const Estimate& estimate, const Scene& scene, ViewIndex view);
 
-/// The error of a result in one view, `judged_view` if none is given. Of a result in two layers
-/// against a truth in two layers, keys are those of `layered_metrics`, and the maps are those of
-/// the foreground. Pixels that the light field does not show (LightField::valid), or that maps
-/// of other programs do not cover (Provenance::border_px), are not judged; nor what is 0 in
-/// `options.shown`, unless that is empty. Region masks and the high resolution count in the centre
-/// view only; camera and truth are those of the scene, whatever `options` say. Protocol
-/// benchmark2016 gains runtime_log, log10 of the seconds, where they are known. Throws InvalidInput
-/// if scene or result lacks what is compared; Cancelled.
+/// The error of a result in one view, `judged_view` if none is given. If result and truth have two
+/// layers, keys are as in `layered_metrics` and maps show the foreground. Leaves out pixels that
+/// the light field does not show (LightField::valid), the border that maps of other programs lack
+/// (Provenance::border_px), and zeros of `options.shown`, unless it is empty. Region masks and the
+/// high resolution count in the center view only; camera and truth come from the scene, not from
+/// `options`. Protocol benchmark2016 gains runtime_log, log10 of the seconds, where they are known.
+/// Throws InvalidInput if scene or result lacks what is compared; Cancelled.
 [[nodiscard]] Evaluation judge(const Estimate& estimate, const Scene& scene,
                                EvaluationOptions options, std::optional<ViewIndex> view = {});
 
-/// Which evaluation: of what estimate, seen from where, judged how.
+/// Names an evaluation: estimate, view and protocol.
 struct EvaluationKey {
   int estimate = 0;
   ViewIndex view;
@@ -56,21 +55,21 @@ class EvaluationCache {
   /// or failed.
   EvaluationCache(const JobRunner::Post& post, std::function<void()> on_evaluated);
 
-  /// The evaluation if it is there; else null, and it is begun unless it is under way, failed
-  /// before, or cannot be judged (`can_judge`). Only the pixels of `part` are judged; empty = all.
+  /// The evaluation if it is there; else null, and a job is begun unless one runs or failed before,
+  /// or the estimate cannot be judged (`can_judge`). Judges the pixels of `part`; empty = all.
   [[nodiscard]] EvaluationPtr find_or_begin(const EvaluationKey& key, const EstimatePtr& estimate,
                                             const std::shared_ptr<const Scene>& scene,
                                             const PixelRect& part = {});
 
-  /// Forgets all evaluations of an estimate; cancels those that are under way.
+  /// Forgets all evaluations of an estimate and cancels their jobs.
   void forget(int estimate);
-  /// Evaluations begun whose end was not told yet: the computation may be over.
+  /// Number of jobs whose end was not reported yet; the computation itself may be over.
   [[nodiscard]] int pending() const { return pending_; }
 
  private:
   struct Entry {
     EvaluationKey key;
-    EvaluationPtr evaluation{};  ///< Null: under way or failed.
+    EvaluationPtr evaluation{};  ///< Null while its job runs, and if it failed.
     bool is_under_way = true;
     JobId job = 0;
   };
@@ -84,7 +83,7 @@ class EvaluationCache {
   JobRunner runner_;
 };
 
-/// Which pixels of the judged view metrics are of.
+/// Which pixels of the judged view metrics cover.
 enum class JudgedPixels : std::uint8_t {
   Whole,
   Rectangle,
@@ -93,7 +92,7 @@ enum class JudgedPixels : std::uint8_t {
   Mask     ///< Of a file.
 };
 
-/// The same with what it takes to find them.
+/// Which pixels are judged, and what it takes to find them.
 struct JudgedPart {
   JudgedPixels pixels = JudgedPixels::Whole;
   PixelRect rectangle{};  ///< Stays while others are chosen; empty = none was drawn.
@@ -101,7 +100,7 @@ struct JudgedPart {
   friend bool operator==(const JudgedPart&, const JudgedPart&) = default;
 };
 
-/// What of a rectangle lies in an image of this size; may be empty.
+/// The part of a rectangle inside an image of this size; may be empty.
 [[nodiscard]] inline PixelRect clipped(const PixelRect& rectangle, int height, int width) {
   return {std::max(rectangle.y0, 0), std::max(rectangle.x0, 0), std::min(rectangle.y1, height),
           std::min(rectangle.x1, width)};
@@ -112,20 +111,21 @@ struct JudgedPart {
 /// Reads what `metrics_json` made; what is no number is left out.
 [[nodiscard]] Metrics metrics_from(const nlohmann::ordered_json& object);
 
-/// The numbers of a result; what there is not to judge, or to judge against, is said, not thrown.
-struct Verdict {
+/// Scores of a result. If result or truth lack what is compared, `problem` says so: nothing is
+/// thrown.
+struct ResultScores {
   EvaluationPtr evaluation;  ///< By vmv2013; null if there is none.
   Metrics vmv2013;           ///< Empty without an evaluation.
-  Metrics benchmark2016;     ///< Likewise; also of views smaller than two borders of 15 px.
+  Metrics benchmark2016;     ///< Empty also for views smaller than two borders of 15 px.
   std::vector<std::string> notes;
   std::string problem;  ///< Why there is no evaluation, a sentence; empty = there is one.
 };
 
 /// Judges by vmv2013 alone. Throws Cancelled.
-[[nodiscard]] Verdict judge_by_errors(const Estimate& estimate, const Scene& scene,
-                                      const Progress& progress);
+[[nodiscard]] ResultScores judge_by_errors(const Estimate& estimate, const Scene& scene,
+                                           const Progress& progress);
 /// Judges by both protocols. Throws Cancelled.
-[[nodiscard]] Verdict judge_by_both(const Estimate& estimate, const Scene& scene,
-                                    const Progress& progress);
+[[nodiscard]] ResultScores judge_by_both(const Estimate& estimate, const Scene& scene,
+                                         const Progress& progress);
 
 }  // namespace episcope

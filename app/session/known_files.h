@@ -8,7 +8,7 @@
 
 namespace episcope {
 
-/// By which a file is known to be as it was read or written last.
+/// Size and time of a file, which tell whether it is as it was last read or written.
 struct FileStamp {
   std::uintmax_t bytes = 0;
   std::filesystem::file_time_type changed{};
@@ -18,8 +18,8 @@ struct FileStamp {
 /// The stamp of a file as it is now; the default one if there is none.
 [[nodiscard]] FileStamp stamp_of(const std::filesystem::path& path);
 
-/// Files that were read or written here, each as it was then, so that what another program wrote
-/// since is not overwritten unnoticed.
+/// Stamps of files that were read or written here, so that changes by other programs are not
+/// overwritten unnoticed.
 class KnownFiles {
  public:
   void note(const std::filesystem::path& file, const FileStamp& stamp);
@@ -31,6 +31,17 @@ class KnownFiles {
  private:
   std::map<std::filesystem::path, FileStamp> stamps_;
 };
+
+/// `wanted`, followed by `separator` and the first number from 2 on where that name is taken.
+template <class IsTaken>
+[[nodiscard]] std::string unique_name(const std::string& wanted, const char* separator,
+                                      const IsTaken& is_taken) {
+  std::string name = wanted;
+  for (int number = 2; is_taken(name); ++number) {
+    name = wanted + separator + std::to_string(number);
+  }
+  return name;
+}
 
 /// A name as any file system takes it: without separators and the like, in UTF-8, and not too long.
 [[nodiscard]] std::string file_name_of(std::string name);

@@ -16,10 +16,10 @@
 
 namespace episcope {
 
-/// How good labels are, as far as that can be told.
+/// How good labels are. Scores are empty where there is no truth.
 struct LabelingScores {
   LabelQuality view;       ///< Of one view; judges nothing without true labels of it.
-  LabelQuality all_views;  ///< Of all, likewise.
+  LabelQuality all_views;  ///< Of all views; judges nothing without true labels of all.
   /// Share of rays that agree with the rays of the same scene point, in [0, 1]; none if one view
   /// alone is labeled or the rays are not known.
   std::optional<double> consistency;
@@ -53,11 +53,11 @@ struct LabelAmount {
 /// is of the same view; empty = unknown.
 [[nodiscard]] std::vector<LabelAmount> label_amounts(ImageView<const std::int32_t> labels,
                                                      const DisparityView& disparity);
-/// The same of painted labels.
+/// Amounts of painted labels.
 [[nodiscard]] std::vector<LabelAmount> label_amounts(ImageView<const std::uint8_t> labels,
                                                      const DisparityView& disparity);
 
-/// What a label is in one view.
+/// Summary of a label in one view.
 struct LabelSummary {
   LabelAmount amount;
   std::vector<LabelPiece> pieces;  ///< As `pieces_of`.
@@ -65,7 +65,7 @@ struct LabelSummary {
   [[nodiscard]] int count(PieceKind kind) const;
 };
 
-/// What there is to check in the labels of a view.
+/// What to check in the labels of a view.
 struct ViewReview {
   std::vector<LabelSummary> labels;  ///< Those that the labeling knows, by id.
   std::vector<LabelDoubt> doubts;    ///< As `label_doubts`.

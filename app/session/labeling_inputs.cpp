@@ -120,7 +120,7 @@ LabelProbabilities read_all_probabilities(const std::filesystem::path& path, con
     const ViewIndex view = probabilities.view_at(i);
     if (!file.contains(view)) {
       throw InvalidInput(path.string() +
-                         " has probabilities of the centre view alone; use a file " +
+                         " has probabilities of the center view alone; use a file " +
                          "with those of all views");
     }
     probabilities.views.push_back(io::bytes_of(file.view(view)));

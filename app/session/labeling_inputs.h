@@ -33,10 +33,10 @@ struct LabelingDisparity {
 /// The method that estimates disparity for labels where none is given.
 inline constexpr const char* kLabelingEstimator = "epi_c";
 
-/// What the set of features asks for: the truth for FeatureSet::ImageTruth, else the result in
-/// `result_file`, brought to the focus plane of the scene, else an estimate of all views by
-/// kLabelingEstimator on `device`. Throws InvalidInput if the scene has no true disparity of all
-/// views or the result does not fit or covers fewer views; IoError, Cancelled.
+/// Finds the disparity that the set of features needs: the truth for FeatureSet::ImageTruth, else
+/// the result in `result_file`, brought to the focus plane of the scene, else an estimate of all
+/// views by kLabelingEstimator on `device`. Throws InvalidInput if the scene has no true disparity
+/// of all views or the result does not fit or covers fewer views; IoError, Cancelled.
 [[nodiscard]] LabelingDisparity find_labeling_disparity(const Scene& scene,
                                                         const LabelerParameters& parameters,
                                                         const std::filesystem::path& result_file,
@@ -57,10 +57,10 @@ inline constexpr const char* kLabelingEstimator = "epi_c";
                                                         const Scribbles& painted,
                                                         const Progress& progress);
 
-/// Writes the files of the archive that labels come from into a folder: the probabilities of edges
-/// (edge_weights.h5), and those of labels by features of the image, with `estimate`, and with the
-/// true disparity if the scene has it for all views. Returns their names. Throws InvalidInput as
-/// the labeler, IoError, Cancelled.
+/// Writes the inputs of labels into a folder, in the archive's form: edge probabilities
+/// (edge_weights.h5) and label probabilities by features of the image, with `estimate`, and with
+/// the true disparity if the scene has it for all views. Returns their names. Throws InvalidInput
+/// as the labeler, IoError, Cancelled.
 std::vector<std::string> write_label_archive(const std::filesystem::path& folder,
                                              const Scene& scene, const Scribbles& painted,
                                              const LabelerParameters& parameters,

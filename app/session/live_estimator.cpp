@@ -241,7 +241,7 @@ struct LiveRun {
   bool is_at_once = false;  ///< The full map is there as soon as a coarse one would be.
 };
 
-// The view comes from the parameter, else from the centre or from all views.
+// The view comes from the parameter, else from the center or from all views.
 void choose_view(const LiveRequest& request, LiveRun& run) {
   const ViewIndex center = request.light_field->center();
   run.request.options.views = ViewSelection::Center;
@@ -325,7 +325,7 @@ LiveMap full_map(LiveSource& source, const LiveRun& run, const Progress& progres
 }
 
 /// Estimates what is in sight in one view: a method with a parameter `view` that is auto is run for
-/// it, one that estimates all views at once for all of them unless the view is the centre; others
+/// it, one that estimates all views at once for all of them unless the view is the center; others
 /// give the view that they are of. `on_coarse` gets a map at a quarter of the size first, where
 /// that leaves enough pixels and the method accepts it. On a GPU all pixels are estimated at once.
 /// `source` is that of the request's light field. Throws what the method throws, Unavailable for an

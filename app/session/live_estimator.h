@@ -30,7 +30,7 @@ struct LiveRequest {
   friend bool operator==(const LiveRequest&, const LiveRequest&) = default;
 };
 
-/// An answer to it.
+/// Answer to a LiveRequest.
 struct LiveMap {
   EstimatePtr estimate;      ///< Of the view of the request, or of all; parameters as asked for.
   Interval display_range{};  ///< Disparities that most pixels lie in.
@@ -39,7 +39,7 @@ struct LiveMap {
   double seconds = 0;        ///< Wall-clock time since the request was taken up.
 };
 
-/// What a live estimate does now.
+/// State of a live estimate.
 enum class LiveStage : std::uint8_t {
   Idle,    ///< What was asked for is there, or nothing was.
   Coarse,  ///< The map at a quarter of the size is on its way,
@@ -59,20 +59,19 @@ class LiveEstimator {
   LiveEstimator(const LiveEstimator&) = delete;
   LiveEstimator& operator=(const LiveEstimator&) = delete;
 
-  /// Begins to estimate instead of what is under way. Ignored if that is what was asked for last
-  /// and it did not fail, or if the map that is there answers it: it covers the view, and the
-  /// pixels in sight, with the same parameters.
+  /// Starts an estimate and cancels the running one. Ignored if the last request was equal and did
+  /// not fail, or if the present map answers it: same parameters, view and pixels in sight covered.
   void request(const LiveRequest& request);
-  /// Cancels what is under way and forgets everything.
+  /// Cancels the running estimate and forgets everything.
   void clear();
 
   [[nodiscard]] LiveStage stage() const { return stage_; }
   [[nodiscard]] bool is_running() const {
     return stage_ == LiveStage::Coarse || stage_ == LiveStage::Full;
   }
-  /// Of what is under way, in [0, 1].
+  /// Progress of the running estimate, in [0, 1].
   [[nodiscard]] double fraction() const { return fraction_; }
-  /// Of Failed.
+  /// Why it failed, in state Failed.
   [[nodiscard]] const std::string& sentence() const { return sentence_; }
   /// The newest map of this light field, maybe of a former request; none if there is none yet.
   [[nodiscard]] const std::optional<LiveMap>& map() const { return map_; }

@@ -12,7 +12,7 @@
 
 namespace episcope {
 
-/// What a live segmentation does now.
+/// State of a live segmentation.
 enum class LiveState : std::uint8_t {
   Idle,       ///< Everything that was asked for is there.
   Training,   ///< The forest learns.
@@ -38,17 +38,16 @@ class LiveLabeler {
   LiveLabeler(const LiveLabeler&) = delete;
   LiveLabeler& operator=(const LiveLabeler&) = delete;
 
-  /// Everything known is out of date from now on, and what is under way is cancelled; unless the
-  /// input is the same.
+  /// Marks all labels as out of date and cancels the running job, unless the input is the same.
   void set_input(LabelingInput input);
   [[nodiscard]] bool has_input() const { return input_ != nullptr; }
   /// No input, and nothing known: the light field is another one.
   void clear();
-  /// Begins to segment a view, instead of what is under way, unless its refined labels are there.
+  /// Starts to segment a view and cancels the running job, unless the view has refined labels.
   /// Ignored without an input.
   void label(ViewIndex view);
-  /// Puts labels of all views, made of `input`, in the place of everything known. Ignored unless
-  /// that input is of the same light field.
+  /// Replaces all labels by labels of all views, made from `input`. Ignored for an input of another
+  /// light field.
   void take(LabelingPtr labeling, const std::shared_ptr<const LabelingInput>& input);
   void cancel();
 

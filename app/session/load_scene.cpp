@@ -78,7 +78,7 @@ void complete_kept_scene(Scene& kept, const Scene& center) {
   kept.convention = center.convention;
 }
 
-// All samples of a scene that was rendered in its centre view only.
+// All samples of a scene that was rendered in its center view only.
 Scene without_truth(ViewStack<std::uint8_t> samples, const Scene& center,
                     const std::string& source) {
   LightFieldInfo info = center.light_field->info();
@@ -95,7 +95,7 @@ Scene load_builtin(const std::string& id, const LoadOptions& options, const Prog
   if (is_gantry(id)) return load_gantry(id, options, progress);
   const std::string source = id == kDemo ? id : std::string(kDemo) + ":" + id;
   const scenes::BuiltinRequest request = scenes::read_request(id);
-  progress.step("rendering the centre view");
+  progress.step("rendering the center view");
   const Scene center = render_center_view(request, progress.part(0, 0.02));
   show_center_view(center, request.options.grid, options.open);
   progress.step("reading the built-in scene");

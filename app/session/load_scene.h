@@ -54,7 +54,7 @@ void store_in_cache(const std::string& input, const Scene& scene,
 /// options that cannot be read. `id`: what follows `demo:`.
 void require_builtin_input(const std::string& id);
 
-/// For lists and files (scenes::builtin_name). Throws likewise.
+/// Name of an input for lists and files (scenes::builtin_name). Throws as `require_builtin_input`.
 [[nodiscard]] std::string builtin_input_name(const std::string& id);
 
 /// Built-in scenes kept on disk in archive form, one folder for each scene, version and options.

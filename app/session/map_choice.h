@@ -16,12 +16,12 @@ struct MapChoice {
   friend bool operator==(const MapChoice&, const MapChoice&) = default;
 };
 
-/// Whether a quantity can be shown now, in some view. What is of a segmentation never can: it is
-/// not the session's.
+/// Whether a quantity can be shown now, in some view. Quantities of a segmentation cannot, since
+/// the session does not hold it.
 [[nodiscard]] bool is_available(const Session& session, render::Quantity quantity);
 
-/// Looks up what a map of a view is made from. Nothing for the view alone, if there is no such map,
-/// or not yet: Session::evaluation is asked for what is missing.
+/// Looks up what a map of a view is made from. None for the view itself and for maps that do not
+/// exist, or not yet: then asks Session::evaluation for what is missing.
 [[nodiscard]] std::optional<MapSource> map_source(Session& session, const MapChoice& choice,
                                                   ViewIndex view);
 

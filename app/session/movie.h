@@ -29,8 +29,8 @@ struct Movie {
   std::function<RgbaImage(int)> picture;
 };
 
-/// A parallax passes over views that lack the map. Throws InvalidInput if all along the path do, if
-/// no view is refocused or if `other` is missing.
+/// A parallax skips views without the map. Throws InvalidInput if all along the path do, if no view
+/// is refocused or if `other` is missing.
 [[nodiscard]] Movie make_movie(const render::MovieChoice& choice, const MovieSubject& subject);
 
 /// Makes the pictures and writes them. Throws what io::MovieFile does, Cancelled.

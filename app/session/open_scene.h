@@ -56,14 +56,14 @@ struct LabelMarks {
   friend bool operator==(const LabelMarks&, const LabelMarks&) = default;
 };
 
-/// Where one looks in a scene, and how.
+/// What is shown of a scene, and how.
 struct ScenePlace {
   ViewIndex view;
   PixelIndex cross_hair;
   double focus_px = 0;
   /// What is drawn over the view; none = it was not shown yet.
   std::optional<render::Quantity> quantity;
-  std::map<render::Quantity, Interval> ranges;  ///< Colour ranges that were edited.
+  std::map<render::Quantity, Interval> ranges;  ///< Color ranges that were edited.
   render::Tone tone{};                          ///< How its views are brightened.
   Comparison comparison{};
   LabelMarks label_marks{};
@@ -73,7 +73,7 @@ struct ScenePlace {
   friend bool operator==(const ScenePlace&, const ScenePlace&) = default;
 };
 
-/// A light field with all that is known of it and was done on it.
+/// An open light field with everything known about it and done on it.
 struct OpenScene {
   std::uint64_t id = 0;  ///< Never given twice.
   std::string name;
@@ -88,7 +88,8 @@ struct OpenScene {
   bool is_compared_chosen = false;
   /// Results of its project that could not be read or do not fit: they stay in it, unchanged.
   std::vector<EstimateEntry> unread{};
-  /// The strokes of its project, likewise; empty = they were taken over, or there are none.
+  /// Strokes of its project that could not be read; empty = they were taken over, or there are
+  /// none.
   std::filesystem::path unread_strokes{};
   TrueLabelsPtr true_labels;
   KeptLabels labels;
@@ -112,7 +113,7 @@ enum class Part : unsigned {
   Focus = 64,        ///< The focus plane.
   TrueLabels = 128,  ///< The labels that segmentations are compared with.
   Scenes = 256,      ///< The list of open scenes, or what is in memory of those set aside.
-  Display = 512,     ///< What is drawn over the view, and its colour ranges.
+  Display = 512,     ///< What is drawn over the view, and its color ranges.
   Tone = 1024,       ///< How views are brightened.
   Labels = 2048,     ///< The segmentation that is kept.
   LabelLook = 4096,  ///< Which labels are hidden or locked, and how labels are drawn.
@@ -146,12 +147,12 @@ inline Parts operator|(Part a, Part b) {
   return Parts(a) | Parts(b);
 }
 
-/// Whether the user did something on a scene but to run methods, paint and look: lines kept, points
-/// paired, pixels chosen that are judged, labels hidden or locked, brightness set.
+/// Whether the user did more on a scene than run methods, paint and look: keep lines, pair points,
+/// choose pixels to judge, hide or lock labels, set the brightness.
 [[nodiscard]] bool has_work(const ScenePlace& place);
 
-/// The same as a text, another one whenever something of it changes. Poses count as what they are
-/// computed from.
+/// The user's work on a scene as a text, which changes whenever the work does. Poses count as what
+/// they are computed from.
 [[nodiscard]] std::string work_text(const ScenePlace& place);
 
 }  // namespace episcope

@@ -12,11 +12,11 @@ namespace episcope {
 /// RGBA8, `[y][x][4]`.
 using RgbaImage = Image<std::uint8_t>;
 
-/// A map in its colours; transparent where nothing is judged and where there is no label, so that
+/// A map in its colors; transparent where nothing is judged and where there is no label, so that
 /// it can lie over the view.
 [[nodiscard]] RgbaImage overlay_picture(const QuantityMap& map, const render::Shading& shading);
 
-/// A map as a picture of its own: what is not judged has the colour of invalid pixels; pixels
+/// A map as a picture of its own: what is not judged has the color of invalid pixels; pixels
 /// without a label are transparent.
 [[nodiscard]] RgbaImage map_picture(const QuantityMap& map, const render::Shading& shading);
 
@@ -31,14 +31,14 @@ inline constexpr int kEpiRowHeight = 8;
                                                int y);
 [[nodiscard]] RgbaImage vertical_epi_picture(const LightField& light_field, ViewIndex view, int x);
 
-/// What a user may override in the colours of a quantity.
+/// What a user may override in the colors of a quantity.
 struct ShadingChoice {
   std::optional<Interval> range;
   std::string color_map{};  ///< Empty = the quantity's own.
 };
 
-/// Colours of a quantity; disparities span `disparity_range`. Throws InvalidInput for an unknown
-/// colour map.
+/// Colors of a quantity; disparities span `disparity_range`. Throws InvalidInput for an unknown
+/// color map.
 [[nodiscard]] render::Shading shading_of(render::Quantity quantity, Interval disparity_range,
                                          const ShadingChoice& choice = {});
 

@@ -5,11 +5,10 @@
 #include "app/session/capture_work.h"
 #include "app/session/judge.h"
 #include "app/session/load_scene.h"
-#include "app/session/project_store.h"
 #include "app/session/result_files.h"
+#include "app/session/run_estimator.h"
 #include "app/session/sweep.h"
 #include "engine/core/error.h"
-#include "engine/disparity/registry.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
@@ -328,10 +327,8 @@ bool is_swept(const SweepPoint& point, const std::vector<SweptParameter>& swept)
 
 // A later program may have other methods and parameters.
 bool is_known(const Sweep& sweep) {
-  const auto& methods = registered_estimators();
-  const auto method = std::ranges::find(methods, sweep.base.method,
-                                        [](const Estimator& each) { return each.info.id; });
-  if (method == methods.end() || sweep.swept.empty() || sweep.scenes.empty()) return false;
+  const Estimator* method = known_estimator(sweep.base.method);
+  if (!method || sweep.swept.empty() || sweep.scenes.empty()) return false;
   const auto is_number = [](const ParameterValue& value) {
     return std::holds_alternative<int>(value) || std::holds_alternative<double>(value);
   };
@@ -440,6 +437,11 @@ Project read_project(const fs::path& path, ProjectFiles files) {
   } catch (const InvalidInput& error) {
     throw damaged(path, error);
   }
+}
+
+fs::path files_of_project(const fs::path& project) {
+  return fs::absolute(project).lexically_normal().parent_path() /
+         (project.stem().string() + "_files");
 }
 
 OwnFolders::OwnFolders(const fs::path& project)

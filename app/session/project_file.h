@@ -43,7 +43,7 @@ struct ProjectScene {
   KeptLabels labels{};  ///< In memory only while the program runs.
 };
 
-/// What a project file holds.
+/// Contents of a project file.
 struct Project {
   std::vector<ProjectScene> scenes;
   std::size_t current = 0;  ///< The one that is shown.
@@ -66,15 +66,18 @@ void write_project(const std::filesystem::path& path, const Project& project);
 /// Where results, strokes and labels of a project may be.
 enum class ProjectFiles {
   Beside,   ///< Below the folder of the project: a project of the user's.
-  Anywhere  ///< A workspace, which names those of the project that it goes on from.
+  Anywhere  ///< A workspace, which names files of the project that it continues.
 };
 
 /// Reads a project file; paths come back absolute. Whether the files are there is not looked at.
-/// Light fields and meshes may be anywhere; other files are copied when the project is saved, so
-/// one that came from somewhere must not name those of the reader. Throws IoError with one
-/// sentence, also for a file that is not where `files` says.
+/// Light fields and meshes may be anywhere. Other files are copied when the project is saved; so a
+/// project from elsewhere must not name files of the reader. Throws IoError with one sentence, also
+/// for a file that is not where `files` says.
 [[nodiscard]] Project read_project(const std::filesystem::path& path,
                                    ProjectFiles files = ProjectFiles::Beside);
+
+/// The folder beside a project file that holds its results and strokes: "name_files".
+[[nodiscard]] std::filesystem::path files_of_project(const std::filesystem::path& project);
 
 /// The folders in which a project keeps files: its own and those below, and the one of its files,
 /// which may be a link to another disk.
@@ -91,8 +94,8 @@ class OwnFolders {
   std::filesystem::path files_;
 };
 
-/// Where strokes of a project say that labels are saved (JournalOwner::file) would be written to:
-/// empty afterwards if it is not in `own`, so that the user is asked.
+/// Clears JournalOwner::file, the place to which labels are saved, unless it is in `own`: the user
+/// is asked then.
 void forget_file_elsewhere(JournalOwner& owner, const OwnFolders& own);
 
 }  // namespace episcope

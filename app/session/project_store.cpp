@@ -20,11 +20,10 @@ namespace fs = std::filesystem;
 constexpr const char* kStrokes = ".strokes";
 
 fs::path unused_file(const fs::path& folder, const std::string& stem, const std::string& suffix) {
-  fs::path path = folder / (stem + suffix);
-  for (int number = 2; fs::exists(path); ++number) {
-    path = folder / (stem + "_" + std::to_string(number) + suffix);
-  }
-  return path;
+  const auto is_taken = [&](const std::string& name) {
+    return fs::exists(folder / (name + suffix));
+  };
+  return folder / (unique_name(stem, "_", is_taken) + suffix);
 }
 
 void copy_to(const fs::path& from, const fs::path& to) {
@@ -118,11 +117,6 @@ void store_strokes(ProjectScene& scene, const fs::path& folder) {
 bool is_in_file(const ProjectResult& result) {
   std::error_code ignored;
   return !result.file.empty() && (!result.estimate || fs::exists(result.file, ignored));
-}
-
-fs::path files_of_project(const fs::path& project) {
-  return fs::absolute(project).lexically_normal().parent_path() /
-         (project.stem().string() + "_files");
 }
 
 fs::path store_result(const fs::path& folder, const std::string& scene, const ProjectResult& result,

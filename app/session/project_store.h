@@ -10,9 +10,6 @@
 
 namespace episcope {
 
-/// The folder beside a project file that holds its results and strokes: "name_files".
-[[nodiscard]] std::filesystem::path files_of_project(const std::filesystem::path& project);
-
 /// Whether its file holds a result: one that is in memory may have lost its file.
 [[nodiscard]] bool is_in_file(const ProjectResult& result);
 
@@ -24,7 +21,7 @@ namespace episcope {
                                                  const std::string& input,
                                                  const Progress& progress);
 
-/// The same of the labels of a scene.
+/// Writes the labels of a scene in the same way.
 [[nodiscard]] std::filesystem::path store_labels(const std::filesystem::path& folder,
                                                  const ProjectScene& scene,
                                                  const Progress& progress);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/quantity_map.h"
 
+#include "engine/core/text.h"
 #include "engine/evaluation/metrics.h"
 #include "engine/labeling/edge_probability.h"
 #include "engine/labeling/ray_labeling.h"
@@ -128,11 +129,8 @@ std::string reason_against_segmentation(const MapSource& source) {
   const bool has_label =
       std::ranges::find(probabilities.ids, source.label) != probabilities.ids.end();
   if (has_label || source.quantity != Quantity::Probability) return {};
-  std::string known;
-  for (const std::int32_t id : probabilities.ids) {
-    known += (known.empty() ? "" : ", ") + std::to_string(id);
-  }
-  return who + " has no label " + std::to_string(source.label) + "; it has " + known;
+  return who + " has no label " + std::to_string(source.label) + "; it has " +
+         joined(probabilities.ids, ", ", [](std::int32_t id) { return std::to_string(id); });
 }
 
 std::string reason_against_truth(const MapSource& source) {

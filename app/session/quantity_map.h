@@ -20,8 +20,8 @@
 
 namespace episcope {
 
-/// Everything that a map of one view is made from, held, so that a worker can make it while its
-/// owners go on. What the quantity does not need may be null.
+/// Everything that a map of one view is made from, held so that a worker can make the map while the
+/// owners change. What the quantity does not need may be null.
 struct MapSource {
   render::Quantity quantity = render::Quantity::View;
   ViewIndex view{};
@@ -33,7 +33,7 @@ struct MapSource {
   double bad_threshold_px = kBadPixelThreshold_px;  ///< For BadPixels.
   LabelingPtr labeling{};                ///< For what is of a segmentation, but for Edges.
   LabelFinish finish{};                  ///< Of its labels.
-  std::vector<LabelInfo> label_infos{};  ///< Colours of its labels; others have the default ones.
+  std::vector<LabelInfo> label_infos{};  ///< Colors of its labels; others have the default ones.
   render::LabelStyle label_style{};      ///< How they are drawn.
   int label = 0;                         ///< Whose probability.
   /// For Edges: EDGE_WEIGHTS of a file, else computed from the image and, if it is known,
@@ -53,9 +53,9 @@ struct MapSource {
 struct QuantityMap {
   ImageView<const float> map;  ///< `[y][x]`; empty: there are labels instead.
   ImageView<const std::int32_t> labels;
-  /// What is told of a pixel where `map` holds places of colours; empty: what `map` holds.
+  /// Numbers of the pixels if `map` only chooses colors; empty: `map` holds the numbers.
   ImageView<const float> measured;
-  std::vector<LabelInfo> label_infos;    ///< Their colours; others have the default ones.
+  std::vector<LabelInfo> label_infos;    ///< Their colors; others have the default ones.
   render::LabelStyle label_style{};      ///< How they are drawn.
   ImageView<const std::uint8_t> valid;   ///< 0 = no value; empty = all valid.
   ImageView<const std::uint8_t> inside;  ///< 0 = not judged; empty = all are.

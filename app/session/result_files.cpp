@@ -70,7 +70,7 @@ GridShape grid_of_map(const fs::path& path) {
   return grid;
 }
 
-/// A map alone, or one of all views by its name: other arrays of four axes are grey light fields.
+/// A map alone, or one of all views by its name: other arrays of four axes are gray light fields.
 bool is_npy_result(const fs::path& path) {
   try {
     const std::size_t axes = io::NpyFile(path).shape().size();

@@ -30,8 +30,8 @@ namespace episcope {
 /// views of the light field.
 void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file);
 
-/// Whether a result says that it was estimated from other samples than those of this light field.
-/// Reads all samples.
+/// Whether a result says that it was estimated from samples of another light field. Reads all
+/// samples.
 [[nodiscard]] bool is_of_other_samples(const Estimate& estimate, const LightField& light_field);
 
 /// How to read `input`, so that it has the views that a result or labels were made from: what
@@ -67,9 +67,9 @@ void bring_to_focus(Estimate& estimate, const LightField& light_field, const Pro
 enum class MapForm {
   Result,     ///< .h5, .hdf5: all views, confidence, provenance.
   Pfm,        ///< .pfm: one view.
-  Tiff,       ///< .tif, .tiff: likewise.
-  Npy,        ///< .npy: likewise.
-  PointCloud  ///< .ply: one view, coloured.
+  Tiff,       ///< .tif, .tiff: one view.
+  Npy,        ///< .npy: one view.
+  PointCloud  ///< .ply: one view, colored.
 };
 /// Empty for another suffix.
 [[nodiscard]] std::optional<MapForm> map_form_of(const std::filesystem::path& path);
@@ -81,7 +81,7 @@ void save_result(const std::filesystem::path& path, const Estimate& estimate,
 /// Writes one map as PFM, TIFF or .npy; invalid pixels become NaN. Atomic. Throws IoError.
 void save_map(const std::filesystem::path& path, const DisparityView& map);
 
-/// Writes the valid pixels of a view that the light field shows as a coloured point cloud. Atomic.
+/// Writes the valid pixels of a view that the light field shows as a colored point cloud. Atomic.
 /// Throws IoError, InvalidInput if no pixel is valid.
 void save_point_cloud(const std::filesystem::path& path, const LightField& light_field,
                       ViewIndex view, const DisparityView& map);

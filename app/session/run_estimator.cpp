@@ -7,6 +7,7 @@
 #include "engine/core/hash.h"
 #include "engine/core/memory.h"
 #include "engine/core/version.h"
+#include "engine/disparity/disparity_range.h"
 #include "engine/disparity/registry.h"
 #include "engine/disparity/run_blocks.h"
 #include "engine/io/base/json.h"
@@ -20,10 +21,26 @@
 #include <utility>
 
 namespace episcope {
+namespace {
+
+std::string range_warning(const LightField& light_field, const Estimate& estimate) {
+  const std::string note = limited_range_note(light_field, estimate.range);
+  if (std::ranges::count(estimate.notes, note) == 0) return {};
+  return estimate.method + ": " + note + ".";
+}
+
+}  // namespace
 
 FinishedEstimate run_estimator(const LightField& light_field, const EstimateRequest& request,
                                const Progress& progress) {
   return run_estimator(light_field, find_estimator(request.method), request, progress);
+}
+
+const Estimator* known_estimator(const std::string& id) {
+  const std::vector<Estimator>& methods = registered_estimators();
+  const auto found =
+      std::ranges::find(methods, id, [](const Estimator& each) { return each.info.id; });
+  return found == methods.end() ? nullptr : &*found;
 }
 
 bool was_taken_early(const Estimate& estimate) {
@@ -40,7 +57,8 @@ FinishedEstimate run_estimator(const LightField& light_field, const Estimator& e
   }
   progress.check();
   const Interval range = display_range(*estimate);
-  return {std::move(estimate), range};
+  std::string warning = range_warning(light_field, *estimate);
+  return {std::move(estimate), range, std::move(warning)};
 }
 
 namespace {
@@ -112,7 +130,7 @@ BlockMemory without(BlockMemory memory, std::size_t bytes) {
 
 bool should_run_in_blocks(const LightField& lf, const Estimator& estimator,
                           const RunOptions& options) {
-  if (!estimator.in_blocks || options.device == Device::Cuda) return false;
+  if (!estimator.can_run_in_blocks() || options.device == Device::Cuda) return false;
   if (is_memory_budget_set()) return true;
   constexpr double kOfMaps = 9, kBesideThem = 4;  // bytes of a ray
   const bool all = estimator.info.all_views && options.views == ViewSelection::All;
@@ -140,16 +158,6 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   finished.provenance = run_blocks(lf, run, store, memory, limited.part(0.06, 1));
   draft.commit(finished.provenance, source_text(request.input, request.output));
   return finished;
-}
-
-std::string failure_text(const std::exception_ptr& failure) {
-  try {
-    std::rethrow_exception(failure);
-  } catch (const std::bad_alloc&) {
-    return "there is not enough memory; close other programs or remove results";
-  } catch (const std::exception& error) {
-    return error.what();
-  }
 }
 
 }  // namespace episcope

@@ -19,22 +19,27 @@ struct EstimateRequest {
   RunOptions options{};
 };
 
+/// What a run makes.
 struct FinishedEstimate {
   EstimatePtr estimate;    ///< With its provenance, the hash of the light field included.
   Interval display_range;  ///< Disparities that 98 % of the pixels of one view lie in.
+  std::string warning{};   ///< A sentence if the range that was found may be too narrow.
 };
 
-/// Note of an estimate that was requested before the method was done.
+/// Note of an estimate that was taken before the method was done.
 inline constexpr const char* kTakenEarly = "ended early";
 /// Whether it has that note.
 [[nodiscard]] bool was_taken_early(const Estimate& estimate);
+
+/// The method of this id; null if this program does not have it.
+[[nodiscard]] const Estimator* known_estimator(const std::string& id);
 
 /// Runs a method of the registry. What was ended early (Progress::finish_requested) says so
 /// in its notes. Throws what the method throws, Unavailable for an unknown one.
 [[nodiscard]] FinishedEstimate run_estimator(const LightField& light_field,
                                              const EstimateRequest& request,
                                              const Progress& progress);
-/// The same of any method.
+/// Runs a method that need not be in the registry.
 [[nodiscard]] FinishedEstimate run_estimator(const LightField& light_field,
                                              const Estimator& estimator,
                                              const EstimateRequest& request,
@@ -60,16 +65,12 @@ struct FinishedBlocks {
 [[nodiscard]] bool should_run_in_blocks(const LightField& light_field, const Estimator& estimator,
                                         const RunOptions& options);
 
-/// Runs a method block by block into a result file, whose maps equal those of run_estimator and
-/// save_result bit by bit. Continues the file that the same run of the same samples left
-/// unfinished, however it ended; one that another run left is replaced. Throws as run_blocks and
-/// ResultDraft, and IoError if the samples were lost while they were read: their file was
-/// truncated.
+/// Runs a method block by block into a result file, bit by bit as run_estimator and save_result
+/// would write it. Continues the file that the same run of the same samples left unfinished,
+/// however it ended; one that another run left is replaced. Throws as run_blocks and ResultDraft,
+/// and IoError if the samples were lost while they were read: their file was truncated.
 [[nodiscard]] FinishedBlocks run_in_blocks(const LightField& light_field,
                                            const Estimator& estimator, const BlockRequest& request,
                                            const Progress& progress);
-
-/// What went wrong in a computation, in words for the user.
-[[nodiscard]] std::string failure_text(const std::exception_ptr& failure);
 
 }  // namespace episcope

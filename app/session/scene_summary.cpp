@@ -16,7 +16,7 @@ std::string covered_views(const ViewStack<T>& stack, const LightField& light_fie
   if (stack.grid().count() != 1) {
     return std::to_string(stack.grid().v) + "×" + std::to_string(stack.grid().u);
   }
-  return stack.first() == light_field.center() ? "centre" : view_text(stack.first());
+  return stack.first() == light_field.center() ? "center" : view_text(stack.first());
 }
 
 /// Disparities seen so far.

@@ -13,9 +13,9 @@ namespace episcope {
 /// Facts about a scene beyond its shape. Linear in its pixels.
 struct SceneSummary {
   struct Truth {
-    std::string views;  ///< "all", "centre", or "4,4".
+    std::string views;  ///< "all", "center", or "4,4".
     double valid_percent = 0;
-    Interval center;  ///< Disparities in the centre view; {0, 0} if it has none.
+    Interval center;  ///< Disparities in the center view; {0, 0} if it has none.
     Interval all;     ///< In all views that have truth.
   };
   std::string sample_type;  ///< "uint8", "uint16", "float32".
@@ -45,9 +45,9 @@ struct SceneSummary {
 /// "81 views, 1 disparity; not used: 3 *.txt (notes.txt, …)". Empty if no folder was read.
 [[nodiscard]] std::string files_text(const ConventionReport& report);
 
-/// Disparities of a scene for display: those of the truth, in both layers if it has two, in the
-/// centre view (or the view it covers) unless they cannot be, else those that the files promise;
-/// {0, 0} if neither is known.
+/// Range of disparities of a scene for display: of the truth in the center view (or the view it
+/// covers, and both layers), unless it is impossible, else as the files promise; {0, 0} if neither
+/// is known.
 [[nodiscard]] Interval known_disparity_range(const Scene& scene);
 
 /// Disparities that 98 % of the valid pixels of one view of an estimate lie in: of the middle one.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/scheduling.h"
 
-#include <cstdint>
 #include <linux/sched.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <cstdint>
 
 namespace episcope {
 namespace {

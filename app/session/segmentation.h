@@ -16,7 +16,7 @@ namespace episcope {
 
 using LabelingPtr = std::shared_ptr<const Labeling>;
 
-/// True labels of the centre view or of all views.
+/// True labels of the center view or of all views.
 using TrueLabelsPtr = std::shared_ptr<const ViewStack<std::int32_t>>;
 
 /// The labels of a ground truth, which they keep alive; null if it has none.
@@ -34,29 +34,30 @@ struct LabelingInput {
   std::shared_ptr<const ViewStack<float>> confidence;
 };
 
-/// A labeler of what the input has besides strokes and parameters, and whether one of `a` serves
-/// `b` as well.
+/// Makes a labeler from the input without its strokes and parameters; `is_same_scene` tells whether
+/// a labeler made for `a` also serves `b`.
 [[nodiscard]] Labeler new_labeler(const LabelingInput& input);
 [[nodiscard]] bool is_same_scene(const LabelingInput& a, const LabelingInput& b);
 
 /// Whether two inputs give the same labels.
 [[nodiscard]] bool is_same(const LabelingInput& a, const LabelingInput& b);
 
-/// What the parameters come to without a disparity: features of images, smoothed view by view.
+/// The parameters that the input allows: without a disparity, features of images and smoothing view
+/// by view.
 [[nodiscard]] LabelerParameters possible_parameters(const LabelingInput& input);
 
 /// Segments one view while somebody paints: `on_draft` gets the most probable label of each pixel
-/// if smoothing is still to come. `labeler` keeps features between calls and must be that of the
-/// input's light field, disparity and edges. The labeling covers the view alone. Throws
+/// if smoothing is still to come. `labeler` keeps features between calls; it must have been made
+/// for the input's light field, disparity and edges. The labeling covers the view alone. Throws
 /// InvalidInput unless two labels are painted, Cancelled.
 [[nodiscard]] LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex view,
                                      const std::function<void(LabelingPtr)>& on_draft,
                                      const Progress& progress);
 
-/// Segments all views. Throws likewise.
+/// Segments all views. Throws as `label_live`.
 [[nodiscard]] LabelingPtr label_all_views(const LabelingInput& input, const Progress& progress);
 
-/// What becomes of labels before they are shown or written.
+/// Post-processing of labels before they are shown or written.
 struct LabelFinish {
   double smoothing_px = 0;                         ///< See smooth_boundaries.
   std::shared_ptr<const ScribbleLayer> painted{};  ///< Pixels that keep their labels; may be null.
@@ -66,7 +67,7 @@ struct LabelFinish {
 /// A segmentation as files hold it.
 struct Segmentation {
   LabelingPtr labeling;           ///< Covers one view or all; not null.
-  std::vector<LabelInfo> labels;  ///< Names and colours, by id.
+  std::vector<LabelInfo> labels;  ///< Names and colors, by id.
   ParameterSet parameters;        ///< It was made with.
   Reading reading{};              ///< How its light field was read.
   LabelFinish finish{};
@@ -76,12 +77,12 @@ struct Segmentation {
 [[nodiscard]] Image<std::int32_t> finished_labels(const Labeling& labeling,
                                                   const LabelFinish& finish, ViewIndex view);
 
-/// The same of all views that the labeling covers. Throws Cancelled.
+/// The labels of all views that the labeling covers, with smooth boundaries. Throws Cancelled.
 [[nodiscard]] ViewStack<std::int32_t> finished_labels(const Labeling& labeling,
                                                       const LabelFinish& finish,
                                                       const Progress& progress);
 
-/// Names and colours of `ids` as far as they are `known`, else defaults.
+/// Names and colors of `ids`: from `known`, else defaults.
 [[nodiscard]] std::vector<LabelInfo> infos_of(const std::vector<std::int32_t>& ids,
                                               const std::vector<LabelInfo>& known);
 

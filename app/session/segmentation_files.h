@@ -15,7 +15,7 @@ namespace episcope {
 /// Whether probabilities are written with the labels: four bytes for each ray and label.
 enum class StoredProbabilities { None, All };
 
-/// Writes labels with their names and colours, and probabilities, as `io::write_segmentation` does.
+/// Writes labels with their names and colors, and probabilities, as `io::write_segmentation` does.
 /// `input` is what opens the light field. A labeling without probabilities is written without.
 /// Throws IoError, Cancelled.
 void write_segmentation(const std::filesystem::path& path, const Segmentation& segmentation,
@@ -33,7 +33,7 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
 /// or view, IoError.
 [[nodiscard]] LabelingPtr read_archive_probabilities(const Scene& scene, ViewIndex view);
 
-/// Writes a mask of every label in every view that the segmentation covers, as 8-bit grey PNG, 255
+/// Writes a mask of every label in every view that the segmentation covers, as 8-bit gray PNG, 255
 /// where the pixel has the label, else 0: `folder/01_wall/mask_04_07.png` for label 1, “wall”, in
 /// view (4, 7), row and column counted from 0. `labels.txt` beside them lists ids and names. Makes
 /// the folders; files of the same names are replaced. Returns how many masks were written. Each
@@ -44,7 +44,7 @@ int write_label_masks(const std::filesystem::path& folder, const Segmentation& s
 /// The newest segmentation of a scene, kept with it.
 struct KeptLabels {
   LabelingPtr labeling;          ///< Null while it is in its file only.
-  std::vector<LabelInfo> infos;  ///< Names and colours.
+  std::vector<LabelInfo> infos;  ///< Names and colors.
   std::uint64_t strokes = 0;     ///< `hash_of` the strokes that it was learnt from.
   std::filesystem::path file{};  ///< That keeps it for the project; empty = none yet.
 
@@ -53,7 +53,7 @@ struct KeptLabels {
   [[nodiscard]] bool covers_many() const { return labeling && labeling->labels.grid().count() > 1; }
 };
 
-/// Tells strokes with different pixels or labels apart.
+/// Hash of the pixels and labels of strokes.
 [[nodiscard]] std::uint64_t hash_of(const ScribbleLayer& strokes);
 
 /// Writes labels without their probabilities, which take four bytes for each ray and label. Throws

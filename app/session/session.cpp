@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/session.h"
 
+#include "app/session/known_files.h"
+#include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
-#include "engine/disparity/registry.h"
 
 #include <algorithm>
 #include <iterator>
@@ -12,18 +13,14 @@ namespace episcope {
 namespace {
 
 std::string name_of_method(const std::string& id) {
-  for (const Estimator& estimator : registered_estimators()) {
-    if (estimator.info.id == id) return estimator.info.name;
-  }
-  return id;
+  const Estimator* method = known_estimator(id);
+  return method ? method->info.name : id;
 }
 
-std::string unique_name(const std::vector<EstimateEntry>& entries, const std::string& name) {
-  std::string candidate = name;
-  for (int number = 2; std::ranges::count(entries, candidate, &EstimateEntry::name) > 0; ++number) {
-    candidate = name + " " + std::to_string(number);
-  }
-  return candidate;
+std::string new_name(const std::vector<EstimateEntry>& entries, const std::string& wanted) {
+  return unique_name(wanted, " ", [&](const std::string& name) {
+    return std::ranges::count(entries, name, &EstimateEntry::name) > 0;
+  });
 }
 
 }  // namespace
@@ -58,7 +55,7 @@ LightFieldPtr Session::light_field() const {
 int Session::add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation) {
   OpenScene* scene = open_scene(generation);
   if (!scene || !estimate) return 0;
-  const std::string name = unique_name(scene->estimates, name_of_method(estimate->method));
+  const std::string name = new_name(scene->estimates, name_of_method(estimate->method));
   scene->estimates.push_back({++last_id_, name, std::move(estimate), display_range});
   changed(Part::Scenes);
   if (scene == now_) {
@@ -94,7 +91,7 @@ void Session::remove_estimate(int id) {
 void Session::restore_estimate(EstimateEntry entry, std::size_t place) {
   if (!now_->scene || find_estimate(entry.id)) return;
   const int id = entry.id;
-  entry.name = unique_name(now_->estimates, entry.name);
+  entry.name = new_name(now_->estimates, entry.name);
   now_->estimates.insert(
       now_->estimates.begin() + static_cast<long>(std::min(place, now_->estimates.size())),
       std::move(entry));
@@ -119,7 +116,7 @@ void Session::rename_estimate(int id, const std::string& name) {
   if (!scene || name.empty()) return;
   EstimateEntry& entry = *std::ranges::find(scene->estimates, id, &EstimateEntry::id);
   if (name == entry.name) return;
-  entry.name = unique_name(scene->estimates, name);
+  entry.name = new_name(scene->estimates, name);
   changed(Part::Estimates);
 }
 

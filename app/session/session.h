@@ -49,21 +49,22 @@ class Session {
   void choose(std::uint64_t id);
   /// Adds one that is on disk only, set aside; its ids are given anew. Returns its id.
   std::uint64_t add_aside(OpenScene scene);
-  /// Lets go of the memory of a scene that is set aside. Precondition: files keep its estimates.
+  /// Releases the memory of a scene that is set aside. Precondition: files keep its estimates.
   void unload(std::uint64_t id);
-  /// What `unload` let go of, or what `add_aside` came without: the scene, and estimates by id.
-  /// Entries whose estimate is not among them are no longer in the list but `OpenScene::unread`,
-  /// and a place that the scene does not have moves into it. Ignored for an unknown scene.
+  /// Brings back what `unload` released, or what `add_aside` came without: the scene, and estimates
+  /// by id. Entries without an estimate move to `OpenScene::unread`, and a place outside the scene
+  /// moves into it. Ignored for an unknown scene.
   void load(std::uint64_t id, std::shared_ptr<const Scene> scene,
             const std::map<int, EstimatePtr>& estimates);
   /// Closes a scene that is set aside.
   void remove(std::uint64_t id);
   void set_sample_hash(std::uint64_t id, std::uint64_t hash);
-  /// The light field of a scene that is on disk only has moved.
+  /// Sets the input of a scene on disk only, whose light field has moved.
   void set_input(std::uint64_t id, std::string input);
-  /// What its project holds of strokes cannot be taken over and stays where it is.
+  /// Notes that strokes of its project cannot be taken over and stay where they are.
   void set_unread_strokes(std::uint64_t id, std::filesystem::path file);
-  /// A file keeps an estimate of any open scene for the project. Unknown ids are ignored.
+  /// Notes the file that keeps an estimate of any open scene for the project. Unknown ids are
+  /// ignored.
   void set_kept(int estimate, const std::filesystem::path& file);
 
   /// Null if nothing is shown.
@@ -78,7 +79,7 @@ class Session {
   /// Adds an estimate to the open scene of this id and shows it there. Returns its id, or 0 if that
   /// scene was closed: the estimate is dropped.
   int add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation);
-  /// Shows the neighbour if the removed one was shown. Unknown ids are ignored.
+  /// Shows the neighbor if the removed one was shown. Unknown ids are ignored.
   void remove_estimate(int id);
   /// Brings back a removed entry, with its id, at its former place in the list, and shows it. Its
   /// name gets a number if it was given away meanwhile.
@@ -112,15 +113,15 @@ class Session {
   void clear_live();
   /// Null if there is none.
   [[nodiscard]] const EstimateEntry* live() const;
-  /// What is looked at: the live estimate, else the shown one; null if there is neither.
+  /// The estimate on screen: the live one, else the shown one; null if there is neither.
   [[nodiscard]] const EstimateEntry* side_a() const;
-  /// What that is compared with: of a live estimate the shown one, else `compared`.
+  /// What `side_a` is compared with: a live estimate with the shown one, else `compared`.
   [[nodiscard]] const EstimateEntry* side_b() const;
 
-  /// The evaluation if it is there; else null, and it is begun in the background if there is truth
-  /// for that view: Part::Evaluations tells when it is there.
+  /// The evaluation if it is there; else null, and it is begun in the background if the view has
+  /// truth. Part::Evaluations reports its end.
   [[nodiscard]] EvaluationPtr evaluation(const EvaluationKey& key);
-  /// Whether evaluations are under way.
+  /// Whether evaluations are running.
   [[nodiscard]] bool is_evaluating() const { return evaluations_.pending() > 0; }
   [[nodiscard]] bool has_truth(ViewIndex view) const;
 
@@ -134,10 +135,10 @@ class Session {
   /// Null if there are none.
   [[nodiscard]] const TrueLabelsPtr& true_labels() const { return now_->true_labels; }
 
-  /// Disparities that pictures of this scene span: of the truth, else those that the files promise,
-  /// else those of the first estimate. It does not change with the shown estimate.
+  /// Disparities that pictures of this scene span: of the truth, else as the files promise, else of
+  /// the first estimate. It does not change with the shown estimate.
   [[nodiscard]] Interval disparity_range() const;
-  /// The same; {0, 0} while nothing is known.
+  /// As `disparity_range`, but {0, 0} while nothing is known.
   [[nodiscard]] Interval known_range() const;
 
   /// View and cross-hair are clamped to the light field.
@@ -147,27 +148,27 @@ class Session {
   [[nodiscard]] ViewIndex view() const { return now_->place.view; }
   [[nodiscard]] PixelIndex cross_hair() const { return now_->place.cross_hair; }
   [[nodiscard]] double focus_px() const { return now_->place.focus_px; }
-  /// What is drawn over the view and in which colour ranges, to come back with the scene.
+  /// Sets what is drawn over the view and in which color ranges, to come back with the scene.
   void set_display(render::Quantity quantity, std::map<render::Quantity, Interval> ranges);
-  /// The same of comparisons.
+  /// Sets how results are compared, to come back with the scene.
   void set_comparison(const Comparison& comparison);
-  /// How views are brightened for display.
+  /// Sets how views are brightened for display.
   void set_tone(const render::Tone& tone);
   [[nodiscard]] const ScenePlace& place() const { return now_->place; }
-  /// Which labels are hidden or locked.
+  /// Sets which labels are hidden or locked.
   void set_label_marks(const LabelMarks& marks);
-  /// How areas of labels are drawn. Kept from scene to scene.
+  /// Sets how areas of labels are drawn. Kept from scene to scene.
   void set_label_drawing(render::LabelDrawing drawing);
-  /// The same with the labels that are hidden.
+  /// Drawing of labels together with the hidden ones.
   [[nodiscard]] render::LabelStyle label_style() const;
 
-  /// What was measured by hand in EPIs.
+  /// Sets what was measured by hand in EPIs.
   void set_measurements(const Measurements& measured);
-  /// What was done on the way from photographs to ground truth.
+  /// Sets the work between photographs and ground truth.
   void set_capture(const CaptureWork& work);
-  /// The same of a scene that need not be shown. Unknown scenes are ignored.
+  /// Sets the work of any open scene. Unknown scenes are ignored.
   void set_capture(std::uint64_t scene, const CaptureWork& work);
-  /// Which pixels metrics are of, of an open scene. Ignored for an unknown one.
+  /// Sets which pixels metrics of an open scene cover. Ignored for an unknown one.
   void set_judged(std::uint64_t scene, const JudgedPart& part);
 
   /// What is known of the disparity of a view: the shown estimate, which is held, else the truth;
@@ -176,7 +177,7 @@ class Session {
 
   /// Keeps a segmentation with an open scene, in the place of another. Unknown scenes are ignored.
   void set_labels(std::uint64_t scene, KeptLabels labels);
-  /// A file keeps it for the project; ignored if another one is kept meanwhile.
+  /// Notes the file that keeps it for the project; ignored if another one is kept meanwhile.
   void set_labels_file(std::uint64_t scene, const LabelingPtr& labeling,
                        const std::filesystem::path& file);
   [[nodiscard]] const KeptLabels& labels() const { return now_->labels; }

@@ -48,10 +48,10 @@ void fill(const Scene& scene, const EstimateRequest& request, const Estimate* re
   }
   const GroundTruth& truth = *scene.truth;
   if (!truth.has_disparity() && !truth.has_layers()) return;
-  Verdict verdict = judge_by_both(*finished.estimate, scene, progress);
-  point.vmv2013 = std::move(verdict.vmv2013);
-  point.benchmark2016 = std::move(verdict.benchmark2016);
-  point.problem = std::move(verdict.problem);
+  ResultScores scores = judge_by_both(*finished.estimate, scene, progress);
+  point.vmv2013 = std::move(scores.vmv2013);
+  point.benchmark2016 = std::move(scores.benchmark2016);
+  point.problem = std::move(scores.problem);
 }
 
 }  // namespace
@@ -117,7 +117,7 @@ SweepPoint run_sweep_point(const Scene& scene, const EstimateRequest& base,
     progress.check();
     result.problem = error.what();
   } catch (const std::bad_alloc&) {
-    result.problem = "not enough memory";
+    result.problem = kNotEnoughMemory;
   }
   return result;
 }

@@ -17,37 +17,37 @@
 
 namespace episcope {
 
-/// A parameter with what is tried for it.
+/// A parameter and the values that are tried.
 struct SweptParameter {
   std::string key;
   std::vector<ParameterValue> values;  ///< Ascending, see `parse_sweep_values`.
 };
 
-/// The points of a sweep: those of `search_grid` for these one or two parameters, all others as in
-/// `base`. The first is that of `base` itself, whether or not it lies on the grid. A point holds
-/// the swept parameters. Throws InvalidInput for more than `kMaxSearchPoints` of them.
+/// The points of a sweep: `search_grid` over one or two parameters, all others as in `base`. The
+/// first point is `base` itself, whether or not it lies on the grid. A point holds the swept
+/// parameters. Throws InvalidInput for more than `kMaxSearchPoints` of them.
 [[nodiscard]] std::vector<ParameterSet> sweep_points(
     const std::vector<ParameterDescription>& descriptions, const ParameterSet& base,
     const std::vector<SweptParameter>& swept);
 
-/// What a point found out.
+/// Result of a point.
 struct SweepPoint {
   ParameterSet point{};    ///< The swept parameters.
-  EstimatePtr estimate{};  ///< Of the centre view; null if the run failed or it was let go of.
+  EstimatePtr estimate{};  ///< Of the center view; null if the run failed or it was dropped.
   Interval display_range{};
   double seconds = 0;
   Metrics vmv2013{};        ///< Empty without ground truth.
-  Metrics benchmark2016{};  ///< Likewise; also of small views, see `judge_by_both`.
+  Metrics benchmark2016{};  ///< Empty also for small views, see `judge_by_both`.
   /// Median of |disparity − disparity of the first point| over pixels with a value in both, px.
   std::optional<double> change_px{};
   std::string problem{};  ///< Why it failed, a sentence; empty = it did not.
 };
 
-/// What a sweep found out on one light field.
+/// Results of a sweep on one light field.
 struct SweepScene {
   std::uint64_t scene = 0;  ///< OpenScene::id.
   std::string name;         ///< Of the light field.
-  /// In the order of `sweep_points`, as far as they are there.
+  /// In the order of `sweep_points`; may be incomplete.
   std::vector<SweepPoint> points{};
 };
 
@@ -67,13 +67,13 @@ struct Sweep {
 /// Seconds that its points took.
 [[nodiscard]] double seconds_of(const Sweep& sweep);
 
-/// Runs a point on the centre view and judges it. `reference` is the estimate of the first point;
+/// Runs a point on the center view and judges it. `reference` is the estimate of the first point;
 /// null while there is none. What the method throws is the problem of the point; throws Cancelled.
 [[nodiscard]] SweepPoint run_sweep_point(const Scene& scene, const EstimateRequest& base,
                                          const ParameterSet& point, const Estimate* reference,
                                          const Progress& progress);
 
-/// `values` with those of `point` in their place.
+/// `values` overridden by `point`.
 [[nodiscard]] ParameterSet values_at(const ParameterSet& values, const ParameterSet& point);
 
 /// A point of a sweep.
@@ -100,14 +100,14 @@ class SweepList {
 
   /// Returns the id that it is given. Of `sweep`, maps are not kept.
   std::uint64_t add(Sweep sweep);
-  /// The next point of a scene. Its map is kept as far as there is room.
+  /// Adds the next point of a scene. Keeps its map if there is room.
   void add_point(std::uint64_t id, std::uint64_t scene, SweepPoint point);
-  /// The map of a point was computed again.
+  /// Sets the map of a point that was computed again.
   void set_map(std::uint64_t id, SweepPlace place, EstimatePtr map);
   void remove(std::uint64_t id);
-  /// A file of the user's holds one as it was; ignored if points came since.
+  /// Notes that a file of the user's holds `written`; ignored if points came since.
   void mark_saved(const Sweep& written);
-  /// Scenes were closed: what was found on those that are not `open` any more goes with them.
+  /// Drops what was found on scenes that are not `open` any more.
   void keep_scenes(const std::vector<std::uint64_t>& open);
 
  private:
@@ -123,8 +123,8 @@ class SweepList {
 /// What a sweep measures of its points.
 enum class SweepMeasure { MseTimes100, BadPix007, BadPix003, BadPix001, Seconds, Change };
 
-/// MSE is that of vmv2013, BadPix are those of benchmark2016, in low resolution where the official
-/// one is another, and of the front where there are two layers. None if the point has none.
+/// MSE by vmv2013; BadPix by benchmark2016, in low resolution where the official one differs, and
+/// of the foreground of two layers. None if the point has none.
 [[nodiscard]] std::optional<double> measure_of(const SweepPoint& point, SweepMeasure measure);
 
 /// The points along the first parameter with one value of the second.
@@ -132,7 +132,7 @@ struct SweepLine {
   std::string name;  ///< "scale 0.8"; empty with one parameter.
   struct Place {
     double x;
-    std::size_t point;  ///< Among those of the sweep.
+    std::size_t point;  ///< Index among the points of the sweep.
   };
   std::vector<Place> places;  ///< In the order of x.
 };

@@ -20,10 +20,10 @@ void use_cache_for_scratch();
 /// empty if neither is known.
 [[nodiscard]] std::filesystem::path default_state_folder();
 
-/// Where annotation journals lie: `journals` in the state folder; empty likewise.
+/// Folder of annotation journals: `journals` in the state folder; empty if there is none.
 [[nodiscard]] std::filesystem::path default_journal_folder();
 
-/// Where workspaces lie: `sessions` in the state folder; empty likewise.
+/// Folder of workspaces: `sessions` in the state folder; empty if there is none.
 [[nodiscard]] std::filesystem::path default_workspace_folder();
 
 /// Where the scribbles of a light field are kept: labels.h5 in its folder, or beside an archive
@@ -31,7 +31,7 @@ void use_cache_for_scratch();
 /// folder, or labels_<frame>.h5 beside its file. Empty for scenes that come from no file.
 [[nodiscard]] std::filesystem::path label_place(const LightField& light_field);
 
-/// Whether a file can be made or written over there, as far as permissions tell.
+/// Whether permissions allow a file to be made or overwritten there.
 [[nodiscard]] bool is_writable(const std::filesystem::path& path);
 
 /// Reads scribbles that were saved beside a light field whose format knows of no labels. Where

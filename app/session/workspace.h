@@ -21,7 +21,7 @@ class Workspace {
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] std::filesystem::path project_file() const;
-  /// Removes it with all it holds, as far as that can be done: nothing in it is wanted any more.
+  /// Removes the folder with all it holds; what cannot be removed stays.
   void remove();
 
  private:
@@ -34,7 +34,7 @@ class Workspace {
   io::AppendLog lock_;
 };
 
-/// What a killed program left.
+/// Workspace of a program that was killed.
 struct OrphanedWorkspace {
   std::filesystem::path folder;
   Project project;

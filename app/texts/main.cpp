@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// episcope_texts SOURCES: prints the English texts that the engine holds and the window shows, in a form
-// that Qt's lupdate reads. They come from tables and schemas, and from literal sentences in
-// SOURCES/engine. The target update_translations keeps them in resources/translations/engine_texts.h.
+// episcope_texts SOURCES: prints the English texts that the engine holds and the window shows, in a
+// form that Qt's lupdate reads. They come from tables and schemas, and from literal sentences in
+// SOURCES/engine. The target update_translations keeps them in
+// resources/translations/engine_texts.h.
 #include "engine/capture/pattern.h"
 #include "engine/capture/rectify.h"
 #include "engine/core/error.h"

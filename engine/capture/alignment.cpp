@@ -2,6 +2,7 @@
 #include "engine/capture/alignment.h"
 
 #include "engine/core/error.h"
+#include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 
 #include <Eigen/Dense>
@@ -17,10 +18,10 @@ namespace {
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Vector2 = Eigen::Vector2d;
 
-constexpr int kRounds = 6;
+constexpr int kAlignmentRounds = 6;
 constexpr int kSweeps = 12;
-constexpr double kHuber = 0.3;  // px
-constexpr double kOutlierMedians = 6;
+constexpr double kPointHuber_px = 0.3;
+constexpr double kPointOutlierMedians = 6;
 constexpr double kTiltPrior = 0.02;  // radian: rotations out of the plane are hardly seen
 constexpr double kNoise = 0.05;      // px, of matches
 constexpr double kWorstFit = 3;      // px
@@ -95,11 +96,11 @@ class Model {
 
   /// Huber's weights; what is far off counts nothing.
   void weigh(const Eigen::VectorXd& residual) {
-    std::vector<double> sizes = sizes_of(residual);
-    const double limit = std::max(kHuber, kOutlierMedians * median(sizes));
-    sizes = sizes_of(residual);
+    const std::vector<double> sizes = sizes_of(residual);
+    const double limit = std::max(kPointHuber_px, kPointOutlierMedians * median(sizes));
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-      observations_[i].weight = sizes[i] > limit ? 0 : (sizes[i] <= kHuber ? 1 : kHuber / sizes[i]);
+      const double size = sizes[i];
+      observations_[i].weight = size > limit ? 0 : std::min(1.0, kPointHuber_px / size);
     }
   }
 
@@ -116,12 +117,6 @@ class Model {
     for (long i = 0; i + 1 < residual.size(); i += 2)
       sizes.push_back(residual.segment<2>(i).norm());
     return sizes;
-  }
-  static double median(std::vector<double>& values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
   }
 
  private:
@@ -243,14 +238,14 @@ Alignment align(const ViewMatches& matches, const LensCamera& camera) {
   const ViewIndex middle = matches.grid.center();
   const auto center = static_cast<std::size_t>(middle.v) * matches.grid.u + middle.u;
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kAlignmentRounds; ++round) {
     vector += rotation_step(model, vector);
     model.weigh(model.residuals(rotation_of(vector)));
   }
   const Matrix3 rotation = rotation_of(vector);
   std::vector<double> sizes = Model::sizes_of(model.residuals(rotation));
   Alignment alignment;
-  alignment.residual_px = Model::median(sizes);
+  alignment.residual_px = median(sizes);
   if (!(alignment.residual_px < kWorstFit)) {
     throw InvalidInput("the photographs do not lie on a grid: points are " +
                        std::to_string(alignment.residual_px) +
@@ -269,7 +264,7 @@ namespace {
 
 constexpr int kMostPoints = 900;
 constexpr std::size_t kLeastPoints = 30;
-constexpr int kSearchRows = 8;  // by which rows of neighbours may differ
+constexpr int kSearchRows = 8;  // by which rows of neighbors may differ
 
 cv::Mat matrix_of(const Image<float>& picture) {
   return {picture.height(), picture.width(), CV_32F, const_cast<float*>(picture.data())};
@@ -312,7 +307,7 @@ struct Track {
   }
 };
 
-/// The whole pixel at which a neighbour looks like the surroundings of a point.
+/// The whole pixel at which a neighbor looks like the surroundings of a point.
 std::optional<PlanePoint> search(const Image<float>& from, const Image<float>& to,
                                  const PlanePoint& point, int reach_x, int reach_y) {
   constexpr int side = Patch::kSide;
@@ -336,7 +331,7 @@ std::optional<PlanePoint> search(const Image<float>& from, const Image<float>& t
 class Matcher {
  public:
   Matcher(const LightField& field, const Progress& progress)
-      : field_(field), progress_(progress), center_(grey_view(field, field.center())) {
+      : field_(field), progress_(progress), center_(gray_view(field, field.center())) {
     for (const PlanePoint& point : corners_of(center_)) {
       tracks_.push_back({point, {}, 0});
       patches_.emplace_back(center_, static_cast<int>(point.y), static_cast<int>(point.x));
@@ -357,7 +352,7 @@ class Matcher {
   }
 
  private:
-  /// Parallax to the neighbours of the centre; keeps the points that have one.
+  /// Parallax to the neighbors of the center; keeps the points that have one.
   void start() {
     const GridShape grid = field_.grid();
     const ViewIndex middle = field_.center();
@@ -365,7 +360,7 @@ class Matcher {
     const ViewIndex next = has_columns ? ViewIndex{middle.v, middle.u > 0 ? middle.u - 1 : 1}
                                        : ViewIndex{middle.v > 0 ? middle.v - 1 : 1, middle.u};
     if (!grid.contains(next)) throw InvalidInput("there is only one photograph; a grid is needed");
-    const Image<float> picture = grey_view(field_, next);
+    const Image<float> picture = gray_view(field_, next);
     const int reach = field_.width() / 8;
     parallel_for(static_cast<int>(tracks_.size()), progress_.part(0, 0.1), [&](int i) {
       Track& track = tracks_[i];
@@ -389,7 +384,7 @@ class Matcher {
     if (tracks_.size() >= kLeastPoints) return;
     throw InvalidInput(
         "only " + std::to_string(tracks_.size()) +
-        " points of the centre photograph were found in its neighbour; the photographs lack "
+        " points of the center photograph were found in its neighbor; the photographs lack "
         "texture, overlap too little, or are not in the order of the grid");
   }
 
@@ -417,7 +412,7 @@ class Matcher {
       for (std::size_t i = 0; i < tracks_.size(); ++i) found[i] = PatchMatch{tracks_[i].start, 1};
       return;
     }
-    const Image<float> picture = grey_view(field_, view);
+    const Image<float> picture = gray_view(field_, view);
     parallel_for(static_cast<int>(tracks_.size()), progress_.part(0, 0), [&](int i) {
       Track& track = tracks_[i];
       found[i] = patches_[i].find(picture, track.predicted(du, dv));
@@ -473,7 +468,7 @@ namespace {
 constexpr int kMostSteps = 15;
 constexpr double kConverged = 2e-3;   // px
 constexpr double kFarthest = 2;       // px from the guess
-constexpr double kLeastContrast = 2;  // grey levels
+constexpr double kLeastContrast = 2;  // gray levels
 constexpr double kAlike = 0.35;       // difference by contrast
 
 /// Weights of Catmull and Rom's cubic.
@@ -571,20 +566,20 @@ std::optional<PatchMatch> Patch::find(ImageView<const float> picture,
   return {};
 }
 
-Image<float> grey_view(const LightField& field, ViewIndex view) {
+Image<float> gray_view(const LightField& field, ViewIndex view) {
   constexpr double sigma = 0.8;
   const Image<float> samples = field.view_as_float(view);
-  Image<float> grey(samples.height(), samples.width());
-  for (int y = 0; y < grey.height(); ++y) {
-    for (int x = 0; x < grey.width(); ++x) {
+  Image<float> gray(samples.height(), samples.width());
+  for (int y = 0; y < gray.height(); ++y) {
+    for (int x = 0; x < gray.width(); ++x) {
       float sum = 0;
       for (int c = 0; c < samples.channels(); ++c) sum += samples.at(y, x, c);
-      grey.at(y, x) = sum * 255 / static_cast<float>(samples.channels());
+      gray.at(y, x) = sum * 255 / static_cast<float>(samples.channels());
     }
   }
-  cv::Mat picture(grey.height(), grey.width(), CV_32F, grey.data());
+  cv::Mat picture(gray.height(), gray.width(), CV_32F, gray.data());
   cv::GaussianBlur(picture, picture, {5, 5}, sigma);
-  return grey;
+  return gray;
 }
 
 }  // namespace episcope::capture

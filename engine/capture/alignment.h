@@ -12,15 +12,15 @@
 
 namespace episcope::capture {
 
-/// Where a patch was found again.
+/// A match of a patch in another picture.
 struct PatchMatch {
   PlanePoint place;  ///< In px.
-  double gain = 1;   ///< Brightness there by that of the patch.
+  double gain = 1;   ///< Brightness of the match relative to the patch.
 };
 
-/// A square of a picture that is looked for in others, to sub-pixel precision, whatever their gain
-/// and offset: Gauss and Newton on shift, gain and offset (Baker, Matthews: Lucas-Kanade 20 years
-/// on, IJCV 2004, with the constant Jacobian of the template).
+/// Finds a square of one picture in others, to sub-pixel precision and for any gain and offset, by
+/// Gauss-Newton on shift, gain and offset (Baker, Matthews: Lucas-Kanade 20 years on, IJCV 2004,
+/// with the constant Jacobian of the template).
 class Patch {
  public:
   static constexpr int kReach = 8;
@@ -40,10 +40,10 @@ class Patch {
   double contrast_ = 0;                                ///< Standard deviation.
 };
 
-/// Points of the centre view, followed through all views.
+/// Points of the center view, followed through all views.
 struct ViewMatches {
   GridShape grid;
-  std::vector<PlanePoint> points;  ///< In the centre view, px.
+  std::vector<PlanePoint> points;  ///< In the center view, px.
   /// By view (row by row) and point; nothing where a point was not found.
   std::vector<std::vector<std::optional<PatchMatch>>> found;
 
@@ -52,18 +52,18 @@ struct ViewMatches {
   }
 };
 
-/// Finds corners of the centre view in all others; the parallax of neighbours may be up to an
+/// Finds corners of the center view in all others; the parallax of neighbors may be up to an
 /// eighth of the width. Throws InvalidInput if fewer than 30 points can be followed; Cancelled.
 [[nodiscard]] ViewMatches match_views(const LightField& field, const Progress& progress);
 
-/// Differences in y of the same point in horizontal neighbours, absolute, in px, ascending.
+/// Differences in y of the same point in horizontal neighbors, absolute, in px, ascending.
 [[nodiscard]] std::vector<double> vertical_disparities(const ViewMatches& matches);
 
-/// The median gain of each view against the centre view, row by row.
+/// The median gain of each view against the center view, row by row.
 [[nodiscard]] std::vector<double> view_gains(const ViewMatches& matches);
 
-/// The small correction that a view needs beside the common rotation: by how many px a point is off
-/// from where the grid says, a homography to first order, in x and y of the ray (x, y, 1).
+/// Correction of one view beside the common rotation: offset of a point from its place on the grid
+/// in px, a homography to first order, in x and y of the ray (x, y, 1).
 struct ViewCorrection {
   std::array<double, 8> parameters{};
   [[nodiscard]] PlanePoint at(double x, double y) const {
@@ -73,12 +73,11 @@ struct ViewCorrection {
   }
 };
 
-/// How photographs turn into a rectified light field.
+/// Transformation from photographs to a rectified light field.
 struct Alignment {
-  /// Turns rays of the camera into those of a camera whose axes are those of the gantry, row by
-  /// row.
+  /// Rotation from the camera to the axes of the gantry, row by row.
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  double focal_px = 0;  ///< Of that camera; its principal point is that of the lens.
+  double focal_px = 0;  ///< Of the rotated camera, which keeps the principal point of the lens.
   std::vector<ViewCorrection> corrections;  ///< Row by row.
   std::vector<double> parallax;             ///< Of each point, px per view step, before any shift.
   double residual_px = 0;                   ///< Median distance of matches from the model.
@@ -87,14 +86,14 @@ struct Alignment {
   [[nodiscard]] double roll_degrees() const;
 };
 
-/// Finds the rotation between camera and gantry with which all points move along rows and columns
-/// by the same parallax, and what each view is off, robustly (Huber, 0.3 px). The corrections have
-/// no trend along rows or columns: that would be parallax. Throws InvalidInput if the matches do
-/// not fit a grid.
+/// Finds the rotation between camera and gantry for which all points have equal parallax along rows
+/// and columns, and the correction of each view, robustly (Huber, 0.3 px). Corrections have no
+/// trend along rows or columns, which would be parallax. Throws InvalidInput if the matches do not
+/// fit a grid.
 [[nodiscard]] Alignment align(const ViewMatches& matches, const LensCamera& camera);
 
-/// A view for matching: grey, in units of 1/255, smoothed by a Gaussian of 0.8 px, so that noise
+/// A view for matching: gray, in units of 1/255, smoothed by a Gaussian of 0.8 px, so that noise
 /// and interpolation do not draw matches to whole pixels.
-[[nodiscard]] Image<float> grey_view(const LightField& field, ViewIndex view);
+[[nodiscard]] Image<float> gray_view(const LightField& field, ViewIndex view);
 
 }  // namespace episcope::capture

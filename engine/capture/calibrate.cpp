@@ -2,6 +2,7 @@
 #include "engine/capture/calibrate.h"
 
 #include "engine/core/error.h"
+#include "engine/core/numbers.h"
 #include "engine/io/base/image_header.h"
 
 #include <fmt/format.h>
@@ -19,11 +20,6 @@ constexpr double kBlurred = 0.5;  // of the median sharpness
 constexpr double kMisfit = 3;     // median errors
 constexpr double kGoodFit = 0.3;  // px; better photographs are never left out
 constexpr int kSharpnessReach = 5;
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values.empty() ? 0 : values[values.size() / 2];
-}
 
 template <class Value>
 double median_of_used(const std::vector<PatternPhotograph>& photographs, const Value& value) {
@@ -111,16 +107,16 @@ bool leave_out_misfit(std::vector<PatternPhotograph>& photographs) {
   return true;
 }
 
-cv::Mat read_grey(const std::filesystem::path& file) {
-  cv::Mat grey;
+cv::Mat read_gray(const std::filesystem::path& file) {
+  cv::Mat gray;
   io::require_plausible_picture(file);
   try {
-    grey = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+    gray = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
   } catch (const cv::Exception&) {
     // Empty, below.
   }
-  if (grey.empty()) throw IoError(file, "this is no picture that can be read; leave it out");
-  return grey;
+  if (gray.empty()) throw IoError(file, "this is no picture that can be read; leave it out");
+  return gray;
 }
 
 }  // namespace
@@ -152,19 +148,19 @@ Calibration calibrate(const std::vector<std::filesystem::path>& files, const Pat
   for (std::size_t i = 0; i < files.size(); ++i) {
     progress.check();
     progress.step("finding the pattern in " + files[i].filename().string());
-    const cv::Mat grey = read_grey(files[i]);
+    const cv::Mat gray = read_gray(files[i]);
     if (i == 0) {
-      height = grey.rows;
-      width = grey.cols;
+      height = gray.rows;
+      width = gray.cols;
     }
     PatternPhotograph photograph;
     photograph.name = files[i].string();
-    if (grey.rows != height || grey.cols != width) {
+    if (gray.rows != height || gray.cols != width) {
       photograph.problem =
-          fmt::format("{}×{} px, but the first has {}×{}", grey.cols, grey.rows, width, height);
+          fmt::format("{}×{} px, but the first has {}×{}", gray.cols, gray.rows, width, height);
     } else {
-      const ImageView<const std::uint8_t> view{grey.data, height, width, 1,
-                                               static_cast<std::ptrdiff_t>(grey.step[0])};
+      const ImageView<const std::uint8_t> view{gray.data, height, width, 1,
+                                               static_cast<std::ptrdiff_t>(gray.step[0])};
       photograph.found = find_pattern(view, pattern);
       photograph.sharpness = sharpness(view, photograph.found.pixels, kSharpnessReach);
     }
@@ -175,26 +171,26 @@ Calibration calibrate(const std::vector<std::filesystem::path>& files, const Pat
   return calibrate(std::move(photographs), height, width);
 }
 
-double sharpness(ImageView<const std::uint8_t> grey, std::span<const std::array<double, 2>> points,
+double sharpness(ImageView<const std::uint8_t> gray, std::span<const std::array<double, 2>> points,
                  int reach) {
   double sum = 0;
   int count = 0;
   for (const auto& [px, py] : points) {
     const int x0 = std::max(static_cast<int>(px) - reach, 1);
     const int y0 = std::max(static_cast<int>(py) - reach, 1);
-    const int x1 = std::min(static_cast<int>(px) + reach, grey.width - 1);
-    const int y1 = std::min(static_cast<int>(py) + reach, grey.height - 1);
+    const int x1 = std::min(static_cast<int>(px) + reach, gray.width - 1);
+    const int y1 = std::min(static_cast<int>(py) + reach, gray.height - 1);
     int low = 255;
     int high = 0;
     int across = 0;
     int down = 0;
     for (int y = y0; y < y1; ++y) {
       for (int x = x0; x < x1; ++x) {
-        const int here = grey.at(y, x);
+        const int here = gray.at(y, x);
         low = std::min(low, here);
         high = std::max(high, here);
-        across = std::max(across, std::abs(here - grey.at(y, x - 1)));
-        down = std::max(down, std::abs(here - grey.at(y - 1, x)));
+        across = std::max(across, std::abs(here - gray.at(y, x - 1)));
+        down = std::max(down, std::abs(here - gray.at(y - 1, x)));
       }
     }
     if (high - low < 8) continue;

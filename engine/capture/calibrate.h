@@ -15,12 +15,12 @@
 
 namespace episcope::capture {
 
-/// A photograph of a pattern, and what became of it.
+/// A photograph of a pattern and its use in the calibration.
 struct PatternPhotograph {
   std::string name;
   FoundPattern found;
   double sharpness = 0;  ///< As `sharpness` says.
-  double rms = 0;        ///< Reprojection error in px, of those used.
+  double rms = 0;        ///< Reprojection error in px, if it is used.
   std::string problem;   ///< Why it was left out, as part of a sentence; empty = used.
 
   [[nodiscard]] bool is_used() const { return problem.empty(); }
@@ -31,10 +31,10 @@ struct Calibration {
   std::vector<PatternPhotograph> photographs;  ///< As given.
 };
 
-/// Calibrates from what was found on photographs of `width`×`height` px. Left out are those without
-/// the pattern, those whose edges are twice as wide as the median's, and those whose error is more
-/// than three times the median's. Zhang's method in OpenCV, with k1, k2, p1, p2, k3. Throws
-/// InvalidInput if fewer than 3 photographs remain, naming what is wrong with each.
+/// Calibrates a camera from patterns found on photographs of `width`×`height` px. Leaves out
+/// photographs without the pattern, with edges twice as wide as the median, or with an error of
+/// more than three times the median. Zhang's method in OpenCV, with k1, k2, p1, p2, k3. Throws
+/// InvalidInput if fewer than 3 photographs remain, with the problem of each.
 [[nodiscard]] Calibration calibrate(std::vector<PatternPhotograph> photographs, int height,
                                     int width);
 
@@ -43,11 +43,11 @@ struct Calibration {
 [[nodiscard]] Calibration calibrate(const std::vector<std::filesystem::path>& files,
                                     const Pattern& pattern, const Progress& progress);
 
-/// How steep the edges around points are: the steepest change between neighbouring pixels within
-/// `reach` px of a point, by the contrast there, averaged over the points: about 0.5 … 1 for sharp
-/// photographs, 1/w where edges are w px wide. Of the changes across and down the lesser counts,
-/// because a camera that moves blurs in one direction.
-[[nodiscard]] double sharpness(ImageView<const std::uint8_t> grey,
+/// Steepness of the edges around points: the steepest change between neighboring pixels within
+/// `reach` px of a point, divided by the contrast there, averaged over the points. About 0.5 … 1
+/// for sharp photographs, 1/w for edges that are w px wide. The lesser of the changes across and
+/// down counts, because a moving camera blurs in one direction.
+[[nodiscard]] double sharpness(ImageView<const std::uint8_t> gray,
                                std::span<const std::array<double, 2>> points, int reach);
 
 }  // namespace episcope::capture

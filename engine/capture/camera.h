@@ -6,7 +6,7 @@
 
 namespace episcope::capture {
 
-/// A camera as OpenCV models it: pixels (fx·x' + cx, fy·y' + cy), whose centres have whole
+/// A camera as OpenCV models it: pixels (fx·x' + cx, fy·y' + cy), whose centers have whole
 /// coordinates, of rays (x, y, 1) bent by the lens to (x', y').
 struct LensCamera {
   int width = 0;  ///< Of a photograph, in px,
@@ -70,8 +70,8 @@ struct Point3 {
   friend bool operator==(const Point3&, const Point3&) = default;
 };
 
-/// Where an object lies: X_camera = R·X_object + t. The frame of the camera has x to the right, y
-/// downwards and z forwards; its origin is the pinhole of the centre view.
+/// The pose of an object: X_camera = R·X_object + t. The frame of the camera has x to the right, y
+/// downwards and z forwards; its origin is the pinhole of the center view.
 struct RigidPose {
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< R row by row.
   std::array<double, 3> translation{};                        ///< t in the unit of the mesh.

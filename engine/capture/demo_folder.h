@@ -13,7 +13,7 @@
 
 namespace episcope::capture {
 
-/// What happens when a gantry is photographed with, as told by whoever asks.
+/// Size, errors and seed of the demo gantry.
 struct DemoOptions {
   GridShape grid{5, 5};
   int height = 360;
@@ -21,13 +21,13 @@ struct DemoOptions {
   int detail = 120;        ///< Of the mesh (scan_mesh.h).
   double jitter_px = 0.3;  ///< Standard deviation of positions, as seen at the middle depth,
   double gain = 0.01;      ///< of gains,
-  double noise = 2;        ///< of samples in grey levels,
+  double noise = 2;        ///< of samples in gray levels,
   double pick_px = 0.5;    ///< and of picks.
   unsigned seed = 1;
 };
 
-/// A gantry whose truth is known: its camera, where it stood, and where the scan lies. Lengths in
-/// mm, Z from 720 to 1020 mm.
+/// A gantry whose truth is known: camera, positions and pose of the scan. Lengths in mm, Z from 720
+/// to 1020 mm.
 struct DemoRig {
   LensCamera camera;  ///< With a radial distortion k1 = −0.1.
   double step = 12;   ///< mm
@@ -38,12 +38,11 @@ struct DemoRig {
 
 [[nodiscard]] DemoRig demo_rig(const DemoOptions& options);
 
-/// Where the photograph of the centre shows a point of the scan.
+/// Pixel of the center photograph that shows a point of the scan.
 [[nodiscard]] PlanePoint photographed(const DemoRig& rig, const Exposure& exposure,
                                       const Point3& on_scan);
 
-/// Landmarks of the scan picked in the photograph of the centre, as far as they are seen there,
-/// with the noise of picks.
+/// Picks the landmarks of the scan that the center photograph shows, with noise.
 [[nodiscard]] std::vector<PointPair> demo_picks(const DemoRig& rig, const TriangleMesh& mesh,
                                                 const DemoOptions& options);
 
@@ -51,16 +50,16 @@ struct DemoRig {
 [[nodiscard]] Image<std::uint8_t> demo_photograph(const DemoRig& rig, const TriangleMesh& mesh,
                                                   ViewIndex view, const Progress& progress);
 
-/// All of them, as a light field that is not rectified. Throws Cancelled.
+/// The photographs of all views, as a light field that is not rectified. Throws Cancelled.
 [[nodiscard]] LightField demo_photographs(const DemoRig& rig, const TriangleMesh& mesh,
                                           const Progress& progress);
 
-/// The distance of neighbouring corners of the demo's calibration pattern, in mm.
+/// The distance of neighboring corners of the demo's calibration pattern, in mm.
 [[nodiscard]] Pattern demo_pattern();
 
-/// Writes all that the way from photographs to a light field with truth begins with:
+/// Writes the input for the way from photographs to a light field with truth:
 /// photographs/RR_CC.png, pattern/01.png … (the last two blurred and cut off), mesh.ply (with a
-/// hole), picks.csv (in the photograph of the centre), readme.txt with the commands. Throws
+/// hole), picks.csv (in the photograph of the center), readme.txt with the commands. Throws
 /// IoError, also if the folder exists and is not empty; Cancelled.
 void write_demo_folder(const std::filesystem::path& folder, const DemoOptions& options,
                        const Progress& progress);

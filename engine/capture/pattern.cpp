@@ -14,27 +14,27 @@
 namespace episcope::capture {
 namespace {
 
-cv::Mat matrix_of(ImageView<const std::uint8_t> grey) {
-  return {grey.height, grey.width, CV_8U, const_cast<std::uint8_t*>(grey.data),
-          static_cast<std::size_t>(grey.row_stride)};
+cv::Mat matrix_of(ImageView<const std::uint8_t> gray) {
+  return {gray.height, gray.width, CV_8U, const_cast<std::uint8_t*>(gray.data),
+          static_cast<std::size_t>(gray.row_stride)};
 }
 
-bool find_chessboard(const cv::Mat& grey, const cv::Size& size, std::vector<cv::Point2f>& corners) {
+bool find_chessboard(const cv::Mat& gray, const cv::Size& size, std::vector<cv::Point2f>& corners) {
   constexpr int flags =
       cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
-  if (!cv::findChessboardCorners(grey, size, corners, flags)) return false;
-  // Half the distance of neighbours, so that no window reaches another corner.
+  if (!cv::findChessboardCorners(gray, size, corners, flags)) return false;
+  // Half the distance of neighbors, so that no window reaches another corner.
   const double distance = cv::norm(corners[1] - corners[0]);
   const int reach = std::clamp(static_cast<int>(distance / 2.5), 2, 11);
-  cv::cornerSubPix(grey, corners, {reach, reach}, {-1, -1},
+  cv::cornerSubPix(gray, corners, {reach, reach}, {-1, -1},
                    {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 60, 1e-4});
   return true;
 }
 
-bool find_circles(const cv::Mat& grey, const cv::Size& size, std::vector<cv::Point2f>& centers) {
+bool find_circles(const cv::Mat& gray, const cv::Size& size, std::vector<cv::Point2f>& centers) {
   constexpr int flags = cv::CALIB_CB_SYMMETRIC_GRID;
-  return cv::findCirclesGrid(grey, size, centers, flags) ||
-         cv::findCirclesGrid(grey, size, centers, flags | cv::CALIB_CB_CLUSTERING);
+  return cv::findCirclesGrid(gray, size, centers, flags) ||
+         cv::findCirclesGrid(gray, size, centers, flags | cv::CALIB_CB_CLUSTERING);
 }
 
 }  // namespace
@@ -51,16 +51,17 @@ Schema<Pattern> pattern_schema() {
       .integer("columns", &Pattern::columns,
                {"Columns", "Inner corners of a chessboard or ChArUco board, or circles, in a row"},
                {2, 100})
-      .integer("rows", &Pattern::rows, {"Rows", "The same in a column"}, {2, 100})
-      .real("square", &Pattern::square,
-            {"Distance", "Of neighbouring points, in any unit; the camera does not depend on it"},
-            {1e-3, 1e4, true});
+      .integer("rows", &Pattern::rows, {"Rows", "Inner corners, or circles, in a column"}, {2, 100})
+      .real(
+          "square", &Pattern::square,
+          {"Distance", "Between neighboring points, in any unit; the camera does not depend on it"},
+          {1e-3, 1e4, true});
 }
 
-FoundPattern find_pattern(ImageView<const std::uint8_t> grey, const Pattern& pattern) {
-  if (pattern.kind == PatternKind::Charuco) return find_charuco(grey, pattern);
+FoundPattern find_pattern(ImageView<const std::uint8_t> gray, const Pattern& pattern) {
+  if (pattern.kind == PatternKind::Charuco) return find_charuco(gray, pattern);
   const cv::Size size(pattern.columns, pattern.rows);
-  const cv::Mat picture = matrix_of(grey);
+  const cv::Mat picture = matrix_of(gray);
   std::vector<cv::Point2f> pixels;
   const bool is_found = pattern.kind == PatternKind::Circles
                             ? find_circles(picture, size, pixels)
@@ -112,8 +113,8 @@ Markers markers_of(const cv::Mat& picture, const cv::aruco::CharucoBoard& board)
 
 }  // namespace
 
-FoundPattern find_charuco(ImageView<const std::uint8_t> grey, const Pattern& pattern) {
-  const cv::Mat picture = matrix_of(grey);
+FoundPattern find_charuco(ImageView<const std::uint8_t> gray, const Pattern& pattern) {
+  const cv::Mat picture = matrix_of(gray);
   const int markers_of_board = (pattern.columns + 1) * (pattern.rows + 1) / 2;
   Markers best;
   cv::Ptr<cv::aruco::CharucoBoard> board;

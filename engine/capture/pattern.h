@@ -21,30 +21,30 @@ struct Pattern {
   PatternKind kind = PatternKind::Chessboard;
   int columns = 9;  ///< Inner corners of a chessboard or ChArUco board, circles of a grid.
   int rows = 6;
-  double square = 1;  ///< Distance of neighbouring points, in any unit.
+  double square = 1;  ///< Distance of neighboring points, in any unit.
   friend bool operator==(const Pattern&, const Pattern&) = default;
 };
 
 [[nodiscard]] Schema<Pattern> pattern_schema();
 
-/// Where a photograph shows the points of a pattern.
+/// Points of a pattern found on a photograph.
 struct FoundPattern {
-  std::vector<std::array<double, 2>> pixels;  ///< Centres of pixels have whole coordinates.
+  std::vector<std::array<double, 2>> pixels;  ///< Centers of pixels have whole coordinates.
   std::vector<std::array<double, 2>> points;  ///< On the pattern, in its unit; one for each pixel.
   std::string problem;  ///< Why it was not found, as part of a sentence; empty = found.
 };
 
-/// Finds the pattern to sub-pixel precision. `grey`: 8 bit, 1 channel. Of chessboards and circles
+/// Finds the pattern to sub-pixel precision. `gray`: 8 bit, 1 channel. Of chessboards and circles
 /// all points must be seen, of ChArUco boards a quarter. Throws Unavailable for ChArUco in a build
 /// without ArUco.
-[[nodiscard]] FoundPattern find_pattern(ImageView<const std::uint8_t> grey, const Pattern& pattern);
+[[nodiscard]] FoundPattern find_pattern(ImageView<const std::uint8_t> gray, const Pattern& pattern);
 
 /// Side of a marker on ChArUco boards, in squares.
 inline constexpr double kMarkerShare = 0.75;
 
 /// Finds a ChArUco board as `find_pattern` does; the dictionary of its markers is the one of
 /// OpenCV's that fits. Throws Unavailable in a build without ArUco.
-[[nodiscard]] FoundPattern find_charuco(ImageView<const std::uint8_t> grey, const Pattern& pattern);
+[[nodiscard]] FoundPattern find_charuco(ImageView<const std::uint8_t> gray, const Pattern& pattern);
 
 /// The picture of a board: `pixels_per_square`, white margin of half a square. Throws Unavailable
 /// in a build without ArUco.

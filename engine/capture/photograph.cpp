@@ -165,7 +165,7 @@ Image<std::uint8_t> circles(const Pattern& pattern, int pixels) {
 }
 
 float sample(const Image<std::uint8_t>& picture, double x, double y) {
-  const double px = x - 0.5;  // samples are at the centres of their pixels
+  const double px = x - 0.5;  // samples are at the centers of their pixels
   const double py = y - 0.5;
   if (px < 0 || py < 0 || px >= picture.width() - 1 || py >= picture.height() - 1) return 110;
   const int ix = static_cast<int>(px);
@@ -215,7 +215,8 @@ Image<std::uint8_t> pattern_photograph(const Pattern& pattern, const RigidPose& 
       float sum = 0;
       for (int i = 0; i < kPatternFine * kPatternFine; ++i) {
         PlanePoint place;
-        const bool hits = meets(pose, ray_of_pixel(camera, sample_of_pixel(y, x, kPatternFine, i)), place);
+        const bool hits =
+            meets(pose, ray_of_pixel(camera, sample_of_pixel(y, x, kPatternFine, i)), place);
         sum += hits ? sample(picture, place.x * scale, place.y * scale) : 110;
       }
       light.at(y, x) = sum / (kPatternFine * kPatternFine);

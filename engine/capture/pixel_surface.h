@@ -27,7 +27,7 @@ struct HalfPlane {
 /// A convex polygon, of either orientation, without memory of its own.
 struct Polygon {
   static constexpr int kMost = 24;    ///< Corners: a triangle cut by a square has at most 7.
-  std::array<Corner, kMost> corners;  ///< The first `count`; others are not initialised.
+  std::array<Corner, kMost> corners;  ///< The first `count`; others are not initialized.
   int count = 0;
 
   void add(const Corner& corner) {
@@ -66,7 +66,7 @@ struct InversePlane {
   [[nodiscard]] double at(const Corner& p) const { return by_x * p.x + by_y * p.y + at_zero; }
 };
 
-/// A triangle around a pixel: places relative to the centre of the pixel.
+/// A triangle around a pixel: places relative to the center of the pixel.
 struct ScreenTriangle {
   Polygon polygon;
   InversePlane plane;
@@ -108,27 +108,27 @@ struct Fragment {
   bool is_front = false;
 };
 
-/// What a pixel shows of a triangle, exactly.
+/// Visible part of a triangle within a pixel, exact.
 struct VisiblePart {
-  int index = 0;          ///< Of the triangle in the list.
-  double area = 0;        ///< That is seen, in px².
-  Corner centroid{0, 0};  ///< Of the seen part.
+  int index = 0;    ///< Of the triangle in the list.
+  double area = 0;  ///< In px².
+  Corner centroid{0, 0};
 };
 
-/// What is seen of each of the triangles around a pixel: each minus all that lies in front of it,
-/// point by point, also of those that pierce each other. Of coinciding triangles the first is seen.
+/// Visible parts of the triangles around a pixel: each minus everything in front of it, point by
+/// point, also for triangles that pierce each other. The first of coinciding triangles is visible.
 /// Triangles without a visible part are left out. Cubic in their number at worst.
 /// Source: [WMG13] section 3.2.1 ("the polygon with the biggest area inside the pixel").
 [[nodiscard]] std::vector<VisiblePart> visible_parts(std::span<const ScreenTriangle> triangles);
 
-/// What decides the depth of a pixel.
+/// The surface that decides the depth of a pixel.
 struct PixelSurface {
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
   std::uint32_t triangle = kNone;  ///< Of the largest visible area; of equal areas the first.
   float covered = 0;               ///< Share of the pixel that shows triangles.
   bool is_front = false;
   bool is_edge = false;  ///< It shows surfaces that lie apart: the depth jumps in it.
-  InversePlane plane;    ///< Of that triangle, around the centre of the pixel.
+  InversePlane plane;    ///< Of that triangle, around the center of the pixel.
 };
 
 /// Resolves pixels. `triangle_at(id)` gives a triangle around the pixel.
@@ -150,8 +150,7 @@ class PixelResolver {
   }
 
  private:
-  /// Sorts by nearness; returns how many fragments tile the pixel before all others, 0 if that is
-  /// not so.
+  /// Sorts by nearness; returns how many fragments tile the pixel before all others, 0 if none do.
   [[nodiscard]] static std::size_t order(std::span<Fragment> fragments);
   /// How many fragments may be seen: all, or those that tile it.
   [[nodiscard]] static std::size_t reach(std::span<const Fragment> fragments, std::size_t front) {

@@ -11,7 +11,7 @@
 
 namespace episcope::capture {
 
-/// What a pose file tells: where a mesh lies, and how that was found.
+/// Content of a pose file: the pose of a mesh and the pairs it was computed from.
 struct PoseStory {
   std::filesystem::path mesh;  ///< Written relative to the pose file where that is possible.
   std::string light_field;     ///< As the user named it.
@@ -28,8 +28,8 @@ struct PoseStory {
 /// Atomic. Throws IoError.
 void write_pose(const std::filesystem::path& path, const PoseStory& story);
 
-/// Throws IoError that says what is missing or wrong. Of the file only mesh, rotation and
-/// translation must be there; the mesh is found from the folder of the file.
+/// Reads a pose file. It needs mesh, rotation and translation only; the path of the mesh is
+/// relative to the file. Throws IoError that names what is missing or wrong.
 [[nodiscard]] PoseStory read_pose(const std::filesystem::path& path);
 
 /// Reads pairs as CSV, a line each: name,x_px,y_px,X,Y,Z, and behind them 1 if the pair is locked.

@@ -4,6 +4,7 @@
 #include "engine/capture/camera.h"
 #include "engine/core/error.h"
 #include "engine/core/image.h"
+#include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 
 #include <algorithm>
@@ -117,12 +118,6 @@ RowErrors row_errors(const ViewMatches& matches) {
   return {all[all.size() / 2], all[all.size() * 95 / 100]};
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 struct Frame {
   PlanePoint low{-1e9, -1e9};
   PlanePoint high{1e9, 1e9};
@@ -211,11 +206,11 @@ Schema<RectifyOptions> rectify_schema() {
   return Schema<RectifyOptions>()
       .real("step", &RectifyOptions::step,
             {"Step",
-             "Between neighbouring positions of the gantry, in the unit of the mesh; with 1, depth "
+             "Between neighboring positions of the gantry, in the unit of the mesh; with 1, depth "
              "is in steps"},
             {1e-3, 1e4, true})
-      .flag("even_gain", &RectifyOptions::equalise,
-            {"Even brightness", "Divide each view by its gain, as measured against the centre"});
+      .flag("even_gain", &RectifyOptions::equalize,
+            {"Even brightness", "Divide each view by its gain, as measured against the center"});
 }
 
 Rectified rectify(const LightField& photographs, const LensCamera& camera,
@@ -244,7 +239,7 @@ Rectified rectify(const LightField& photographs, const LensCamera& camera,
   progress.step("resampling");
   const RectifyingMap map(result.alignment, camera, grid, crop, shift);
   const std::vector<double> gains =
-      options.equalise ? result.gains : std::vector<double>(result.gains.size(), 1.0);
+      options.equalize ? result.gains : std::vector<double>(result.gains.size(), 1.0);
   LightField::Samples samples = std::visit(
       [&](const auto& stack) -> LightField::Samples {
         return resampled(stack, map, height, width, gains, progress.part(0.4, 0.7));

@@ -12,14 +12,14 @@
 namespace episcope::capture {
 
 struct RectifyOptions {
-  double step = 1;        ///< Between neighbouring positions of the gantry, in the mesh's unit.
-  bool equalise = false;  ///< Divide each view by its gain.
+  double step = 1;        ///< Between neighboring positions of the gantry, in the mesh's unit.
+  bool equalize = false;  ///< Divide each view by its gain.
   friend bool operator==(const RectifyOptions&, const RectifyOptions&) = default;
 };
 
 [[nodiscard]] Schema<RectifyOptions> rectify_schema();
 
-/// Vertical disparity of horizontal neighbours, absolute, in px.
+/// Vertical disparity of horizontal neighbors, absolute, in px.
 struct RowErrors {
   double median = 0;
   double percentile_95 = 0;
@@ -29,13 +29,13 @@ struct RowErrors {
 struct Rectified {
   LightFieldPtr light_field;
   Alignment alignment;
-  std::vector<double> gains;  ///< Of the photographs against the centre, row by row.
+  std::vector<double> gains;  ///< Of the photographs against the center, row by row.
   RowErrors before;           ///< Of the photographs,
   RowErrors after;            ///< measured again in the rectified views.
-  std::size_t points = 0;     ///< That were followed.
+  std::size_t points = 0;     ///< Number of points that were followed.
   PlanePoint crop;            ///< Pixel of the aligned plane that became the first.
 
-  /// The pixel of the rectified centre view that shows a place of its photograph.
+  /// The pixel of the rectified center view that shows a place of its photograph.
   [[nodiscard]] PlanePoint center_pixel(const LensCamera& camera,
                                         const PlanePoint& photograph) const;
 };

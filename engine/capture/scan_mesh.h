@@ -14,10 +14,11 @@ namespace episcope::capture {
 /// `detail`: triangles along a side of each part; about 16·detail² faces.
 [[nodiscard]] TriangleMesh scan_mesh(int detail);
 
-/// The same with a patch of the head missing, as scans have them.
+/// `scan_mesh` with a hole in the head, as real scans have.
 [[nodiscard]] TriangleMesh scan_mesh_with_hole(int detail);
 
-/// Places on the scan that can be told in a picture: corners of the box, and of the wall's pattern.
+/// Places on the scan that are recognizable in a picture: corners of the box and of the wall's
+/// pattern.
 [[nodiscard]] std::vector<Vertex> scan_landmarks();
 
 /// A value in [−1, 1] for every point of an integer lattice.

@@ -10,7 +10,7 @@
 namespace episcope::capture {
 namespace {
 
-constexpr int kRounds = 20;
+constexpr int kSnapRounds = 20;
 constexpr double kSettled_px = 1e-3;
 constexpr double kLeastGradient = 3;   // RMS in the window, 1/255 per px
 constexpr double kLeastBalance = 0.1;  // Smaller over larger eigenvalue.
@@ -44,22 +44,22 @@ struct Lines {
 };
 
 /// Lines along the edges (corner) or along the gradients (blob) around a point.
-Lines lines_around(ImageView<const float> grey, const Eigen::Vector2d& center, double reach,
+Lines lines_around(ImageView<const float> gray, const Eigen::Vector2d& center, double reach,
                    MarkKind kind) {
   Lines lines;
   const double sigma = reach / 2;
   const int top = std::max(1, static_cast<int>(std::ceil(center.y() - 2 * reach)));
   const int bottom =
-      std::min(grey.height - 2, static_cast<int>(std::floor(center.y() + 2 * reach)));
+      std::min(gray.height - 2, static_cast<int>(std::floor(center.y() + 2 * reach)));
   const int left = std::max(1, static_cast<int>(std::ceil(center.x() - 2 * reach)));
-  const int right = std::min(grey.width - 2, static_cast<int>(std::floor(center.x() + 2 * reach)));
+  const int right = std::min(gray.width - 2, static_cast<int>(std::floor(center.x() + 2 * reach)));
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
       const Eigen::Vector2d at(x, y);
       const double w = std::exp(-(at - center).squaredNorm() / (2 * sigma * sigma));
-      const double gx = 0.5 * (grey.at(y, x + 1) - grey.at(y, x - 1));
-      const double gy = 0.5 * (grey.at(y + 1, x) - grey.at(y - 1, x));
-      // Relative to the centre, where sums of squares lose no digits.
+      const double gx = 0.5 * (gray.at(y, x + 1) - gray.at(y, x - 1));
+      const double gy = 0.5 * (gray.at(y + 1, x) - gray.at(y - 1, x));
+      // Relative to the center, where sums of squares lose no digits.
       lines.add(at - center,
                 kind == MarkKind::Corner ? Eigen::Vector2d(gx, gy) : Eigen::Vector2d(-gy, gx), w);
     }
@@ -72,11 +72,11 @@ struct Found {
   double misses = std::numeric_limits<double>::infinity();
 };
 
-std::optional<Found> find(ImageView<const float> grey, const Eigen::Vector2d& pick, double reach,
+std::optional<Found> find(ImageView<const float> gray, const Eigen::Vector2d& pick, double reach,
                           MarkKind kind) {
   Eigen::Vector2d place = pick;
-  for (int round = 0; round < kRounds; ++round) {
-    const Lines lines = lines_around(grey, place, reach, kind);
+  for (int round = 0; round < kSnapRounds; ++round) {
+    const Lines lines = lines_around(gray, place, reach, kind);
     if (!lines.is_determined()) return {};
     const Eigen::Vector2d move = lines.nearest();
     place += move;
@@ -88,12 +88,12 @@ std::optional<Found> find(ImageView<const float> grey, const Eigen::Vector2d& pi
 
 }  // namespace
 
-std::optional<SnappedPick> snap_pick(ImageView<const float> grey, const PlanePoint& pick,
+std::optional<SnappedPick> snap_pick(ImageView<const float> gray, const PlanePoint& pick,
                                      double reach_px) {
   std::optional<SnappedPick> best;
   double misses = std::numeric_limits<double>::infinity();
   for (const MarkKind kind : {MarkKind::Corner, MarkKind::Blob}) {
-    const auto found = find(grey, {pick.x, pick.y}, reach_px, kind);
+    const auto found = find(gray, {pick.x, pick.y}, reach_px, kind);
     if (!found || found->misses >= misses) continue;
     misses = found->misses;
     best = SnappedPick{{found->place.x(), found->place.y()}, kind};

@@ -3,9 +3,10 @@
 
 #include "engine/core/camera_grid.h"
 #include "engine/core/error.h"
+#include "engine/core/numbers.h"
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 #include <opencv2/calib3d.hpp>
 
 #include <algorithm>
@@ -195,27 +196,27 @@ std::vector<RigidPose> first_poses(std::span<const PointPair> pairs, const Pinho
   return poses;
 }
 
-constexpr double kHuber = 2;
-constexpr double kOutlier = 3;         // px,
-constexpr double kOutlierMedians = 5;  // and median residuals.
-constexpr double kUsualError = 0.5;    // px, of the paper's scenes
-constexpr std::size_t kStarts = 5;     // That are minimised.
+constexpr double kPairHuber_px = 2;
+constexpr double kPairOutlier_px = 3;
+constexpr double kPairOutlierMedians = 5;  // A pair beyond both is an outlier.
+constexpr double kUsualError = 0.5;        // px, of the paper's scenes
+constexpr std::size_t kStarts = 5;         // That are minimized.
 
 /// The best of all starts.
-MinimisedPose best_pose(std::span<const PointPair> pairs, const Pinhole& pinhole) {
+MinimizedPose best_pose(std::span<const PointPair> pairs, const Pinhole& pinhole) {
   struct Start {
     double cost;
     RigidPose pose;
   };
   std::vector<Start> starts;
   for (const RigidPose& pose : first_poses(pairs, pinhole)) {
-    starts.push_back({huber_cost(pairs, pose, pinhole, kHuber), pose});
+    starts.push_back({huber_cost(pairs, pose, pinhole, kPairHuber_px), pose});
   }
   std::ranges::stable_sort(starts, {}, &Start::cost);
-  MinimisedPose best;
+  MinimizedPose best;
   best.cost = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < std::min(kStarts, starts.size()); ++i) {
-    const MinimisedPose pose = minimise_reprojection(pairs, starts[i].pose, pinhole, kHuber);
+    const MinimizedPose pose = minimize_reprojection(pairs, starts[i].pose, pinhole, kPairHuber_px);
     if (pose.cost < best.cost) best = pose;
   }
   return best;
@@ -231,15 +232,10 @@ std::vector<double> residuals_of(std::span<const PointPair> pairs, const RigidPo
   return sizes;
 }
 
-double median(std::vector<double> values) {
-  std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
-  return values[values.size() / 2];
-}
-
 std::vector<PairResidual> judged(std::span<const PointPair> pairs, const RigidPose& pose,
                                  const Pinhole& pinhole) {
   const std::vector<double> sizes = residuals_of(pairs, pose, pinhole);
-  const double limit = std::max(kOutlier, kOutlierMedians * median(sizes));
+  const double limit = std::max(kPairOutlier_px, kPairOutlierMedians * median(sizes));
   std::vector<PairResidual> judgements;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     judgements.push_back({sizes[i], !pairs[i].is_locked && sizes[i] > limit});
@@ -289,7 +285,7 @@ double delta_tz(std::span<const PointPair> pairs, const RigidPose& pose, const P
   return least;
 }
 
-void set_errors(std::span<const PointPair> pairs, const MinimisedPose& pose,
+void set_errors(std::span<const PointPair> pairs, const MinimizedPose& pose,
                 const CameraGrid& camera, SolvedPose& solved) {
   const std::vector<double> sizes = residuals_of(pairs, pose.pose, *camera.pinhole);
   double sum = 0;
@@ -325,7 +321,7 @@ SolvedPose solve_pose(std::span<const PointPair> pairs, const CameraGrid& camera
         "points beside it");
   }
   const Pinhole& pinhole = *camera.pinhole;
-  MinimisedPose pose = best_pose(pairs, pinhole);
+  MinimizedPose pose = best_pose(pairs, pinhole);
   if (!std::isfinite(pose.cost)) {
     throw InvalidInput(
         "no pose in front of the camera fits these pairs; check that each names the "
@@ -336,7 +332,7 @@ SolvedPose solve_pose(std::span<const PointPair> pairs, const CameraGrid& camera
   const std::vector<PointPair> rest = kept(pairs, solved.pairs);
   refuse_mirrored(pairs, pinhole, pose.cost);
   if (rest.size() < pairs.size()) {
-    pose = minimise_reprojection(rest, pose.pose, pinhole, kHuber);
+    pose = minimize_reprojection(rest, pose.pose, pinhole, kPairHuber_px);
     const std::vector<double> sizes = residuals_of(pairs, pose.pose, pinhole);
     for (std::size_t i = 0; i < sizes.size(); ++i) solved.pairs[i].residual_px = sizes[i];
   }
@@ -446,9 +442,9 @@ double huber_cost(std::span<const PointPair> pairs, const RigidPose& pose, const
   return sum;
 }
 
-MinimisedPose minimise_reprojection(std::span<const PointPair> pairs, const RigidPose& start,
+MinimizedPose minimize_reprojection(std::span<const PointPair> pairs, const RigidPose& start,
                                     const Pinhole& pinhole, double threshold_px) {
-  MinimisedPose result{start, huber_cost(pairs, start, pinhole, threshold_px), 0, {}};
+  MinimizedPose result{start, huber_cost(pairs, start, pinhole, threshold_px), 0, {}};
   if (!std::isfinite(result.cost)) return result;
   Pose pose = pose_of(start);
   double damping = 1e-3;

@@ -11,13 +11,13 @@
 
 namespace episcope::capture {
 
-/// A point of the centre view and the same point of the mesh, picked by hand.
+/// A point of the center view and the same point of the mesh, picked by hand.
 struct PointPair {
   std::string name;
-  double x_px = 0;  ///< Centres of pixels have whole coordinates.
+  double x_px = 0;  ///< Centers of pixels have whole coordinates.
   double y_px = 0;
   Point3 point;            ///< In the frame of the mesh.
-  bool is_locked = false;  ///< It is right: never a wrong pick, of full weight.
+  bool is_locked = false;  ///< Never treated as a wrong pick; has full weight.
   friend bool operator==(const PointPair&, const PointPair&) = default;
 };
 
@@ -39,8 +39,8 @@ struct SolvedPose {
 
 /// The pose of a mesh from at least 4 pairs: the best of several starts, then
 /// Levenberg and Marquardt with Huber's weights of 2 px. Pairs off by more than 3 px and 5 times
-/// the median residual are outliers, unless they are locked, as long as 4 remain; the pose is then
-/// that of the others.
+/// the median residual are outliers, unless they are locked, while 4 pairs remain. Outliers do not
+/// influence the pose.
 /// Δtz = Zc·Δu/|u − cx|, the least over pairs and both axes, with Δu = the reprojection error.
 /// Source: [WMG13] section 3.2.1. Throws InvalidInput for fewer than 4 pairs, for points on a line,
 /// if there is no pose, and if only the mirror image of the mesh fits.
@@ -57,7 +57,7 @@ struct SolvedPose {
 [[nodiscard]] double huber_cost(std::span<const PointPair> pairs, const RigidPose& pose,
                                 const Pinhole& pinhole, double threshold_px);
 
-struct MinimisedPose {
+struct MinimizedPose {
   RigidPose pose;
   double cost = 0;
   int iterations = 0;
@@ -69,7 +69,7 @@ struct MinimisedPose {
 /// Levenberg and Marquardt on the reprojection error with Huber's weights and the analytic
 /// Jacobian, from `start`; ends when a step is below 1e-12 of the pose, after 100 iterations at
 /// most. λ begins at 1e-3 and changes by factors of 10.
-[[nodiscard]] MinimisedPose minimise_reprojection(std::span<const PointPair> pairs,
+[[nodiscard]] MinimizedPose minimize_reprojection(std::span<const PointPair> pairs,
                                                   const RigidPose& start, const Pinhole& pinhole,
                                                   double threshold_px);
 

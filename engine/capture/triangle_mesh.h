@@ -20,12 +20,11 @@ struct TriangleMesh {
   std::vector<Face> faces;
 };
 
-/// A coarser mesh of about `most_faces` at most: vertices in the same cube of a grid become one, at
-/// their mean; of faces, those remain whose corners lie in three cubes, each once. The cubes are as
-/// small as the count of faces allows. A mesh that is small enough comes back as it is. For meshes
-/// to be looked at while they move. Linear but for the sorting of what remains.
-/// Source: Rossignac and Borrel, Multi-resolution 3D approximations for rendering complex scenes,
-/// 1993.
+/// Simplifies a mesh to about `most_faces` at most, for display while it moves. Vertices within one
+/// cube of a grid become their mean; faces with corners in three cubes remain, each once. Cubes are
+/// as small as the number of faces allows. A small mesh is returned unchanged. Linear, except for
+/// sorting the remaining faces. Source: Rossignac and Borrel, Multi-resolution 3D approximations
+/// for rendering complex scenes, 1993.
 [[nodiscard]] TriangleMesh cluster_vertices(const TriangleMesh& mesh, std::size_t most_faces);
 
 }  // namespace episcope::capture

@@ -17,7 +17,7 @@
 namespace episcope::capture {
 namespace {
 
-/// Whether the surface jumps between (y, x) and its neighbour to the right or, if `is_down`, below.
+/// Whether the surface jumps between (y, x) and its neighbor to the right or, if `is_down`, below.
 bool is_crack(const ViewSurface& view, int y, int x, bool is_down, float jump) {
   const int ny = is_down ? y + 1 : y;
   const int nx = is_down ? x : x + 1;
@@ -31,7 +31,7 @@ bool is_crack(const ViewSurface& view, int y, int x, bool is_down, float jump) {
   return std::abs(own - other) >= jump;
 }
 
-// Discontinuities that run between pixels: where the planes of two neighbours that are Seen differ
+// Discontinuities that run between pixels: where the planes of two neighbors that are Seen differ
 // by `jump` in 1/Z half way between them, both become Unsure. Slopes, however steep, do not.
 // Throws Cancelled.
 void mark_cracks(ViewSurface& view, double jump, const Progress& progress) {
@@ -55,8 +55,10 @@ void mark_cracks(ViewSurface& view, double jump, const Progress& progress) {
   }
 }
 
+}  // namespace
+
 /// Side of a tile in px.
-inline constexpr int kTile = 64;
+constexpr int kTile = 64;
 
 /// Which triangles reach into which tile of a view, those seen from outside apart.
 class TileBins {
@@ -155,6 +157,8 @@ std::span<const std::uint32_t> TileBins::faces(int chunk, int tile, bool is_fron
   const std::size_t bin = static_cast<std::size_t>(tile) * 2 + (is_front ? 0 : 1);
   return {of.sorted.data() + of.starts[bin], of.starts[bin + 1] - of.starts[bin]};
 }
+
+namespace {
 
 /// What all tiles of a view share.
 struct RasterInput {

@@ -14,13 +14,13 @@
 
 namespace episcope::capture {
 
-/// A mesh and where it lies. The mesh must outlive what uses it.
+/// A mesh and its pose. The mesh must outlive its users.
 struct PlacedMesh {
   const TriangleMesh* mesh = nullptr;
   RigidPose pose;
 };
 
-/// Meshes as one, in the frame of the centre view.
+/// Meshes as one, in the frame of the center view.
 struct PlacedScene {
   std::vector<Vertex> vertices;
   std::vector<Face> faces;
@@ -34,7 +34,7 @@ struct PlacedScene {
 
 /// A view: a pinhole that was moved in its image plane.
 struct ViewCamera {
-  Pinhole pinhole;  ///< Of the centre view.
+  Pinhole pinhole;  ///< Of the center view.
   double x = 0;     ///< Place of this view, in the unit of the mesh.
   double y = 0;
   double shift_x = 0;  ///< Added to pixels, since views are shifted onto the zero plane.
@@ -43,7 +43,7 @@ struct ViewCamera {
   int width = 0;
 };
 
-/// What a view shows of a scene, pixel by pixel.
+/// The visible surface of a scene in a view, pixel by pixel.
 struct ViewSurface {
   enum State : std::uint8_t {
     Nothing,  ///< No triangle.
@@ -51,13 +51,13 @@ struct ViewSurface {
     Unsure    ///< A silhouette, a jump of the depth, a hole through which the inside is seen.
   };
   Image<std::uint32_t> triangle;  ///< That decides; PixelSurface::kNone = none.
-  Image<float> inverse_depth;     ///< 1/Z of its plane at the centre of the pixel,
+  Image<float> inverse_depth;     ///< 1/Z of its plane at the center of the pixel,
   Image<float> by_x;              ///< and how 1/Z changes in a px.
   Image<float> by_y;
   Image<std::uint8_t> state;
 };
 
-/// Makes one view after another, with the same memory. In each pixel the triangle of the largest
+/// Renders one view after another, reusing memory. In each pixel the triangle of the largest
 /// visible area decides (pixel_surface.h). Triangles that reach behind the camera are left out.
 class ViewRaster {
  public:

@@ -27,7 +27,7 @@ void write_view(const ViewSurface& surface, const PlacedScene& scene, const Came
   }
 }
 
-/// Wrong poses and wrong orientation are told from the centre view.
+/// Wrong poses and wrong orientation are told from the center view.
 void require_seen(const ViewSurface& surface) {
   const auto count = [&](ViewSurface::State state) {
     return std::ranges::count(surface.state, static_cast<std::uint8_t>(state));
@@ -36,13 +36,12 @@ void require_seen(const ViewSurface& surface) {
   const auto unsure = count(ViewSurface::Unsure);
   if (seen + unsure == 0) {
     throw InvalidInput(
-        "the meshes are not in the picture of the centre view; check their poses, and that pose "
-        "and "
-        "light field are in the same unit");
+        "the meshes are not in the picture of the center view; check their poses, and that pose "
+        "and light field are in the same unit");
   }
   if (unsure > 3 * seen) {
     throw InvalidInput(
-        "the centre view sees the meshes from inside (" + std::to_string(unsure) + " of " +
+        "the center view sees the meshes from inside (" + std::to_string(unsure) + " of " +
         std::to_string(seen + unsure) +
         " pixels): their faces are wound the wrong way; turn them, or use --both-sides");
   }

@@ -24,11 +24,11 @@ struct DepthOptions {
 /// The camera of one view.
 [[nodiscard]] ViewCamera view_camera(const DepthGrid& grid, ViewIndex view);
 
-/// Disparity (eq. 1) of the triangle that decides each pixel of each view, and as labels which mesh
-/// it is of, from 1 on; 0 = none. Invalid are pixels on silhouettes, on discontinuities of at least
-/// `jump_px`, at holes, and where there is no mesh.
-/// Source: [WMG13] section 3.2.1. Throws InvalidInput if the camera is unknown, if no mesh is in
-/// front of it, or if almost all that is seen is seen from inside; Cancelled.
+/// Disparity (eq. 1) of the triangle that decides each pixel of each view, and its mesh as a label,
+/// from 1 on; 0 = none. Pixels on silhouettes, on discontinuities of at least `jump_px`, at holes
+/// and without a mesh are invalid. Source: [WMG13] section 3.2.1. Throws InvalidInput if the camera
+/// is unknown, if no mesh is in front of it, or if almost all surfaces are seen from inside;
+/// Cancelled.
 [[nodiscard]] GroundTruth visible_depth(std::span<const PlacedMesh> meshes, const DepthGrid& grid,
                                         const DepthOptions& options, const Progress& progress);
 

@@ -55,9 +55,9 @@ struct BenchmarkCamera {
   int larger_side_px = 0;  ///< max(width, height).
 };
 
-/// The same eq. (1): B·f = β/sensor and Δx = β/(F·sensor), with β = baseline·focal_length·side and
-/// F the focus distance in mm (Honauer et al. 2016 [HJKG16]). Z is then in mm.
-/// Throws InvalidInput unless every parameter is positive.
+/// Camera grid by eq. (1): B·f = β/sensor and Δx = β/(F·sensor), with β =
+/// baseline·focal_length·side and F the focus distance in mm (Honauer et al. 2016 [HJKG16]). Z is
+/// then in mm. Throws InvalidInput unless every parameter is positive.
 [[nodiscard]] CameraGrid camera_grid_from_benchmark(const BenchmarkCamera& camera);
 
 }  // namespace episcope

@@ -12,7 +12,7 @@ namespace episcope {
 /// disparity `focus_px` stands upright. Sheared samples are interpolated linearly, clamped at the
 /// border. Source: Bolles, Baker, Marimont 1987 [BBM87]; refocusing by Ng 2006 [Ng06].
 
-/// Along which views EPIs run: those of the row or of the column of the current one.
+/// Direction of an EPI: along the row or the column of views through the current view.
 enum class EpiDirection { Horizontal, Vertical };
 
 /// `[u][x][c]` of image row `y` through the views of camera row `view.v`.

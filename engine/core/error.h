@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -27,6 +28,8 @@ class IoError : public Error {
       : Error(path.string() + ": " + reason), path_(path) {}
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// The message without the path.
+  [[nodiscard]] std::string sentence() const;
 
  private:
   std::filesystem::path path_;
@@ -40,5 +43,15 @@ class Unavailable : public Error {
 
 /// The user asked to stop. Not an `Error`, so that no handler of errors swallows it.
 class Cancelled {};
+
+/// What users read wherever memory runs out.
+inline constexpr const char* kNotEnoughMemory =
+    "not enough memory; close other programs or use smaller data";
+/// What users read of an exception that is no std::exception.
+inline constexpr const char* kUnknownFailure = "an unknown error occurred";
+
+/// A failure in words for the user: `kNotEnoughMemory` for std::bad_alloc, else the message of the
+/// exception, else `kUnknownFailure`.
+[[nodiscard]] std::string failure_text(const std::exception_ptr& failure);
 
 }  // namespace episcope

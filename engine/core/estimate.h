@@ -13,7 +13,7 @@
 
 namespace episcope {
 
-/// Where an estimate comes from: everything needed to reproduce it.
+/// Everything needed to reproduce an estimate.
 struct Provenance {
   std::string method;             ///< Id as in `episcope-cli methods`; of foreign results any name.
   ParameterSet parameters;        ///< Every parameter of the method with the value used.
@@ -63,8 +63,8 @@ struct MapBlock {
   [[nodiscard]] int rows() const { return end_row - first_row; }
 };
 
-/// What an estimate has of a block: maps of its views, which are addressed by their place in the
-/// grid, and whose row 0 is the first of the block.
+/// Maps of one block of an estimate. Views are addressed by their place in the grid; row 0 is the
+/// first row of the block.
 struct BlockMaps {
   DisparityField field;
   ViewStack<float> confidence;
@@ -72,7 +72,7 @@ struct BlockMaps {
   std::vector<ViewStack<float>> kept{};  ///< For later passes, no part of the result.
 };
 
-/// How far an estimate in blocks has come.
+/// Progress of an estimate in blocks.
 struct BlockProgress {
   int pass = 0;                      ///< That is being made, from 0.
   int done = 0;                      ///< Of its rows or views, in their order.

@@ -47,7 +47,7 @@ class HighResTruth {
 
 using HighResTruthPtr = std::shared_ptr<const HighResTruth>;
 
-/// The same with disparities larger by `by_px`; null stays null.
+/// A truth whose disparities are larger by `by_px`; null stays null.
 [[nodiscard]] HighResTruthPtr shifted(HighResTruthPtr truth, float by_px);
 
 /// The ground truth of a light field, kept apart from it so that no estimator can see it. Every
@@ -61,7 +61,7 @@ struct GroundTruth {
   /// whose parts are numbered (`is_numbered_region`) hold the numbers.
   std::map<std::string, Image<std::uint8_t>> regions;
   HighResTruthPtr high_res{};  ///< Of the centre view; null = there is none.
-  /// Which scene of the 2016 benchmark this is, as far as its files say so.
+  /// The scene of the 2016 benchmark, if its files name one.
   StratifiedScene stratified = StratifiedScene::None;
 
   [[nodiscard]] bool has_disparity() const { return !field.empty(); }

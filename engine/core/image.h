@@ -94,8 +94,8 @@ template <class T>
   return turned;
 }
 
-/// How often a channel counts in a squared difference of colours, so that what is measured by it
-/// means the same in gray as in colour: one channel counts as three equal ones.
+/// Weight of a channel in a squared difference of colours. One channel counts as three equal ones,
+/// so that thresholds mean the same in grey as in colour.
 [[nodiscard]] constexpr double channel_weight(int channels) {
   return channels == 1 ? 3 : 1;
 }

@@ -74,12 +74,12 @@ struct PixelRect {
   friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
-/// Grids up to this many views are looked at closely; what is reported of larger ones is found from
-/// a part of the pixels of each view, so that it does not take seconds (1.3 GB in 27×27 views).
+/// Most views of a grid whose reports use all pixels. Reports on larger grids use a part of the
+/// pixels of each view, since reading all takes seconds (1.3 GB in 27×27 views).
 inline constexpr int kLookedAtClosely = 81;
 
-/// Whether what is told of views of this grid comes from a part of the pixels. What changes samples
-/// for good and what marks pixels as invalid is measured closely all the same.
+/// Whether reports on views of this grid come from a part of the pixels. Measurements that change
+/// samples or mark pixels as invalid always use all of them.
 [[nodiscard]] inline bool has_many_views(GridShape grid) {
   return grid.count() > kLookedAtClosely;
 }

@@ -43,7 +43,7 @@ enum class Isa { Baseline, Avx2, Avx512 };
 
 namespace episcope {
 
-/// Where something is computed; Auto takes a GPU where there is one and what is computed can.
+/// Processor for a computation; Auto takes a GPU if there is one and the computation supports it.
 enum class Device { Auto, Cpu, Cuda };
 
 }  // namespace episcope

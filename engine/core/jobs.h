@@ -23,9 +23,9 @@ struct Outcome {
 
 using JobId = std::uint64_t;
 
-/// Runs jobs one after the other on a thread of its own. A job receives values and returns a value;
-/// all its messages go through `post`, which hands a closure to the owner's thread (window: a
-/// queued call; command line: inline; tests: a deque).
+/// Runs jobs one after the other on a thread of its own. A job receives values and returns a value.
+/// All its messages go through `post`, which hands a closure to the owner's thread: a queued call
+/// in the window, inline in the command line, a deque in tests.
 ///
 /// All members must be called on the owner's thread. The destructor requests a stop of every job
 /// and waits for the running one, which ends within 200 ms if it checks its progress as required;

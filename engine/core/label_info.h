@@ -9,7 +9,7 @@ namespace episcope {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// What a user calls a label and how it is drawn.
+/// Name and colour of a label.
 struct LabelInfo {
   int id = 0;        ///< From 1; 0 is "none".
   std::string name;  ///< UTF-8, one line.

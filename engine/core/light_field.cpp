@@ -20,14 +20,8 @@ namespace episcope {
 namespace {
 
 template <class T>
-constexpr float unit_scale() {
-  if constexpr (std::is_integral_v<T>) return 1.0F / std::numeric_limits<T>::max();
-  return 1.0F;
-}
-
-template <class T>
 void convert(const T* in, std::size_t count, float* out) {
-  constexpr float scale = unit_scale<T>();
+  constexpr float scale = kSampleStep<T>;
   for (std::size_t i = 0; i < count; ++i) out[i] = scale * static_cast<float>(in[i]);
 }
 

@@ -12,22 +12,24 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 namespace episcope {
 
-/// One thing that is made of an object when it is asked for first, and kept for as long as the
-/// object is. Thread-safe. Not copyable.
-class KeptBeside {
+/// One value that is computed on first use and kept for the lifetime of its owner. Thread-safe. Not
+/// copyable.
+class LazyCache {
  public:
-  /// What is kept, else what `make()` returns, a pair of the thing and the bytes it takes; others
-  /// wait meanwhile. What it throws is thrown, and nothing kept. All callers ask for the same T.
+  /// Returns the kept value; on first use calls `make()`, which returns the value and its bytes,
+  /// while other callers wait. Nothing is kept if it throws. All callers ask for the same T.
   template <class T, class Make>
   [[nodiscard]] std::shared_ptr<const T> get(const Make& make) {
     const std::lock_guard lock(lock_);
@@ -39,7 +41,7 @@ class KeptBeside {
     return std::any_cast<const std::shared_ptr<const T>&>(thing_);
   }
 
-  /// Of what is kept.
+  /// Bytes of the kept value.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
@@ -50,14 +52,19 @@ class KeptBeside {
 
 enum class SampleType { UInt8, UInt16, Float32 };
 
-/// Where a camera stands on the plane of cameras, in `LightFieldInfo::position_unit`.
+/// One step of a stored sample type in [0, 1]: 1/255, 1/65535; 1 for float.
+template <class T>
+inline constexpr float kSampleStep =
+    std::is_integral_v<T> ? 1.0F / static_cast<float>(std::numeric_limits<T>::max()) : 1.0F;
+
+/// Position of a camera on the plane of cameras, in `LightFieldInfo::position_unit`.
 struct CameraPosition {
   double x = 0;
   double y = 0;
   friend bool operator==(const CameraPosition&, const CameraPosition&) = default;
 };
 
-/// What is known about a light field besides its samples.
+/// Facts about a light field besides its samples.
 struct LightFieldInfo {
   std::string name;    ///< Short name for lists and titles, e.g. "still_life".
   std::string source;  ///< Path it was read from, or "demo:<scene>"; what a command line can open.
@@ -88,7 +95,7 @@ class LightField {
   /// channels or does not begin at view (0, 0), or if `valid` does not fit.
   LightField(Samples samples, LightFieldInfo info, ViewStack<std::uint8_t> valid = {});
 
-  /// The same light field with other facts: takes the samples of `other`.
+  /// Takes the samples of `other` and gives them other facts.
   LightField(LightField&& other, LightFieldInfo info);
 
   [[nodiscard]] const LightFieldInfo& info() const { return info_; }
@@ -122,24 +129,24 @@ class LightField {
 
   [[nodiscard]] const Samples& samples() const { return samples_; }
 
-  /// Another for every light field that this program makes, kept when one is moved: for copies of
-  /// the samples elsewhere, on a device, to tell whether they are still the same.
+  /// Number of this light field, unique in the program and kept when it is moved. Copies of the
+  /// samples on a device use it to tell whether they are still valid.
   [[nodiscard]] std::uint64_t identity() const { return identity_; }
-  /// What methods make of the samples and see in their place (even_brightness).
-  [[nodiscard]] KeptBeside& beside() const { return *beside_; }
+  /// Cache of the samples as methods see them (even_brightness).
+  [[nodiscard]] LazyCache& beside() const { return *beside_; }
   /// Whether samples are in a file that the system reads when they are looked at.
   [[nodiscard]] bool is_on_disk() const;
-  /// Of such samples, has the system begin to read rows [first_row, end_row) of a view, without
-  /// waiting: whoever will look at several places says so of all before looking at the first.
+  /// Starts reading rows [first_row, end_row) of a view from disk, without waiting. Call it for all
+  /// places of interest before looking at the first.
   void fetch_samples(ViewIndex index, int first_row, int end_row) const;
-  /// The same of all views.
+  /// Starts reading these rows of all views.
   void fetch_samples(int first_row, int end_row) const {
     for (int i = 0; is_on_disk() && i < grid_.count(); ++i) {
       fetch_samples(grid_.view_at(i), first_row, end_row);
     }
   }
-  /// Of such samples, drops what the process holds in memory; changes nothing else. A long
-  /// computation that looks at all of them may say so now and then to keep its memory bounded.
+  /// Drops samples that lie on disk from memory; they are read again on access. Long computations
+  /// call it now and then to bound their memory.
   void forget_samples() const;
 
   /// `[v][u][y][x]`, 0 = invalid; empty if all pixels are valid.
@@ -161,7 +168,7 @@ class LightField {
   int width_ = 0;
   int channels_ = 1;
   std::uint64_t identity_ = 0;
-  std::unique_ptr<KeptBeside> beside_ = std::make_unique<KeptBeside>();
+  std::unique_ptr<LazyCache> beside_ = std::make_unique<LazyCache>();
 };
 
 /// The grid that views cover.

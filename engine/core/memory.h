@@ -69,7 +69,7 @@ template <class T>
 // disk. The whole process has one budget. It is set when a program starts, and changes no result.
 
 /// Bytes that could be taken now without driving out other programs: what the system calls
-/// available, or what the control group of the process leaves if that is less.
+/// available, or what the control group of the process leaves, whichever is less.
 [[nodiscard]] std::size_t free_memory();
 
 /// Bytes of memory that this process has in use, with what it shares with others.
@@ -115,8 +115,8 @@ class MemorySetAside {
 /// `bytes` of a file from `offset` on. Writing there changes the memory, never the file, and takes
 /// ordinary memory. Throws IoError if the file is shorter or cannot be mapped.
 ///
-/// A file that is truncated while it is mapped has no samples there any more: they read as 0, and
-/// `has_lost_pages` says so from then on.
+/// If a file is truncated while it is mapped, the lost bytes read as 0 and `has_lost_pages` is true
+/// from then on.
 [[nodiscard]] void* map_file(const std::filesystem::path& path, std::uintmax_t offset,
                              std::size_t bytes);
 

@@ -41,11 +41,11 @@ using ParameterValue = std::variant<bool, int, double, std::string, IntervalOrAu
 /// Values by key, in the order of the schema.
 using ParameterSet = std::vector<std::pair<std::string, ParameterValue>>;
 
-/// What one choice of a parameter means for others, as "paper" of a profile does.
+/// Defaults that one choice of a parameter gives to others, such as "paper" of a profile.
 struct Preset {
   std::string choice;
   ParameterSet values;  ///< Defaults of other parameters under this choice.
-  /// What a search tries for them, by key; those of `values` that have none are not searched.
+  /// Values that a search tries for them, by key; others are not searched.
   std::vector<std::pair<std::string, std::vector<ParameterValue>>> searched = {};
 };
 
@@ -66,8 +66,8 @@ struct ParameterDescription {
   std::vector<Preset> presets = {};             ///< Of choices: what they mean for others.
 };
 
-/// The same parameters with the defaults and searched values of others that hold once `values`
-/// choose presets. Values of parameters without presets, and unknown keys, change nothing.
+/// The parameters with the defaults and searched values that hold once `values` choose presets.
+/// Values of parameters without presets, and unknown keys, change nothing.
 [[nodiscard]] std::vector<ParameterDescription> described_under(
     std::vector<ParameterDescription> descriptions, const ParameterSet& values);
 

@@ -150,7 +150,7 @@ class Joiner {
 }  // namespace
 
 void join_to_surface(PointCloud& cloud, const DisparityView& view, int step, double jump_px) {
-  if (!(jump_px > 0)) throw InvalidInput("a surface needs a jump of more than 0 px to be cut at");
+  if (!(jump_px > 0)) throw InvalidInput("a surface needs a positive jump to be cut at, in px");
   const Image<std::int32_t> points = points_by_place(cloud, view, step);
   const auto corner = [&](int row, int column) -> Corner {
     const std::int32_t point = points.at(row, column);

@@ -11,12 +11,12 @@
 
 namespace episcope {
 
-/// Puts the pixels of a view with their disparity into space: x to the right, y up, z towards the
-/// viewer (image axes with y and z turned).
+/// Maps pixels with a disparity to points: x to the right, y up, z towards the viewer (image axes
+/// with y and z turned).
 ///
-/// With a known camera, places are in units of the scene: Z by eq. (1) [WMG13], X and Y by the
-/// pinhole model, around CameraGrid::pinhole or else the image centre with a focal length of f·xRes
-/// px (f is relative to the image width where it is small). Without one, x and y are pixels and z
+/// With a known camera, points are in units of the scene: Z by eq. (1) [WMG13], X and Y by the
+/// pinhole model. It uses CameraGrid::pinhole, or else the image centre with a focal length of
+/// f·xRes px (a small f is relative to the image width). Without a camera, x and y are pixels and z
 /// is a multiple of the disparity.
 class BackProjection {
  public:
@@ -54,18 +54,18 @@ struct PointCloud {
   bool is_metric = false;  ///< Positions are in scene units, not in stretched disparity.
 };
 
-/// A cloud with fewer points of it, to be drawn while it moves.
+/// A cloud and a subset of its points, which is drawn while it moves.
 struct CloudPart {
   PointCloud all;
   PointCloud few;  ///< Without positions: `all` is drawn then as well.
 };
 
-/// A box {x0, x1, y0, y1, z0, z1} around the bulk of a cloud: half a percent of the points may lie
-/// beyond each of its sides, so that a few wild depths do not shrink the rest to a dot. All 0 for
-/// an empty cloud. Linear.
+/// A box {x0, x1, y0, y1, z0, z1} around the bulk of a cloud, all 0 for an empty one. Half a
+/// percent of the points may lie beyond each side, so that a few wild depths do not shrink the rest
+/// to a dot. Linear.
 [[nodiscard]] std::array<double, 6> robust_bounds(const PointCloud& cloud);
 
-/// How many points of a view make a cloud, and how deep they lie where that is a matter of taste.
+/// Density of the points of a cloud, and their depth where the camera is not known.
 struct CloudSampling {
   int step = 1;  ///< Every `step`-th pixel of both directions is taken.
   /// z of one px of disparity where the camera is not known; none = a 20th of the larger image
@@ -79,14 +79,14 @@ struct CloudSampling {
                                           ImageView<const std::uint8_t> rgba,
                                           const CloudSampling& sampling = {});
 
-/// Joins the points of a cloud to a surface of triangles, cut at jumps. `cloud` is that of `view`,
-/// every `step`-th pixel.
+/// Joins the points of a cloud to a surface of triangles, cut at jumps. `cloud` holds every
+/// `step`-th pixel of `view`.
 ///
-/// The rule: four neighbouring points (`step` pixels apart along x and y) make two triangles,
-/// divided along the diagonal whose ends differ less in disparity, or three of them one where the
-/// fourth is missing. A triangle is left out if two of its corners differ in disparity by more than
-/// `jump_px` · `step`: there one surface ends in front of another. `jump_px` is thus in px of
-/// disparity per pixel of the image. Linear. Throws InvalidInput unless jump_px > 0.
+/// Four neighbouring points (`step` pixels apart along x and y) make two triangles, divided along
+/// the diagonal whose ends differ less in disparity. Three points make one triangle if the fourth
+/// is missing. A triangle is left out if two of its corners differ in disparity by more than
+/// `jump_px` · `step`: there one surface ends in front of another. `jump_px` is in px of disparity
+/// per pixel of the image. Linear. Throws InvalidInput unless jump_px > 0.
 void join_to_surface(PointCloud& cloud, const DisparityView& view, int step, double jump_px);
 
 }  // namespace episcope

@@ -9,7 +9,7 @@
 
 namespace episcope {
 
-/// What a running computation reports about itself.
+/// Report of a running computation.
 struct ProgressState {
   double fraction = 0;  ///< Of the whole job, in [0, 1], never falling.
   std::string step;     ///< The stage, e.g. "vertical EPIs".

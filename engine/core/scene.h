@@ -13,7 +13,7 @@
 
 namespace episcope {
 
-/// What became of the files of a folder that share a kind.
+/// Use of the files of one kind in a folder.
 struct FileUse {
   std::string kind;  ///< "views", "labels"; of files not used: "*.txt", "depth_#.npy".
   int count = 0;
@@ -62,20 +62,20 @@ struct ConventionReport {
 /// "uint8 as stored, taken as gamma-encoded; estimators see value/255", …
 [[nodiscard]] std::string stored_samples_text(const LightField::Samples& samples);
 
-/// What is painted on one view: 0 = unpainted, else a label id.
+/// Scribbles on one view: 0 = unpainted, else a label id.
 struct ViewScribbles {
   ViewIndex view;
   Image<std::int32_t> labels;
 };
 
-/// What is painted on a light field.
+/// Scribbles on a light field.
 struct Scribbles {
   std::vector<ViewScribbles> views;  ///< Painted ones, in the order of the grid.
-  std::vector<LabelInfo> labels;     ///< As far as names and colours are known, by id.
+  std::vector<LabelInfo> labels;     ///< Known names and colours, by id.
   [[nodiscard]] bool empty() const { return views.empty(); }
 };
 
-/// What large files beside a light field of the archive hold.
+/// Contents of large files beside a light field of the archive.
 enum class CompanionKind {
   EdgeProbabilities,
   ImageProbabilities,     ///< Of labels, from features of the image,

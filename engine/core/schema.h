@@ -126,8 +126,8 @@ class Schema {
   }
 
   /// All parameters of a member that is a parameter struct of its own, as `schema` describes them.
-  /// Defaults are those of the member in a value-initialised `P`; presets stay, but what a search
-  /// tries is dropped.
+  /// Defaults come from the member in a value-initialised `P`. Presets stay; searched values are
+  /// dropped.
   template <class Part>
   Schema& part(Part P::*member, const Schema<Part>& schema) {
     for (std::size_t i = 0; i < schema.descriptions_.size(); ++i) {
@@ -168,7 +168,7 @@ class Schema {
     }
     return *this;
   }
-  /// What a search tries for a number that the preset sets; without, it is not searched there.
+  /// Values that a search tries for a number that the preset sets; without them it is not searched.
   Schema& preset_search(const char* key, const char* choice, const char* searched,
                         std::initializer_list<double> values) {
     std::vector<ParameterValue> typed;

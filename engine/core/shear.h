@@ -24,7 +24,8 @@ namespace episcope {
 
 /// Disparity minus `focus_px`, moved along with its views. Interpolated linearly within a surface;
 /// of the nearest pixel where the four around differ by more than 0.1 px or one is invalid. Invalid
-/// where the light field repeats its border. `center` is that of the light field. Throws Cancelled.
+/// where the light field repeats its border. `center` is the centre of the light field. Throws
+/// Cancelled.
 [[nodiscard]] DisparityField sheared(const DisparityField& field, ViewIndex center, double focus_px,
                                      const Progress& progress);
 
@@ -40,8 +41,7 @@ namespace episcope {
 [[nodiscard]] Scribbles sheared(const Scribbles& scribbles, ViewIndex center, double focus_px);
 
 /// The inverse for scribbles: transfers what was painted on sheared views to the original views.
-/// Where these extend beyond the sheared ones, the scribbles `before` are kept, unless their label
-/// is gone.
+/// Outside the sheared views the scribbles `before` are kept, unless their label is gone.
 [[nodiscard]] Scribbles unsheared(const Scribbles& scribbles, const Scribbles& before,
                                   ViewIndex center, double focus_px);
 
@@ -54,7 +54,7 @@ struct ShearedInto {
 [[nodiscard]] Estimate sheared(const Estimate& estimate, const ShearedInto& into, double focus_px,
                                const Progress& progress);
 
-/// The same pixels of every view as a light field of its own, samples in their stored type.
+/// A light field of the pixels `part` of every view, samples in their stored type.
 /// Precondition: `part` is not empty and lies within the views. Throws Cancelled.
 [[nodiscard]] LightField cropped(const LightField& light_field, const PixelRect& part,
                                  const Progress& progress);

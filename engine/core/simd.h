@@ -51,7 +51,7 @@ typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligne
   return mask ? yes : no;
 }
 
-/// Lanes of two vectors by their numbers; those of `b` follow those of `a`.
+/// Lanes of two vectors by their numbers; the lanes of `b` follow the lanes of `a`.
 [[maybe_unused]] inline Vec shuffled(Vec a, Vec b, IntVec lanes) {
 #ifdef __clang__
   Vec taken;

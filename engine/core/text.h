@@ -41,7 +41,7 @@ template <class Items, class TextOf = std::identity>
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
-/// A byte that goes on with a character of UTF-8, as all but the first of it do.
+/// Whether a byte continues a character of UTF-8, i.e. is not its first.
 [[nodiscard]] inline bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
@@ -50,6 +50,17 @@ template <class Items, class TextOf = std::identity>
 [[nodiscard]] inline std::size_t end_of_digits(std::string_view text, std::size_t at) {
   while (at < text.size() && is_digit(text[at])) ++at;
   return at;
+}
+
+/// `wanted`, followed by `separator` and the first free number from 2 on where that name is taken.
+template <class IsTaken>
+[[nodiscard]] std::string unique_name(const std::string& wanted, const char* separator,
+                                      const IsTaken& is_taken) {
+  std::string name = wanted;
+  for (int number = 2; is_taken(name); ++number) {
+    name = wanted + separator + std::to_string(number);
+  }
+  return name;
 }
 
 /// ASCII letters in lower case.

@@ -15,7 +15,7 @@ struct TextTable {
 
 /// Aligned columns: the first to the left, the others to the right.
 [[nodiscard]] std::string table_to_text(const TextTable& table);
-/// The same, transposed where that makes shorter lines, as for a few rows of many columns.
+/// Aligned columns, transposed if that makes shorter lines (few rows of many columns).
 [[nodiscard]] std::string table_to_narrow_text(const TextTable& table);
 /// RFC 4180, "." as the decimal point.
 [[nodiscard]] std::string table_to_csv(const TextTable& table);

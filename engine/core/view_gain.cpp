@@ -29,16 +29,11 @@ constexpr int kReach = 6;                        // px of disparity
 constexpr float kClipped = 0.98F;
 constexpr float kDark = 0.03F;
 constexpr std::size_t kMinBlocks = 8;
-constexpr int kSweeps = 200;
+constexpr int kGainSweeps = 200;
 // Channels and their sum.
 constexpr int kMaxQuantities = 4;
 
 using Quantities = std::array<float, kMaxQuantities>;
-
-template <class T>
-constexpr float kUnit = std::is_integral_v<T>
-                            ? 1.0F / static_cast<float>(std::numeric_limits<T>::max())
-                            : 1.0F;
 
 // Two neighbouring views: what a block of the one shows stands some px along `way` in the other.
 struct Pair {
@@ -104,7 +99,7 @@ class BlockRatios {
     if (!view.valid.empty() && view.valid.at(at.y, at.x) == 0) return {};
     Quantities values{};
     for (int c = 0; c < image.channels; ++c) {
-      values[c] = kUnit<T> * static_cast<float>(image.at(at.y, at.x, c));
+      values[c] = kSampleStep<T> * static_cast<float>(image.at(at.y, at.x, c));
       if (!(values[c] < kClipped)) return {};
       values[image.channels] += values[c];
     }
@@ -272,7 +267,7 @@ void settle(int center, const std::vector<Ratio>& ratios, std::vector<double>& l
     of_view[ratio.to].push_back(ratio);
     of_view[ratio.from].push_back({ratio.to, ratio.from, -ratio.log_ratio, ratio.weight});
   }
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kGainSweeps; ++sweep) {
     for (int i = 0; i < static_cast<int>(logs.size()); ++i) {
       if (i == center || std::isnan(logs[i])) continue;
       double sum = 0, weight = 0;

@@ -12,31 +12,32 @@ namespace episcope {
 /// Gains of views that differ by more than this from 1 are warned of, and evened out for methods.
 inline constexpr double kNotableGain = 0.02;
 
-/// How bright each view is, as a multiple of the centre view: of each channel, and of their sum.
+/// Brightness of each view as a multiple of the centre view, by channel and of their sum.
 struct ViewGains {
   GridShape grid;
   int channels = 1;
   std::vector<double> channel{};  ///< [v][u][c]; NaN where it could not be measured.
   std::vector<double> overall{};  ///< [v][u]; likewise.
 
-  /// The view whose brightness differs most from that of the centre view, which itself is given if
-  /// nothing was measured.
+  /// The view whose brightness differs most from the centre view; the centre view if nothing was
+  /// measured.
   [[nodiscard]] ViewIndex most_different() const;
   [[nodiscard]] double of(ViewIndex view) const {
     return overall[static_cast<std::size_t>(view.v) * grid.u + view.u];
   }
 };
 
-/// Which blocks of two views are compared: all, or one of four, which takes a quarter of the time
-/// and is enough for a report on many views; all of them where too few of those can be compared.
+/// Blocks of two views that are compared. One of four takes a quarter of the time and is enough for
+/// a report on many views; all are compared if too few of them can be.
 enum class GainBlocks { All, OneOfFour };
 
-/// Measures the gains of views against each other: the median, over blocks of a tenth of the image,
-/// of the ratio of the brightness of a block in two neighbouring views, and the gains that fit all
-/// these ratios best (least squares of their logarithms). A block is compared where the other view
-/// shows it, within 6 px: where the ratio varies least from pixel to pixel, which does not depend
-/// on the gain. Invalid, dark or clipped pixels do not count.
-/// A gain is all that is measured: an offset would be confused with what parallax changes.
+/// Measures the gains of views against each other.
+///
+/// The brightness of blocks of a tenth of the image is compared in every two neighbouring views.
+/// The median of the ratios of a pair is its gain; the gains of the views fit those of all pairs
+/// best (least squares of logarithms). A block is compared at the shift of up to 6 px at which the
+/// ratio varies least from pixel to pixel, which does not depend on the gain. Invalid, dark and
+/// clipped pixels do not count. Offsets are not measured: parallax would be mistaken for them.
 /// `valid`: as LightField::valid. 36 pixels of each block are looked at. Throws Cancelled.
 [[nodiscard]] ViewGains measure_view_gains(const LightField::Samples& samples,
                                            const ViewStack<std::uint8_t>& valid,

@@ -14,9 +14,9 @@ constexpr double kOutlier = 0.5;   // steps
 constexpr double kMostOutliers = 0.1;
 constexpr double kMostSkew = 1.0 / 3;
 constexpr double kMostRatio = 2;
-constexpr int kSweeps = 50;
+constexpr int kPlaneSweeps = 50;
 
-double median(std::vector<float> values) {
+double median_of_finite(std::vector<float> values) {
   std::erase_if(values, [](float value) { return !std::isfinite(value); });
   return values.empty() ? 0 : quantile(values, 0.5);
 }
@@ -25,19 +25,19 @@ double median(std::vector<float> values) {
 class Coordinate {
  public:
   Coordinate(GridShape grid, std::vector<double> values) : grid_(grid), values_(std::move(values)) {
-    along_u = median(differences({0, 1}));
-    along_v = median(differences({1, 0}));
+    along_u = median_of_finite(differences({0, 1}));
+    along_v = median_of_finite(differences({1, 0}));
     std::vector<float> bases;
     bases.reserve(grid_.count());
     for (int i = 0; i < grid_.count(); ++i) {
       bases.push_back(static_cast<float>(values_[i] - slope(grid_.view_at(i))));
     }
-    base_ = median(bases);
+    base_ = median_of_finite(bases);
   }
 
   // Least squares over the views that are believed, by Gauss and Seidel.
   void refine(const std::vector<bool>& is_believed) {
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int sweep = 0; sweep < kPlaneSweeps; ++sweep) {
       base_ += mean_residual(is_believed, [](ViewIndex) { return 1; });
       along_u += mean_residual(is_believed, [this](ViewIndex v) { return v.u - grid_.center().u; });
       along_v += mean_residual(is_believed, [this](ViewIndex v) { return v.v - grid_.center().v; });

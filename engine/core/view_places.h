@@ -8,13 +8,13 @@
 
 namespace episcope {
 
-/// Where a view stands on the plane of cameras, in mean steps of the grid, along v and u.
+/// Position of a view on the plane of cameras, in mean steps of the grid, along v and u.
 struct ViewPlace {
   double v = 0;
   double u = 0;
 };
 
-/// What stated positions of cameras say about a grid.
+/// Relation of the stated positions of cameras to a grid.
 enum class PlacesKind {
   Unknown,      ///< There are none.
   Regular,      ///< Equidistant to within 0.02 steps.
@@ -27,16 +27,15 @@ struct ViewPlaces {
   PlacesKind kind = PlacesKind::Unknown;
   std::vector<ViewPlace> places;  ///< View by view in canonical order; empty unless irregular.
   double largest_deviation = 0;   ///< From the regular grid about the centre view, in steps.
-  int outliers = 0;               ///< Positions not believed: there the grid's own stands.
+  int outliers = 0;               ///< Positions not believed and replaced by the place in the grid.
 };
 
 /// Turns stated positions into places. The step is the mean distance of neighbours along u (least
-/// squares), or along v of a single column; both directions share it, as disparity is px per step,
-/// so that rows twice as far apart as columns lie two steps apart. Which way positions run is
-/// irrelevant, nor does their unit matter. A position farther than half a step from the plane
-/// through all of them is an outlier. Implausible are fewer than nine tenths that fit, steps that
-/// are zero or not finite, a grid that is skewed by more than a third, and steps whose ratio is
-/// beyond 2.
+/// squares), or along v of a single column. Both directions share it, as disparity is px per step:
+/// rows twice as far apart as columns lie two steps apart. The direction and the unit of positions
+/// do not matter. A position farther than half a step from the plane through all of them is an
+/// outlier. Positions are implausible if fewer than nine tenths fit, if steps are zero or not
+/// finite, if the grid is skewed by more than a third, or if the ratio of the steps is beyond 2.
 [[nodiscard]] ViewPlaces view_places(const LightFieldInfo& info, GridShape grid);
 
 }  // namespace episcope

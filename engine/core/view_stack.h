@@ -16,8 +16,8 @@ namespace episcope {
 /// `first` is the centre. Views are always addressed by their place in the whole grid. Move-only,
 /// because a stack of all views takes hundreds of megabytes; `clone` copies on purpose.
 ///
-/// Samples of a file (LargeKind::File) are never moved: their views are put in another order by
-/// other strides, so that they may lie in memory in any order (`is_in_order`).
+/// Samples of a file (LargeKind::File) are never moved. Other strides put their views in another
+/// order, so they may lie in memory in any order (`is_in_order`).
 template <class T>
 class ViewStack {
  public:
@@ -25,7 +25,7 @@ class ViewStack {
   /// Elements are uninitialised: the caller must write every one.
   ViewStack(GridShape grid, int height, int width, int channels = 1, ViewIndex first = {})
       : ViewStack(grid, height, width, channels, first, allocate_large) {}
-  /// In other memory than that of `make_large`: allocate_large_zeros, or part of a file.
+  /// In memory from `allocate`, such as allocate_large_zeros or a part of a file.
   template <class Allocate>
   ViewStack(GridShape grid, int height, int width, int channels, ViewIndex first,
             const Allocate& allocate)
@@ -65,7 +65,7 @@ class ViewStack {
   [[nodiscard]] bool contains(ViewIndex view) const {
     return grid_.contains({view.v - first_.v, view.u - first_.u});
   }
-  /// Where the samples begin in memory: with those of the first view if they are in order.
+  /// Start of the samples in memory: the first view, if views are in order.
   [[nodiscard]] T* data() { return samples_.get(); }
   [[nodiscard]] const T* data() const { return samples_.get(); }
 
@@ -74,7 +74,7 @@ class ViewStack {
   [[nodiscard]] bool is_on_disk() const {
     return kind() == LargeKind::Scratch || kind() == LargeKind::File;
   }
-  /// Whether `size()` samples from `data()` on are those of the views in their order.
+  /// Whether `size()` samples from `data()` on hold the views in their order.
   [[nodiscard]] bool is_in_order() const { return origin_ == 0 && strides_ == dense_strides(); }
 
   /// View number `index`, in the order of the samples.
@@ -146,7 +146,7 @@ class ViewStack {
   LargeArray<T> samples_;
 };
 
-/// Of a view on disk, drops what the process holds in memory; changes nothing else.
+/// Drops the samples of a view on disk from memory; they are read again on access.
 template <class T>
 void forget_view(const ViewStack<T>& stack, ViewIndex view) noexcept {
   if (stack.is_on_disk()) forget_pages(stack.view(view).data, sizeof(T) * stack.view_size());

@@ -10,9 +10,9 @@
 namespace episcope {
 
 /// A borrowed volume: one value for each pixel and layer (a label, a disparity), `[y][layer][x]`,
-/// contiguous. All layers of an image row are stored together, because operations on a pixel
-/// involve all its layers: a row of 768 pixels with 64 layers is 192 KiB, and neighbouring layers
-/// are one image row apart, not one image. Valid as long as the memory it was borrowed from.
+/// contiguous. All layers of an image row lie together, because operations on a pixel involve all
+/// its layers: 64 layers of a row of 768 pixels take 192 KiB. Neighbouring layers are one image row
+/// apart, not one image. Valid as long as the memory it was borrowed from.
 template <class T>
 struct VolumeView {
   T* data = nullptr;

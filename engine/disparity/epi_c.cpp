@@ -668,7 +668,7 @@ Estimator epi_c_estimator() {
        .reference = "Goldluecke and Wanner 2013 [GW13]",
        .all_views = true,
        .iterative = true,
-       .revision = 5,
+       .revision = 6,
        .devices = {Device::Cpu, Device::Cuda}},
       epi_c_schema(), estimate_epi_c, epi_c_in_blocks);
 }

@@ -174,7 +174,7 @@ Estimator epi_g_estimator() {
        .summary = "Globally optimal labeling from the orientations on epipolar plane images",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .iterative = true,
-       .revision = 6,
+       .revision = 7,
        .devices = {Device::Cpu, Device::Cuda}},
       epi_g_schema(),
       [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,

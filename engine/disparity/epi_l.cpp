@@ -483,7 +483,7 @@ Estimator epi_l_estimator() {
        .summary = "Local orientation of lines on epipolar plane images (structure tensor)",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .all_views = true,
-       .revision = 3,
+       .revision = 4,
        .devices = {Device::Cpu, Device::Cuda}},
       epi_l_schema(), estimate_epi_l, epi_l_in_blocks);
 }

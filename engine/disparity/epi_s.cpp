@@ -147,7 +147,7 @@ Estimator epi_s_estimator() {
        .reference = "Wanner and Goldluecke 2013 [WG13]",
        .all_views = true,
        .iterative = true,
-       .revision = 5,
+       .revision = 6,
        .devices = {Device::Cpu, Device::Cuda}},
       epi_s_schema(), estimate_epi_s, epi_s_in_blocks);
 }

@@ -580,7 +580,7 @@ Estimator epi_two_layer_estimator() {
        .reference = "Wanner and Goldluecke 2013 [Ano13]",
        .all_views = true,
        .iterative = true,
-       .revision = 6,
+       .revision = 7,
        .devices = {Device::Cpu, Device::Cuda}},
       epi_two_layer_schema(), estimate_epi_two_layer, two_layers_in_blocks);
 }

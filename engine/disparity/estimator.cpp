@@ -2,14 +2,18 @@
 #include "engine/disparity/estimator.h"
 
 #include "engine/core/error.h"
+#include "engine/core/progress.h"
 #include "engine/core/version.h"
 #include "engine/core/view_places.h"
 #include "engine/cuda/device.h"
 #include "engine/disparity/disparity_range.h"
+#include "engine/disparity/even_brightness.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 
 namespace episcope {
 
@@ -126,21 +130,6 @@ Device chosen_device(Device device, const EstimatorInfo& info) {
   return can_use ? Device::Cuda : Device::Cpu;
 }
 
-Estimate estimate_on_device(Device device, const EstimatorInfo& info,
-                            const std::function<Estimate(Device)>& estimate) {
-  if (chosen_device(device, info) == Device::Cpu) return estimate(Device::Cpu);
-  try {
-    Estimate result = estimate(Device::Cuda);
-    result.notes.push_back(fmt::format("computed on {}", known_cuda_device().name));
-    return result;
-  } catch (const DeviceFailure& failure) {
-    if (device == Device::Cuda) throw;
-    Estimate result = estimate(Device::Cpu);
-    result.notes.push_back(fmt::format("computed on the CPU: {}", failure.what()));
-    return result;
-  }
-}
-
 namespace {
 
 // For a parameter `range` that asked to find it, and for a range found that may be too narrow.
@@ -167,10 +156,10 @@ void note_positions(const LightField& light_field, Provenance& estimate) {
       stated.largest_deviation));
 }
 
-}  // namespace
-
-void complete_estimate(Provenance& estimate, const std::string& method,
-                       const LightField& light_field, double seconds) {
+// Method, seconds, version and source; and what parameters leave open: a range that was to be
+// found, cameras taken for equidistant.
+void complete_provenance(Provenance& estimate, const std::string& method,
+                         const LightField& light_field, double seconds) {
   estimate.method = method;
   estimate.seconds = seconds;
   estimate.version = kVersion;
@@ -178,6 +167,96 @@ void complete_estimate(Provenance& estimate, const std::string& method,
   estimate.reading = light_field.info().reading;
   note_range(light_field, estimate);
   note_positions(light_field, estimate);
+}
+
+// Notes where it computed, unless there was no choice.
+Estimate estimate_on_device(Device device, const EstimatorInfo& info,
+                            const std::function<Estimate(Device)>& estimate) {
+  if (chosen_device(device, info) == Device::Cpu) return estimate(Device::Cpu);
+  try {
+    Estimate result = estimate(Device::Cuda);
+    result.notes.push_back(fmt::format("computed on {}", known_cuda_device().name));
+    return result;
+  } catch (const DeviceFailure& failure) {
+    if (device == Device::Cuda) throw;
+    Estimate result = estimate(Device::Cpu);
+    result.notes.push_back(fmt::format("computed on the CPU: {}", failure.what()));
+    return result;
+  }
+}
+
+// The light field that a method sees: one of even brightness, or the given one if there is none.
+class SeenViews {
+ public:
+  SeenViews(const EstimatorInfo& info, const LightField& given, const Progress& progress)
+      : given_(given) {
+    if (info.sees_even_views) even_ = even_brightness(given, progress);
+  }
+
+  [[nodiscard]] bool are_evened() const { return even_ && *even_; }
+  [[nodiscard]] const LightField& light_field() const {
+    return are_evened() ? (*even_)->light_field : given_;
+  }
+  void add_note(std::vector<std::string>& notes) const {
+    if (are_evened()) notes.push_back((*even_)->note);
+  }
+
+ private:
+  const LightField& given_;
+  std::shared_ptr<const std::optional<EvenLightField>> even_;
+};
+
+// A pass refers to the light field that it sees, which lives as long as the pass, and of which it
+// holds nothing between blocks.
+BlockPass forgetting(const SeenViews& seen, BlockPass pass) {
+  if (pass.prepare) {
+    pass.prepare = [seen, prepare = std::move(pass.prepare)](const ReadBlock& read,
+                                                             const std::vector<double>& facts,
+                                                             const Progress& progress) {
+      std::vector<double> found = prepare(read, facts, progress);
+      seen.light_field().forget_samples();
+      return found;
+    };
+  }
+  pass.compute = [seen, compute = std::move(pass.compute)](
+                     const MapBlock& block, const ReadBlock& read, const std::vector<double>& facts,
+                     const Progress& progress) {
+    FinishedBlock made = compute(block, read, facts, progress);
+    seen.light_field().forget_samples();
+    return made;
+  };
+  return pass;
+}
+
+}  // namespace
+
+Estimate Estimator::run(const LightField& given, const ParameterSet& values,
+                        const RunOptions& options, const Progress& progress) const {
+  require_device(options.device, info);
+  const Progress limited = progress.limited_to(options.threads);
+  const SeenViews seen(info, given, limited);
+  const LightField& light_field = seen.light_field();
+  const Stopwatch watch;
+  Estimate result = estimate_on_device(options.device, info, [&](Device device) {
+    return estimate(light_field, values, options.views, limited, device);
+  });
+  mark_invalid(light_field, result);
+  complete_provenance(result, info.id, light_field, watch.seconds());
+  seen.add_note(result.notes);
+  return result;
+}
+
+BlockwiseRun Estimator::in_blocks(const LightField& given, const ParameterSet& values,
+                                  const RunOptions& options, const Progress& progress) const {
+  require_device(options.device, info);
+  const Progress limited = progress.limited_to(options.threads);
+  const SeenViews seen(info, given, limited);
+  BlockwiseRun run = blocks(seen.light_field(), values, options.views, limited);
+  complete_provenance(run.provenance, info.id, seen.light_field(), 0);
+  seen.add_note(run.provenance.notes);
+  if (!seen.are_evened()) return run;
+  for (BlockPass& pass : run.passes) pass = forgetting(seen, std::move(pass));
+  return run;
 }
 
 }  // namespace episcope

@@ -11,6 +11,7 @@
 #include <functional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -126,6 +127,8 @@ struct EstimatorInfo {
   bool iterative = false;  ///< Ends early with what it has (Progress::finish_requested).
   int revision = 1;  ///< Grows whenever results change: kept benchmark results are then renewed.
   std::vector<Device> devices = {Device::Cpu};  ///< Where it can compute.
+  /// Views are brought to one brightness before it runs (even_brightness); else it does so itself.
+  bool sees_even_views = true;
 };
 
 /// Throws Unavailable if the method cannot compute there; with Device::Auto it always can.
@@ -135,93 +138,73 @@ void require_device(Device device, const EstimatorInfo& info);
 /// the method and the machine have it.
 [[nodiscard]] Device chosen_device(Device device, const EstimatorInfo& info);
 
-/// Runs `estimate(device)` where `chosen_device` says. If a device that was not demanded fails, or
-/// has too little memory, the CPU takes over. Notes which, unless there was no choice.
-[[nodiscard]] Estimate estimate_on_device(Device device, const EstimatorInfo& info,
-                                          const std::function<Estimate(Device)>& estimate);
-
 /// A disparity estimator: pure, no globals, no files. Values of this type come from
 /// `registered_estimators()`; `make_estimator` makes one from a parameter struct and a function.
 struct Estimator {
   EstimatorInfo info;
   std::vector<ParameterDescription> parameters;
 
-  /// Estimates with `values` over the defaults. Fills every field of Estimate but `source_hash`.
-  /// Throws Unavailable as `require_device`, InvalidInput for bad parameters or a light field that
-  /// the method cannot use, Cancelled on a stop request (within 200 ms).
-  std::function<Estimate(const LightField&, const ParameterSet& values, const RunOptions&,
-                         const Progress&)>
-      run;
-
-  /// The same block by block, where the method can: finds what blocks have in common,
-  /// and throws likewise. The run refers to the light field. Empty if it cannot, and then what does
-  /// not fit into memory is on disk (memory_budget.h).
-  std::function<BlockwiseRun(const LightField&, const ParameterSet& values, const RunOptions&,
+  /// The method alone, on views as they are: returns maps, confidence, range, notes and the values
+  /// of all parameters. The device is never Auto.
+  std::function<Estimate(const LightField&, const ParameterSet& values, ViewSelection,
+                         const Progress&, Device)>
+      estimate;
+  /// The method alone in blocks; empty if it cannot, and then what does not fit into memory is on
+  /// disk (memory_budget.h).
+  std::function<BlockwiseRun(const LightField&, const ParameterSet& values, ViewSelection,
                              const Progress&)>
-      in_blocks;
+      blocks;
+
+  /// Evens the brightness of the views, estimates with `values` over the defaults on the chosen
+  /// device, marks invalid pixels and completes the provenance: every field of Estimate but
+  /// `source_hash`. If a device that was not demanded fails, or has too little memory, the CPU
+  /// takes over. Throws Unavailable as `require_device`, InvalidInput for bad parameters or a light
+  /// field that the method cannot use, Cancelled on a stop request (within 200 ms).
+  [[nodiscard]] Estimate run(const LightField& light_field, const ParameterSet& values,
+                             const RunOptions& options, const Progress& progress) const;
+
+  [[nodiscard]] bool can_run_in_blocks() const { return static_cast<bool>(blocks); }
+  /// As `run`, block by block: finds what blocks have in common, and throws likewise. The run
+  /// refers to the light field. Precondition: can_run_in_blocks().
+  [[nodiscard]] BlockwiseRun in_blocks(const LightField& light_field, const ParameterSet& values,
+                                       const RunOptions& options, const Progress& progress) const;
 };
 
-/// Adapts a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`,
-/// followed by a Device that is never Auto where the method has a choice of devices, returns an
-/// Estimate with maps, confidence, range and notes; the rest is filled in here. Pixels that the
-/// light field marks as invalid get no valid result.
+/// Adapts a typed method to the interface. `method(light_field, P, ViewSelection, Progress)`,
+/// followed by a Device where it has a choice of devices, returns an Estimate with maps,
+/// confidence, range and notes.
 template <class P, class F>
-Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate);
-
-/// The same for a method that can also run in blocks: `blocks(light_field, P, ViewSelection,
-/// Progress)` returns a BlockwiseRun with maps, passes and range.
-template <class P, class F, class B>
-Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate, B blocks);
-
-/// Fills provenance (method, seconds, version, source) of an estimate begun `seconds` ago, and
-/// notes what its parameters leave open: a range that was to be found, cameras taken for
-/// equidistant.
-void complete_estimate(Provenance& estimate, const std::string& method,
-                       const LightField& light_field, double seconds);
-
-template <class P, class F>
-Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
-  Estimator estimator;
-  estimator.info = info;
-  estimator.parameters = schema.descriptions();
-  estimator.run = [info = std::move(info), schema = std::move(schema),
-                   estimate = std::move(estimate)](
-                      const LightField& light_field, const ParameterSet& values,
-                      const RunOptions& options, const Progress& progress) {
-    require_device(options.device, info);
-    const Stopwatch watch;
+Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F method) {
+  Estimator estimator{std::move(info), schema.descriptions(), {}, {}};
+  estimator.estimate = [schema = std::move(schema), method = std::move(method)](
+                           const LightField& light_field, const ParameterSet& values,
+                           ViewSelection views, const Progress& progress, Device device) {
     const P parameters = schema.parse(values);
-    const Progress limited = progress.limited_to(options.threads);
-    constexpr bool knows_devices =
-        std::is_invocable_v<F, const LightField&, const P&, ViewSelection, const Progress&, Device>;
     Estimate result = [&] {
-      if constexpr (knows_devices) {
-        return estimate_on_device(options.device, info, [&](Device device) {
-          return estimate(light_field, parameters, options.views, limited, device);
-        });
+      if constexpr (std::is_invocable_v<F, const LightField&, const P&, ViewSelection,
+                                        const Progress&, Device>) {
+        return method(light_field, parameters, views, progress, device);
       } else {
-        return estimate(light_field, parameters, options.views, limited);
+        return method(light_field, parameters, views, progress);
       }
     }();
-    mark_invalid(light_field, result);
     result.parameters = schema.values(parameters);
-    complete_estimate(result, info.id, light_field, watch.seconds());
     return result;
   };
   return estimator;
 }
 
+/// Adapts a method that can also run in blocks: `blocks(light_field, P, ViewSelection, Progress)`
+/// returns a BlockwiseRun with maps, passes and range.
 template <class P, class F, class B>
-Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate, B blocks) {
-  Estimator estimator = make_estimator<P>(info, schema, std::move(estimate));
-  estimator.in_blocks = [=](const LightField& light_field, const ParameterSet& values,
-                            const RunOptions& options, const Progress& progress) {
-    require_device(options.device, info);
+Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F method, B blocks) {
+  Estimator estimator = make_estimator<P>(std::move(info), schema, std::move(method));
+  estimator.blocks = [schema = std::move(schema), blocks = std::move(blocks)](
+                         const LightField& light_field, const ParameterSet& values,
+                         ViewSelection views, const Progress& progress) {
     const P parameters = schema.parse(values);
-    const Progress limited = progress.limited_to(options.threads);
-    BlockwiseRun run = blocks(light_field, parameters, options.views, limited);
+    BlockwiseRun run = blocks(light_field, parameters, views, progress);
     run.provenance.parameters = schema.values(parameters);
-    complete_estimate(run.provenance, info.id, light_field, 0);
     return run;
   };
   return estimator;

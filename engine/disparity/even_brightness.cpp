@@ -91,30 +91,6 @@ std::optional<EvenLightField> make_even(const LightField& lf, const Progress& pr
                                     100 * difference)};
 }
 
-using KeptEven = std::shared_ptr<const std::optional<EvenLightField>>;
-
-// A pass refers to the light field that it sees, which lives as long as the pass, and of which it
-// holds nothing between blocks.
-BlockPass forgetting(const KeptEven& even, BlockPass pass) {
-  if (pass.prepare) {
-    pass.prepare = [even, prepare = std::move(pass.prepare)](const ReadBlock& read,
-                                                             const std::vector<double>& facts,
-                                                             const Progress& progress) {
-      std::vector<double> found = prepare(read, facts, progress);
-      (*even)->light_field.forget_samples();
-      return found;
-    };
-  }
-  pass.compute = [even, compute = std::move(pass.compute)](
-                     const MapBlock& block, const ReadBlock& read, const std::vector<double>& facts,
-                     const Progress& progress) {
-    FinishedBlock made = compute(block, read, facts, progress);
-    (*even)->light_field.forget_samples();
-    return made;
-  };
-  return pass;
-}
-
 }  // namespace
 
 std::shared_ptr<const std::optional<EvenLightField>> even_brightness(const LightField& lf,
@@ -125,31 +101,6 @@ std::shared_ptr<const std::optional<EvenLightField>> even_brightness(const Light
     const std::size_t bytes = is_in_memory ? even->light_field.byte_size() : 0;
     return std::pair(std::move(even), bytes);
   });
-}
-
-Estimator seeing_even_brightness(Estimator estimator) {
-  ++estimator.info.revision;  // results of uneven views are others than the method's own
-  estimator.run = [run = std::move(estimator.run)](
-                      const LightField& light_field, const ParameterSet& values,
-                      const RunOptions& options, const Progress& progress) {
-    const auto kept = even_brightness(light_field, progress.limited_to(options.threads));
-    const std::optional<EvenLightField>& even = *kept;
-    Estimate estimate = run(even ? even->light_field : light_field, values, options, progress);
-    if (even) estimate.notes.push_back(even->note);
-    return estimate;
-  };
-  if (!estimator.in_blocks) return estimator;
-  estimator.in_blocks = [blocks = std::move(estimator.in_blocks)](
-                            const LightField& light_field, const ParameterSet& values,
-                            const RunOptions& options, const Progress& progress) {
-    const auto even = even_brightness(light_field, progress.limited_to(options.threads));
-    if (!*even) return blocks(light_field, values, options, progress);
-    BlockwiseRun run = blocks((*even)->light_field, values, options, progress);
-    run.provenance.notes.push_back((*even)->note);
-    for (BlockPass& pass : run.passes) pass = forgetting(even, std::move(pass));
-    return run;
-  };
-  return estimator;
 }
 
 }  // namespace episcope

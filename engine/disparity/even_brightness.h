@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/disparity/estimator.h"
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
 
 #include <memory>
 #include <optional>
@@ -10,7 +11,7 @@
 namespace episcope {
 
 /// A reading option: differences of brightness between views are left to the method.
-inline constexpr const char* kKeepBrightness = "no-equalise";
+inline constexpr const char* kKeepBrightness = "no-equalize";
 
 /// A light field whose views are of one brightness, and how much they differed.
 struct EvenLightField {
@@ -18,17 +19,13 @@ struct EvenLightField {
   std::string note;  ///< For an estimate.
 };
 
-/// A copy without the gains of the views (measure_view_gains), if one of them differs by more than
-/// 2 % from that of the centre view; nothing else. Nothing of light fields that were read with
-/// kKeepBrightness. Measured, for which those on disk are read as a whole, and copied once, to disk
-/// if it does not fit, and kept with the light field (LightField::beside). Throws Cancelled,
-/// IoError if there is no room on the disk.
+/// The views in one brightness: orientations of lines and differences between views, of which most
+/// methods are made, take a gain for structure. A copy without the gains (measure_view_gains), if
+/// one of them differs by more than 2 % from that of the centre view; nothing else. Nothing of
+/// light fields that were read with kKeepBrightness. Measured, for which those on disk are read as
+/// a whole, and copied once, to disk if it does not fit, and kept with the light field
+/// (LightField::beside). Throws Cancelled, IoError if there is no room on the disk.
 [[nodiscard]] std::shared_ptr<const std::optional<EvenLightField>> even_brightness(
     const LightField& light_field, const Progress& progress);
-
-/// The same method, which sees the views in one brightness: orientations of lines and differences
-/// between views, of which all methods are made, take a gain for structure. Its estimates say so
-/// in their notes.
-[[nodiscard]] Estimator seeing_even_brightness(Estimator estimator);
 
 }  // namespace episcope

@@ -435,7 +435,7 @@ Estimator kz02_estimator() {
        .summary = "Scene reconstruction from five views by graph cuts, with visibility",
        .reference = "Kolmogorov and Zabih 2002 [KZ02]",
        .iterative = true,
-       .revision = 2},
+       .revision = 3},
       kz02_schema(),
       [](const LightField& light_field, const Kz02Parameters& parameters, ViewSelection,
          const Progress& progress) { return estimate_kz02(light_field, parameters, progress); });

@@ -204,7 +204,7 @@ Estimate estimate_next_view(const LightField& lf, const PlaneParameters& paramet
   own.matching.view = view;
   own.even = false;
   own.visibility.rounds = 0;
-  const CarriedMaps carried = carry_to_views(maps, {view, {1, 1}}, progress.part(0, 0.01));
+  const PropagatedMaps carried = propagate_to_views(maps, {view, {1, 1}}, progress.part(0, 0.01));
   EvenedViews data(lf, own, device);
   data.begin(progress.part(0.01, 0.06));
   return estimate_view(data, own, {carried.disparity.view(view), carried.confidence.view(view)},
@@ -279,7 +279,7 @@ class PlaneBlocks {
   [[nodiscard]] FinishedBlock carry(const MapBlock& block, const ReadBlock& read,
                                     const Progress& progress) {
     load(views_.size(), read);
-    CarriedMaps carried = carry_to_views(known_, block.views, progress);
+    PropagatedMaps carried = propagate_to_views(known_, block.views, progress);
     for (const Estimate& map : known_) put_map(map, 0, carried.disparity, carried.confidence);
     return {{{std::move(carried.disparity), {}}, std::move(carried.confidence)}};
   }
@@ -296,7 +296,7 @@ class PlaneBlocks {
     const ViewStack<float> before = rows_before(first, block.first_row, end, read, progress);
     const PackedViews packed = pack_rows(compared, first, end, progress.part(0.1, 0.2));
     FinishedBlock made{read(block)};
-    choose_carried_sides({packed, before, first, maps_.height}, cap_, block.first_row,
+    choose_propagated_sides({packed, before, first, maps_.height}, cap_, block.first_row,
                          made.maps.field.disparity, progress.part(0.2, 1));
     for (const Estimate& map : known_) {
       put_map(map, block.first_row, made.maps.field.disparity, made.maps.confidence);
@@ -317,7 +317,7 @@ class PlaneBlocks {
   }
   [[nodiscard]] double bytes_of_bands(int rows) const {
     const double farthest = std::max(std::abs(range_.min), std::abs(range_.max)) + 0.5;
-    const int reach = carried_reach(maps_.grid, farthest);
+    const int reach = propagated_reach(maps_.grid, farthest);
     const double band = std::min(rows + 2 * reach, maps_.height);
     const double rays = static_cast<double>(maps_.grid.count()) * maps_.width;
     const double sample =
@@ -353,7 +353,7 @@ class PlaneBlocks {
   }
 
   [[nodiscard]] ViewStack<float> carried_disparity(ViewIndex view, const Progress& progress) const {
-    return carry_to_views(known_, {view, {1, 1}}, progress).disparity;
+    return propagate_to_views(known_, {view, {1, 1}}, progress).disparity;
   }
 
   // What all bands have in common.
@@ -367,8 +367,8 @@ class PlaneBlocks {
       }
       carried_.push_back(carried_disparity(disparity.first(), progress.part(0, 0)));
     }
-    cap_ = carried_cap(data_.light_field(), from_, progress);
-    reach_ = carried_reach(maps_.grid, farthest);
+    cap_ = propagated_cap(data_.light_field(), from_, progress);
+    reach_ = propagated_reach(maps_.grid, farthest);
   }
 
   // Carried maps of all views, rows [first, end), of which those before `replaced` may be lost.
@@ -503,7 +503,7 @@ BlockwiseRun planes_in_blocks(const LightField& lf, const PlaneParameters& param
   run.passes.push_back(carrying(planes));
   run.passes.push_back(choosing(planes));
   if (!lf.valid().empty()) run.passes.push_back(marking(run.maps));
-  run.notes = [estimated](const BlockProgress&) { return std::vector{carried_note(estimated)}; };
+  run.notes = [estimated](const BlockProgress&) { return std::vector{propagated_note(estimated)}; };
   return run;
 }
 
@@ -547,7 +547,7 @@ Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters
     maps.push_back(estimate_next_view(data.light_field(), parameters, device, corners[i], maps,
                                       progress.part(share * done, share * (done + 1))));
   }
-  CarriedMaps carried = carry_to_views(maps, {{}, lf.grid()}, progress.part(0.9, 0.92));
+  PropagatedMaps carried = propagate_to_views(maps, {{}, lf.grid()}, progress.part(0.9, 0.92));
   const Estimate& first = maps.front();
   Estimate estimate;
   estimate.set_provenance(first.provenance());
@@ -555,10 +555,10 @@ Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters
   estimate.confidence = std::move(carried.confidence);
   const LightField& compared = data.light_field();
   const PackedViews packed = pack_views(compared, progress.part(0.92, 0.93));
-  choose_carried_sides(packed, carried_cap(compared, from, progress.part(0.93, 0.931)), estimate,
+  choose_propagated_sides(packed, propagated_cap(compared, from, progress.part(0.93, 0.931)), estimate,
                        progress.part(0.931, 1));
   for (const Estimate& map : maps) put_map(map, 0, estimate.field.disparity, estimate.confidence);
-  estimate.notes.push_back(carried_note(maps.size()));
+  estimate.notes.push_back(propagated_note(maps.size()));
   return estimate;
 }
 
@@ -571,7 +571,8 @@ Estimator plane_pm_estimator() {
        .all_views = true,
        .iterative = true,
        .revision = 7,
-       .devices = {Device::Cpu, Device::Cuda}},
+       .devices = {Device::Cpu, Device::Cuda},
+       .sees_even_views = false},  // evens them itself, and again as it learns more
       plane_pm_schema(), estimate_planes, planes_in_blocks);
 }
 

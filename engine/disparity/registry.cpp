@@ -7,30 +7,17 @@
 #include "engine/disparity/epi_l.h"
 #include "engine/disparity/epi_s.h"
 #include "engine/disparity/epi_two_layer.h"
-#include "engine/disparity/even_brightness.h"
 #include "engine/disparity/kz02.h"
 #include "engine/disparity/plane_pm.h"
 #include "engine/disparity/stereo.h"
 
-#include <utility>
+#include <algorithm>
 
 namespace episcope {
-namespace {
-
-std::vector<Estimator> with_even_brightness(std::vector<Estimator> estimators) {
-  for (Estimator& estimator : estimators) {
-    estimator = seeing_even_brightness(std::move(estimator));
-  }
-  estimators.push_back(
-      plane_pm_estimator());  // evens brightness itself, and again as it learns more
-  return estimators;
-}
-
-}  // namespace
 
 const std::vector<Estimator>& registered_estimators() {
   // clang-format off
-  static const std::vector<Estimator> estimators = with_even_brightness({
+  static const std::vector<Estimator> estimators = {
       epi_l_estimator(),
       epi_s_estimator(),
       epi_c_estimator(),
@@ -43,17 +30,23 @@ const std::vector<Estimator>& registered_estimators() {
       st_ch_g_estimator(),
       epi_two_layer_estimator(),
       kz02_estimator(),
-  });
+      plane_pm_estimator(),
+  };
   // clang-format on
   return estimators;
 }
 
+const Estimator* known_estimator(const std::string& id) {
+  const std::vector<Estimator>& all = registered_estimators();
+  const auto found = std::ranges::find(
+      all, id, [](const Estimator& each) -> const std::string& { return each.info.id; });
+  return found != all.end() ? &*found : nullptr;
+}
+
 const Estimator& find_estimator(const std::string& id) {
+  if (const Estimator* const known = known_estimator(id)) return *known;
   std::vector<std::string> ids;
-  for (const Estimator& estimator : registered_estimators()) {
-    if (estimator.info.id == id) return estimator;
-    ids.push_back(estimator.info.id);
-  }
+  for (const Estimator& each : registered_estimators()) ids.push_back(each.info.id);
   throw Unavailable(no_such_name("method", id, ids));
 }
 

@@ -12,6 +12,8 @@ namespace episcope {
 /// ends.
 [[nodiscard]] const std::vector<Estimator>& registered_estimators();
 
+/// The estimator of that id, as on the command line; null if this build has none.
+[[nodiscard]] const Estimator* known_estimator(const std::string& id);
 /// Throws Unavailable for an unknown id, naming the nearest.
 [[nodiscard]] const Estimator& find_estimator(const std::string& id);
 

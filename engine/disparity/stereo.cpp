@@ -364,7 +364,7 @@ Estimator st_av_l_estimator() {
                           .name = "ST_AV_L",
                           .summary = "Local multi-view stereo over all views",
                           .reference = kReference,
-                          .revision = 5},
+                          .revision = 6},
                          MatchedViews::All);
 }
 
@@ -373,7 +373,7 @@ Estimator st_ch_l_estimator() {
                           .name = "ST_CH_L",
                           .summary = "Local multi-view stereo over the views of the cross-hair",
                           .reference = kReference,
-                          .revision = 5},
+                          .revision = 6},
                          MatchedViews::CrossHair);
 }
 
@@ -383,7 +383,7 @@ Estimator st_av_s_estimator() {
                            .summary = "ST_AV_L, denoised with total variation (TV-L2)",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 6},
+                           .revision = 7},
                           MatchedViews::All, stereo_smooth_schema, estimate_stereo_smooth,
                           stereo_smooth_in_blocks);
 }
@@ -394,7 +394,7 @@ Estimator st_ch_s_estimator() {
                            .summary = "ST_CH_L, denoised with total variation (TV-L2)",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 6},
+                           .revision = 7},
                           MatchedViews::CrossHair, stereo_smooth_schema, estimate_stereo_smooth,
                           stereo_smooth_in_blocks);
 }
@@ -405,7 +405,7 @@ Estimator st_av_g_estimator() {
                            .summary = "Globally optimal labeling of the matching costs of ST_AV_L",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 6},
+                           .revision = 7},
                           MatchedViews::All, stereo_global_schema, estimate_stereo_global);
 }
 
@@ -415,7 +415,7 @@ Estimator st_ch_g_estimator() {
                            .summary = "Globally optimal labeling of the matching costs of ST_CH_L",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 6},
+                           .revision = 7},
                           MatchedViews::CrossHair, stereo_global_schema, estimate_stereo_global);
 }
 

@@ -280,10 +280,10 @@ std::vector<TitledTable> benchmark_tables(const std::vector<BenchmarkResult>& re
        Protocol::Benchmark2016, "mse_100"},
       {"BadPix 0.07: % of the pixels that are off by more than 0.07 px (benchmark2016)",
        Protocol::Benchmark2016, "badpix_0070"},
-      {"Scenes of which the official score needs the high resolution: mean squared error × 100 in "
-       "that of the views (benchmark2016)",
+      {"Scenes whose official score needs high resolution: mean squared error × 100 in the "
+       "resolution of the views (benchmark2016)",
        Protocol::Benchmark2016, "mse_100_lowres"},
-      {"Scenes of which the official score needs the high resolution: BadPix 0.07 in that of the "
+      {"Scenes whose official score needs high resolution: BadPix 0.07 in the resolution of the "
        "views (benchmark2016)",
        Protocol::Benchmark2016, "badpix_0070_lowres"},
   };

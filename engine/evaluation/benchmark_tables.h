@@ -31,7 +31,7 @@ struct BenchmarkResult {
   std::string scene;
   bool is_foreign = false;     ///< Submitted from elsewhere.
   double seconds = 0;          ///< Wall-clock time; 0 = not given.
-  bool has_all_views = false;  ///< Whether `seconds` are those of all views.
+  bool has_all_views = false;  ///< Whether `seconds` is the time of all views.
   Metrics vmv2013;             ///< Empty if there is nothing to judge or to judge against.
   Metrics benchmark2016;       ///< Likewise; also of views smaller than two borders of 15 px.
   Metrics labels;              ///< Of labels, see label_metrics; empty for disparities.
@@ -97,13 +97,13 @@ struct TitledTable {
 /// stand in the order of their first result.
 [[nodiscard]] ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results,
                                        Metrics BenchmarkResult::*metrics, const std::string& key);
-/// Of the metrics of a protocol.
+/// Scores by one metric of a protocol.
 [[nodiscard]] ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results,
                                        Protocol protocol, const std::string& key);
 
 /// As figure 7 of the paper: one line per scene, one column per entry, best entry first; then
-/// average and rank, and between them, if averages omit scenes, the average over all scenes that an
-/// entry has, with their number. Gaps are "–"; the note says which scenes the averages omit and
+/// average and rank. If averages omit scenes, a line between them has the average over all scenes
+/// of an entry, with their number. Gaps are "–"; the note says which scenes the averages omit and
 /// why. The best score of each line is highlighted. Entries and scenes without any score are
 /// omitted.
 [[nodiscard]] TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix);

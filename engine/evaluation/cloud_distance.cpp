@@ -88,7 +88,7 @@ CloudDistance summarised(Image<float> distance) {
   std::copy_if(distance.data(), distance.data() + distance.size(), std::back_inserter(values),
                [](float value) { return std::isfinite(value); });
   if (values.empty()) {
-    throw InvalidInput("no pixel of the estimate is a point, so it has no distance to another");
+    throw InvalidInput("the estimate has no pixel with a depth, so it has no distance to another");
   }
   double sum = 0;
   for (const float value : values) sum += value;
@@ -104,11 +104,11 @@ void check(const DisparityView& estimate, const DisparityView& reference,
            const CameraGrid& camera) {
   if (!camera.is_known()) {
     throw InvalidInput(
-        "the camera of this light field is not known, so its points have no distances in space");
+        "the camera of this light field is not known, so distances in space cannot be measured");
   }
   if (estimate.disparity.height != reference.disparity.height ||
       estimate.disparity.width != reference.disparity.width) {
-    throw InvalidInput("clouds can be compared if their maps have the same size only");
+    throw InvalidInput("point clouds can be compared only if their maps have the same size");
   }
 }
 
@@ -122,7 +122,7 @@ CloudDistance cloud_distance(const DisparityView& estimate, const DisparityView&
   const BackProjection project(camera, height, width, kNoStretch);
   const std::vector<Tree> trees = trees_of(reference, project, progress.part(0, 0.3));
   if (trees.empty()) {
-    throw InvalidInput("no pixel of the reference is a point, so nothing has a distance to it");
+    throw InvalidInput("the reference has no pixel with a depth, so nothing has a distance to it");
   }
   const Nearest nearest(trees);
   Image<float> distance(height, width, 1, std::numeric_limits<float>::quiet_NaN());

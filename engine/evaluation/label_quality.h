@@ -21,7 +21,7 @@ struct LabelAccuracy {
   [[nodiscard]] std::int64_t judged() const;
   /// Fraction of the evaluated pixels with the correct label, in [0, 1]; empty if there are none.
   [[nodiscard]] std::optional<double> share() const;
-  /// The same among pixels of one true label.
+  /// Share of correct pixels among the pixels of one true label.
   [[nodiscard]] std::optional<double> share(std::int32_t label) const;
 
   /// Mean over the true labels of `share(label)` ("mAcc"); empty if nothing was judged.
@@ -59,7 +59,7 @@ inline constexpr int kThinWidth_px = 4;
 /// morphological opening of the label removes. Squares end at the border of the image.
 [[nodiscard]] Image<std::uint8_t> thin_parts(ImageView<const std::int32_t> labels);
 
-/// What one number for all pixels does not show of labels.
+/// Scores of labels that a single share of correct pixels hides.
 struct LabelQuality {
   LabelAccuracy all;         ///< Of every pixel with a true label,
   LabelAccuracy boundaries;  ///< and of those within kBoundaryBand_px of a true boundary.

@@ -30,8 +30,8 @@ struct ParameterChoice {
   std::vector<std::optional<std::size_t>> per_scene;
   /// One for all scenes, the "second run with equal parameter values" that the paper announces.
   std::optional<std::size_t> equal;
-  /// The same, chosen without the scene that it is evaluated on: what equal parameters are worth on
-  /// an unknown scene. Empty with fewer than two scenes.
+  /// One for each scene, chosen without it: the value of equal parameters on an unknown scene.
+  /// Empty with fewer than two scenes.
   std::vector<std::optional<std::size_t>> leave_one_out;
 };
 
@@ -55,10 +55,10 @@ struct MethodSearch {
 /// "lambda 0.1, edge_strength 30"; "default" if nothing is searched.
 [[nodiscard]] std::string point_text(const ParameterSet& point);
 
-/// First the averages of every method under each protocol: the best point of each scene (P-opt, as
-/// figure 7), equal parameters for all scenes (P-fix), the same chosen without the scene that is
-/// judged (LOSO), and the default; ranked by P-opt. Then for each method the scenes with scores and
-/// points. Empty without results.
+/// First a table of the averages of every method under each protocol, ranked by P-opt: the best
+/// point of each scene (P-opt, as figure 7), equal parameters for all scenes (P-fix), equal
+/// parameters chosen without the judged scene (LOSO), the default. Then a table for each method:
+/// its scenes with scores and points. Empty without results.
 [[nodiscard]] std::vector<TitledTable> search_tables(const std::vector<SearchResult>& results);
 
 }  // namespace episcope

@@ -17,7 +17,7 @@ namespace episcope {
 namespace {
 
 constexpr float kBumpinessClip = 0.05F;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoError = std::numeric_limits<double>::quiet_NaN();
 
 class RegionMetrics {
  public:
@@ -112,7 +112,7 @@ class RegionMetrics {
   /// estimate − truth, also outside the judged pixels, since derivatives reach over the border; NaN
   /// where one of them has no value.
   [[nodiscard]] Image<double> error_everywhere() const {
-    Image<double> error(evaluation_.judged.height(), evaluation_.judged.width(), 1, kNan);
+    Image<double> error(evaluation_.judged.height(), evaluation_.judged.width(), 1, kNoError);
     for (int y = 0; y < error.height(); ++y) {
       for (int x = 0; x < error.width(); ++x) {
         if (!input_.estimate.is_valid(y, x) || !input_.truth.is_valid(y, x)) continue;
@@ -126,7 +126,7 @@ class RegionMetrics {
     Image<double> map(view.disparity.height, view.disparity.width);
     for (int y = 0; y < map.height(); ++y) {
       for (int x = 0; x < map.width(); ++x) {
-        map.at(y, x) = view.is_valid(y, x) ? view.disparity.at(y, x) : kNan;
+        map.at(y, x) = view.is_valid(y, x) ? view.disparity.at(y, x) : kNoError;
       }
     }
     return map;
@@ -263,7 +263,7 @@ Image<float> hessian_norm(const Image<double>& map) {
 
 namespace {
 
-void append(Metrics& metrics, const Metrics& more, const char* suffix = "") {
+void append_all(Metrics& metrics, const Metrics& more, const char* suffix = "") {
   for (const auto& [key, value] : more) metrics.emplace_back(key + suffix, value);
 }
 
@@ -294,12 +294,12 @@ void append_high_res(const RegionInput& input, StratifiedScene scene, BenchmarkM
     const Image<float> truth = high_res->read_disparity();
     const ResolvedErrors errors(input.estimate, truth.view(), kHighResScale, input.options);
     constexpr int border = kBenchmarkBorder * kHighResScale;
-    if (is_scored_high(scene)) append(metrics.general, errors.general(border));
+    if (is_scored_high(scene)) append_all(metrics.general, errors.general(border));
     const RegionLookup region = [&](const std::string& name) -> RegionMask {
       if (std::ranges::count(names, name) == 0) return nullptr;
       return std::make_shared<const Image<std::uint8_t>>(high_res->read_region(name));
     };
-    append(metrics.masked, masked_metrics(errors, border, scene, region, metrics.notes));
+    append_all(metrics.masked, masked_metrics(errors, border, scene, region, metrics.notes));
   } catch (const Error& error) {
     metrics.notes.push_back(std::string("scores in high resolution are left out: ") + error.what());
   }
@@ -308,15 +308,15 @@ void append_high_res(const RegionInput& input, StratifiedScene scene, BenchmarkM
 void append_low_res(const RegionInput& input, StratifiedScene scene, BenchmarkMetrics& metrics) {
   const Image<float> truth = marked(input.truth);
   const ResolvedErrors errors(input.estimate, truth.view(), 1, input.options);
-  append(metrics.general, errors.general(kBenchmarkBorder),
-         is_scored_high(scene) ? kLowResSuffix : "");
+  append_all(metrics.general, errors.general(kBenchmarkBorder),
+             is_scored_high(scene) ? kLowResSuffix : "");
   const RegionLookup region = [&](const std::string& name) -> RegionMask {
     const auto found = input.regions.find(name);
     if (found == input.regions.end()) return nullptr;
     return {RegionMask(), &found->second};  // borrowed
   };
-  append(metrics.masked, masked_metrics(errors, kBenchmarkBorder, scene, region, metrics.notes),
-         kLowResSuffix);
+  append_all(metrics.masked, masked_metrics(errors, kBenchmarkBorder, scene, region, metrics.notes),
+             kLowResSuffix);
 }
 
 }  // namespace

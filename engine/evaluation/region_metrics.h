@@ -14,7 +14,7 @@
 
 namespace episcope {
 
-/// What region metrics need besides the errors of an evaluation.
+/// Input of region metrics besides the errors of an evaluation.
 struct RegionInput {
   const DisparityView& estimate;
   const DisparityView& truth;
@@ -62,8 +62,7 @@ void append_region_metrics(Evaluation& evaluation, const RegionInput& input);
 /// make their surroundings NaN. Source: Honauer et al. 2016 [HJKG16], evaluation toolkit.
 [[nodiscard]] Image<float> hessian_norm(const Image<double>& map);
 
-/// What ends the keys of numbers that the official tool computes in high resolution, where they are
-/// those of the low one.
+/// Suffix of keys that the official tool computes in high resolution, for numbers of the low one.
 inline constexpr const char* kLowResSuffix = "_lowres";
 
 /// Numbers of benchmark2016 from errors alone.
@@ -73,15 +72,15 @@ struct BenchmarkMetrics {
   std::vector<std::string> notes;  ///< Sentences: which numbers are missing, and why.
 };
 
-/// The scene of the benchmark that rules and masks are those of: as `options` say, else as the
-/// names of the masks tell.
+/// The scene of the benchmark whose rules and masks apply: from `options`, else from the names of
+/// the masks.
 [[nodiscard]] StratifiedScene scene_of(const RegionInput& input);
 
-/// Official keys for what is computed as the official tool does: in high resolution for masked
-/// metrics and everything of backgammon, dots and stripes, in that of the views for the general
-/// ones of other scenes. The same of the low resolution end in `kLowResSuffix`. High resolution is
-/// read here, one map and one mask or two at a time, and released; what cannot be read is noted.
-/// Throws InvalidInput, Cancelled.
+/// Official keys hold numbers that are computed as by the official tool: masked metrics, and all of
+/// backgammon, dots and stripes, in high resolution; general metrics of other scenes in the
+/// resolution of the views. Keys of the other numbers of low resolution end in `kLowResSuffix`.
+/// High resolution is read here, one map and one mask or two at a time, and released. Files that
+/// cannot be read are noted. Throws InvalidInput, Cancelled.
 [[nodiscard]] BenchmarkMetrics benchmark_metrics(const RegionInput& input);
 
 using RegionMask = std::shared_ptr<const Image<std::uint8_t>>;

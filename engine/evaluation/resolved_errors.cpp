@@ -13,7 +13,7 @@
 namespace episcope {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoEstimate = std::numeric_limits<float>::quiet_NaN();
 
 /// The nearest of `count` samples for each of `scale`·`count`, corners on corners. No pixel is
 /// equally near to two: the doubled distances have an odd denominator.
@@ -33,7 +33,7 @@ Image<float> marked(const DisparityView& map) {
   Image<float> result(map.disparity.height, map.disparity.width);
   for (int y = 0; y < result.height(); ++y) {
     for (int x = 0; x < result.width(); ++x) {
-      result.at(y, x) = map.is_valid(y, x) ? map.disparity.at(y, x) : kNan;
+      result.at(y, x) = map.is_valid(y, x) ? map.disparity.at(y, x) : kNoEstimate;
     }
   }
   return result;
@@ -68,7 +68,7 @@ void ResolvedErrors::sample_row(int y, std::vector<float>& row) const {
   for (std::size_t x = 0; x < row.size(); ++x) {
     const int column = columns_[x];
     const bool has_value = (!valid || valid[column] != 0) && std::isfinite(map[column]);
-    row[x] = has_value ? map[column] : kNan;
+    row[x] = has_value ? map[column] : kNoEstimate;
   }
 }
 

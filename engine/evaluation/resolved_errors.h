@@ -14,10 +14,10 @@
 namespace episcope {
 
 /// Errors of one map against a truth of its own size or `scale` times as large, pixel by pixel of
-/// the truth, without ever storing the enlarged map. The pixel of the map that belongs to pixel k
-/// of N along an axis is the one nearest to k·(n − 1)/(N − 1): corners lie on corners, as the zoom
-/// of order 0 of the official toolkit has it, so that blocks at the border are scale/2 + 1 wide.
-/// Errors are truth − estimate in float. Source: evaluation toolkit of [HJKG16].
+/// the truth, without ever storing the enlarged map. Pixel k of N along an axis belongs to
+/// the pixel of the map nearest to k·(n − 1)/(N − 1). Corners lie on corners, as in the zoom of
+/// order 0 of the official toolkit, so blocks at the border are scale/2 + 1 wide. Errors are truth
+/// − estimate in float. Source: evaluation toolkit of [HJKG16].
 class ResolvedErrors {
  public:
   /// Borrows all three. `truth` that is not finite is not judged, nor are pixels where `shown` (of
@@ -103,17 +103,17 @@ std::optional<double> ResolvedErrors::percentage(const Image<std::uint8_t>* mask
   return 100.0 * static_cast<double>(bad) / static_cast<double>(count);
 }
 
-/// What a part of a view scored.
+/// Scores of a part of a view.
 struct PartScore {
   std::size_t pixels = 0;  ///< That were judged.
   Metrics metrics;         ///< Empty without such pixels.
 };
 
 /// Scores the judged pixels of an evaluation where `part` is not 0; it has the size of the view,
-/// null = everywhere. The metrics are those of `evaluate` that follow from the errors alone: of
+/// null = everywhere. It has the metrics of `evaluate` that follow from the errors alone: of
 /// vmv2013 mse_100 and density, of benchmark2016 also badpix_0010, badpix_0030, badpix_0070 and
 /// q_25_100. Missing estimates count as InvalidEstimates::Bad does; for MSE, the farthest true
-/// disparity is that of the whole view, as in the map of errors.
+/// disparity of the whole view counts, as in the map of errors.
 [[nodiscard]] PartScore score_part(const Evaluation& evaluation, const Image<std::uint8_t>* part,
                                    Protocol protocol);
 

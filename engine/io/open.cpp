@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Form {
+struct UnsupportedForm {
   std::string_view suffix;
   const char* advice;
 };
@@ -42,7 +42,7 @@ constexpr const char* kConvert =
     "views are not read from GIF pictures, which hold 256 colours; use the originals, or convert "
     "them to PNG";
 
-constexpr Form kForms[] = {
+constexpr UnsupportedForm kUnsupportedForms[] = {
     {".zip", kUnpack}, {".tar", kUnpack}, {".gz", kUnpack},  {".tgz", kUnpack},
     {".xz", kUnpack},  {".bz2", kUnpack}, {".zst", kUnpack}, {".7z", kUnpack},
     {".rar", kUnpack}, {".lfp", kDecode}, {".lfr", kDecode}, {".lfx", kDecode},
@@ -60,7 +60,7 @@ std::span<const Reader> readers() {
 
 std::string advice_on(const fs::path& path) {
   const std::string suffix = suffix_of(path);
-  for (const Form& form : kForms) {
+  for (const UnsupportedForm& form : kUnsupportedForms) {
     if (suffix == form.suffix) return form.advice;
   }
   return {};

@@ -10,20 +10,20 @@
 
 namespace episcope::io {
 
-/// Opens anything that holds a light field, with the first reader (`readers`) that recognises it.
-/// Converts to the canonical convention, looks for truth, labels and companions beside it, and
-/// reports what it found and how it was checked. Throws IoError with one sentence (what, where,
-/// what to do), Cancelled on a stop request.
+/// Opens any light field, with the first reader (`readers`) that recognizes it. Converts it to the
+/// canonical convention, finds truth, labels and companions beside it, and reports what was found
+/// and how it was checked. Throws IoError with one sentence (what, where, what to do). Throws
+/// Cancelled.
 [[nodiscard]] Scene open_scene(const std::filesystem::path& path, const OpenOptions& options,
                                const Progress& progress);
 
-/// What to do with a file that may hold a light field in a form that is not read, as its suffix
-/// tells: archives of files, raw pictures of Lytro cameras, tensors of learning programs. The end
-/// of a sentence; empty for other files.
+/// Advice on a file whose suffix names an unsupported format of light fields: archives of files,
+/// raw pictures of Lytro cameras, tensors of learning programs. The end of a sentence; empty for
+/// other files.
 [[nodiscard]] std::string advice_on(const std::filesystem::path& path);
 
-/// The same for a folder without a light field: of the first of such files in it, with its name,
-/// and of GIF pictures. Throws std::filesystem::filesystem_error.
+/// Advice on a folder without a light field, by its first file of an unsupported format or GIF
+/// picture, with its name. Empty if there is none. Throws std::filesystem::filesystem_error.
 [[nodiscard]] std::string advice_on_folder(const std::filesystem::path& folder);
 
 }  // namespace episcope::io

@@ -25,7 +25,7 @@ constexpr const char* kHdf5[] = {".h5", ".hdf5"};
 constexpr const char* kNpy[] = {".npy"};
 constexpr const char* kNpz[] = {".npz"};
 constexpr const char* kMat[] = {".mat"};
-constexpr const char* kEslf[] = {"_eslf.png", ".png"};
+constexpr const char* kEslfSuffixes[] = {"_eslf.png", ".png"};
 
 constexpr FormContents kArchive{.floats = FloatsHeld::Exactly,
                                 .disparity = MapsHeld::All,
@@ -64,7 +64,7 @@ constexpr Writer kWriters[] = {
     {"npy", "the .npy form", kNpy, kArray, write_npy},
     {"npz", "the .npz form", kNpz, kArrays, write_npz},
     {"mat", "the .mat form", kMat, kArrays, write_mat},
-    {"eslf", "a picture of lenslets", kEslf, kPicture, write_eslf},
+    {"eslf", "a picture of lenslets", kEslfSuffixes, kPicture, write_eslf},
 };
 
 }  // namespace
@@ -190,9 +190,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Names of the files of one view: row and column from 0 on, padded to the same width.
-class ViewNames {
+class GridFileNames {
  public:
-  explicit ViewNames(GridShape grid)
+  explicit GridFileNames(GridShape grid)
       : digits_(std::max<std::size_t>(2, std::to_string(std::max(grid.v, grid.u) - 1).size())) {}
 
   [[nodiscard]] std::string of(ViewIndex view) const {
@@ -203,7 +203,7 @@ class ViewNames {
   std::size_t digits_;
 };
 
-void write_view(const fs::path& stem, const LightField& field, ViewIndex view) {
+void write_view_image(const fs::path& stem, const LightField& field, ViewIndex view) {
   const fs::path png = stem.string() + ".png";
   if (field.sample_type() == SampleType::UInt8) {
     write_png(png, field.view<std::uint8_t>(view));
@@ -214,7 +214,7 @@ void write_view(const fs::path& stem, const LightField& field, ViewIndex view) {
   }
 }
 
-void write_disparity_map(const fs::path& path, const DisparityView& map) {
+void write_disparity_npy(const fs::path& path, const DisparityView& map) {
   std::vector<float> marked;
   marked.reserve(map.disparity.size());
   for (int y = 0; y < map.disparity.height; ++y) {
@@ -244,7 +244,7 @@ void write_regions(const fs::path& folder, const GroundTruth& truth) {
   }
 }
 
-std::uintmax_t scene_bytes(const Scene& scene) {
+std::uintmax_t grid_folder_bytes(const Scene& scene) {
   const GroundTruth& truth = *scene.truth;
   const std::size_t disparities = truth.field.empty() ? 0 : truth.field.disparity.size();
   const std::size_t labels = truth.labels.empty() ? 0 : truth.labels.size();
@@ -258,15 +258,15 @@ void write_grid_folder(const fs::path& folder, const Scene& scene, const Progres
   progress.step("writing " + folder.filename().string());
   const LightField& field = *scene.light_field;
   const GroundTruth& truth = *scene.truth;
-  const ViewNames names(field.grid());
-  AtomicFolder target(folder, scene_bytes(scene));
+  const GridFileNames names(field.grid());
+  AtomicFolder target(folder, grid_folder_bytes(scene));
   const fs::path& place = target.temporary();
   parallel_for(field.grid().count(), progress, [&](int i) {
     const ViewIndex view = field.grid().view_at(i);
     const std::string name = names.of(view);
-    write_view(place / name, field, view);
+    write_view_image(place / name, field, view);
     if (truth.field.contains(view)) {
-      write_disparity_map(place / ("disparity_" + name + ".npy"), truth.field.view(view));
+      write_disparity_npy(place / ("disparity_" + name + ".npy"), truth.field.view(view));
     }
     if (!truth.labels.empty() && truth.labels.contains(view)) {
       write_label_map(place / ("label_" + name + ".npy"), truth.labels.view(view));

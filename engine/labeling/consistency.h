@@ -8,7 +8,7 @@
 
 namespace episcope {
 
-/// How consistent the labels of many views are along the rays.
+/// Consistency of the labels of many views along the rays.
 struct LabelConsistency {
   std::int64_t agreeing = 0;  ///< Pairs of a ray and another view where the labels are equal,
   std::int64_t visible = 0;   ///< of those where the ray's point is seen there,
@@ -28,7 +28,7 @@ struct LabelConsistency {
 /// along the lines of the horizontal and vertical EPI through it, to the nearest pixel there, and
 /// compares the labels. Disparities tell whether the point is visible there
 /// (engine/labeling/ray_targets.h). The nearest pixel of a ray that arrives at the boundary of
-/// an object may belong to the neighbour, so exact labels do not quite reach 1. Views without
+/// an object may belong to the neighbor, so exact labels do not quite reach 1. Views without
 /// disparity are left out. Takes (v + u − 2)·rays steps.
 /// Source: the measure of [WSG13], the fraction of rays whose label equals the label at the warped
 /// position, occlusion-checked. Throws InvalidInput unless sizes agree, Cancelled.

@@ -25,16 +25,6 @@ std::vector<std::vector<int>> chains_of(GridShape grid) {
   return chains;
 }
 
-std::vector<Image<float>> weights_of(const RayLabelingInput& input, const Progress& progress) {
-  const LabelProbabilities& p = *input.probabilities;
-  std::vector<Image<float>> weights(p.views.size());
-  if (input.edges == nullptr || input.edges->empty()) return weights;
-  parallel_for(p.grid.count(), progress, [&](int i) {
-    weights[static_cast<std::size_t>(i)] = boundary_weights(input.edges->view(p.view_at(i)));
-  });
-  return weights;
-}
-
 // Of all views or none.
 bool has_disparity(const RayLabelingInput& input) {
   const LabelProbabilities& p = *input.probabilities;
@@ -80,7 +70,7 @@ bool is_for_device(const RayLabelingInput& input, const RayLabelingParameters& p
 RayLabeling label_on_device(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                             const DeviceLabeling& labeling, const Progress& progress) {
   const LabelProbabilities& p = *input.probabilities;
-  const std::vector<Image<float>> weights = weights_of(input, progress.part(0, 0.05));
+  const std::vector<Image<float>> weights = boundary_weights_of(input, progress.part(0, 0.05));
   const CostTable costs = cost_table(parameters.floor);
   const ViewStack<std::uint8_t>* const colors =
       labeling.colors != nullptr ? labeling.colors->samples() : nullptr;

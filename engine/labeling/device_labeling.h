@@ -10,9 +10,9 @@
 
 namespace episcope {
 
-/// What the GPU is to do for all views besides solving the problem of each.
+/// Work of the GPU for all views besides solving the problem of each.
 struct DeviceLabeling {
-  const RayColors* colors = nullptr;  ///< Null = costs are those of each ray alone.
+  const RayColors* colors = nullptr;  ///< Null = each ray has its own costs only.
   int votes = 0;                      ///< Rounds of vote_along_rays.
 };
 
@@ -20,7 +20,7 @@ struct DeviceLabeling {
 [[nodiscard]] bool is_for_device(const RayLabelingInput& input,
                                  const RayLabelingParameters& parameters);
 
-/// Labels of all views, computed on the GPU (engine/cuda/ray_labels.h): what solve_views with
+/// Computes labels of all views on the GPU (engine/cuda/ray_labels.h): what solve_views with
 /// own costs, or with those of the nearest views' rays, and votes give on the CPU, but for
 /// rounding. Labels are ids. Throws DeviceFailure, Cancelled.
 [[nodiscard]] RayLabeling label_on_device(const RayLabelingInput& input,

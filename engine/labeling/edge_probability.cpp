@@ -16,7 +16,7 @@ namespace episcope {
 namespace {
 
 // Jumps of disparity that are none, and how soon larger ones count in full.
-constexpr float kNoJump_px = 0.02F;
+constexpr float kNoEdgeJump_px = 0.02F;
 constexpr float kJumpSharpness = 10;
 constexpr int kNearJump_px = 3;
 
@@ -55,7 +55,7 @@ Image<float> widened(const Image<float>& map) {
 Image<float> edge_trust(const Image<float>& jumps, const Image<float>& trust, float texture) {
   Image<float> gaps(jumps.height(), jumps.width());
   std::transform(jumps.begin(), jumps.end(), gaps.begin(), [](float jump) {
-    return 1 - std::exp(-kJumpSharpness * std::max(jump - kNoJump_px, 0.F));
+    return 1 - std::exp(-kJumpSharpness * std::max(jump - kNoEdgeJump_px, 0.F));
   });
   Image<float> count = widened(gaps);
   for (float& c : count) c = texture + (1 - texture) * c;
@@ -143,7 +143,7 @@ ViewStack<float> edge_probabilities(const LightField& light_field, ViewRectangle
 
 namespace {
 
-constexpr float kSure = 0.43F;
+constexpr float kSureTrust = 0.43F;
 constexpr double kScale_px = 2;
 
 // What a tenth of the pixels exceed.
@@ -163,7 +163,7 @@ Image<float> disparity_trust(ImageView<const float> confidence) {
                    const_cast<float*>(confidence.data));
   cv::Mat out(confidence.height, confidence.width, CV_32F, trust.data());
   cv::GaussianBlur(in, out, {}, kScale_px, kScale_px, cv::BORDER_REPLICATE);
-  const float sure = kSure * surest_tenth(confidence);
+  const float sure = kSureTrust * surest_tenth(confidence);
   for (float& t : trust) {
     const float share = sure > 0 ? std::min(t / sure, 1.0F) : 0.0F;
     t = share * share;

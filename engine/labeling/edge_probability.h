@@ -13,8 +13,8 @@ namespace episcope {
 struct EdgeParameters {
   double image = 25;     ///< β: larger values respond to weaker image edges; ≥ 0.
   double disparity = 4;  ///< γ, per px of jump: likewise for disparity; ≥ 0.
-  /// What an image edge counts where no jump of disparity is near and disparity is known: most of
-  /// them are texture. In [0, 1].
+  /// Weight of an image edge, in [0, 1], where disparity is known and does not jump: most such
+  /// edges are texture.
   double texture = 0.6;
 };
 
@@ -30,8 +30,9 @@ struct EdgeParameters {
 [[nodiscard]] Image<float> edge_probability(const LightField& light_field, ViewIndex view,
                                             const DisparityField& disparity,
                                             const EdgeParameters& parameters);
-/// Of all views, or of those of a rectangle, `[v][u][y][x]`. With the confidence of the disparity,
-/// m tends to 1 and jumps to 0 where disparity is not trusted (`disparity_trust`).
+/// Edge probabilities of all views or of a rectangle of views, `[v][u][y][x]`. With the confidence
+/// of the disparity, m tends to 1 and jumps tend to 0 where disparity is not trusted
+/// (`disparity_trust`).
 [[nodiscard]] ViewStack<float> edge_probabilities(const LightField& light_field,
                                                   const DisparityField& disparity,
                                                   const EdgeParameters& parameters,
@@ -44,10 +45,10 @@ struct EdgeParameters {
                                                   const ViewStack<float>* confidence = nullptr);
 
 /// How far the disparity of each pixel is trusted as evidence for labels, `[y][x]` in [0, 1]:
-/// min(c/(0.43·s), 1)², c the confidence of the estimate around the pixel (Gaussian, σ = 2 px) and
-/// s that which a tenth of the pixels exceed, since methods scale confidence differently; 0 if s is
-/// 0. Where an estimate had nothing to hold on to, it is what its neighbours suggested, and says of
-/// which label they are. `confidence` `[y][x]` in [0, 1].
+/// min(c/(0.43·s), 1)². c is the confidence around the pixel (Gaussian, σ = 2 px); s is exceeded by
+/// a tenth of the pixels, since methods scale confidence differently; 0 if s is 0. An estimate
+/// without evidence follows its neighbors, and tells about their labels only. `confidence` `[y][x]`
+/// in [0, 1].
 [[nodiscard]] Image<float> disparity_trust(ImageView<const float> confidence);
 
 }  // namespace episcope

@@ -65,7 +65,7 @@ const LabelWeightsKernel kLabelWeightsKernel = {misfits, weigh};
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
-// Pixels wait for their neighbours along x, so the vectors run over the labels.
+// Pixels wait for their neighbors along x, so the vectors run over the labels.
 inline void shorten(const DistanceGrid& grid, long to, long from, float way) {
   float* own = grid.distances + to * grid.pitch;
   const float* other = grid.distances + from * grid.pitch;

@@ -53,7 +53,7 @@ struct DistanceGrid {
   int width = 0;
   int pitch = 0;               ///< Labels, rounded up to whole vectors of the widest kind.
   float* distances = nullptr;  ///< `[y][x][label]`, `pitch` apart.
-  /// Lengths of the ways from a pixel to its neighbours right, down, down-right and down-left,
+  /// Lengths of the ways from a pixel to its neighbors right, down, down-right and down-left,
   /// `[y][x]`; those that leave the image are infinite.
   const float* ways[4] = {};
 };
@@ -69,13 +69,13 @@ struct StrokeDistanceKernel {
 
 EPISCOPE_DECLARE_KERNEL(extern const StrokeDistanceKernel kStrokeDistanceKernel);
 
-/// Colours, as planes with a margin on all sides, and what their neighbours count.
+/// Colors, as planes with a margin on all sides, and what their neighbors count.
 struct SurfaceTaps {
   const float* channels[3] = {};    ///< The first pixel of the row at hand in each plane.
-  const long* offsets = nullptr;    ///< From a pixel to each neighbour in its plane,
+  const long* offsets = nullptr;    ///< From a pixel to each neighbor in its plane,
   const float* nearness = nullptr;  ///< log2 of what each counts for its distance,
   int count = 0;                    ///< and how many there are.
-  float contrast = 0;  ///< log2 of what a neighbour counts is less by this times |ΔI|².
+  float contrast = 0;  ///< log2 of what a neighbor counts is less by this times |ΔI|².
   int width = 0;       ///< Planes are readable 16 floats beyond it and the margin.
 };
 

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
+#include "engine/labeling/forest_kernel.h"
 
 #include <fmt/format.h>
 #include <opencv2/ml.hpp>
@@ -18,7 +19,6 @@ namespace episcope {
 namespace {
 
 // The widest vector of floats.
-constexpr int kVectorLanes = 16;
 
 std::vector<std::vector<int>> samples_by_label(const ForestSamples& samples) {
   std::vector<std::vector<int>> of_label(static_cast<std::size_t>(samples.label_count));
@@ -132,7 +132,7 @@ class Forest::Trainer {
     }
     for (int node = forest.roots_[static_cast<std::size_t>(tree)]; node < end; ++node) {
       const int leaf = forest.leaves_[static_cast<std::size_t>(node)];
-      if (leaf >= 0) forest.normalise(leaf);
+      if (leaf >= 0) forest.normalize(leaf);
     }
   }
 
@@ -168,7 +168,7 @@ void Forest::grow(const ForestSamples& samples, const ForestOptions& options,
   *this = std::move(grown);
 }
 
-void Forest::normalise(int leaf) {
+void Forest::normalize(int leaf) {
   float* votes = votes_.data() + static_cast<std::ptrdiff_t>(leaf) * pitch_;
   float sum = 0;
   for (int l = 0; l < label_count_; ++l) sum += votes[l];

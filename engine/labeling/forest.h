@@ -19,8 +19,8 @@ struct ForestSamples {
   int label_count = 0;
   std::vector<float> features;       ///< `[sample][feature]`
   std::vector<std::int32_t> labels;  ///< `[sample]` in [0, label_count).
-  /// Features that every other block of trees does without: those that tell labels apart so well
-  /// where they were painted that no tree would look at anything else.
+  /// Features that every other block of trees ignores: they separate painted pixels so well that
+  /// trees would use nothing else.
   std::vector<int> occasional{};
 
   [[nodiscard]] int count() const { return static_cast<int>(labels.size()); }
@@ -29,7 +29,7 @@ struct ForestSamples {
 
 struct ForestOptions {
   int trees = 96;               ///< Rounded up to whole blocks of kForestTreesPerBlock.
-  int depth = 14;               ///< Of a tree at most.
+  int depth = 14;               ///< Largest depth of a tree.
   int min_samples = 12;         ///< A node of fewer is not split.
   int samples_per_label = 250;  ///< Drawn for each block of trees, with replacement.
   int seed = 1;
@@ -47,7 +47,7 @@ inline constexpr int kForestTreesPerBlock = 4;
 /// that run in parallel, each on its own seeded draw with as many samples of each label; so the
 /// result depends on the seed and not on the number of threads. The trees are then flattened, and
 /// all samples are led down them: a leaf's vote for a label is the share of the label's samples
-/// that arrive there, normalised over labels.
+/// that arrive there, normalized over labels.
 /// Source: Breiman 2001 [Bre01]; probabilities as in Wanner, Straehle, Goldluecke 2013 [WSG13].
 class Forest {
  public:
@@ -55,9 +55,9 @@ class Forest {
   [[nodiscard]] static Forest train(const ForestSamples& samples, const ForestOptions& options,
                                     const Progress& progress);
 
-  /// Trains the trees that are missing to `options.trees`. With the samples and the other options
-  /// it was trained with, it becomes the forest that `train` would have made at once. Throws
-  /// Cancelled, and is as it was then.
+  /// Trains the trees that are missing to `options.trees`. With unchanged samples and other
+  /// options, the result equals one call of `train`. Throws Cancelled, and leaves the forest
+  /// unchanged.
   void grow(const ForestSamples& samples, const ForestOptions& options, const Progress& progress);
 
   [[nodiscard]] int label_count() const { return label_count_; }
@@ -85,7 +85,7 @@ class Forest {
 
  private:
   class Trainer;
-  void normalise(int leaf);
+  void normalize(int leaf);
 
   int feature_count_ = 0;
   int label_count_ = 0;
@@ -105,7 +105,7 @@ class RTrees;
 namespace episcope {
 
 /// A tree of OpenCV in the form that the kernel walks, numbered breadth first: the children of a
-/// node are neighbours, so that one number leads to both.
+/// node are neighbors, so that one number leads to both.
 struct FlatTree {
   std::vector<ForestNode> nodes;
   std::vector<int> leaves;   ///< Number of the leaf at each node, -1 for inner ones.
@@ -116,7 +116,7 @@ struct FlatTree {
 /// The tree of ordered features that begins at node `root`. A tree of at most 65535 nodes.
 [[nodiscard]] FlatTree flatten_tree(const cv::ml::RTrees& trees, int root);
 
-/// A forest and what it was trained on, kept while it would be the same.
+/// A forest and its samples, kept while training would give the same forest.
 class GrownForest {
  public:
   /// As reported by `progress` while trees are trained.
@@ -126,7 +126,7 @@ class GrownForest {
   /// trees of it at least. Valid until the next call. Throws as Forest::train.
   const Forest& train(ForestSamples samples, const ForestOptions& options, int enough,
                       const Progress& progress);
-  /// Trains what is missing to all trees. Whether any were. Throws Cancelled.
+  /// Trains the missing trees. Returns whether there were any. Throws Cancelled.
   bool complete(const Progress& progress);
 
  private:

@@ -61,7 +61,7 @@ inline Pixels above(const float* feature, float threshold) {
   return found;
 }
 
-// Neighbouring pixels mostly go the same way: a node is looked at once for all that arrive there.
+// Neighboring pixels mostly go the same way: a node is looked at once for all that arrive there.
 void lead(const Tree& tree, int node, Pixels pixels) {
   for (;;) {
     const ForestNode at = tree.forest.nodes[tree.root + node];

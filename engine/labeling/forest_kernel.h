@@ -13,6 +13,9 @@ struct ForestNode {
   unsigned short next;
 };
 
+/// Floats in the widest vector. Rows are padded to whole vectors of this length.
+inline constexpr int kVectorLanes = 16;
+
 /// Pixels that are led through a tree at once.
 inline constexpr int kForestBlock = 64;
 

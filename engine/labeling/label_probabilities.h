@@ -10,9 +10,8 @@
 
 namespace episcope {
 
-/// How probable each label is for every pixel of one view: `[y][label][x]`, 0 … 255 for 0 … 1, so
-/// that 13 labels of 9×9×768×768 rays take 0.6 GB; labels in the order of
-/// `LabelProbabilities::ids`.
+/// Probability of each label for every pixel of one view, `[y][label][x]`, 0 … 255 for 0 … 1,
+/// labels in the order of `LabelProbabilities::ids`. 13 labels of 9×9×768×768 rays take 0.6 GB.
 using ProbabilityMap = Volume<std::uint8_t>;
 
 /// Label probabilities of a rectangle of views. Move-only.
@@ -38,7 +37,7 @@ struct LabelProbabilities {
   }
 };
 
-/// No probabilities yet of these views, for labels with these ids.
+/// Probabilities of these views and ids, not yet filled.
 [[nodiscard]] LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids,
                                                      ViewRectangle views);
 

@@ -52,16 +52,16 @@ PixelIndex first_pixel(const Blob& blob) {
 
 }  // namespace
 
-std::vector<Blob> blobs_of(ImageView<const std::uint8_t> mask, Neighbours neighbours,
+std::vector<Blob> blobs_of(ImageView<const std::uint8_t> mask, Neighbors neighbors,
                            int least_pixels) {
   if (mask.empty()) return {};
   const cv::Mat pixels(mask.height, mask.width, CV_8U, const_cast<std::uint8_t*>(mask.data),
                        static_cast<std::size_t>(mask.row_stride));
   cv::Mat numbers;
   cv::Mat statistics;
-  cv::Mat centres;
-  const int count = cv::connectedComponentsWithStats(pixels, numbers, statistics, centres,
-                                                     neighbours == Neighbours::Sides ? 4 : 8);
+  cv::Mat centers;
+  const int count = cv::connectedComponentsWithStats(pixels, numbers, statistics, centers,
+                                                     neighbors == Neighbors::Sides ? 4 : 8);
   std::vector<Blob> blobs;
   for (int number = 1; number < count; ++number) {  // 0 is what the mask leaves out
     const int* row = statistics.ptr<int>(number);
@@ -158,7 +158,7 @@ std::vector<LabelDoubt> label_doubts(VolumeView<const std::uint8_t> probabilitie
   std::vector<LabelDoubt> found;
   for (const std::int32_t id : ids) {
     const Image<std::uint8_t> mask = doubtful(id, doubts, labels, painted, choice);
-    for (Blob& blob : blobs_of(mask, Neighbours::Sides)) {
+    for (Blob& blob : blobs_of(mask, Neighbors::Sides)) {
       found.push_back(judged(id, std::move(blob), doubts, ids));
     }
   }
@@ -188,11 +188,11 @@ std::int32_t most_frequent(const Blob& blob, ImageView<const std::int32_t> label
 
 std::vector<LabelPiece> pieces_of(ImageView<const std::int32_t> labels, std::int32_t label) {
   std::vector<LabelPiece> pieces;
-  for (Blob& blob : blobs_of(label_mask(labels, label), Neighbours::Sides)) {
+  for (Blob& blob : blobs_of(label_mask(labels, label), Neighbors::Sides)) {
     pieces.push_back({PieceKind::Island, label, std::move(blob)});
   }
   if (pieces.empty()) return pieces;
-  for (Blob& blob : blobs_of(label_mask(labels, label, {0, 255}), Neighbours::Corners)) {
+  for (Blob& blob : blobs_of(label_mask(labels, label, {0, 255}), Neighbors::Corners)) {
     if (reaches_border(blob, labels)) continue;
     const std::int32_t inside = most_frequent(blob, labels);
     pieces.push_back({PieceKind::Hole, inside, std::move(blob)});

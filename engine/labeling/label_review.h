@@ -24,20 +24,20 @@ struct Blob {
   }
 };
 
-/// Which pixels count as neighbours: Sides those that share a side, Corners also those that share a
+/// Which pixels count as neighbors: Sides those that share a side, Corners also those that share a
 /// corner.
-enum class Neighbours { Sides, Corners };
+enum class Neighbors { Sides, Corners };
 
 /// The connected sets of the pixels of `mask` that are not 0, those of at least `least_pixels`, in
 /// the order of their first pixels, by row, then column.
-[[nodiscard]] std::vector<Blob> blobs_of(ImageView<const std::uint8_t> mask, Neighbours neighbours,
+[[nodiscard]] std::vector<Blob> blobs_of(ImageView<const std::uint8_t> mask, Neighbors neighbors,
                                          int least_pixels = 1);
 
-/// A region of one label that may well be of another: a stroke there decides about all of it.
+/// A region whose label is doubtful: one stroke there decides about all of it.
 struct LabelDoubt {
-  std::int32_t label = 0;  ///< It has,
-  std::int32_t rival = 0;  ///< and what most of its pixels would else be.
-  double gain = 0;  ///< Sum of the doubt of its pixels: the larger, the sooner to be painted.
+  std::int32_t label = 0;  ///< Current label,
+  std::int32_t rival = 0;  ///< and the next best one of most of its pixels.
+  double gain = 0;         ///< Sum of the doubt of its pixels; the largest should be painted first.
   Blob blob;
 };
 
@@ -45,16 +45,16 @@ struct LabelDoubt {
 struct DoubtChoice {
   /// How probable another label must be, relative to the pixel's own, in [0, 1].
   double least_doubt = 0.25;
-  /// Regions are wider than this everywhere, in px: a stroke hits them, and boundaries, which are
-  /// always in doubt, are left out.
+  /// Least width of a region everywhere, in px. A stroke can hit such a region, and boundaries,
+  /// which are always in doubt, are left out.
   int least_width_px = 5;
   std::size_t count = 20;  ///< At most so many.
 };
 
-/// Where a stroke would decide most: the connected regions of one label whose pixels are in doubt,
-/// the largest gain first. The doubt of a pixel is the probability of the most probable other label
-/// over that of its own label, at most 1: unlike the entropy, it does not depend on how many labels
-/// there are. Painted pixels are beyond doubt.
+/// Finds the regions where a stroke would decide most: connected doubtful pixels of one label, the
+/// largest gain first. The doubt of a pixel is the probability of its second label divided by the
+/// probability of its own, at most 1. Unlike entropy, it does not depend on the number of labels.
+/// Painted pixels have no doubt.
 ///
 /// `probabilities` `[y][label][x]`, `ids` names their layers, `labels` `[y][x]`, `painted` `[y][x]`
 /// (0 = not painted) or empty. Throws InvalidInput if sizes differ.
@@ -82,20 +82,20 @@ struct LabelPiece {
 [[nodiscard]] std::vector<LabelPiece> pieces_of(ImageView<const std::int32_t> labels,
                                                 std::int32_t label);
 
-/// What the pixels of a mask are.
+/// Values of the pixels of a mask.
 struct MaskValues {
   std::uint8_t of_label = 255;
   std::uint8_t of_others = 0;
 };
 
-/// Where a picture of labels `[y][x]` has one of them.
+/// The mask of one label in a map of labels `[y][x]`.
 [[nodiscard]] Image<std::uint8_t> label_mask(ImageView<const std::int32_t> labels,
                                              std::int32_t label, MaskValues values = {});
 
-/// Labels whose boundaries are smoother: each pixel takes the label with the most pixels around it,
-/// weighted by a Gaussian of standard deviation `smoothing_px`; of equals it keeps its own.
-/// Straight boundaries stay where they are, corners are rounded, and what is much thinner than
-/// `smoothing_px` vanishes. Painted pixels keep their labels. 0 px gives the labels as they are.
+/// Smooths the boundaries of labels: each pixel takes the most frequent label around it, weighted
+/// by a Gaussian of standard deviation `smoothing_px`, and keeps its own in a tie. Straight
+/// boundaries stay, corners are rounded, parts much thinner than `smoothing_px` vanish. Painted
+/// pixels keep their labels. 0 px changes nothing.
 ///
 /// `labels` `[y][x]`; `painted` `[y][x]` (0 = not painted) or empty. Source: one step of Merriman,
 /// Bence and Osher, Diffusion generated motion by mean curvature, 1992, with several labels. Throws

@@ -4,6 +4,7 @@
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/labeling/feature_kernel.h"
+#include "engine/labeling/forest_kernel.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -14,7 +15,6 @@
 namespace episcope {
 namespace {
 
-constexpr int kVectorLanes = 16;
 constexpr std::size_t kFewestSamples = 8;
 constexpr int kRounds = 12;
 constexpr double kShortStroke = 1.0 / 80;  // Of the larger side: half of its slope is believed.
@@ -23,7 +23,7 @@ constexpr double kLeastScale = 1e-3;       // So that exact planes have one.
 constexpr double kLeverage = 0.3;          // What leverage adds to the variance.
 constexpr float kWeight = 1.5F;
 constexpr int kJumpRadius_px = 2;
-constexpr float kNoJump_px = 0.1F;
+constexpr float kNoSurfaceJump_px = 0.1F;
 constexpr float kJumpDoubt = 0.3F;
 constexpr float kLeastProbability = 0.02F;
 
@@ -60,7 +60,7 @@ struct RowTerms {
 };
 
 // Beside a jump an estimate may be anything between its ends: variance that grows with the spread
-// of disparities in the neighbourhood.
+// of disparities in the neighborhood.
 Image<float> doubt_of(ImageView<const float> disparity) {
   const cv::Size window(2 * kJumpRadius_px + 1, 2 * kJumpRadius_px + 1);
   const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_RECT, window);
@@ -73,7 +73,7 @@ Image<float> doubt_of(ImageView<const float> disparity) {
   for (int y = 0; y < disparity.height; ++y) {
     const auto *high = most.ptr<float>(y), *low = least.ptr<float>(y);
     std::transform(high, high + disparity.width, low, doubt.row(y), [](float a, float b) {
-      const float deviation = kJumpDoubt * std::max(a - b - kNoJump_px, 0.F);
+      const float deviation = kJumpDoubt * std::max(a - b - kNoSurfaceJump_px, 0.F);
       return deviation * deviation;
     });
   }

@@ -11,21 +11,19 @@
 
 namespace episcope {
 
-/// Where the surface of each label is expected in a view: a plane through the disparities of its
-/// strokes, and how far it can be trusted away from them. Says how well the disparity of a pixel
-/// fits each label wherever the pixel lies, so that ground keeps its label at depths that nobody
-/// painted and a wall goes on behind a fence.
+/// Fits a plane in (x, y, d) to the disparities of each label's strokes, and measures how well the
+/// disparity of any pixel fits each label. Ground thus keeps its label at depths that nobody
+/// painted, and a wall continues behind a fence.
 ///
-/// A plane in space is one in (x, y, d). Each is fitted by least squares with Cauchy weights of
-/// three robust standard deviations, its slopes drawn to 0 where the strokes are short. The
-/// variance of the disparity at a pixel is that of the strokes about their plane, with
-/// kNoise_px² added, and grows with the leverage h = (1, x, y) M⁻¹ (1, x, y)ᵀ of the pixel, M the
-/// mean of (1, x, y)ᵀ(1, x, y) over the strokes, and with the spread of disparities within 2 px,
-/// because estimates are vague beside jumps. An own addition to [WSG13]; what it gains is in
-/// tests/accuracy/tuning.md.
+/// Planes are fitted by least squares with Cauchy weights of three robust standard deviations;
+/// short strokes draw the slopes to 0. The variance at a pixel is the variance of the strokes about
+/// their plane plus kNoise_px². It grows with the leverage h = (1, x, y) M⁻¹ (1, x, y)ᵀ, where M is
+/// the mean of (1, x, y)ᵀ(1, x, y) over the strokes, and with the spread of disparities within 2
+/// px, because estimates are vague beside jumps. An addition to [WSG13]; tests/accuracy/tuning.md
+/// has the gain.
 class LabelSurfaces {
  public:
-  /// `strokes` as from `carried_strokes` (stroke_distance.h), `disparity` of the view, without
+  /// `strokes` as from `propagated_strokes` (stroke_distance.h), `disparity` of the view, without
   /// holes, and how far it is trusted (`disparity_trust`; empty = everywhere), borrowed. 4·pitch
   /// bytes per pixel. Throws Cancelled.
   LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,
@@ -34,30 +32,29 @@ class LabelSurfaces {
 
   /// Standard deviation below which disparities say nothing, px per view step.
   static constexpr double kNoise_px = 0.04;
-  /// Most that a single pixel's disparity can speak against a label.
+  /// Largest misfit of a label at one pixel.
   static constexpr float kMostMisfit = 3;
 
-  /// How far the surface of each label holds away from its strokes, `[label]` in [0, 1]
-  /// (engine/labeling/predict_from_strokes.h): from now on misfits exceed the least one of their pixel
-  /// by this share only. Before, all hold. Throws Cancelled.
+  /// Sets how far the surface of each label holds away from its strokes, `[label]` in [0, 1]
+  /// (`surface_support`). A misfit then exceeds the least misfit of its pixel by this share only;
+  /// at first the share is 1. Throws Cancelled.
   void set_support(const std::vector<float>& support, const Progress& progress);
 
-  /// Labels that show in gaps of what lies before them (engine/labeling/predict_from_strokes.h), `[y][x]`, an
-  /// index plus one, 0 = none: from now on disparity does not speak against them there.
+  /// Sets the labels that show in gaps of the foreground (`labels_in_thin_gaps`), `[y][x]`, an
+  /// index plus one, 0 = none. Disparity no longer counts against them there.
   void set_gaps(ImageView<const std::int32_t> labels);
 
   /// Whether the surface of a label is known and lies behind the disparity of a pixel.
   [[nodiscard]] bool lies_behind(int label, int y, int x) const;
 
-  /// −log of how probable the disparity of each pixel of row `y` is on the surface of each label,
-  /// at most kMostMisfit: log(1 + r²/σ²) + log(σ/kNoise_px), r the distance from its plane.
-  /// kMostMisfit/2 for labels of too few stroke pixels. `[x][label]`, `pitch()` apart.
+  /// Negative log-likelihoods of row `y`, at most kMostMisfit: log(1 + r²/σ²) + log(σ/kNoise_px), r
+  /// the distance of the disparity from the label's plane. kMostMisfit/2 for labels of too few
+  /// stroke pixels. `[x][label]`, `pitch()` apart.
   [[nodiscard]] const float* misfits(int y) const { return misfits_.get() + y * row_size(); }
   [[nodiscard]] int pitch() const { return pitch_; }
 
-  /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch()` apart and 0 beyond the
-  /// labels, by exp(−1.5·trust·misfit), and makes them sum to 1 again. Before, 0.02 is added to
-  /// each: a forest is never that sure.
+  /// Adds 0.02 to each probability of row `y`, multiplies it by exp(−1.5·trust·misfit) and
+  /// normalizes the sum of each pixel to 1. `[x][label]`, `pitch()` apart and 0 beyond the labels.
   void weigh_row(int y, float* probabilities) const;
 
  private:

@@ -36,7 +36,7 @@ void require_views(ViewRectangle views, GridShape grid) {
                   view_text(views.first), view_text(last), grid.v, grid.u));
 }
 
-// Throws InvalidInput if the regulariser joins views and there is no disparity to join them by.
+// Throws InvalidInput if the regularizer joins views and there is no disparity to join them by.
 void require_disparity(Regularizer regularizer, bool has_disparity) {
   if (has_disparity || !info_of(regularizer).joins_views) return;
   throw InvalidInput(
@@ -45,7 +45,7 @@ void require_disparity(Regularizer regularizer, bool has_disparity) {
 }
 
 // The view and those beside it in its row; in a grid of one column, above and below.
-ViewRectangle neighbours(ViewIndex view, GridShape grid) {
+ViewRectangle adjacent_views(ViewIndex view, GridShape grid) {
   const int down = grid.u > 1 ? 0 : 1;
   const int across = 1 - down;
   const ViewIndex first{std::max(view.v - down, 0), std::max(view.u - across, 0)};
@@ -270,19 +270,19 @@ struct Labeler::State {
     has_own_edges = true;
   }
 
-  /// Replaces the labels by regularised ones.
-  void regularise(const Learned& learned, Labeling& labeling, const Progress& progress) {
+  /// Replaces the labels by regularized ones.
+  void regularize(const Learned& learned, Labeling& labeling, const Progress& progress) {
     LabelProbabilities& own = labeling.probabilities;
     if (own.grid.count() > 1) {
       const ViewIndex middle{own.first.v + own.grid.v / 2, own.first.u + own.grid.u / 2};
       judge(learned.parameters, middle, own, progress.part(0, 0.05));
-      regularise_together(learned.parameters, labeling, progress.part(0.05, 1));
+      regularize_together(learned.parameters, labeling, progress.part(0.05, 1));
     } else {
-      regularise_alone(learned, labeling, progress);
+      regularize_alone(learned, labeling, progress);
     }
   }
 
-  /// Has the colours beside boundaries speak for labels, unless disparity that is right does.
+  /// Has the colors beside boundaries speak for labels, unless disparity that is right does.
   void judge(const LabelerParameters& parameters, ViewIndex reference, LabelProbabilities& own,
              const Progress& progress) {
     if (set.with_disparity && !confidence) return;
@@ -290,7 +290,7 @@ struct Labeler::State {
     find_edges({own.first, own.grid}, progress.part(0, 0.5));
     const RayLabelingInput input{nullptr, disparity.get(), edges.get(), light_field.get(),
                                  keeps_solvers ? &reference_solver : nullptr};
-    judge_colors(input, reference, options_of(parameters), progress.part(0.5, 1), own);
+    reweight_by_color(input, reference, options_of(parameters), progress.part(0.5, 1), own);
   }
 
   static RayLabelingParameters options_of(const LabelerParameters& parameters) {
@@ -299,7 +299,7 @@ struct Labeler::State {
     return options;
   }
 
-  void regularise_together(const LabelerParameters& parameters, Labeling& labeling,
+  void regularize_together(const LabelerParameters& parameters, Labeling& labeling,
                            const Progress& progress) {
     const LabelProbabilities& own = labeling.probabilities;
     progress.step("finding edges");
@@ -313,24 +313,24 @@ struct Labeler::State {
     });
   }
 
-  void regularise_alone(const Learned& learned, Labeling& labeling, const Progress& progress) {
+  void regularize_alone(const Learned& learned, Labeling& labeling, const Progress& progress) {
     const Regularizer regularizer = learned.parameters.regularizer;
     LabelProbabilities& own = labeling.probabilities;
     ViewRectangle views{own.first, own.grid};
     // Where rays of other views agree, two of them are nearly as informative as all.
-    if (info_of(regularizer).joins_views) views = neighbours(own.first, light_field->grid());
+    if (info_of(regularizer).joins_views) views = adjacent_views(own.first, light_field->grid());
     progress.step("finding edges");
     find_edges(views, progress.part(0, 0.05));
     RayLabelingParameters options = options_of(learned.parameters);
     options.gap = kLiveGap;
     LabelProbabilities around = empty_probabilities(own.ids, views);
     around.view(own.first) = std::move(own.views[0]);
-    progress.step("labeling neighbouring views");
+    progress.step("labeling neighboring views");
     predict(learned, around, progress.part(0.05, 0.3));
     judge(learned.parameters, own.first, around, progress.part(0.3, 0.5));
     const RayLabelingInput input{&around, disparity.get(), edges.get(), light_field.get(),
                                  keeps_solvers ? &own_solver : nullptr};
-    progress.step("regularising");
+    progress.step("regularizing");
     set_labels(label_view(input, own.first, regularizer, options, progress.part(0.5, 1)), labeling);
     own.views[0] = std::move(around.view(own.first));
   }
@@ -396,7 +396,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
       labeling.is_draft = false;
     }
     state_->complete(learned, labeling.probabilities, progress.part(0.5, 0.5));
-    state_->regularise(learned, labeling, progress.part(0.5, 1));
+    state_->regularize(learned, labeling, progress.part(0.5, 1));
   }
   labeling.note = state_->note;
   labeling.seconds = watch.seconds();
@@ -414,7 +414,7 @@ Labeling Labeler::smooth(LabelProbabilities probabilities, const LabelerParamete
   state_->choose_device(probabilities.grid.count());
   Labeling labeling;
   labeling.probabilities = std::move(probabilities);
-  state_->regularise_together(parameters, labeling, progress);
+  state_->regularize_together(parameters, labeling, progress);
   labeling.note = state_->note;
   labeling.seconds = watch.seconds();
   return labeling;
@@ -434,7 +434,7 @@ Schema<LabelerParameters> labeler_schema() {
       .choice("regularizer", &LabelerParameters::regularizer,
               {"Smoothing",
                "How labels are made consistent: not at all, view by view, along the rays of all "
-               "views (rayspace), or by minimising one energy of all views (wsg13; slower, 16 "
+               "views (rayspace), or by minimizing one energy of all views (wsg13; slower, 16 "
                "bytes per ray and label)"})
       .real("smoothness", &LabelerParameters::smoothness,
             {"Smoothness", "Cost of one pixel of boundary between labels, in units of -log p", ""},

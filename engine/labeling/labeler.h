@@ -19,8 +19,8 @@
 
 namespace episcope {
 
-/// The features that the forest uses: the three sets of the archive. Which disparity is meant is up
-/// to the caller; here all but Image judge labels by it.
+/// The features that the forest uses: the three sets of the archive. The caller chooses the
+/// disparity; all sets but Image use it as evidence for labels.
 enum class FeatureSet { Image, ImageEstimate, ImageTruth };
 [[nodiscard]] Names<FeatureSet> names_of(FeatureSet);
 
@@ -42,34 +42,33 @@ struct LabelerParameters {
 
 /// A segmentation of a rectangle of views.
 struct Labeling {
-  LabelProbabilities probabilities;  ///< Of the forest and all else, before regularisation.
+  LabelProbabilities probabilities;  ///< Of the forest and all else, before regularization.
   ViewStack<std::int32_t> labels;    ///< The label of each pixel, one of `probabilities.ids`.
-  bool is_draft = false;             ///< Whether the labels are still to be regularised.
-  double gap = 0;                    ///< Relative duality gap of the regulariser.
+  bool is_draft = false;             ///< Whether the labels are still to be regularized.
+  double gap = 0;                    ///< Relative duality gap of the regularizer.
   double seconds = 0;                ///< Wall-clock time.
   std::string note;                  ///< Of many views: where they were computed; or empty.
 };
 
 /// Learns from scribbles which label each pixel of a light field has. One object serves many
 /// strokes: what does not depend on them, edges and the features of views, is kept between calls
-/// (features of as many views as fit into `kKeptBytes`, until many views are requested at once),
-/// and so are the forest while it would be the same, and, up to 1 GiB, the solvers of the view that
-/// is painted.
+/// (features of as many views as fit into `kKeptBytes`, until many views are requested at once).
+/// The forest is kept while it would be the same, and the solvers of the painted view up to 1 GiB.
 ///
 /// A random forest (engine/labeling/forest.h) is trained on the painted pixels of all
 /// painted views, equally many per label, and votes on the pixels of the requested views by their
 /// features (engine/labeling/pixel_features.h). Its votes are weighted by how well the
-/// disparity of a pixel fits the surface on which the strokes of each label lie, if the parameters
-/// ask for it (engine/labeling/label_surfaces.h), as far as that surface holds where the
-/// image alone is sure (engine/labeling/predict_from_strokes.h; of estimates only) and not in the gaps
-/// of thin things (engine/labeling/predict_from_strokes.h; likewise), and, since a forest knows nothing about
-/// what lies between a pixel and a stroke, by how near the strokes of each label are along
-/// surfaces, exp(−nearness·excess) (engine/labeling/stroke_distance.h).
-/// Pixels that are painted on a view keep their labels there before smoothing. Unless disparity is
-/// known to be right (it comes without confidence), the middle view is then smoothed alone, and the
-/// colours near its boundaries speak for labels in all views (engine/labeling/reweight_by_color.h).
-/// Labels are then made consistent (engine/labeling/regularizer.h). With `rayspace`, a single
-/// view uses its rays in neighbouring views only, for a quick answer; all views use those of all.
+/// disparity of a pixel fits the surface of each label's strokes (label_surfaces.h), if the
+/// parameters ask for it. With estimated disparity, a surface counts only where it agrees with the
+/// image, and not in gaps of thin objects (predict_from_strokes.h). A forest knows nothing about
+/// what lies between a pixel and a stroke, so votes are also weighted by how near the strokes of
+/// each label are along surfaces, exp(−nearness·excess) (stroke_distance.h).
+///
+/// Painted pixels keep their labels in the view where they were painted, before smoothing. Unless
+/// disparity is known to be right (it comes without confidence), the middle view is smoothed first;
+/// its colors then correct labels near boundaries (reweight_by_color.h). Labels are then made
+/// consistent (regularizer.h). With `rayspace`, a single view uses its rays in neighboring views
+/// only, for a quick answer; all views use the rays of all.
 ///
 /// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weightings are additions; what they
 /// gain is in tests/accuracy/tuning.md.
@@ -98,9 +97,9 @@ class Labeler {
   /// next call on. Auto, as at first, takes a GPU if there is one, and the CPU if that fails.
   void compute_on(Device device);
 
-  /// Segments `views`. Labels are those painted anywhere; names and colours in `scribbles` are not
+  /// Segments `views`. Labels are those painted anywhere; names and colors in `scribbles` are not
   /// needed. `on_draft`, if given, is called on the calling thread with the labels before
-  /// regularisation, if there is any to come; of a few views, a third of the trees voted for them.
+  /// regularization, if there is any to come; of a few views, a third of the trees voted for them.
   /// The result depends neither on the number of threads nor on earlier calls, but for a single
   /// view with `on_draft`, whose labels are smoothed from where the last call for it ended, to the
   /// same gap. Throws InvalidInput

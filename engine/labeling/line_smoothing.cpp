@@ -39,24 +39,12 @@ std::vector<LinesOfView> lines_of(const RayLabelingInput& input, const Progress&
   return lines;
 }
 
-std::vector<Image<float>> weights_of(const RayLabelingInput& input, const Progress& progress) {
-  const LabelProbabilities& p = *input.probabilities;
-  std::vector<Image<float>> weights(p.views.size());
-  if (input.edges == nullptr || input.edges->empty()) return weights;
-  parallel_for(p.grid.count(), progress, [&](int i) {
-    if (input.edges->contains(p.view_at(i))) {
-      weights[i] = boundary_weights(input.edges->view(p.view_at(i)));
-    }
-  });
-  return weights;
-}
-
 // The problem, and what it borrows.
 struct JointProblem {
   JointProblem(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                const Progress& progress)
       : lines(lines_of(input, progress.part(0, 0.7))),
-        weights(weights_of(input, progress.part(0.7, 1))) {
+        weights(boundary_weights_of(input, progress.part(0.7, 1))) {
     state(input, parameters);
   }
   JointProblem(const JointProblem&) = delete;
@@ -149,7 +137,7 @@ double line_energy(const RayLabelingInput& input, const RayLabelingParameters& p
 
 namespace {
 
-// Place in the next view of a ray at `from`, on the line of slope d through the pixel centre that
+// Place in the next view of a ray at `from`, on the line of slope d through the pixel center that
 // is nearest to it in the middle view, `steps` before this one.
 float drawn_on(int from, float d, int steps) {
   const float center = std::floor(static_cast<float>(from) + d * static_cast<float>(steps) + 0.5F);

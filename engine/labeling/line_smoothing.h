@@ -11,7 +11,7 @@
 
 namespace episcope {
 
-/// Labels of all views that minimise the energy of [WSG13] as a whole: the costs of all rays,
+/// Labels of all views that minimize the energy of [WSG13] as a whole: the costs of all rays,
 /// −log p; boundaries within the views, weighted by edges (λ J_st); and μ times the weight of every
 /// line of a horizontal or vertical EPI on which the label changes from one view to the next
 /// (μ (J_xs + J_yt)), where the point is visible in both (`RayLines`). Relaxed to the simplex and
@@ -28,32 +28,32 @@ namespace episcope {
                                                const RayLabelingParameters& parameters,
                                                const Progress& progress);
 
-/// That energy of labels, ids of the probabilities, of all views that have probabilities.
+/// The energy that `smooth_lines` minimizes, of given labels (ids) of all views that have
+/// probabilities.
 [[nodiscard]] double line_energy(const RayLabelingInput& input,
                                  const RayLabelingParameters& parameters,
                                  const ViewStack<std::int32_t>& labels);
 
-/// Where the rays of one view go on to the next view of its row or column: the lines of the
-/// horizontal or vertical EPIs between the two.
+/// Lines of the horizontal or vertical EPIs from one view to the next of its row or column.
 struct RayLines {
   /// `[y][x]`: pixel y'·width + x' of the other view, −1 = the line ends here. No pixel of the
   /// other view is named twice.
   Image<std::int32_t> target;
-  Image<std::uint8_t> weight;  ///< Trust in the colours at both ends, `[y][x]`, 255 for 1.
+  Image<std::uint8_t> weight;  ///< Trust in the colors at both ends, `[y][x]`, 255 for 1.
 };
 
-/// What ray lines are found from; borrowed.
+/// Input of `find_ray_lines`; borrowed.
 struct RayLineSources {
   const DisparityField& disparity;
   const RayColors& colors;
-  ViewIndex middle;  ///< The view in which lines run through pixel centres.
+  ViewIndex middle;  ///< The view in which lines run through pixel centers.
 };
 
-/// Lines from `view` to `next`, its right or lower neighbour. A line that runs through a pixel
-/// centre of the middle column (row) of views is drawn through the nearest pixel of every other
+/// Lines from `view` to `next`, its right or lower neighbor. A line that runs through a pixel
+/// center of the middle column (row) of views is drawn through the nearest pixel of every other
 /// view, as a line on a screen is: rounded from view to view alone, lines of small slope would
 /// never leave their column. A line ends where it leaves the image, where the point is hidden (the
-/// disparities differ by more than kSamePointTolerance_px), where the colours are not trusted, and
+/// disparities differ by more than kSamePointTolerance_px), where the colors are not trusted, and
 /// where another line has reached the same pixel. Throws Cancelled.
 [[nodiscard]] RayLines find_ray_lines(const RayLineSources& sources, ViewIndex view, ViewIndex next,
                                       const Progress& progress);

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/labeling/feature_kernel.h"
+#include "engine/labeling/forest_kernel.h"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -113,7 +114,7 @@ void add_color(LayerWriter& layers, const cv::Mat& rgb, const std::vector<cv::Ma
   for (const cv::Mat& channel : lab) layers.add(smoothed(channel, kFineScale));
 }
 
-/// Colours averaged within a surface and not across its outline.
+/// Colors averaged within a surface and not across its outline.
 void add_surface(LayerWriter layers, const std::vector<cv::Mat>& lab, double contrast,
                  const Progress& progress) {
   ColorPlanes flat;
@@ -178,7 +179,7 @@ std::vector<std::string> pixel_feature_names(PixelFeatureSet set) {
   add_lab(", of the wider surface");
   names.insert(names.end(),
                {"gradient", "Laplacian", "Hessian, larger", "Hessian, smaller", "structure, larger",
-                "structure, smaller", "column in the centre view", "row in the centre view"});
+                "structure, smaller", "column in the center view", "row in the center view"});
   if (set.with_disparity) {
     names.insert(names.end(), {"disparity, slope along x", "disparity, slope along y"});
   }
@@ -313,8 +314,6 @@ cv::Mat lab_colors(const cv::Mat& samples) {
 
 namespace {
 
-constexpr int kVectorLanes = 16;
-
 // A plane with as many pixels around it as the filter looks at, equal to those at the border.
 class Padded {
  public:
@@ -341,13 +340,13 @@ class Padded {
   std::vector<float> values_;
 };
 
-struct Neighbours {
+struct SurfaceNeighbors {
   std::vector<long> offsets;
   std::vector<float> nearness;
 };
 
-Neighbours neighbours_of(const SurfaceFilter& filter, long pitch) {
-  Neighbours all;
+SurfaceNeighbors neighbors_of(const SurfaceFilter& filter, long pitch) {
+  SurfaceNeighbors all;
   const double share = std::numbers::log2e / (2 * filter.scale_px * filter.scale_px);
   for (int y = -filter.radius_px; y <= filter.radius_px; ++y) {
     for (int x = -filter.radius_px; x <= filter.radius_px; ++x) {
@@ -369,7 +368,7 @@ ColorPlanes filter_surfaces(const ColorPlanes& colors, const SurfaceFilter& filt
   const std::array<Padded, 3> padded{Padded(colors[0], filter.radius_px),
                                      Padded(colors[1], filter.radius_px),
                                      Padded(colors[2], filter.radius_px)};
-  const Neighbours neighbours = neighbours_of(filter, padded[0].pitch());
+  const SurfaceNeighbors neighbors = neighbors_of(filter, padded[0].pitch());
   ColorPlanes out{Image<float>(height, width), Image<float>(height, width),
                   Image<float>(height, width)};
   const std::size_t size = static_cast<std::size_t>(width) + kVectorLanes;
@@ -381,9 +380,9 @@ ColorPlanes filter_surfaces(const ColorPlanes& colors, const SurfaceFilter& filt
         taps.channels[c] = padded[c].row(y);
         to[c] = rows.data() + c * size;
       }
-      taps.offsets = neighbours.offsets.data();
-      taps.nearness = neighbours.nearness.data();
-      taps.count = static_cast<int>(neighbours.offsets.size());
+      taps.offsets = neighbors.offsets.data();
+      taps.nearness = neighbors.nearness.data();
+      taps.count = static_cast<int>(neighbors.offsets.size());
       taps.contrast =
           static_cast<float>(std::numbers::log2e / (2 * filter.contrast * filter.contrast));
       taps.width = width;

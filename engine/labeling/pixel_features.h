@@ -42,15 +42,15 @@ inline constexpr int kDisparitySlopeLayer = 23;
 /// Computes the features of a view. Of the image: RGB and CIE Lab/100, Lab smoothed by a fine
 /// Gaussian, and averaged within surfaces by two bilateral filters of 13 px; of lightness at a
 /// scale of 1 px the gradient magnitude, the Laplacian, and the eigenvalues of Hessian and
-/// structure tensor. The place of the pixel, carried along its ray to the centre view, x + d·(u −
+/// structure tensor. The place of the pixel, carried along its ray to the center view, x + d·(u −
 /// u_c) and y + d·(v − v_c) in units of the larger side, so that it means the same in every view.
-/// With `set.with_disparity`: how smoothed disparity is inclined along x and y, beside a jump that
-/// of the pixel's own surface (`disparity_slope`). Disparity itself would
-/// tie labels to the depths at which they were painted: ground at the depth of an object became the
-/// object. label_surfaces.h compares it with the strokes instead.
+/// With `set.with_disparity`: slopes of smoothed disparity along x and y, beside a jump the slope
+/// of the pixel's own surface (`disparity_slopes`). Disparity itself would tie labels to the depths
+/// at which they were painted: ground at the depth of an object became the object. label_surfaces.h
+/// compares it with the strokes instead.
 ///
-/// `disparity` is that of the view, used to carry places in either set; without (empty), places are
-/// those in the view itself. Invalid pixels take the disparity of their neighbours in the row.
+/// `disparity` of the view moves places to the center view in either set; if it is empty, places
+/// are not moved. Invalid pixels take the disparity of their neighbors in the row.
 ///
 /// The feature groups are those of the archive, "without" and "with depth" [WSG13]; the exact list
 /// was not recovered. The usual Gaussian features of wide scales are left out: beside an outline
@@ -84,17 +84,17 @@ struct DisparitySlopes {
 /// Samples of one channel as three that are equal; those of three as they are.
 [[nodiscard]] cv::Mat rgb_colors(const cv::Mat& samples);
 
-/// Three channels of colour, `[y][x]` each.
+/// Three channels of color, `[y][x]` each.
 using ColorPlanes = std::array<Image<float>, 3>;
 
 struct SurfaceFilter {
-  double contrast = 0.1;  ///< σ of the difference of colours, summed over the channels; > 0.
+  double contrast = 0.1;  ///< σ of the difference of colors, summed over the channels; > 0.
   double scale_px = 6;    ///< σ of the distance; > 0.
-  int radius_px = 6;      ///< Neighbours that are farther do not count.
+  int radius_px = 6;      ///< Neighbors that are farther do not count.
   Isa isa = best_isa();   ///< Other than that for tests.
 };
 
-/// Colours averaged within a surface and not across its outline: the bilateral filter of Tomasi and
+/// Colors averaged within a surface and not across its outline: the bilateral filter of Tomasi and
 /// Manduchi 1998 with the sum of absolute differences, as cv::bilateralFilter, to about 10⁻⁶, and a
 /// third of its time. Pixels beyond the border are those at the border. Throws Cancelled.
 [[nodiscard]] ColorPlanes filter_surfaces(const ColorPlanes& colors, const SurfaceFilter& filter,
@@ -107,8 +107,8 @@ struct SurfaceFilter {
 
 /// Appends the painted pixels of a view; `ids` (ascending) gives the index of each label.
 /// Occasional features are the place, because short strokes say little about where the rest of a
-/// label is, and the slope of disparity, because strokes lie in the middle of things: what is thin
-/// lies beside a jump everywhere (tests/accuracy/tuning.md).
+/// label is, and the slope of disparity, because strokes lie in the middle of objects, but all of a
+/// thin object lies beside a jump (tests/accuracy/tuning.md).
 void append_samples(const ViewScribbles& painted, VolumeView<const float> features,
                     const std::vector<std::int32_t>& ids, ForestSamples& samples);
 

@@ -76,7 +76,7 @@ ProbabilityMap predict_view(const PixelVotes& votes, const StrokeEvidence& evide
   return map;
 }
 
-/// Edges of colour that a path along a surface should not cross.
+/// Edges of color that a path along a surface should not cross.
 std::vector<Image<float>> color_guides(VolumeView<const float> features) {
   std::vector<Image<float>> planes;
   for (int c = 0; c < 3; ++c) {
@@ -98,8 +98,8 @@ ProbabilityMap predict_from_strokes(const StrokeKnowledge& known, ViewIndex view
                                     VolumeView<const float> features, const PixelVotes& votes,
                                     const Progress& progress) {
   const int labels = votes.label_count();
-  const Image<std::int32_t> strokes = carried_strokes(known.scribbles, known.ids, known.disparity,
-                                                      view, features.height, features.width);
+  const Image<std::int32_t> strokes = propagated_strokes(
+      known.scribbles, known.ids, known.disparity, view, features.height, features.width);
   const std::vector<Image<float>> colors = color_guides(features);
   StrokeGuides guides{{colors.begin(), colors.end()}};
   Image<float> filled, trust;

@@ -15,52 +15,50 @@
 
 namespace episcope {
 
-/// Strokes, and what is known about where their labels go on; borrowed.
+/// Strokes, and evidence for where their labels continue; borrowed.
 struct StrokeKnowledge {
   const Scribbles& scribbles;
   const std::vector<std::int32_t>& ids;          ///< Of the labels painted, ascending.
   double nearness = 0;                           ///< LabelerParameters::nearness.
   const DisparityField* disparity = nullptr;     ///< Null = strokes stay in their views.
   const ViewStack<float>* confidence = nullptr;  ///< Of the disparity; null = it is right.
-  bool judges_disparity = false;  ///< Whether disparity speaks for labels; it needs one then.
+  bool judges_disparity = false;  ///< Whether disparity is evidence for labels; needs `disparity`.
 };
 
-/// The votes of the forest for the pixels of a view, weighted by how well their disparity fits the
-/// surfaces of the labels and by how near the strokes of each label are (labeler.h says why).
-/// `features` of the view. Throws Cancelled.
+/// Weights the forest's votes for the pixels of a view: by how well their disparity fits the
+/// surface of each label, and by how near its strokes are (labeler.h says why). `features` of the
+/// view. Throws Cancelled.
 [[nodiscard]] ProbabilityMap predict_from_strokes(const StrokeKnowledge& known, ViewIndex view,
                                                   VolumeView<const float> features,
                                                   const PixelVotes& votes,
                                                   const Progress& progress);
 
-/// How far the surface of each label holds away from its strokes, `[label]` in (0, 1]. Pixels that
-/// the forest gives to a label with at least kSureShare of its votes do not need disparity to be
-/// told apart; if theirs fits other labels better, the estimate is wrong there or the label is not
-/// the plane of its strokes, and its misfits should count less. The support is the mean of
-/// exp(−(misfit − least misfit of all labels)) over those pixels, weighted by their trust, with
-/// kPrior pixels that fit; so labels without such pixels are believed.
+/// How far the surface of each label holds away from its strokes, `[label]` in (0, 1]. Where the
+/// forest gives a label at least kSureShare of its votes, disparity is not needed. If it fits other
+/// labels better there, the estimate is wrong or the label is no plane, so its misfits should count
+/// less. The support is the mean of exp(−(misfit − least misfit of all labels)) over those pixels,
+/// weighted by trust, plus kPrior pixels that fit, so that labels without such pixels are believed.
 ///
-/// Every eighth row is looked at.
-/// `trust` of the disparity `[y][x]` in [0, 1], empty = 1. An own addition; what it gains is in
-/// tests/accuracy/tuning.md. Throws Cancelled.
+/// Uses every eighth row. `trust` of the disparity `[y][x]` in [0, 1], empty = 1. An addition to
+/// [WSG13]; tests/accuracy/tuning.md has the gain. Throws Cancelled.
 [[nodiscard]] std::vector<float> surface_support(const PixelVotes& votes,
                                                  const LabelSurfaces& surfaces,
                                                  ImageView<const float> trust,
                                                  const Progress& progress);
 
-/// Where the gaps of thin things were filled by the estimate: an index of the label that the image
-/// shows there plus one, `[y][x]`, 0 = nowhere. Estimates carry the disparity of bars, stalks and
-/// lattices into what is seen between them, where it contradicts what the forest sees.
+/// Finds gaps of thin objects that the estimate has filled, `[y][x]`: an index of the label that
+/// the image shows there plus one, 0 = none. Estimates extend the disparity of bars, stalks and
+/// lattices into the gaps between them, where it contradicts the forest.
 ///
-/// A pixel lies in such a gap if the forest votes most for another label than the one whose surface
-/// its disparity fits best, the surface of the voted label lies behind that disparity, and within
-/// kReach_px of it there is a thin thing of the fitting label: kFewestPixels connected pixels or
-/// more for which the forest votes and whose disparity agrees, in no square of kThin_px of that
-/// label alone. More than half of the label's pixels must be thin, because speckles of a forest in
-/// doubt are thin as well; of the voted label at most kMostThin of them, because what shows in gaps
-/// goes on beside them.
+/// A pixel is in a gap if all of this holds:
+/// - The forest prefers another label than the one whose surface its disparity fits best, and the
+///   surface of the preferred label lies behind that disparity.
+/// - Within kReach_px there is a thin part of the fitting label: kFewestPixels connected pixels or
+///   more, in no square of kThin_px of that label, for which forest and disparity agree.
+/// - More than half of the fitting label is thin; speckles of a doubtful forest are thin too.
+/// - At most kMostThin of the preferred label is thin, because it continues beside the gaps.
 ///
-/// An own addition; what it gains is in tests/accuracy/tuning.md. Throws Cancelled.
+/// An addition to [WSG13]; tests/accuracy/tuning.md has the gain. Throws Cancelled.
 [[nodiscard]] Image<std::int32_t> labels_in_thin_gaps(const PixelVotes& votes,
                                                       const LabelSurfaces& surfaces,
                                                       const Progress& progress);

@@ -123,7 +123,7 @@ void add_costs_of_ray(const RayCosts& rays, int x, float* costs) {
   }
 }
 
-// Neighbours that arrive side by side, as nearly all do. What does not count may be anything that
+// Neighbors that arrive side by side, as nearly all do. What does not count may be anything that
 // can be read.
 inline bool are_side_by_side(const RayCosts& rays, int x, int first, long offset) {
   const IntVec counts = load(rays.trusts + x) > 0.0F;

@@ -30,7 +30,7 @@ struct RayCosts {
   const float* trusts = nullptr;          ///< Of each ray, 0 = it does not count.
 };
 
-/// Rays of a row whose colours are compared with those of the pixels in which they arrive.
+/// Rays of a row whose colors are compared with those of the pixels in which they arrive.
 struct RayTrusts {
   int begin = 0, end = 0;                 ///< Columns of the rays,
   int width = 0;                          ///< of so many of the row.

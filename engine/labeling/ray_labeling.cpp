@@ -33,14 +33,14 @@ RayLabeling unlabeled(const LabelProbabilities& p, ViewIndex view) {
 namespace {
 
 // What one thread sums up of one row.
-struct Row {
-  explicit Row(int width) : targets(width), trusts(width), weight(width) {}
+struct CostRow {
+  explicit CostRow(int width) : targets(width), trusts(width), weight(width) {}
   std::vector<std::int32_t> targets;
   std::vector<float> trusts;  // How much each ray is trusted, 0 where it arrives nowhere,
   std::vector<float> weight;  // and of all views, by column.
 };
 
-void find_rays(const TrackSources& sources, ViewIndex other, int y, Row& row) {
+void find_rays(const TrackSources& sources, ViewIndex other, int y, CostRow& row) {
   const auto& [probabilities, disparity, view, others, colors] = sources;
   find_ray_targets(disparity.view(view), disparity.view(other),
                    {other.v - view.v, other.u - view.u}, y, row.targets.data());
@@ -54,7 +54,7 @@ void find_rays(const TrackSources& sources, ViewIndex other, int y, Row& row) {
   for (int x = 0; x < width; ++x) row.weight[x] += row.trusts[x];
 }
 
-void add_view(VolumeView<const std::uint8_t> p, const CostTable& table, const Row& row,
+void add_view(VolumeView<const std::uint8_t> p, const CostTable& table, const CostRow& row,
               float* costs) {
   static const RayKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kRayKernel);
   RayCosts rays;
@@ -84,7 +84,7 @@ bool is_asked(const TrackSources& sources, ViewIndex other) {
 }
 
 void fill_row(const TrackSources& sources, const CostTable& table, VolumeView<float> costs, int y,
-              Row& row) {
+              CostRow& row) {
   const LabelProbabilities& probabilities = sources.probabilities;
   const std::uint8_t* const own = probabilities.view(sources.view).view().row(y, 0);
   float* const sums = costs.row(y, 0);
@@ -122,7 +122,8 @@ void fill_costs(VolumeView<const std::uint8_t> probabilities, const CostTable& t
 void fill_track_costs(const TrackSources& sources, const CostTable& table, const Progress& progress,
                       VolumeView<float> costs) {
   parallel_for_workers(costs.height, progress, [&] {
-    return [&, row = Row(costs.width)](int y) mutable { fill_row(sources, table, costs, y, row); };
+    return
+        [&, row = CostRow(costs.width)](int y) mutable { fill_row(sources, table, costs, y, row); };
   });
 }
 
@@ -140,6 +141,18 @@ Image<float> larger_edge_probability(ImageView<const float> edge_probability) {
 Image<float> boundary_weights(ImageView<const float> edge_probability) {
   Image<float> weights = larger_edge_probability(edge_probability);
   for (float& weight : weights) weight = std::clamp(1 - weight, kMinBoundaryWeight, 1.0F);
+  return weights;
+}
+
+std::vector<Image<float>> boundary_weights_of(const RayLabelingInput& input,
+                                              const Progress& progress) {
+  const LabelProbabilities& p = *input.probabilities;
+  std::vector<Image<float>> weights(p.views.size());
+  if (input.edges == nullptr || input.edges->empty()) return weights;
+  parallel_for(p.grid.count(), progress, [&](int i) {
+    const ViewIndex view = p.view_at(i);
+    if (input.edges->contains(view)) weights[i] = boundary_weights(input.edges->view(view));
+  });
   return weights;
 }
 

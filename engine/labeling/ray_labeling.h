@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace episcope {
 
@@ -35,7 +36,7 @@ class KeptSolver;
 struct RayLabelingInput {
   const LabelProbabilities* probabilities = nullptr;
   /// Disparities of (at least) all views with probabilities; required only where views are coupled.
-  /// Without coupling they speed up the solution: a view starts from the result of its neighbour.
+  /// Without coupling they speed up the solution: a view starts from the result of its neighbor.
   const DisparityField* disparity = nullptr;
   /// Probability of an edge in [0, 1] of (at least) those views
   /// (engine/labeling/edge_probability.h); null or empty = no edges known.
@@ -91,7 +92,7 @@ struct TrackSources {
 
 /// Costs of the labels of one view, each the mean of the costs of the ray itself and of the rays of
 /// the same scene point in other views that have probabilities and disparity
-/// (engine/labeling/ray_targets.h), weighted by the trust in their colours. The floor of the
+/// (engine/labeling/ray_targets.h), weighted by the trust in their colors. The floor of the
 /// table limits the influence of a single stray ray. `costs` has the shape of the view's
 /// probabilities. Rows are processed in parallel. Precondition: probabilities and disparity hold
 /// the view. Throws Cancelled.
@@ -105,5 +106,8 @@ void fill_track_costs(const TrackSources& sources, const CostTable& table, const
 /// larger probability of an edge.
 inline constexpr float kMinBoundaryWeight = 0.02F;
 [[nodiscard]] Image<float> boundary_weights(ImageView<const float> edge_probability);
+/// Weights of each view that has probabilities; empty images without edges. Throws Cancelled.
+[[nodiscard]] std::vector<Image<float>> boundary_weights_of(const RayLabelingInput& input,
+                                                            const Progress& progress);
 
 }  // namespace episcope

@@ -29,16 +29,16 @@ void find_ray_targets(const DisparityView& from, const DisparityView& to, ViewIn
 struct ColumnRange {
   int begin = 0, end = 0;
 };
-/// Columns of which find_ray_targets takes as many at once.
+/// Columns that find_ray_targets processes at once.
 inline constexpr int kRayColumns = 16;
-/// The same of kRayColumns columns or more; the others of `targets` stay as they are.
+/// Finds the targets of kRayColumns columns or more; the other `targets` stay unchanged.
 void find_ray_targets(const DisparityView& from, const DisparityView& to, ViewIndex step, int y,
                       ColumnRange columns, std::int32_t* targets);
 
-/// Tells by their colours whether two rays see the same scene point: at an outline, disparities are
-/// less accurate than anywhere else, and a ray that belongs to the neighbouring object has another
-/// colour. Where noise or gloss exceeds σ, rays are left to themselves. Refers to samples of 8 bits
-/// directly; of others it keeps a copy of a rectangle of views, rounded to 8 bits.
+/// Compares the colors of two rays to decide whether they see the same scene point. Disparities are
+/// least accurate at outlines, where a ray of the neighboring object has another color. Where noise
+/// or gloss exceeds σ, rays are not coupled. Refers to samples of 8 bits directly; of others it
+/// keeps a copy of a rectangle of views, rounded to 8 bits.
 class RayColors {
  public:
   /// Knows nothing: all rays are trusted.
@@ -58,16 +58,16 @@ class RayColors {
   }
 
   /// exp(−|ΔI|²/2σ²) of column x and of pixel `target` = y'·width + x' of the other view, |ΔI| the
-  /// difference of their colours, σ = 10/255; 0 beyond 4σ. 1 where nothing is known.
+  /// difference of their colors, σ = 10/255; 0 beyond 4σ. 1 where nothing is known.
   [[nodiscard]] float trust(const Pair& pair, int x, std::int32_t target) const;
-  /// The same of many columns and the pixel of each, 0 where that is −1; others of `trusts` stay as
-  /// they are.
+  /// Trust of many columns and their pixels, 0 where the target is −1; the other `trusts` stay
+  /// unchanged.
   void trusts(const Pair& pair, ColumnRange columns, const std::int32_t* targets,
               float* trusts) const;
 
-  /// What is compared, of 8 bits; null if nothing is known.
+  /// The samples that are compared, 8 bits; null if nothing is known.
   [[nodiscard]] const ViewStack<std::uint8_t>* samples() const { return colors_; }
-  /// Trust of each squared difference of colours, summed over three channels; 0 from the last on.
+  /// Trust of each squared difference of colors, summed over three channels; 0 from the last on.
   static constexpr int kNoTrust = 1600;
   [[nodiscard]] const std::array<float, kNoTrust + 1>& trusts() const { return table_; }
 

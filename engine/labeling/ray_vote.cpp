@@ -14,8 +14,8 @@ namespace episcope {
 namespace {
 
 // Room for one row, of each thread.
-struct Row {
-  Row(int width, int label_count)
+struct VoteRow {
+  VoteRow(int width, int label_count)
       : targets(static_cast<std::size_t>(width)),
         trusts(targets.size()),
         votes(static_cast<std::size_t>(width) * label_count) {}
@@ -30,11 +30,11 @@ class Vote {
       : labels_(labels), votes_(votes) {}
 
   // Of columns of row y, the others of `out` stay as they are.
-  void decide(ViewIndex view, int y, ColumnRange columns, Row& row, std::int32_t* out) const;
+  void decide(ViewIndex view, int y, ColumnRange columns, VoteRow& row, std::int32_t* out) const;
 
  private:
-  void add_votes(ViewIndex view, ViewIndex other, int y, ColumnRange columns, Row& row) const;
-  [[nodiscard]] float* votes_at(Row& row, int x) const {
+  void add_votes(ViewIndex view, ViewIndex other, int y, ColumnRange columns, VoteRow& row) const;
+  [[nodiscard]] float* votes_at(VoteRow& row, int x) const {
     return row.votes.data() + static_cast<std::ptrdiff_t>(x) * votes_.label_count;
   }
 
@@ -42,7 +42,8 @@ class Vote {
   const RayVotes& votes_;
 };
 
-void Vote::add_votes(ViewIndex view, ViewIndex other, int y, ColumnRange columns, Row& row) const {
+void Vote::add_votes(ViewIndex view, ViewIndex other, int y, ColumnRange columns,
+                     VoteRow& row) const {
   find_ray_targets(votes_.disparity.view(view), votes_.disparity.view(other),
                    {other.v - view.v, other.u - view.u}, y, columns, row.targets.data());
   const std::int32_t* const there = labels_.view(other).data;
@@ -54,7 +55,8 @@ void Vote::add_votes(ViewIndex view, ViewIndex other, int y, ColumnRange columns
   }
 }
 
-void Vote::decide(ViewIndex view, int y, ColumnRange columns, Row& row, std::int32_t* out) const {
+void Vote::decide(ViewIndex view, int y, ColumnRange columns, VoteRow& row,
+                  std::int32_t* out) const {
   const ViewIndex first = labels_.first();
   const GridShape grid = labels_.grid();
   std::fill(votes_at(row, columns.begin), votes_at(row, columns.end), 0.0F);
@@ -99,7 +101,7 @@ template <class Work>
 void for_rows(const ViewStack<std::int32_t>& labels, int label_count, const Progress& progress,
               const Work& work) {
   parallel_for_workers(labels.grid().count(), progress, [&] {
-    return [&, row = Row(labels.width(), label_count)](int i) mutable {
+    return [&, row = VoteRow(labels.width(), label_count)](int i) mutable {
       for (int y = 0; y < labels.height(); ++y) {
         progress.check();
         work(labels.view_at(i), y, row);
@@ -115,7 +117,7 @@ ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
   const Vote vote(labels, votes);
   const int width = labels.width();
   ViewStack<std::int32_t> decided(labels.grid(), labels.height(), width, 1, labels.first());
-  for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, Row& row) {
+  for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, VoteRow& row) {
     vote.decide(view, y, {0, width}, row, decided.view(view).row(y));
   });
   return decided;
@@ -129,7 +131,7 @@ ViewStack<std::int32_t> vote_again_along_rays(const ViewStack<std::int32_t>& bef
   const Vote vote(labels, votes);
   const int width = labels.width();
   ViewStack<std::int32_t> decided = labels.clone();
-  for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, Row& row) {
+  for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, VoteRow& row) {
     const std::uint8_t* const marked = marks.view(view).row(y);
     for (ColumnRange columns = next_marked(marked, 0, width); columns.begin < width;
          columns = next_marked(marked, columns.end, width)) {

@@ -11,8 +11,8 @@ namespace episcope {
 
 /// Labels of all views after each ray has taken the label that most rays of its scene point have:
 /// the rays in the same row and column of the camera grid, along the lines of the horizontal and
-/// vertical EPI through it, as far as the point is visible there
-/// (engine/labeling/ray_targets.h). A vote is weighted by the trust in its colour
+/// vertical EPI through it, where the point is visible
+/// (engine/labeling/ray_targets.h). A vote is weighted by the trust in its color
 /// (engine/labeling/ray_targets.h); the ray's own label counts 1 and wins ties. Rays of all
 /// other views do not vote: they would spread errors of whole regions.
 ///
@@ -26,7 +26,7 @@ struct RayVotes {
 [[nodiscard]] ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
                                                       const RayVotes& votes,
                                                       const Progress& progress);
-/// The same, sooner: only rays vote for which labels have changed since `before`, from which
+/// Votes again, faster: only rays vote whose evidence has changed since `before`, from which
 /// `labels` came by a vote.
 [[nodiscard]] ViewStack<std::int32_t> vote_again_along_rays(const ViewStack<std::int32_t>& before,
                                                             const ViewStack<std::int32_t>& labels,

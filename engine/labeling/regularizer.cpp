@@ -64,7 +64,7 @@ void check_joint_input(const RayLabelingInput& input) {
   if (input.disparity == nullptr || input.disparity->empty()) {
     throw InvalidInput(
         "labels that are consistent along rays need a disparity map of every view; estimate one "
-        "first, or regularise each view alone");
+        "first, or regularize each view alone");
   }
   check_maps(input.disparity->disparity, *input.probabilities, "disparities");
   check_samples(input);

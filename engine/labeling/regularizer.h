@@ -6,8 +6,8 @@
 
 namespace episcope {
 
-/// How labels are made consistent. To add a method: an enumerator, two functions like `smooth_views`
-/// and `smooth_view`, and a row of the table in regularizer.cpp.
+/// How labels are made consistent. To add a method: an enumerator, two functions like
+/// `smooth_views` and `smooth_view`, and a row of the table in regularizer.cpp.
 enum class Regularizer {
   None,      ///< Not at all: the most probable label of each ray.
   View,      ///< Within each view, whatever the others say.
@@ -16,11 +16,11 @@ enum class Regularizer {
 };
 [[nodiscard]] Names<Regularizer> names_of(Regularizer);
 
-/// A row of the table of regularisers.
+/// A row of the table of regularizers.
 struct RegularizerInfo {
   Named<Regularizer> choice;
   /// Whether the labels of one view depend on the others: needs the disparity of all of them, and
-  /// for a single view the probabilities of its neighbours.
+  /// for a single view the probabilities of its neighbors.
   bool joins_views = false;
   /// Labels of all views that have probabilities, and of one of them.
   RayLabeling (*label_all)(const RayLabelingInput&, const RayLabelingParameters&,
@@ -38,8 +38,8 @@ struct RegularizerInfo {
                                      const RayLabelingParameters& parameters,
                                      const Progress& progress);
 
-/// Labels of one view, from its probabilities and those of other views as far as available: for an
-/// answer while the user paints. Throws likewise.
+/// Labels of one view, from its probabilities and those of other views where available: for an
+/// answer while the user paints. Throws as `label_rays`.
 [[nodiscard]] RayLabeling label_view(const RayLabelingInput& input, ViewIndex view,
                                      Regularizer regularizer,
                                      const RayLabelingParameters& parameters,
@@ -57,7 +57,7 @@ struct RegularizerInfo {
 
 /// Labels of all views, and of one view: boundaries within a view cost their length, weighted by
 /// edges (J_st of [WSG13]); views are independent. Disparities speed it up: a view then starts from
-/// the result of its neighbour (solve_views). Energy and bound are sums over the views. Throws
+/// the result of its neighbor (solve_views). Energy and bound are sums over the views. Throws
 /// Cancelled.
 [[nodiscard]] RayLabeling smooth_views(const RayLabelingInput& input,
                                        const RayLabelingParameters& parameters,
@@ -66,13 +66,13 @@ struct RegularizerInfo {
                                       const RayLabelingParameters& parameters,
                                       const Progress& progress);
 
-/// Labels of all views that are consistent along the rays. The energy is that of [WSG13]: per-view
-/// TV weighted by edges (J_st), variation along the lines of horizontal and vertical EPIs (J_xs,
-/// J_yt) and one label per ray, relaxed to the simplex.
+/// Labels of all views that are consistent along the rays. The energy of [WSG13] has per-view TV
+/// weighted by edges (J_st), variation along the lines of horizontal and vertical EPIs (J_xs, J_yt)
+/// and one label per ray, relaxed to the simplex.
 ///
-/// It is minimised in two steps. Each view is solved by itself
+/// It is minimized in two steps. Each view is solved alone
 /// (engine/solvers/simplex_labeling.h), the cost of a ray being the mean over the rays of
-/// the same scene point in the nearest 5×5 views, where their colours agree (`fill_track_costs`):
+/// the same scene point in the nearest 5×5 views, where their colors agree (`fill_track_costs`):
 /// errors of single rays average out. Then the rays of a scene point vote twice on their label
 /// along their EPIs (ray_vote.h), which makes labels constant along lines where the views had left
 /// them different.

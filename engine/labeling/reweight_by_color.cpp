@@ -15,7 +15,7 @@
 namespace episcope {
 namespace {
 
-constexpr int kSure = 242;  // Of 255.
+constexpr int kSureCode = 242;  // Of 255.
 constexpr double kReferenceGap = 5e-3;
 
 Image<float> lab_of(const LightField& light_field, ViewIndex view) {
@@ -69,7 +69,7 @@ class Judge {
     samples_.clear();
     const int channels = view.samples.channels();
     for (int x = 0; x < probabilities_.width; ++x) {
-      if (most_[x] > kSure || (view.moves() && !view.disparity.is_valid(y, x))) continue;
+      if (most_[x] > kSureCode || (view.moves() && !view.disparity.is_valid(y, x))) continue;
       unsure_.push_back(x);
       const float* const sample = view.samples.row(y) + static_cast<std::ptrdiff_t>(x) * channels;
       samples_.insert(samples_.end(), sample, sample + channels);
@@ -112,9 +112,9 @@ class Judge {
 
 }  // namespace
 
-void judge_colors(const RayLabelingInput& input, ViewIndex reference,
-                  const RayLabelingParameters& parameters, const Progress& progress,
-                  LabelProbabilities& probabilities) {
+void reweight_by_color(const RayLabelingInput& input, ViewIndex reference,
+                       const RayLabelingParameters& parameters, const Progress& progress,
+                       LabelProbabilities& probabilities) {
   RayLabelingInput known = input;
   known.probabilities = &probabilities;
   const int labels = static_cast<int>(probabilities.ids.size());

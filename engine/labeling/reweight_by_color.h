@@ -13,41 +13,36 @@
 
 namespace episcope {
 
-/// Weighs the probabilities of all views by how well the colour of each pixel fits what has its
-/// label nearby (`LocalColors`). What is nearby tells the view `reference`, whose labels are
-/// smoothed once, by itself, for it; pixels of other views are looked for there by their disparity
-/// and stay as they are where that is not known. Pixels with a label of more than 0.95 stay as
-/// well.
+/// Smooths the view `reference` alone; its local colors (`LocalColors`) then reweight the label
+/// probabilities of all views. Pixels of other views are looked up in it by their disparity. A
+/// pixel keeps its probabilities where that is unknown, or where one label has more than 0.95.
 ///
-/// `input` without probabilities: those are `probabilities`, of the same views, `reference` among
-/// them. Throws Cancelled.
-void judge_colors(const RayLabelingInput& input, ViewIndex reference,
-                  const RayLabelingParameters& parameters, const Progress& progress,
-                  LabelProbabilities& probabilities);
+/// `probabilities` take the place of those in `input`, and include `reference`. Throws Cancelled.
+void reweight_by_color(const RayLabelingInput& input, ViewIndex reference,
+                       const RayLabelingParameters& parameters, const Progress& progress,
+                       LabelProbabilities& probabilities);
 
-/// The colours that each label has near each place of a labeled view. Labels that were smoothed
-/// know more about the colours beside a boundary than the strokes do, which may be far away and in
-/// other light, and a few px around a boundary these colours say more than an estimated disparity,
-/// which is too wide there. An own addition to [WSG13]; what it gains is in
-/// tests/accuracy/tuning.md.
+/// The colors of each label near each place of a labeled view. Strokes may be far from a boundary
+/// and in other light, and estimated disparity is too wide beside it; colors of smoothed labels
+/// within a few px decide better there. An addition to [WSG13]; tests/accuracy/tuning.md has the
+/// gain.
 ///
-/// Counted are the pixels of each label in 3×3 squares of kSquare_px around that of the place,
-/// those beside another label a tenth, because they are mixed or mistaken.
+/// Counts the pixels of each label in the 3×3 squares of kSquare_px around a place. Pixels beside
+/// another label count a tenth, because they are mixed or mistaken.
 class LocalColors {
  public:
   /// `colors` of the view, L*a*b* divided by 100; `labels` in [0, label_count), one a pixel.
   LocalColors(ImageView<const float> colors, ImageView<const std::int32_t> labels, int label_count);
 
-  /// Least share that colours leave of a probability, and what they leave of that of a label which
-  /// is not nearby: smoothing may just have lost it.
+  /// Least share of a probability that colors leave, and the share left to a label that is not
+  /// nearby, which smoothing may just have lost.
   static constexpr float kLeastShare = 0.135F;
   static constexpr float kShareElsewhere = 0.7F;
 
-  /// Multiplies the probabilities of a pixel at `y`, `x` by 1/(v + |c − m|²), m the mean colour of
-  /// the label there, v the variance of its colours and a noise of 0.03, relative to the label for
-  /// which that is most but at least kLeastShare, and makes them sum to 1 again. Labels that are
-  /// not nearby keep kShareElsewhere. Before, 0.01 is added to each. Places outside count as those
-  /// at the border.
+  /// Adds 0.01 to each probability of the pixel at `y`, `x`, multiplies it by its share of color,
+  /// and normalizes the sum to 1. The share is 1/(v + |c − m|²) relative to the best label, at
+  /// least kLeastShare: m is the mean color of the label there, v the variance of its colors plus
+  /// 0.03. A label that is not nearby keeps kShareElsewhere. Places outside count as the border.
   void weigh(std::array<float, 3> color, float y, float x, std::span<float> probabilities) const;
 
  private:

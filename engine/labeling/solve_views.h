@@ -13,21 +13,20 @@
 
 namespace episcope {
 
-/// The solver of one view's problem, kept between calls while the user paints: a stroke changes
-/// little, so the next call takes a few iterations from where the last one ended. The labels of the
-/// last problems are kept as well: a stroke that is undone gives the labels from before it, to the
-/// last pixel.
+/// Keeps the solver of one view between calls while the user paints. A stroke changes little, so
+/// the next call needs few iterations from the last state. Labels of the last problems are kept
+/// too, so that undoing a stroke restores the labels before it exactly.
 class KeptSolver {
  public:
-  /// What the solver takes: of its levels 8 floats a pixel and label, and the costs of all but the
-  /// first.
+  /// Memory of the solver: 8 floats per pixel and label on each level, and the costs of all levels
+  /// but the first.
   [[nodiscard]] static double bytes(double pixels, int labels);
 
-  /// For the problem of `view`. Whether the last one was of the same view, size and labels, and the
-  /// solver goes on from there; else it begins afresh.
+  /// Prepares for the problem of `view`. Returns whether the solver continues from the last
+  /// problem, which needs the same view, size and labels; otherwise it starts anew.
   bool prepare(const LabelProbabilities& probabilities, ViewIndex view);
-  /// After `prepare`: the labels of an equal problem if it was one of the last, else those that the
-  /// solver finds; as SimplexSolver::solve.
+  /// After `prepare`: returns the labels of an equal problem if one is kept, otherwise solves it as
+  /// SimplexSolver::solve.
   SimplexResult solve(const SimplexProblem& problem, const SimplexOptions& options,
                       const Progress& progress, ImageView<int> labels);
   /// Frees all memory.
@@ -48,12 +47,11 @@ class KeptSolver {
   std::vector<std::int32_t> ids_;
 };
 
-/// Iterations between two looks at the gap: one costs half an iteration, and 30 iterations are
-/// enough.
+/// Iterations between two checks of the gap. A check costs half an iteration, and 30 iterations
+/// suffice.
 inline constexpr int kGapCheckEvery = 5;
 
-/// At first far labels are left out of the race for so many, and for so many where a kept solver
-/// goes on.
+/// Iterations for which far labels are left out at first, and when a kept solver continues.
 inline constexpr int kRacingIterations = 25, kRacingWhenGoingOn = 10;
 
 /// The labeling of one view as a problem of its own, and room to solve it for many views: costs of
@@ -110,7 +108,7 @@ struct ViewProblems {
 
 /// Solves the problems of all views that have probabilities, to a gap of
 /// `parameters.gap_all_views`, in chains along rows of the grid: each view starts from the result
-/// of its neighbour, moved along the disparities, if there are any. Labels are layers of the
+/// of its neighbor, moved along the disparities, if there are any. Labels are layers of the
 /// probabilities, 0 … L − 1. Throws Cancelled.
 [[nodiscard]] RayLabeling solve_views(const ViewProblems& problems, const Progress& progress);
 

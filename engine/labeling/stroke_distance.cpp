@@ -4,6 +4,7 @@
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/labeling/feature_kernel.h"
+#include "engine/labeling/forest_kernel.h"
 #include "engine/labeling/ray_targets.h"
 
 #include <algorithm>
@@ -13,7 +14,6 @@
 namespace episcope {
 namespace {
 
-constexpr int kVectorLanes = 16;
 constexpr int kSweeps = 3;
 // Far beyond any way through an image, and finite, so that sums stay so.
 constexpr float kFar = 1e9F;
@@ -37,10 +37,10 @@ std::int32_t index_of(const std::vector<std::int32_t>& ids, std::int32_t label) 
 
 }  // namespace
 
-Image<std::int32_t> carried_strokes(const Scribbles& scribbles,
-                                    const std::vector<std::int32_t>& ids,
-                                    const DisparityField* disparity, ViewIndex view, int height,
-                                    int width) {
+Image<std::int32_t> propagated_strokes(const Scribbles& scribbles,
+                                       const std::vector<std::int32_t>& ids,
+                                       const DisparityField* disparity, ViewIndex view, int height,
+                                       int width) {
   Image<std::int32_t> strokes(height, width);
   std::vector<std::int32_t> targets(static_cast<std::size_t>(width));
   for (const ViewScribbles& painted : scribbles.views) {

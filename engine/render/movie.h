@@ -11,7 +11,8 @@ namespace episcope::render {
 /// How the camera moves over the grid of views.
 enum class CameraPath {
   Circle,  ///< Around the centre, through the outermost views of its row and column.
-  Swing,   ///< Along the row of the centre, there and back; in a grid of one column along that.
+  Swing,   ///< Along the row of the centre, there and back; in a grid of one column, along the
+           ///< column.
   Snake,   ///< Through all views, row by row, every other one from right to left, and back.
 };
 
@@ -23,14 +24,14 @@ enum class CameraPath {
 /// A value for each of `count` pictures that goes from `from` to `to` and back, slowly at the ends.
 [[nodiscard]] std::vector<double> there_and_back(double from, double to, int count);
 
-/// What changes in a movie.
+/// Quantity that changes in a movie.
 enum class MovieKind {
   Parallax,  ///< The view, along a path.
   Refocus,   ///< The focus plane, through a range and back.
   Flip,      ///< Two maps take turns.
 };
 
-/// How a movie is made.
+/// Settings of a movie.
 struct MovieChoice {
   MovieKind kind = MovieKind::Parallax;
   CameraPath path = CameraPath::Circle;  ///< Of a parallax.

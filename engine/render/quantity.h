@@ -30,7 +30,7 @@ enum class Quantity : std::uint8_t {
   Difference     ///< Of two disparities.
 };
 
-/// What a quantity is a property of.
+/// Object that a quantity describes.
 enum class Subject : std::uint8_t {
   LightField,
   Truth,
@@ -41,7 +41,7 @@ enum class Subject : std::uint8_t {
   Segmentation  ///< Labels learnt from scribbles; Edges need none.
 };
 
-/// What determines the ends of the colour range.
+/// Rule for the ends of the colour range.
 enum class RangeRule : std::uint8_t {
   None,       ///< There are no numbers: samples or labels in colours of their own.
   Disparity,  ///< The disparities of the scene, whatever the method.
@@ -49,7 +49,7 @@ enum class RangeRule : std::uint8_t {
 };
 
 /// All that tool bars, menus, colour bars, command lines, tiles and exported pictures know of a
-/// quantity. The colour of invalid pixels is that of the colour map (ColorMap::invalid).
+/// quantity. Invalid pixels have the colour ColorMap::invalid.
 struct QuantityInfo {
   Quantity quantity;
   const char* id;      ///< As on the command line: `show --what error`. Also names commands.

@@ -22,7 +22,7 @@ struct Histogram {
   std::vector<std::uint32_t> counts;  ///< Of equal parts of the axis, from its lower end.
 };
 
-/// What a part of a map holds. All numbers are 0 and there are no counts without a valid pixel.
+/// Statistics of a part of a map. All numbers are 0 and there are no counts without a valid pixel.
 struct RegionStatistics {
   std::size_t count = 0;    ///< Pixels with a value.
   std::size_t invalid = 0;  ///< Pixels without, NaN among them.
@@ -34,10 +34,10 @@ struct RegionStatistics {
   Histogram histogram;
 };
 
-/// Sums up a part of a map, which is clipped to the map. The axis of the histogram spans the
-/// quantiles of 0.2 % and 99.8 % and `shown`, with a little room on both sides, so that a few
-/// outliers do not squeeze all else into one bar. Linear in the region; 590 000 pixels take about
-/// 15 ms, so it is for a worker.
+/// Sums up a part of a map, which is clipped to the map. The axis of the histogram spans `shown`
+/// and the quantiles of 0.2 % and 99.8 %, with a little room on both sides. So a few outliers do
+/// not squeeze all else into one bar. Linear in the region; 590 000 pixels take about 15 ms, so it
+/// is for a worker.
 [[nodiscard]] RegionStatistics region_statistics(const MeasuredMap& map, PixelRect region,
                                                  Interval shown, int bars);
 

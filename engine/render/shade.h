@@ -51,8 +51,8 @@ struct LabelStyle {
   friend bool operator==(const LabelStyle&, const LabelStyle&) = default;
 };
 
-/// RGBA8 picture of label ids in the colours of `infos`, as far as they are known there, else in
-/// their `label_color`; 0, negative and hidden ids are transparent.
+/// RGBA8 picture of label ids in the colours of `infos`, or in `label_color` if they are missing
+/// there; 0, negative and hidden ids are transparent.
 [[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
                                                const std::vector<LabelInfo>& infos = {},
                                                const LabelStyle& style = {});

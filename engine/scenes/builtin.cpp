@@ -214,7 +214,7 @@ void read_option(const std::string& text, const std::string& option, BuiltinRequ
   const std::vector<std::string> keys = {"seed", "size", "grid", "noise", "channels"};
   if (std::ranges::find(keys, key) == keys.end()) {
     refuse(text,
-           fmt::format("'{}' is not known; after '?' there may be, joined by '&': {}", key, kKeys));
+           fmt::format("'{}' is not known; after '?' write these, joined by '&': {}", key, kKeys));
   }
   if (!read_value(key, value, request.options)) {
     refuse(text, fmt::format("'{}' is no {}; write {}", value, key, kKeys));

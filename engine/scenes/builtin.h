@@ -24,7 +24,7 @@ struct RenderOptions {
   int channels = 3;
   /// Scales every disparity, to make scenes of wider or narrower range.
   double disparity_scale = 1;
-  /// Where the cameras stand, in steps to the right of and below the centre view, view by view;
+  /// Positions of the cameras, in steps to the right of and below the centre view, view by view;
   /// empty = on the regular grid. They become LightFieldInfo::positions; the centre view must stand
   /// at (0, 0).
   std::vector<CameraPosition> positions{};
@@ -35,7 +35,7 @@ struct RenderOptions {
 /// The scene that is drawn from `RenderOptions::seed`.
 inline constexpr const char* kRandomScene = "random";
 
-/// What LightFieldInfo::reading names as the reader of built-in scenes.
+/// Reader of built-in scenes in LightFieldInfo::reading.
 inline constexpr const char* kBuiltinReader = "builtin";
 
 /// All built-in scenes: the demo, simple ones that each test one thing, stratified ones, and the
@@ -83,8 +83,8 @@ struct BuiltinRequest {
 /// InvalidInput for a query that is not of this form; the message says what is possible.
 [[nodiscard]] BuiltinRequest read_request(const std::string& text);
 
-/// What stands behind the '?' of such a text, into the options of `request`; others stay as they
-/// are. Throws InvalidInput likewise.
+/// Reads the part of such a text behind the '?' into the options of `request`; others stay. Throws
+/// InvalidInput likewise.
 void read_options(const std::string& text, BuiltinRequest& request);
 
 }  // namespace episcope::scenes

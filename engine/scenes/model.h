@@ -102,7 +102,7 @@ struct Candidate {
 /// Most primitives of a scene.
 inline constexpr int kMaxCandidates = 192;
 
-/// What is found in one row of one view. Arrays are as long as the row; `width` is a multiple of 16
+/// Result of one row of one view. Arrays are as long as the row; `width` is a multiple of 16
 /// or padded to it.
 struct RowResult {
   float* color = nullptr;    ///< [x][3], mean over the samples of each pixel.
@@ -119,7 +119,7 @@ struct RowJob {
   const Candidate* candidates = nullptr;
   int candidate_count = 0;  ///< Up to kMaxCandidates.
   int y = 0;
-  int width = 0;  ///< Rounded up to a multiple of 16.
+  int width = 0;   ///< Rounded up to a multiple of 16.
   float fill = 1;  ///< Of a pixel, along each axis: the part that samples cover.
 };
 

@@ -39,7 +39,7 @@ Rotation combined(const Rotation& inner, const Rotation& outer) {
   return result;
 }
 
-// Puts surfaces together in the frame of a thing: y upwards, in units of half its size.
+// Puts surfaces together in the frame of an object: y upwards, in units of half its size.
 class Assembly {
  public:
   Assembly(const Vector3& center, const Rotation& axes, double unit)
@@ -90,68 +90,68 @@ class Assembly {
   std::vector<Primitive> parts_;
 };
 
-void add_ball(Assembly& thing) {
-  Primitive& ball = thing.add(Shape::Revolution, {});
-  const double radius = thing.unit();
+void add_ball(Assembly& object) {
+  Primitive& ball = object.add(Shape::Revolution, {});
+  const double radius = object.unit();
   ball.extent[0] = -radius;
   ball.extent[1] = radius;
   ball.profile[0] = radius * radius;
   ball.profile[2] = -1;
 }
 
-void add_box(Assembly& thing, Draw& draw) {
-  Primitive& box = thing.add(Shape::Box, {});
+void add_box(Assembly& object, Draw& draw) {
+  Primitive& box = object.add(Shape::Box, {});
   const double shares[3] = {draw.between(0.4, 1), 1, draw.between(0.3, 0.8)};
-  for (int i = 0; i < 3; ++i) box.extent[i] = shares[i] * thing.unit();
+  for (int i = 0; i < 3; ++i) box.extent[i] = shares[i] * object.unit();
 }
 
-void add_cylinder(Assembly& thing, Draw& draw) {
+void add_cylinder(Assembly& object, Draw& draw) {
   const double radius = draw.between(0.3, 0.8);
-  thing.revolved(-1, 2, {radius, radius, radius});
-  thing.lid(1, radius);
-  thing.lid(-1, radius);
+  object.revolved(-1, 2, {radius, radius, radius});
+  object.lid(1, radius);
+  object.lid(-1, radius);
 }
 
-void add_cone(Assembly& thing, Draw& draw) {
+void add_cone(Assembly& object, Draw& draw) {
   const double radius = draw.between(0.4, 0.9);
-  thing.revolved(-1, 2, {radius, radius / 2, 0});
+  object.revolved(-1, 2, {radius, radius / 2, 0});
 }
 
-void add_vase(Assembly& thing, Draw& draw) {
+void add_vase(Assembly& object, Draw& draw) {
   const double foot = draw.between(0.2, 0.5);
   const double belly = draw.between(0.5, 0.8);
   const double neck = draw.between(0.15, 0.4);
   const double mouth = draw.between(0.2, 0.55);
-  thing.revolved(-1, 1.4, {foot, belly, neck});
-  thing.revolved(0.4, 0.6, {neck, (neck + mouth) / 2.2, mouth});
+  object.revolved(-1, 1.4, {foot, belly, neck});
+  object.revolved(0.4, 0.6, {neck, (neck + mouth) / 2.2, mouth});
 }
 
-void add_bar(Assembly& thing, Draw& draw, double half_px) {
+void add_bar(Assembly& object, Draw& draw, double half_px) {
   const double width_px = 0.5 + 3.5 * draw.small();
   const double share = width_px / half_px;
   if (draw.chance(0.5)) {
-    thing.flat(Shape::Rectangle, {}, share, 1.6);
+    object.flat(Shape::Rectangle, {}, share, 1.6);
   } else {
-    thing.revolved(-1.6, 3.2, {share, share, share});
+    object.revolved(-1.6, 3.2, {share, share, share});
   }
 }
 
-void add_lattice(Assembly& thing, Draw& draw, double half_px) {
-  Primitive& lattice = thing.add(Shape::Lattice, {});
+void add_lattice(Assembly& object, Draw& draw, double half_px) {
+  Primitive& lattice = object.add(Shape::Lattice, {});
   const double width_px = 0.6 + 3 * draw.small();
   const double pitch_px = (2 * width_px) * draw.between(2, 5) + 3;
-  const double unit = thing.unit() / half_px;
-  lattice.extent[0] = 1.2 * thing.unit();
-  lattice.extent[1] = draw.between(0.7, 1.2) * thing.unit();
+  const double unit = object.unit() / half_px;
+  lattice.extent[0] = 1.2 * object.unit();
+  lattice.extent[1] = draw.between(0.7, 1.2) * object.unit();
   lattice.extent[2] = draw.chance(0.6) ? width_px * unit : -1;
   lattice.profile[0] = pitch_px * unit;
   lattice.profile[1] = pitch_px * draw.between(1, 3) * unit;
   lattice.profile[2] = width_px * unit;
 }
 
-void add_plant(Assembly& thing, Draw& draw) {
+void add_plant(Assembly& object, Draw& draw) {
   const double stem = draw.between(0.015, 0.04);
-  thing.revolved(-1, 1.8, {stem * 1.5, stem, stem / 2});
+  object.revolved(-1, 1.8, {stem * 1.5, stem, stem / 2});
   const int leaves = draw.integer(4, 9);
   for (int i = 0; i < leaves; ++i) {
     const double side = i % 2 == 0 ? 1 : -1;
@@ -160,56 +160,56 @@ void add_plant(Assembly& thing, Draw& draw) {
     const double breadth = length * draw.between(0.25, 0.5);
     const double out = draw.between(-0.25, 0.25);
     const Rotation turn = draw_rotation(draw, 0.35, 0.5);
-    thing.flat(Shape::Leaf, {side * (length + stem), y, out}, length, breadth, turn);
+    object.flat(Shape::Leaf, {side * (length + stem), y, out}, length, breadth, turn);
   }
 }
 
 // Cloth in folds: upright cylinders that run into each other, of one width and not of one depth.
-void add_drape(Assembly& thing, Draw& draw) {
+void add_drape(Assembly& object, Draw& draw) {
   const int folds = draw.integer(3, 8);
   const double half_width = 1.1 / folds;
   const double height = draw.between(1.6, 2.6);
   for (int i = 0; i < folds; ++i) {
     const double radius = half_width * draw.between(1.15, 2);
     const double out = half_width * draw.between(-0.3, 0.3) - radius;
-    thing.pleat({(2 * i + 1) * half_width - 1.1, -height / 2, out}, height, radius);
+    object.pleat({(2 * i + 1) * half_width - 1.1, -height / 2, out}, height, radius);
   }
 }
 
-void add_parts(Assembly& thing, Form form, Draw& draw, double half_px) {
+void add_parts(Assembly& object, Form form, Draw& draw, double half_px) {
   switch (form) {
     case Form::Ball:
-      return add_ball(thing);
+      return add_ball(object);
     case Form::Box:
-      return add_box(thing, draw);
+      return add_box(object, draw);
     case Form::Cylinder:
-      return add_cylinder(thing, draw);
+      return add_cylinder(object, draw);
     case Form::Cone:
-      return add_cone(thing, draw);
+      return add_cone(object, draw);
     case Form::Vase:
-      return add_vase(thing, draw);
+      return add_vase(object, draw);
     case Form::Disc:
-      return thing.flat(Shape::Disc, {}, 0.9, 0.9);
+      return object.flat(Shape::Disc, {}, 0.9, 0.9);
     case Form::Panel: {
       const double breadth = draw.between(0.5, 1);
-      return thing.flat(Shape::Rectangle, {}, 1, breadth);
+      return object.flat(Shape::Rectangle, {}, 1, breadth);
     }
     case Form::Bar:
-      return add_bar(thing, draw, half_px);
+      return add_bar(object, draw, half_px);
     case Form::Lattice:
-      return add_lattice(thing, draw, half_px);
+      return add_lattice(object, draw, half_px);
     case Form::Leaf: {
       const double breadth = draw.between(0.25, 0.6);
-      return thing.flat(Shape::Leaf, {}, 1, breadth);
+      return object.flat(Shape::Leaf, {}, 1, breadth);
     }
     case Form::Plant:
-      return add_plant(thing, draw);
+      return add_plant(object, draw);
     case Form::Drape:
-      return add_drape(thing, draw);
+      return add_drape(object, draw);
   }
 }
 
-// Standing things turn about the upright axis; flat ones face the cameras more or less.
+// Standing objects turn about the upright axis; flat ones face the cameras more or less.
 Rotation draw_axes(Form form, bool stands, Draw& draw) {
   if (stands) {
     const double tilt = draw.between(-0.15, 0.05);
@@ -257,14 +257,14 @@ void move_away(Primitive& primitive, double factor) {
   }
 }
 
-std::vector<Primitive> make_thing(const Stage& stage, Form form, const Spot& spot,
-                                  double nearest_px, bool stands, Draw draw) {
+std::vector<Primitive> make_object(const Stage& stage, Form form, const Spot& spot,
+                                   double nearest_px, bool stands, Draw draw) {
   const double depth = stage.depth(spot.disparity_px);
   const Vector3 center = stage.point(spot.x, spot.y, depth);
   const Rotation axes = draw_axes(form, stands, draw);
-  Assembly thing(center, axes, spot.half_px * stage.pixel(depth));
-  add_parts(thing, form, draw, spot.half_px);
-  std::vector<Primitive> parts = thing.take();
+  Assembly object(center, axes, spot.half_px * stage.pixel(depth));
+  add_parts(object, form, draw, spot.half_px);
+  std::vector<Primitive> parts = object.take();
   double near_depth = depth;
   for (const Primitive& part : parts) near_depth = std::min(near_depth, depths_of(part).min);
   const double nearest = stage.depth(nearest_px);

@@ -7,7 +7,7 @@
 
 namespace episcope::scenes {
 
-/// Where a thing is seen in the centre view.
+/// Place of an object in the centre view.
 struct Spot {
   double x = 0;  ///< Its middle, px.
   double y = 0;
@@ -15,13 +15,13 @@ struct Spot {
   double half_px = 0;  ///< About half its size.
 };
 
-/// The surfaces of a random thing, without label and texture. Things that reach nearer than
+/// The surfaces of a random object, without label and texture. Objects that reach nearer than
 /// disparity `nearest_px` are moved away and enlarged, so that they look the same from the centre
 /// view. `stands`: its lower end points down.
-[[nodiscard]] std::vector<Primitive> make_thing(const Stage& stage, Form form, const Spot& spot,
-                                                double nearest_px, bool stands, Draw draw);
+[[nodiscard]] std::vector<Primitive> make_object(const Stage& stage, Form form, const Spot& spot,
+                                                 double nearest_px, bool stands, Draw draw);
 
-/// Whether a thing of this form can stand on the ground.
+/// Whether an object of this form can stand on the ground.
 [[nodiscard]] bool can_stand(Form form);
 
 /// Moves a primitive away by `factor` and enlarges it as much: the same picture from the centre

@@ -11,15 +11,15 @@ namespace episcope::scenes {
 /// Largest disparity of a random scene, px per view step, of either sign.
 inline constexpr double kMostDisparity = 3.5;
 
-/// What an object is made of.
+/// Material of an object.
 enum class Finish { Textured, Plain, Periodic, Shiny };
 inline constexpr std::size_t kFinishes = 4;
 
-/// What an object is.
+/// Shape of an object.
 enum class Form { Ball, Box, Cylinder, Cone, Vase, Disc, Panel, Bar, Lattice, Leaf, Plant, Drape };
 inline constexpr std::size_t kForms = 12;
 
-/// What all textures of a scene have in common.
+/// Properties of all textures of a scene.
 struct Detail {
   double contrast = 1;  ///< Factor.
   /// Factor of the size of grain and of the width of the edges of patterns; below 1 they are finer
@@ -27,7 +27,7 @@ struct Detail {
   double size = 1;
 };
 
-/// What a random scene is to be like, before anything is placed.
+/// Properties of a random scene, before anything is placed.
 struct Plan {
   Interval range;  ///< All disparities lie in it, within the views of a 9×9 grid.
   int objects = 3;
@@ -50,12 +50,12 @@ struct Plan {
 [[nodiscard]] Stage draw_stage(int width, int height, const Interval& range, Draw draw);
 
 /// A random texture of a surface where a pixel has size `pixel_units`: unless detail is smaller,
-/// band-limited there, and fading where the surface slants away. Flat things keep their pattern in
+/// band-limited there, and fading where the surface slants away. Flat objects keep their pattern in
 /// their plane.
 [[nodiscard]] Texture draw_texture(Draw draw, Finish finish, double pixel_units,
                                    const Detail& detail);
 
-/// What is seen of a far background out of focus: large soft blobs.
+/// A far background out of focus: large soft blobs.
 [[nodiscard]] Texture draw_defocused_texture(Draw draw, double pixel_units, const Detail& detail);
 
 /// A chequered floor: tiles in the plane of what is flat, about 30 px wide.

@@ -7,7 +7,7 @@
 
 namespace episcope::scenes {
 
-/// What random scenes are made of, so that a weakness can be looked at by itself.
+/// Kind of a random scene; most isolate one weakness of methods.
 enum class RandomKind {
   Any,        ///< A mixture of those below, but for the last three.
   Occlusion,  ///< Bars before textured layers, steps up to 1.5 px, noise growing downwards.

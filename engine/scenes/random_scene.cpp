@@ -13,8 +13,8 @@
 namespace episcope::scenes {
 namespace {
 
-/// A thing that stands in every furnished room.
-struct Furniture {
+/// An object that stands in every furnished room.
+struct IndoorObject {
   Form form = Form::Box;
   Finish finish = Finish::Textured;
   bool stands = true;
@@ -23,8 +23,8 @@ struct Furniture {
 
 // What a furnished room holds: two boxes, a tilted panel, two cylinders, three balls and a
 // lattice, some of them of one colour.
-std::span<const Furniture> room_furniture() {
-  static constexpr Furniture all[] = {
+std::span<const IndoorObject> indoor_objects() {
+  static constexpr IndoorObject all[] = {
       {Form::Box, Finish::Textured, true, 0.17},     {Form::Box, Finish::Plain, true, 0.14},
       {Form::Panel, Finish::Textured, false, 0.15},  {Form::Cylinder, Finish::Plain, true, 0.12},
       {Form::Cylinder, Finish::Periodic, true, 0.1}, {Form::Ball, Finish::Textured, true, 0.09},
@@ -39,7 +39,7 @@ double draw_bar_px(Draw draw) {
   return draw.between(0.8, 2);
 }
 
-/// What lies behind all things: a wall, and maybe ground that rises towards it.
+/// What lies behind all objects: a wall, and maybe ground that rises towards it.
 class Backdrop {
  public:
   /// Disparities stay in the range of the plan as far as views of a 9×9 grid see.
@@ -152,7 +152,7 @@ int Backdrop::build(Model& model, const Plan& plan, Draw draw) const {
 }
 
 constexpr std::size_t kMostOccluders = 24;
-constexpr double kLeastGap = 0.15;  // Share of the range between a thing and what is behind.
+constexpr double kLeastGap = 0.15;  // Share of the range between an object and what is behind.
 constexpr double kMostStep = 1.5;   // Of disparity, px, where layers occlude each other.
 
 class Composer {
@@ -167,7 +167,7 @@ class Composer {
     if (plan_.is_furnished) {
       furnish();
     } else {
-      for (int i = 0; i < plan_.objects; ++i) add_thing(draw_.part(100 + i));
+      for (int i = 0; i < plan_.objects; ++i) add_object(draw_.part(100 + i));
     }
     set_light(draw_.part(4));
     model_.sensor = plan_.sensor;
@@ -178,7 +178,7 @@ class Composer {
   void furnish() {
     const double side = std::min(stage_.width, stage_.height);
     int number = 100;
-    for (const Furniture& piece : room_furniture()) {
+    for (const IndoorObject& piece : indoor_objects()) {
       Draw draw = draw_.part(number++);
       const double half_px = side * piece.half_share * draw.between(0.85, 1.15);
       const Spot spot = piece.stands ? draw_standing(draw, half_px) : draw_floating(draw, half_px);
@@ -186,7 +186,7 @@ class Composer {
     }
   }
 
-  void add_thing(Draw draw) {
+  void add_object(Draw draw) {
     const auto form = static_cast<Form>(draw.weighted(plan_.forms));
     const auto finish = static_cast<Finish>(draw.weighted(plan_.finishes));
     const bool stands = plan_.has_ground && can_stand(form) && draw.chance(0.75);
@@ -195,19 +195,19 @@ class Composer {
     put({form, finish, stands}, spot, draw);
   }
 
-  struct Thing {
+  struct Object {
     Form form;
     Finish finish;
     bool stands;
   };
-  void put(const Thing& thing, const Spot& spot, const Draw& draw) {
+  void put(const Object& object, const Spot& spot, const Draw& draw) {
     std::vector<Primitive> parts =
-        make_thing(stage_, thing.form, spot, plan_.range.max, thing.stands, draw.part(1));
+        make_object(stage_, object.form, spot, plan_.range.max, object.stands, draw.part(1));
     if (model_.primitives.size() + parts.size() > kMaxCandidates) return;
-    if (plan_.is_furnished && thing.form == Form::Lattice) make_thin(parts.front(), draw.part(3));
+    if (plan_.is_furnished && object.form == Form::Lattice) make_thin(parts.front(), draw.part(3));
     taken_.push_back({spot.x, spot.y});
-    dress(parts, thing.finish, draw.part(2));
-    if (can_stand(thing.form)) add_occluder(parts.front(), spot);
+    dress(parts, object.finish, draw.part(2));
+    if (can_stand(object.form)) add_occluder(parts.front(), spot);
     ++next_label_;
   }
 
@@ -218,7 +218,7 @@ class Composer {
     lattice.profile[2] = lattice.extent[2] = half_width;
   }
 
-  // Gives a thing its textures and its label.
+  // Gives an object its textures and its label.
   void dress(const std::vector<Primitive>& parts, Finish finish, const Draw& draw) {
     for (Primitive part : parts) {
       const double pixel = stage_.pixel(part.center[2]);
@@ -242,7 +242,7 @@ class Composer {
     model_.occluders.push_back(occluder);
   }
 
-  // Few things are large, many are small; some of each are neither.
+  // Few objects are large, many are small; some of each are neither.
   double draw_half_px(Draw& draw) const {
     const double side = std::min(stage_.width, stage_.height);
     const double usual = 0.42 / std::sqrt(static_cast<double>(plan_.objects));
@@ -250,7 +250,7 @@ class Composer {
     return std::max(side * share, 4.0);
   }
 
-  // Of several places the one farthest from other things.
+  // Of several places the one farthest from other objects.
   std::pair<double, double> draw_place(Draw& draw, double top, double bottom) const {
     std::pair<double, double> best{};
     double farthest = -1;
@@ -352,7 +352,7 @@ class Composer {
   Backdrop backdrop_;
   Model model_;
   int next_label_ = 1;
-  std::vector<std::pair<double, double>> taken_;  // Places of things.
+  std::vector<std::pair<double, double>> taken_;  // Places of objects.
 };
 
 }  // namespace

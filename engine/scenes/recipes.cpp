@@ -21,7 +21,7 @@ struct Place {
   std::array<double, 2> turn{1, 0};
 };
 
-/// Builds scenes of things on a table, which the cameras look down on.
+/// Builds scenes of objects on a table, which the cameras look down on.
 class StillLife {
  public:
   /// The lower edge of the image shows the table at `front_disparity`. `pitch` is cosine and sine
@@ -66,12 +66,6 @@ class StillLife {
 };
 
 constexpr double kEndless = 1e3;
-
-void set_axes(Primitive& primitive, const Vector3& x, const Vector3& y, const Vector3& z) {
-  std::copy(x.begin(), x.end(), primitive.axes[0]);
-  std::copy(y.begin(), y.end(), primitive.axes[1]);
-  std::copy(z.begin(), z.end(), primitive.axes[2]);
-}
 
 StillLife::StillLife(const Stage& stage, std::array<double, 2> pitch, double front_disparity)
     : stage_(stage), pitch_(pitch) {

@@ -73,6 +73,12 @@ Texture noise_texture(double pixel_units, unsigned seed, const std::array<float,
   return texture;
 }
 
+void set_axes(Primitive& primitive, const Vector3& x, const Vector3& y, const Vector3& z) {
+  std::copy(x.begin(), x.end(), primitive.axes[0]);
+  std::copy(y.begin(), y.end(), primitive.axes[1]);
+  std::copy(z.begin(), z.end(), primitive.axes[2]);
+}
+
 void revolve(Primitive& piece, double height, const Radii& radii) {
   const double bottom = radii.bottom * radii.bottom;
   const double middle = radii.middle * radii.middle;

@@ -73,8 +73,11 @@ struct Model {
 [[nodiscard]] Texture noise_texture(double pixel_units, unsigned seed,
                                     const std::array<float, 3>& color, float contrast);
 
-/// Squared radii of a piece of a surface of revolution at its bottom (y = 0), at half its height
-/// and at its top are those of `radii`; a parabola lies between.
+/// Sets the own axes of a primitive, in the camera frame.
+void set_axes(Primitive& primitive, const Vector3& x, const Vector3& y, const Vector3& z);
+
+/// Radii of a piece of a surface of revolution at its bottom (y = 0), at half its height and at its
+/// top. A parabola of the squared radius lies between.
 struct Radii {
   double bottom = 0;
   double middle = 0;

@@ -9,7 +9,7 @@ namespace episcope::scenes {
 namespace {
 
 // The label of the wall, in all scenes.
-constexpr int kWall = 1;
+constexpr int kWallLabel = 1;
 
 /// The pixels for which `is_inside(y, x)` holds.
 template <class IsInside>
@@ -140,7 +140,7 @@ Model backgammon_model(const Stage& stage, Draw draw) {
   };
   model.add(strong_texture(draw.part(0), coarsest_pixel(stage, wall)));
   model.add(strong_texture(draw.part(1), coarsest_pixel(stage, teeth)));
-  add(make_plane(stage, wall), kWall);
+  add(make_plane(stage, wall), kWallLabel);
 
   const double base = strip_end(stage) - 0.5;
   const double half_width = (tip_column(stage) - strip_end(stage)) / 2.0;
@@ -170,7 +170,7 @@ Regions backgammon_regions(const Stage& stage, CenterLabels labels) {
         labels, [&](int y, int x) { return x >= begin && x < end && labels.at(y, x) == label; });
   };
   Regions regions;
-  regions.emplace("foreground_fattening", region(kWall));
+  regions.emplace("foreground_fattening", region(kWallLabel));
   regions.emplace("foreground_thinning", region(kTeeth));
   return regions;
 }
@@ -197,7 +197,7 @@ Model dots_model(const Stage& stage, Draw draw) {
   const double pixel = stage.pixel(stage.depth(dots));
   Model model;
   model.primitives.push_back(make_plane(stage, {wall, 0, 0}));
-  model.primitives.back().label = kWall;
+  model.primitives.back().label = kWallLabel;
   model.add(strong_texture(draw.part(0), stage.pixel(stage.depth(wall))));
   model.add(strong_texture(draw.part(1), pixel));
 
@@ -235,7 +235,7 @@ Regions dots_regions(const Stage& stage, CenterLabels labels) {
   Regions regions;
   regions.emplace("dots_by_size", std::move(sizes));
   regions.emplace("boxes", std::move(boxes));
-  regions.emplace("background", region_of(labels, kWall));
+  regions.emplace("background", region_of(labels, kWallLabel));
   return regions;
 }
 
@@ -246,17 +246,12 @@ constexpr int kBall = 3;
 constexpr int kBowl = 4;
 constexpr int kViewCells = 3;  // Along each side of a view.
 
-void set_axes(Primitive& primitive, const Vector3& x, const Vector3& y, const Vector3& z) {
-  int row = 0;
-  for (const Vector3& axis : {x, y, z}) std::copy(axis.begin(), axis.end(), primitive.axes[row++]);
-}
-
 class Builder {
  public:
   Builder(const Stage& stage, double wall, Draw draw)
       : stage_(stage), wall_depth_(stage.depth(wall)), draw_(draw) {
     Primitive plane = make_plane(stage, {wall, 0, 0});
-    add(plane, kWall);
+    add(plane, kWallLabel);
   }
 
   // Its base stands on the wall around a pixel, its tip before the middle of the base.
@@ -344,7 +339,7 @@ Model pyramids_model(const Stage& stage, Draw draw) {
 
 Regions pyramids_regions(const Stage& /*stage*/, CenterLabels labels) {
   Regions regions;
-  regions.emplace("plane", region_of(labels, kWall));
+  regions.emplace("plane", region_of(labels, kWallLabel));
   regions.emplace("pyramids", region_of(labels, kPyramids));
   regions.emplace("sphere_out", region_of(labels, kBall));
   regions.emplace("sphere_in", region_of(labels, kBowl));
@@ -401,7 +396,7 @@ class Weaver {
 Model stripes_model(const Stage& stage, Draw draw) {
   const double wall = draw.between(-0.8, -0.1);
   Weaver weaver(stage, draw.part(0));
-  weaver.add(-kBeyondImage, kBeyondImage, wall, kWall, 0.66F);
+  weaver.add(-kBeyondImage, kBeyondImage, wall, kWallLabel, 0.66F);
   const double pitch = static_cast<double>(stage.width) / kBars;
   for (int i = 0; i < kBars; ++i) {
     const double share = (i + 1.0) / (kBars + 1);
@@ -421,7 +416,7 @@ Regions stripes_regions(const Stage& stage, CenterLabels labels) {
   const double lower = band_top(stage, kBands / 2);
   Regions regions;
   regions.emplace("low_texture", region_where(labels, [&](int y, int x) {
-                    return y > lower && labels.at(y, x) == kWall;
+                    return y > lower && labels.at(y, x) == kWallLabel;
                   }));
   regions.emplace("high_contrast", region_of(labels, kDark));
   regions.emplace("low_contrast", region_of(labels, kBright));

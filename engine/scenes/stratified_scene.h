@@ -60,7 +60,7 @@ struct StratifiedRecipe {
 /// Null if there is none of this id.
 [[nodiscard]] const StratifiedRecipe* find_stratified(const std::string& id);
 
-/// What the cameras of a stage see of the scene of this seed.
+/// The scene of this seed, laid out for the cameras of a stage.
 [[nodiscard]] Model stratified_model(const StratifiedRecipe& recipe, const Stage& stage,
                                      unsigned seed);
 

@@ -13,7 +13,7 @@ inline constexpr long kLayerRowUnit = 16;
 /// neighbour.
 inline constexpr int kPairKinds = 4;
 
-/// What the rows of a problem on layers (levels, labels) have in common. `steps` is the number of
+/// Shape of the rows of a problem on layers (levels, labels). `steps` is the number of
 /// layers of the unknown φ; rows of φ, of its duals and of `ahead` are `[step][x]`, `pitch` apart,
 /// pitch > width, readable for 16 floats before the first. Beyond the width duals are 0.
 struct LayeredShape {
@@ -24,11 +24,14 @@ struct LayeredShape {
   float relaxation = 1;
 };
 
+/// Over-relaxation of the steps of all problems on layers (tests/accuracy/tuning.md).
+inline constexpr float kOverRelaxation = 1.9F;
+
 /// Columns walked through all layers before the next ones: what is kept of each fits the first
 /// cache, and a run within a layer is long enough for the prefetcher.
 inline constexpr int kLayerColumns = 128;
 
-/// Of a problem on layers without order.
+/// Most layers of a problem on layers without order.
 inline constexpr int kMaxSimplexLayers = 256;
 
 /// Numbers of layers, ascending.

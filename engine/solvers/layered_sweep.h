@@ -15,9 +15,9 @@
 
 namespace episcope {
 
-/// Which layers take part where in a problem on layers without order, as long as it need not be
-/// solved exactly: where a layer is far from the cheapest at every pixel around, it hardly ever
-/// wins, and neither φ nor the duals of its pairs move from 0.
+/// The layers that take part at each place, in a problem on layers without order that need not be
+/// solved exactly yet. A layer that is far from the cheapest at every pixel around hardly ever
+/// wins: φ and the duals of its pairs stay 0.
 class RacingLayers {
  public:
   /// Decided for tiles of `kLayerColumns` by so many pixels.
@@ -28,7 +28,7 @@ class RacingLayers {
 
   void take_all() { takes_all_ = true; }
   /// Those that cost less than `behind` more than the cheapest one somewhere in the tile or in
-  /// those above and below it, and those of `labels` (`[y][x]`, a layer each) there.
+  /// those above and below it, and the layers that `labels` (`[y][x]`) has there.
   void choose(VolumeView<const float> cost, float behind, ImageView<const int> labels,
               const Progress& progress);
 
@@ -46,7 +46,7 @@ class RacingLayers {
   [[nodiscard]] Layers& at(std::vector<Layers>& tiles, int row, int column) const {
     return tiles[static_cast<std::size_t>(row) * across_ + column];
   }
-  // In any of the tiles from these to those, as far as there are any.
+  // In any tile from the first to the last one, within the image.
   [[nodiscard]] Layers in_any(const std::vector<Layers>& tiles, int first_row, int first_column,
                               int last_row, int last_column) const;
   void find_near(VolumeView<const float> cost, float behind, ImageView<const int> labels, int row);
@@ -71,12 +71,12 @@ struct LayeredMoves {
                const PairDuals& here);
 };
 
-/// The unknowns of a primal-dual method on an image with layers, φ and the duals of its pairs, and
-/// the order in which they are updated: bands of rows in parallel, within a band φ of a row and the
-/// duals of the row above in turn, so that memory is traversed once per iteration and everything is
-/// updated in place. Few threads take several iterations through the image at once, each two rows
-/// behind the one before, so that memory is traversed once for all of them. The result is the same.
-/// 5 floats per pixel and layer.
+/// The unknowns of a primal-dual method on an image with layers (φ and the duals of its pairs) and
+/// the order of their updates. Bands of rows are updated in parallel and in place; within a band, φ
+/// of a row and the duals of the row above alternate, so that an iteration traverses memory once.
+/// Few threads take several iterations through the image at once, each two rows behind the one
+/// before, so that all of them traverse memory once. The result is the same. 5 floats per pixel and
+/// layer.
 class LayeredSweep {
  public:
   /// Rows that one thread takes through an iteration on its own.
@@ -92,7 +92,7 @@ class LayeredSweep {
   void clear(const Band& band);
   /// φ becomes 0 on layers that do not move, and the duals on those that are not paired.
   void clear_all_but(const RacingLayers& racing, const Band& band);
-  /// What an iteration needs; borrowed. May change from one call to the next, as the steps may.
+  /// Input of an iteration; borrowed. It may change between calls, and so may the steps.
   struct Terms {
     VolumeView<const float> cost;
     const PairLimits& limits;
@@ -141,13 +141,12 @@ void halve(VolumeView<const float> from, const Progress& progress, VolumeView<fl
 
 /// Initialises `fine` with the result of `coarse`, of half the size: φ is repeated, duals are
 /// distributed over the two pairs of pixels that replace one, and interpolated in between. Costs of
-/// both are per pixel, so duals and smoothness of the finer level are twice those of the coarser
-/// one.
+/// both are per pixel, so duals and smoothness of the finer level are twice as large.
 void begin_from(LayeredSweep& coarse, const Progress& progress, LayeredSweep& fine);
 
 /// Initialises `to` with the result of `from`, of the same size, for an image whose pixels have
-/// moved: each pixel takes φ and the duals of the pixel y'·width + x' given in `places` `[y][x]`,
-/// or of the one at its own place where that is −1. On layers that do not take part both are 0.
+/// moved. Each pixel takes φ and the duals of the pixel y'·width + x' given in `places` `[y][x]`;
+/// −1 stands for its own place. On layers that do not take part both are 0.
 void begin_from_moved(LayeredSweep& from, ImageView<const std::int32_t> places,
                       const RacingLayers& racing, const Progress& progress, LayeredSweep& to);
 

@@ -21,8 +21,6 @@
 namespace episcope {
 namespace {
 
-constexpr float kRelaxation = 1.9F;
-
 double row_energy(const LiftedProblem& problem, const PairLimits& limits, ImageView<const int> u,
                   int y) {
   return pair_row_energy(problem.cost, limits, u, y,
@@ -70,7 +68,7 @@ Lifting::Lifting(const LiftedProblem& problem, const Progress& progress, Isa isa
   // Each pixel is in 8 pairs, so |K|² ≤ 16; φ moves within [0, 1], the duals within about Λ.
   sweep_.shape().primal_step = static_cast<float>(1 / (4 * problem.smoothness));
   sweep_.shape().dual_step = static_cast<float>(problem.smoothness / 4);
-  sweep_.shape().relaxation = kRelaxation;
+  sweep_.shape().relaxation = kOverRelaxation;
   for (auto& cut : cuts_) cut = Image<int>(problem.cost.height, problem.cost.width);
   parallel_for(sweep_.bands(), progress, [this](int i) { start(sweep_.band(i)); });
 }

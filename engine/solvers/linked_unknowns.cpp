@@ -210,7 +210,6 @@ void start_from_single_images(const LinkedProblem& problem, const LinkSources& s
 
 namespace {
 
-constexpr float kRelaxation = 1.9F;
 constexpr float kUnlimited = 1e30F;
 
 // How far duals move grows with their limits, but more slowly: where these are large, the costs
@@ -234,7 +233,7 @@ LinkedRows::LinkedRows(const LinkedSetting& setting, LinkedUnknowns& unknowns)
   const double size = dual_size(std::max(setting.problem.smoothness, setting.problem.coherence));
   shape_.primal_step = static_cast<float>(1 / (2 * size));
   shape_.dual_step = static_cast<float>(size / 12);
-  shape_.relaxation = kRelaxation;
+  shape_.relaxation = kOverRelaxation;
   link_step_ = shape_.dual_step;
   const std::size_t size_of_row = unknowns.row_size();
   for (auto& each : pairs_) each.assign(kPairKinds * size_of_row + 2 * kLayerRowUnit, 0.0F);
@@ -350,7 +349,7 @@ void LinkedRows::move_links(int image) {
       find_leaving(links, y, true);
       kernel_.move(unknowns_.row(), {unknowns_.ahead(image, y), LinkedUnknowns::kUnit},
                    {unknowns_.ahead(links.to, 0), LinkedUnknowns::kUnit}, places_.data(),
-                   {link_step_, kRelaxation, limit_.data()}, unknowns_.link_unit(),
+                   {link_step_, kOverRelaxation, limit_.data()}, unknowns_.link_unit(),
                    unknowns_.links(image, kind, y));
     }
   }

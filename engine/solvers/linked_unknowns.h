@@ -44,7 +44,7 @@ class LinkSources {
 /// `pitch` apart; beyond the width everything stays 0.
 class LinkedUnknowns {
  public:
-  /// Everything 0. Units are those of the problem: u in ±4, duals up to twice their limits. Throws
+  /// Everything 0. In the units of the problem: u in ±4, duals up to twice their limits. Throws
   /// Cancelled.
   LinkedUnknowns(const LinkedProblem& problem, const Progress& progress);
 
@@ -79,9 +79,9 @@ class LinkedUnknowns {
 };
 
 /// Initialises u and the duals of pairs with the solutions of the images alone, to a gap of 1 %
-/// or that of the options if that is wider. Images that are linked one to the next are solved in
-/// this order, each beginning where the last one ended. Without smoothness u chooses the cheapest
-/// labels. Throws Cancelled.
+/// or to the gap of the options if that is wider. Images that are linked one to the next are solved
+/// in this order, each beginning where the last one ended. Without smoothness u chooses the
+/// cheapest labels. Throws Cancelled.
 void start_from_single_images(const LinkedProblem& problem, const LinkSources& sources,
                               const LinkedOptions& options, const Progress& progress,
                               LinkedUnknowns& unknowns);
@@ -95,7 +95,7 @@ void look_up_costs(const LinkedProblem& problem, const LinkedKernel& kernel, int
   return links.weight.empty() ? 1.0F : static_cast<float>(links.weight.at(y, x)) / 255;
 }
 
-/// What does not change while a problem is solved; borrowed.
+/// Constants while a problem is solved; borrowed.
 struct LinkedSetting {
   const LinkedProblem& problem;
   const LinkSources& sources;

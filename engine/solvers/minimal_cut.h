@@ -41,9 +41,9 @@ class CutGraph {
   /// `backward` ≥ 0 the other way round.
   void add_edge(int from, int to, Cost forward, Cost backward);
 
-  /// Of several cuts of least cost the one with the fewest nodes on the sink's side. Single-
-  /// threaded. None if `progress.finish_requested()` while it computes. Throws Cancelled within
-  /// milliseconds of a stop request, InvalidInput beyond 2³¹ − 1 edges.
+  /// Finds a cut of least cost; of several, the one with the fewest nodes on the sink's side.
+  /// Single- threaded. None if `progress.finish_requested()` while it computes. Throws Cancelled
+  /// within milliseconds of a stop request, InvalidInput beyond 2³¹ − 1 edges.
   [[nodiscard]] std::optional<MinimalCut> solve(const Progress& progress) const;
 
  private:

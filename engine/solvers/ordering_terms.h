@@ -6,7 +6,7 @@
 
 namespace episcope {
 
-/// Where the lines of one image meet another of equal size: pixel (y, x) with slope s at
+/// Place where a line of one image meets another of equal size: pixel (y, x) with slope s at
 /// x + step·s in its row or, vertical, at y + step·s in its column.
 struct LineStep {
   bool vertical = false;

@@ -21,13 +21,12 @@
 namespace episcope {
 namespace {
 
-constexpr float kRelaxation = 1.9F;
 // Levels are halved down to this side; iterations on each below the finest.
 constexpr int kMinSide = 16;
-constexpr int kCoarseIterations = 30;
+constexpr int kCoarseMoves = 30;
 // Iterations taken through the image at once: what they work on fits a cache.
 constexpr int kTogether = 5;
-static_assert(kCoarseIterations % kTogether == 0);
+static_assert(kCoarseMoves % kTogether == 0);
 
 void check_problem(const SimplexProblem& problem, int height, int layers, int width) {
   const auto& cost = problem.cost;
@@ -80,7 +79,7 @@ void set_steps(double smoothness, LayeredShape& shape) {
   const double dual_size = std::min(smoothness, std::sqrt(smoothness));
   shape.primal_step = static_cast<float>(1 / (2 * dual_size));
   shape.dual_step = static_cast<float>(dual_size / 8);
-  shape.relaxation = kRelaxation;
+  shape.relaxation = kOverRelaxation;
 }
 
 }  // namespace
@@ -173,7 +172,7 @@ void SimplexSolver::State::climb(const SimplexProblem& problem, const Progress& 
     const PairLimits limits(level.cost.height(), level.cost.width(), smoothness / 2,
                             problem.g.empty() ? ImageView<const float>{} : level.g);
     set_steps(smoothness, level.sweep.shape());
-    for (int i = 0; i < kCoarseIterations; i += kTogether) {
+    for (int i = 0; i < kCoarseMoves; i += kTogether) {
       level.sweep.iterate({level.cost.view(), limits, moves}, kTogether, progress);
     }
     begin_from(level.sweep, progress, k > 0 ? coarse[k - 1].sweep : sweep);

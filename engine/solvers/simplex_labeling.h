@@ -87,8 +87,8 @@ class SimplexSolver {
   SimplexResult solve(const SimplexProblem& problem, const SimplexOptions& options,
                       const Progress& progress, ImageView<int> labels);
 
-  /// Where the last call with λ > 0 and more than one label ended, φ is u, for a method that starts
-  /// there. Valid until the next call.
+  /// Unknowns at the end of the last call with λ > 0 and more than one label, for a method that
+  /// starts there; φ is u. Valid until the next call.
   [[nodiscard]] LayeredSweep& unknowns();
 
  private:

@@ -16,7 +16,7 @@ struct TgvL2Problem {
   ImageView<const float> w;  ///< Weight of the observation, ≥ 0; at least one positive. Empty = 1.
   ImageView<const float> g;  ///< Weight of the variation, in (0, 1]. Empty = 1.
   double lambda = 0.1;       ///< Larger smooths more; > 0.
-  double bend = 2;           ///< κ > 0: cost of a bend against that of a jump, px.
+  double bend = 2;           ///< κ > 0: relative cost of curvature to jumps, px.
 };
 
 struct TgvL2Result {

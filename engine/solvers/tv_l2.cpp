@@ -20,7 +20,7 @@ namespace {
 
 constexpr float kMinWeight = 1e-4F;
 // Iterations on each level below the finest, and between two fits of the penalty.
-constexpr int kCoarseIterations = 20;
+constexpr int kCoarseCycles = 20;
 constexpr int kPenaltyEvery = 10;
 
 // Between Galerkin's coarse edges (1, always stable) and those right for smooth corrections (½),
@@ -38,7 +38,7 @@ constexpr float kPenaltyKnee = 0.07F;
 constexpr float kPenaltySpread = 16.0F;
 
 template <class T>
-void check_shape(const ImageView<T>& image, int height, int width, const char* what) {
+void require_shape(const ImageView<T>& image, int height, int width, const char* what) {
   if (image.height != height || image.width != width || image.channels != 1 || image.empty()) {
     throw InvalidInput(fmt::format("TV-L2 needs {} as one channel of {} by {}, not {} of {} by {}",
                                    what, width, height, image.channels, image.width, image.height));
@@ -193,8 +193,8 @@ void TvL2Solver::State::climb(const Progress& progress) {
   std::size_t stage = grids.size() - 2;
   start_from_data(grids[stage].level);
   for (; stage > 0; --stage) {
-    for (int i = 0; i < kCoarseIterations; ++i) {
-      iterate(stage, i, i + 1 == kCoarseIterations, progress);
+    for (int i = 0; i < kCoarseCycles; ++i) {
+      iterate(stage, i, i + 1 == kCoarseCycles, progress);
     }
     penalties.project(grids[stage].level);
     prolong(grids[stage].level, grids[stage - 1].level);
@@ -250,10 +250,10 @@ TvL2Result TvL2Solver::solve(const TvL2Problem& problem, const TvL2Options& opti
                              const Progress& progress, ImageView<float> u) {
   State& state = *state_;
   const TvL2Level& finest = state.grids[0].level;
-  check_shape(problem.f, finest.height, finest.width, "f");
-  check_shape(u, finest.height, finest.width, "u");
-  if (!problem.w.empty()) check_shape(problem.w, finest.height, finest.width, "w");
-  if (!problem.g.empty()) check_shape(problem.g, finest.height, finest.width, "g");
+  require_shape(problem.f, finest.height, finest.width, "f");
+  require_shape(u, finest.height, finest.width, "u");
+  if (!problem.w.empty()) require_shape(problem.w, finest.height, finest.width, "w");
+  if (!problem.g.empty()) require_shape(problem.g, finest.height, finest.width, "g");
   if (!(problem.lambda > 0)) throw InvalidInput("TV-L2 needs a positive lambda");
   const FlushDenormals flush;
   state.load(problem);

@@ -11,7 +11,7 @@ inline constexpr long kTvL2Margin = 16;
 inline constexpr int kTvL2RowUnit = 32;
 
 /// One level of the grid hierarchy of the TV-L2 solver. Rows of a plane lie `pitch` apart and are
-/// split: first the pixels of the even columns, `odd` floats further those of the odd ones. So the
+/// split: first the pixels of the even columns, `odd` floats further the odd columns. So the
 /// pixels of either colour of a chequerboard, and their neighbours, are contiguous. One row of
 /// padding above and two below; all padding is 0 and stays harmless because the coefficients there
 /// are 0. Outside the stage that solves a level, u and b hold the multigrid correction.
@@ -63,7 +63,7 @@ struct TvL2Kernel {
   void (*solve)(const TvL2Level&);
 };
 
-/// What happens between iterations.
+/// Entry points for the work between iterations.
 struct TvL2PenaltyKernel {
   /// Renews R from u, keeping p and d where |p| = g.
   void (*penalise)(const TvL2Level&, const TvL2Penalty&);

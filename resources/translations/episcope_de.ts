@@ -132,7 +132,7 @@
         <translation>Polygon</translation>
     </message>
     <message>
-        <source>Paints what is inside a polygon: click its corners, then double-click or press Return; begun with the right button, it erases</source>
+        <source>Paints the inside of a polygon: click its corners, then double-click or press Return; begin with the right button to erase</source>
         <translation>Malt das Innere eines Polygons: die Ecken anklicken, dann doppelklicken oder Eingabe drücken; mit der rechten Maustaste begonnen, radiert es</translation>
     </message>
     <message>
@@ -140,7 +140,7 @@
         <translation>Lasso</translation>
     </message>
     <message>
-        <source>Paints what a drag goes around; the right button erases it</source>
+        <source>Paints the region that a drag encloses; the right button erases it</source>
         <translation>Malt, was beim Ziehen umrundet wird; die rechte Maustaste radiert es</translation>
     </message>
     <message>
@@ -156,7 +156,7 @@
         <translation>Polygon schließen</translation>
     </message>
     <message>
-        <source>Paints what is inside the polygon that is being drawn</source>
+        <source>Paints the inside of the polygon being drawn</source>
         <translation>Malt das Innere des Polygons, das gerade gezeichnet wird</translation>
     </message>
     <message>
@@ -164,7 +164,7 @@
         <translation>Letzte Ecke zurücknehmen</translation>
     </message>
     <message>
-        <source>Removes the corner of the polygon that was set last</source>
+        <source>Removes the last corner of the polygon</source>
         <translation>Entfernt die zuletzt gesetzte Ecke des Polygons</translation>
     </message>
     <message>
@@ -188,7 +188,7 @@
         <translation>Andere Labels schützen</translation>
     </message>
     <message>
-        <source>Paints only unpainted pixels and erases only the current label; holding Shift does the same</source>
+        <source>Paints only unpainted pixels and erases only the current label, as holding Shift does</source>
         <translation>Malt nur auf unbemalte Pixel und radiert nur das aktuelle Label, wie mit gehaltener Umschalttaste</translation>
     </message>
     <message>
@@ -358,7 +358,7 @@
         <translation>Die Striche in „%1“ sind nicht gespeichert.</translation>
     </message>
     <message>
-        <source>Reloading replaces the labels and strokes that are open here.</source>
+        <source>Reloading replaces the open labels and strokes.</source>
         <translation>Neuladen ersetzt die hier geöffneten Labels und Striche.</translation>
     </message>
     <message>
@@ -558,7 +558,7 @@
         <translation>Radierer</translation>
     </message>
     <message>
-        <source>Opacity of what is painted</source>
+        <source>Opacity of painted labels</source>
         <translation>Deckkraft des Gemalten</translation>
     </message>
     <message>
@@ -566,7 +566,7 @@
         <translation>Deckkraft</translation>
     </message>
     <message>
-        <source>The brush paints only unpainted pixels, and the eraser erases only the current label. Holding Shift does the same.</source>
+        <source>The brush paints only unpainted pixels, and the eraser erases only the current label. Hold Shift for a single stroke of this kind.</source>
         <translation>Der Pinsel bemalt nur unbemalte Pixel, der Radierer entfernt nur das aktuelle Label. Dasselbe bewirkt die gehaltene Umschalttaste.</translation>
     </message>
     <message>
@@ -582,7 +582,7 @@
         <translation>sein Segment</translation>
     </message>
     <message>
-        <source>What bounds a fill: edges of the view, or the segment of the current segmentation</source>
+        <source>Limits of a fill: edges of the view, or the segment of the current segmentation</source>
         <translation>Was eine Füllung begrenzt: Kanten der Ansicht oder das Segment der aktuellen Segmentierung</translation>
     </message>
     <message>
@@ -731,7 +731,7 @@
 <context>
     <name>episcope::CaptureFiles</name>
     <message>
-        <source>%1 is there already; name a new file, so that no light field is lost</source>
+        <source>%1 exists already; name a new file, so that no light field is lost</source>
         <translation>%1 gibt es schon; eine neue Datei angeben, damit kein Lichtfeld verloren geht</translation>
     </message>
 </context>
@@ -766,7 +766,7 @@
         <translation>Netz öffnen…</translation>
     </message>
     <message>
-        <source>A scan of what the light field shows: PLY, OBJ or STL</source>
+        <source>A scan of an object in the light field: PLY, OBJ or STL</source>
         <translation>Ein Scan dessen, was das Lichtfeld zeigt: PLY, OBJ oder STL</translation>
     </message>
     <message>
@@ -793,7 +793,7 @@
         <translation>Nimmt die Ecke oder die Mitte des Flecks neben dem Fadenkreuz, auf Bruchteile eines Pixels</translation>
     </message>
     <message>
-        <source>Open a mesh of what the light field shows. Then set the cross-hair in the centre view, click the same point of the mesh here, and add the pair. Four pairs give its pose.
+        <source>Open a mesh of an object in the light field. Then set the cross-hair in the centre view, click the same point of the mesh here, and add the pair. Four pairs give its pose.
 
 Without a gantry at hand, “Lens” makes a demo to try it with.</source>
         <translation>Ein Dreiecksnetz dessen öffnen, was das Lichtfeld zeigt. Dann das Fadenkreuz in der mittleren Ansicht setzen, hier denselben Punkt des Netzes anklicken und das Paar hinzufügen. Vier Paare ergeben seine Pose.
@@ -893,7 +893,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Sperre</translation>
     </message>
     <message>
-        <source>A locked pair is right: it is not removed, nor taken for a wrong pick</source>
+        <source>A locked pair is trusted: it is neither removed nor treated as a wrong pick</source>
         <translation>Ein gesperrtes Punktpaar ist richtig: Es wird nicht entfernt und nicht für falsch gewählt gehalten</translation>
     </message>
     <message>
@@ -924,12 +924,12 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Neu laden</translation>
     </message>
     <message>
-        <source>Another program has written %1 since it was read or saved here. Saving replaces what that program wrote.</source>
+        <source>Another program has written %1 since it was read or saved here. Saving replaces those changes.</source>
         <translation>Ein anderes Programm hat %1 geschrieben, seit die Datei hier gelesen oder gespeichert wurde. Speichern ersetzt, was dieses Programm schrieb.</translation>
     </message>
 </context>
 <context>
-    <name>episcope::CheckPanel</name>
+    <name>episcope::LabelReviewPanel</name>
     <message>
         <source>Regions in doubt</source>
         <translation>Zweifelhafte Gebiete</translation>
@@ -990,11 +990,11 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
 <context>
     <name>episcope::CloudController</name>
     <message>
-        <source>3D in the place of the view</source>
+        <source>3D in place of the view</source>
         <translation>3D anstelle der Ansicht</translation>
     </message>
     <message>
-        <source>Shows the 3D view large, in the place of the view, or puts it back into its tab</source>
+        <source>Shows the 3D view in place of the current view, or moves it back into its tab</source>
         <translation>Zeigt die 3D-Ansicht groß anstelle der Ansicht oder wieder in ihrem Reiter</translation>
     </message>
     <message>
@@ -1002,7 +1002,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>3D im eigenen Fenster</translation>
     </message>
     <message>
-        <source>Gives the 3D view with its controls a window of its own, or takes it back</source>
+        <source>Detaches the 3D view and its controls into their own window, or docks them again</source>
         <translation>Gibt der 3D-Ansicht mit ihren Bedienelementen ein eigenes Fenster oder holt sie zurück</translation>
     </message>
     <message>
@@ -1034,7 +1034,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Zeigt das Ergebnis in 3D, als Punkte oder als Fläche</translation>
     </message>
     <message>
-        <source>The 3D view is in the place of the view.</source>
+        <source>The 3D view is shown in place of the view.</source>
         <translation>Die 3D-Ansicht steht anstelle der Ansicht.</translation>
     </message>
     <message>
@@ -1058,7 +1058,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>. Von seinen Punkten zum nächsten von %1, in Einheiten der Szene: Mittel %2, Median %3, 95 % unter %4</translation>
     </message>
     <message>
-        <source>Save what the 3D view shows</source>
+        <source>Save the 3D view</source>
         <translation>Inhalt der 3D-Ansicht speichern</translation>
     </message>
     <message>
@@ -1109,11 +1109,11 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>je eine</translation>
     </message>
     <message>
-        <source>How far each point is from the nearest point of the truth, or of what is shown with it, in units of the scene</source>
+        <source>Distance of each point to the nearest point of the truth or of the other result, in units of the scene</source>
         <translation>Abstand jedes Punkts zum nächsten Punkt der Referenz oder dessen, was mit ihm gezeigt wird, in Einheiten der Szene</translation>
     </message>
     <message>
-        <source>What is shown with the result</source>
+        <source>Shown together with the result</source>
         <translation>Was mit dem Ergebnis gezeigt wird</translation>
     </message>
     <message>
@@ -1197,7 +1197,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Näheres abschneiden</translation>
     </message>
     <message>
-        <source>Leaves out what is nearer</source>
+        <source>Hides everything nearer</source>
         <translation>Lässt weg, was näher ist</translation>
     </message>
     <message>
@@ -1205,7 +1205,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Ferneres abschneiden</translation>
     </message>
     <message>
-        <source>Leaves out what is farther</source>
+        <source>Hides everything farther away</source>
         <translation>Lässt weg, was ferner ist</translation>
     </message>
     <message>
@@ -1335,7 +1335,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Vorige Szene</translation>
     </message>
     <message>
-        <source>Opens the light field before in the collection</source>
+        <source>Opens the previous light field of the collection</source>
         <translation>Öffnet das vorige Lichtfeld der Sammlung</translation>
     </message>
     <message>
@@ -1536,19 +1536,19 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
 <context>
     <name>episcope::DocumentController</name>
     <message>
-        <source>What was painted on “%1” belongs to a light field of another size; it is kept in the project.</source>
+        <source>The scribbles on “%1” belong to a light field of another size; they are kept in the project.</source>
         <translation>Was in „%1“ gemalt wurde, gehört zu einem Lichtfeld anderer Größe; es bleibt im Projekt erhalten.</translation>
     </message>
     <message>
-        <source>The scribbles of this light field cannot be edited: %1. They are left unchanged, and what you paint is saved to another file.</source>
+        <source>The scribbles of this light field cannot be edited: %1. They are left unchanged; new scribbles are saved to another file.</source>
         <translation>Die Striche dieses Lichtfelds können nicht bearbeitet werden: %1. Sie bleiben unverändert, und neu Gemaltes wird in einer anderen Datei gespeichert.</translation>
     </message>
     <message>
-        <source>What you paint can no longer be recovered after a crash, so save it soon: %1</source>
+        <source>Scribbles can no longer be recovered after a crash, so save them soon: %1</source>
         <translation>Gemaltes kann nach einem Absturz nicht mehr wiederhergestellt werden, also bald speichern: %1</translation>
     </message>
     <message>
-        <source>What was painted on “%1” belongs to a light field of another size; it is offered again at the next start.</source>
+        <source>The scribbles on “%1” belong to a light field of another size; they are offered again at the next start.</source>
         <translation>Was auf „%1“ gemalt wurde, gehört zu einem Lichtfeld anderer Größe; es wird beim nächsten Start wieder angeboten.</translation>
     </message>
 </context>
@@ -1660,7 +1660,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Ein Verfahren ausführen: seine Fehler über der wahren Disparität erscheinen hier.</translation>
     </message>
     <message>
-        <source>%1 has no map of the view that the ground truth is of.</source>
+        <source>%1 has no map of the view with the ground truth.</source>
         <translation>%1 hat keine Karte der Ansicht, von der die Referenz ist.</translation>
     </message>
     <message>
@@ -1714,7 +1714,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Auf mehrere anwenden…</translation>
     </message>
     <message>
-        <source>Runs one or several methods on light fields that are open</source>
+        <source>Runs one or several methods on open light fields</source>
         <translation>Wendet ein oder mehrere Verfahren auf geöffnete Lichtfelder an</translation>
     </message>
     <message>
@@ -1806,7 +1806,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Entferntes Ergebnis zurückholen</translation>
     </message>
     <message>
-        <source>Brings back the result that was removed last</source>
+        <source>Restores the result removed last</source>
         <translation>Holt das zuletzt entfernte Ergebnis zurück</translation>
     </message>
     <message>
@@ -1917,7 +1917,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Neu lesen</translation>
     </message>
     <message>
-        <source>Reads what is open again, as a program that is still writing it has left it by now</source>
+        <source>Reads the open light field again, with what a program has added to its file since</source>
         <translation>Liest das Geöffnete noch einmal, so wie ein Programm, das noch daran schreibt, es inzwischen hinterlassen hat</translation>
     </message>
     <message>
@@ -2036,7 +2036,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Fokusebene anwenden</translation>
     </message>
     <message>
-        <source>Shifts all disparities, those of results and ground truth too, so that what is in focus has 0</source>
+        <source>Shifts all disparities, including results and ground truth, so that the focus plane has disparity 0</source>
         <translation>Verschiebt alle Disparitäten, auch die von Ergebnissen und Referenz, sodass scharf Gestelltes 0 hat</translation>
     </message>
     <message>
@@ -2098,7 +2098,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Voriges Einzelbild</translation>
     </message>
     <message>
-        <source>Opens the frame before in the sequence</source>
+        <source>Opens the previous frame of the sequence</source>
         <translation>Öffnet das vorige Einzelbild der Sequenz</translation>
     </message>
     <message>
@@ -2171,7 +2171,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Konventionen…</translation>
     </message>
     <message>
-        <source>Overrides the order of views, the units or the file names that were found</source>
+        <source>Overrides the detected order of views, units or file names</source>
         <translation>Legt die Reihenfolge der Ansichten, die Einheiten oder die Dateinamen anders als gefunden fest</translation>
     </message>
     <message>
@@ -2183,7 +2183,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Nah und fern vertauschen</translation>
     </message>
     <message>
-        <source>Reverses the order of views along both axes: what was near is far</source>
+        <source>Reverses the order of views along both axes, which swaps near and far</source>
         <translation>Kehrt die Reihenfolge der Ansichten in beiden Achsen um: was nah war, ist fern</translation>
     </message>
     <message>
@@ -2518,7 +2518,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Label hinzufügen</translation>
     </message>
     <message>
-        <source>Adds a label, to be named and painted with</source>
+        <source>Adds a label to name and paint with</source>
         <translation>Fügt ein Label hinzu, um es zu benennen und damit zu malen</translation>
     </message>
     <message>
@@ -2621,7 +2621,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Nur dieses Label zeigen</translation>
     </message>
     <message>
-        <source>Hides all other labels; again shows all</source>
+        <source>Hides all other labels; a second time shows them again</source>
         <translation>Blendet alle anderen Labels aus; noch einmal blendet alle ein</translation>
     </message>
     <message>
@@ -2653,11 +2653,11 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Darstellung der Labels: %1.</translation>
     </message>
     <message>
-        <source>Undo changed what is locked: %1. Redo brings it back.</source>
+        <source>Undo changed locked labels: %1. Redo restores them.</source>
         <translation>Rückgängig hat Gesperrtes geändert: %1. Wiederholen holt es zurück.</translation>
     </message>
     <message>
-        <source>Redo changed what is locked: %1. Undo brings it back.</source>
+        <source>Redo changed locked labels: %1. Undo restores them.</source>
         <translation>Wiederholen hat Gesperrtes geändert: %1. Rückgängig holt es zurück.</translation>
     </message>
 </context>
@@ -2797,7 +2797,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Vollbild</translation>
     </message>
     <message>
-        <source>Fills the screen with the window, or gives it back</source>
+        <source>Turns full screen on or off</source>
         <translation>Füllt den Bildschirm mit dem Fenster oder gibt ihn wieder frei</translation>
     </message>
     <message>
@@ -2817,7 +2817,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Reiter im eigenen Fenster</translation>
     </message>
     <message>
-        <source>Gives the tab that is shown a window of its own; closing that brings it back. So does a double click on the tab</source>
+        <source>Detaches the current tab, as a double click on it does; close its window to dock it again</source>
         <translation>Gibt dem angezeigten Reiter ein eigenes Fenster; es zu schließen holt ihn zurück. Ein Doppelklick auf den Reiter tut dasselbe</translation>
     </message>
     <message>
@@ -2825,7 +2825,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Horizontales EPI im eigenen Fenster</translation>
     </message>
     <message>
-        <source>Gives the horizontal EPI a window of its own, or takes it back</source>
+        <source>Detaches the horizontal EPI into its own window, or docks it again</source>
         <translation>Gibt dem horizontalen EPI ein eigenes Fenster oder holt es zurück</translation>
     </message>
     <message>
@@ -2833,7 +2833,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Vertikales EPI im eigenen Fenster</translation>
     </message>
     <message>
-        <source>Gives the vertical EPI a window of its own, or takes it back</source>
+        <source>Detaches the vertical EPI into its own window, or docks it again</source>
         <translation>Gibt dem vertikalen EPI ein eigenes Fenster oder holt es zurück</translation>
     </message>
     <message>
@@ -2841,7 +2841,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Anordnung zurücksetzen</translation>
     </message>
     <message>
-        <source>Brings all panes back and divides the window as at first</source>
+        <source>Docks all panes and restores the default layout</source>
         <translation>Holt alle Teilfenster zurück und teilt das Fenster ein wie am Anfang</translation>
     </message>
     <message>
@@ -2853,7 +2853,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Reiter unter die anderen</translation>
     </message>
     <message>
-        <source>Puts the tab that is shown into a second set of tabs below the others, so that both are seen; its cross brings it back</source>
+        <source>Moves the current tab into a second set of tabs below the others; its cross moves it back</source>
         <translation>Legt den gezeigten Reiter zu den Reitern unter den anderen, so dass beide zu sehen sind; sein Kreuz bringt ihn zurück</translation>
     </message>
     <message>
@@ -2865,7 +2865,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Horizontales EPI unter die Reiter</translation>
     </message>
     <message>
-        <source>Puts the horizontal EPI into the tabs below the others, or takes it back</source>
+        <source>Moves the horizontal EPI into the tabs below the others, or back</source>
         <translation>Legt das horizontale EPI zu den Reitern unter den anderen oder holt es zurück</translation>
     </message>
     <message>
@@ -2877,7 +2877,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Vertikales EPI unter die Reiter</translation>
     </message>
     <message>
-        <source>Puts the vertical EPI into the tabs below the others, or takes it back</source>
+        <source>Moves the vertical EPI into the tabs below the others, or back</source>
         <translation>Legt das vertikale EPI zu den Reitern unter den anderen oder holt es zurück</translation>
     </message>
     <message>
@@ -2900,7 +2900,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Live-Schätzung</translation>
     </message>
     <message>
-        <source>Estimates what is in sight at every change of parameters or view; Run keeps it</source>
+        <source>Estimates the visible part after every change of parameters or view; Run keeps the result</source>
         <translation>Schätzt das Sichtbare bei jeder Änderung von Parametern oder Ansicht; Starten behält es</translation>
     </message>
     <message>
@@ -2974,7 +2974,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Reiter Messen</translation>
     </message>
     <message>
-        <source>Lists the disparities that were measured in EPIs</source>
+        <source>Lists the disparities measured in EPIs</source>
         <translation>Listet die in EPIs gemessenen Disparitäten auf</translation>
     </message>
     <message>
@@ -2982,7 +2982,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Gemessene Linie behalten</translation>
     </message>
     <message>
-        <source>Keeps the disparity of the line that was drawn in an EPI, in the list of the Measure tab</source>
+        <source>Keeps the disparity of the line drawn in an EPI in the list of the Measure tab</source>
         <translation>Behält die Disparität der in einem EPI gezogenen Linie in der Liste des Reiters Messen</translation>
     </message>
     <message>
@@ -2994,7 +2994,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Gewählte Messung umbenennen</translation>
     </message>
     <message>
-        <source>Renames the chosen one of the list of measured lines</source>
+        <source>Renames the chosen measured line</source>
         <translation>Benennt die in der Liste gewählte gemessene Linie um</translation>
     </message>
     <message>
@@ -3002,7 +3002,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Gewählte Messung entfernen</translation>
     </message>
     <message>
-        <source>Removes the chosen one from the list of measured lines</source>
+        <source>Removes the chosen measured line</source>
         <translation>Entfernt die gewählte gemessene Linie aus der Liste</translation>
     </message>
     <message>
@@ -3026,7 +3026,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Auf gewählte Messung fokussieren</translation>
     </message>
     <message>
-        <source>Moves the focus plane to the disparity that was measured</source>
+        <source>Moves the focus plane to the measured disparity</source>
         <translation>Verschiebt die Fokusebene auf die gemessene Disparität</translation>
     </message>
     <message>
@@ -3322,7 +3322,7 @@ s</translation>
         <translation>Pixel</translation>
     </message>
     <message>
-        <source>Pixels of the part that were judged</source>
+        <source>Pixels that were evaluated</source>
         <translation>Pixel des bewerteten Teils</translation>
     </message>
     <message>
@@ -3332,7 +3332,7 @@ s</translation>
 2016</translation>
     </message>
     <message>
-        <source>Those without the border of 15 px that this protocol ignores</source>
+        <source>Evaluated pixels without the border of 15 px that this protocol ignores</source>
         <translation>Jene ohne den Rand von 15 px, den dieses Protokoll außer Acht lässt</translation>
     </message>
     <message>
@@ -3499,7 +3499,7 @@ s</translation>
         <translation>fehl. Punkte</translation>
     </message>
     <message>
-        <source>Dots of which half of the pixels or more are off by more than 0.4 px, in %</source>
+        <source>Dots with at least half of their pixels off by more than 0.4 px, in %</source>
         <translation>Punkte, von denen mindestens die Hälfte der Pixel um mehr als 0.4 px falsch ist, in %</translation>
     </message>
     <message>
@@ -3697,7 +3697,7 @@ s</translation>
 <context>
     <name>episcope::MoviePanel</name>
     <message>
-        <source>With what is drawn over the view</source>
+        <source>With the overlay of the view</source>
         <translation>Mit dem, was über der Ansicht liegt</translation>
     </message>
     <message>
@@ -3749,7 +3749,7 @@ s</translation>
         <translation> px</translation>
     </message>
     <message>
-        <source>Points of this disparity are in focus at an end of the movement</source>
+        <source>Disparity in focus at one end of the movement</source>
         <translation>Punkte dieser Disparität sind an einem Ende der Bewegung scharf</translation>
     </message>
     <message>
@@ -3833,7 +3833,7 @@ s</translation>
         <translation>Überlagerung</translation>
     </message>
     <message>
-        <source>What is drawn over the view (M: next)</source>
+        <source>Overlay of the view (M: next)</source>
         <translation>Was über die Ansicht gelegt wird (M: nächste)</translation>
     </message>
     <message>
@@ -3921,7 +3921,7 @@ s</translation>
         <translation>%1 von %2 Bildern passen</translation>
     </message>
     <message>
-        <source>a list of %1 views, whose rows the images tell</source>
+        <source>a list of %1 views; the images tell its rows</source>
         <translation>eine Liste von %1 Ansichten, deren Zeilen sich aus den Bildern ergeben</translation>
     </message>
     <message>
@@ -3968,7 +3968,7 @@ s</translation>
         <translation>Rektifizieren…</translation>
     </message>
     <message>
-        <source>Makes a light field of the photographs that are open: without distortion, rows and columns aligned. Pairs picked in them are carried over.</source>
+        <source>Rectifies the open photographs into a light field with aligned rows and columns. Pairs picked in them are carried over.</source>
         <translation>Macht aus den geöffneten Fotos ein Lichtfeld: verzeichnungsfrei, mit ausgerichteten Zeilen und Spalten. Darin gewählte Punktpaare werden übernommen.</translation>
     </message>
     <message>
@@ -4027,7 +4027,7 @@ s</translation>
         <translation>Kamera (*.yml)</translation>
     </message>
     <message>
-        <source>Where to put the folder of the demo</source>
+        <source>Folder in which to create the demo</source>
         <translation>Ordner, in dem die Demo angelegt wird</translation>
     </message>
     <message>
@@ -4215,7 +4215,7 @@ s</translation>
         <translation>Lichtfeld nicht gefunden</translation>
     </message>
     <message>
-        <source>“%1” is no longer at %2. Where is it now? Others that were moved with it are then found as well.</source>
+        <source>“%1” is no longer at %2. Where is it now? Files that were moved with it are then found too.</source>
         <translation>„%1“ ist nicht mehr unter %2. Wo ist es jetzt? Andere, die mit verschoben wurden, werden dann auch gefunden.</translation>
     </message>
     <message>
@@ -4227,7 +4227,7 @@ s</translation>
         <translation>Ordner wählen…</translation>
     </message>
     <message>
-        <source>Reloading replaces what is open here.</source>
+        <source>Reloading replaces the open light fields.</source>
         <translation>Neuladen ersetzt, was hier geöffnet ist.</translation>
     </message>
 </context>
@@ -4238,7 +4238,7 @@ s</translation>
         <translation>Nicht gespeichert: %1.</translation>
     </message>
     <message>
-        <source>Scribbles that are not saved: on %1.</source>
+        <source>Unsaved scribbles: on %1.</source>
         <translation>Nicht gespeicherte Striche: in %1.</translation>
     </message>
     <message>
@@ -4262,11 +4262,11 @@ s</translation>
         <translation>Versuchsreihe mit %1</translation>
     </message>
     <message>
-        <source>Pairs of points that are not saved: on %1.</source>
+        <source>Unsaved pairs of points: on %1.</source>
         <translation>Nicht gespeicherte Punktpaare: auf %1.</translation>
     </message>
     <message>
-        <source>Kept lines that are not saved: on %1.</source>
+        <source>Unsaved measured lines: on %1.</source>
         <translation>Nicht gespeicherte behaltene Linien: auf %1.</translation>
     </message>
 </context>
@@ -4318,7 +4318,7 @@ s</translation>
 <context>
     <name>episcope::RegionBar</name>
     <message>
-        <source>The pixels that the table and the plot are of</source>
+        <source>Pixels that the table and the plot evaluate</source>
         <translation>Die Pixel, auf die sich Tabelle und Diagramm beziehen</translation>
     </message>
     <message>
@@ -4357,7 +4357,7 @@ s</translation>
         <translation>Ein Rechteck bewerten</translation>
     </message>
     <message>
-        <source>The next drag on the view draws the rectangle that metrics are of</source>
+        <source>The next drag on the view draws a rectangle in which metrics are computed</source>
         <translation>Das nächste Ziehen in der Ansicht zeichnet das Rechteck, auf das sich die Fehlermaße beziehen</translation>
     </message>
     <message>
@@ -4369,7 +4369,7 @@ s</translation>
         <translation>Die ganze Ansicht bewerten</translation>
     </message>
     <message>
-        <source>Metrics are of the whole view again</source>
+        <source>Computes metrics over the whole view again</source>
         <translation>Die Fehlermaße beziehen sich wieder auf die ganze Ansicht</translation>
     </message>
     <message>
@@ -4381,7 +4381,7 @@ s</translation>
         <translation>Ein Rechteck in der Ansicht aufziehen. Esc bricht ab.</translation>
     </message>
     <message>
-        <source>Mask of the pixels that are judged: those that are not black</source>
+        <source>Mask of the evaluated pixels: all that are not black</source>
         <translation>Maske der bewerteten Pixel: alle, die nicht schwarz sind</translation>
     </message>
     <message>
@@ -4436,7 +4436,7 @@ s</translation>
         <translation>%1 hat keine Karte dieser Ansicht: erst zur mittleren Ansicht gehen (Pos1).</translation>
     </message>
     <message>
-        <source>Folder of the submission that %1 goes into</source>
+        <source>Folder of the submission for %1</source>
         <translation>Ordner der Einreichung, in die %1 kommt</translation>
     </message>
     <message>
@@ -4444,7 +4444,7 @@ s</translation>
         <translation>%1 hat keine Karte der mittleren Ansicht, die eingereicht wird.</translation>
     </message>
     <message>
-        <source>Reloading adds what is in the file to the list of results.</source>
+        <source>Reloading adds the results in the file to the list.</source>
         <translation>Neuladen fügt der Liste der Ergebnisse hinzu, was in der Datei steht.</translation>
     </message>
 </context>
@@ -4554,7 +4554,7 @@ s</translation>
         <translation>%1 wird geöffnet</translation>
     </message>
     <message>
-        <source>%1 was estimated with%2: its errors may be meaningless. Choose the same in Conventions…</source>
+        <source>%1 was estimated with%2: its errors may be meaningless. Choose the same values in Conventions…</source>
         <translation>%1 wurde mit%2 geschätzt: seine Fehler sind womöglich bedeutungslos. Dasselbe wählen unter Konventionen…</translation>
     </message>
     <message>
@@ -4563,7 +4563,7 @@ s</translation>
     </message>
 </context>
 <context>
-    <name>episcope::ReviewController</name>
+    <name>episcope::LabelReviewController</name>
     <message>
         <source>Check</source>
         <translation>Prüfen</translation>
@@ -4585,7 +4585,7 @@ s</translation>
         <translation>Nächstes zweifelhaftes Gebiet</translation>
     </message>
     <message>
-        <source>Goes to where a stroke would decide most: large regions of which another label is nearly as probable</source>
+        <source>Goes to the places where a stroke decides most: large regions with another label nearly as probable</source>
         <translation>Geht dorthin, wo ein Strich am meisten entscheidet: zu großen Gebieten, für die ein anderes Label fast ebenso wahrscheinlich ist</translation>
     </message>
     <message>
@@ -4593,7 +4593,7 @@ s</translation>
         <translation>Voriges zweifelhaftes Gebiet</translation>
     </message>
     <message>
-        <source>Goes back to the region in doubt before</source>
+        <source>Goes back to the previous region in doubt</source>
         <translation>Geht zum zweifelhaften Gebiet davor zurück</translation>
     </message>
     <message>
@@ -4719,7 +4719,7 @@ s</translation>
         <translation>Geöffnete Lichtfelder</translation>
     </message>
     <message>
-        <source>The light fields that are open: choose the one to show</source>
+        <source>Open light fields: choose the one to show</source>
         <translation>Die geöffneten Lichtfelder: das anzuzeigende wählen</translation>
     </message>
     <message>
@@ -4731,7 +4731,7 @@ s</translation>
         <translation>Nächstes geöffnetes Lichtfeld</translation>
     </message>
     <message>
-        <source>Shows the next light field of those that are open</source>
+        <source>Shows the next open light field</source>
         <translation>Zeigt das nächste der geöffneten Lichtfelder</translation>
     </message>
     <message>
@@ -4743,7 +4743,7 @@ s</translation>
         <translation>Voriges geöffnetes Lichtfeld</translation>
     </message>
     <message>
-        <source>Shows the previous light field of those that are open</source>
+        <source>Shows the previous open light field</source>
         <translation>Zeigt das vorige der geöffneten Lichtfelder</translation>
     </message>
     <message>
@@ -4841,7 +4841,7 @@ s</translation>
         <translation>Kein Lichtfeld passt zum Filter.</translation>
     </message>
     <message>
-        <source>Open a folder of light fields, or drop it here: all that it holds at any depth is listed.</source>
+        <source>Open a folder of light fields, or drop it here. Its subfolders are listed too.</source>
         <translation>Einen Ordner mit Lichtfeldern öffnen oder hier ablegen: alles darin wird aufgelistet, in beliebiger Tiefe.</translation>
     </message>
     <message>
@@ -4955,7 +4955,7 @@ s</translation>
         <translation>Nimmt neben Sprüngen den Median der Umgebung, gewichtet nach Ähnlichkeit der Farbe</translation>
     </message>
     <message>
-        <source>Between neighbouring positions of the gantry, in the unit of the mesh; with 1, depth is in steps</source>
+        <source>Between neighboring positions of the gantry, in the unit of the mesh; with 1, depth is in steps</source>
         <translation>Abstand benachbarter Positionen des Kameraportals, in der Einheit des Netzes; mit 1 ist die Tiefe in Schritten</translation>
     </message>
     <message>
@@ -5091,7 +5091,7 @@ s</translation>
         <translation>Abstand der Seitenansichten</translation>
     </message>
     <message>
-        <source>Divide each view by its gain, as measured against the centre</source>
+        <source>Divide each view by its gain, as measured against the center</source>
         <translation>Teilt jede Ansicht durch ihre gegen die mittlere gemessene Verstärkung</translation>
     </message>
     <message>
@@ -5111,7 +5111,7 @@ s</translation>
         <translation>Kantenstärke β</translation>
     </message>
     <message>
-        <source>Equalise</source>
+        <source>Equalize</source>
         <translation>Angleichen</translation>
     </message>
     <message>
@@ -5195,7 +5195,7 @@ s</translation>
         <translation>Wie weit die Ansichten links, rechts, darüber und darunter von der geschätzten entfernt sind. Fernere Ansichten unterscheiden Disparitäten besser, sehen aber weniger von teilweise Verdecktem</translation>
     </message>
     <message>
-        <source>How labels are made consistent: not at all, view by view, along the rays of all views (rayspace), or by minimising one energy of all views (wsg13; slower, 16 bytes per ray and label)</source>
+        <source>How labels are made consistent: not at all, view by view, along the rays of all views (rayspace), or by minimizing one energy of all views (wsg13; slower, 16 bytes per ray and label)</source>
         <translation>Wie Labels in Einklang gebracht werden: gar nicht, je Ansicht, entlang der Strahlen aller Ansichten (rayspace) oder durch Minimieren einer Energie aller Ansichten (wsg13; langsamer, 16 Byte je Strahl und Label)</translation>
     </message>
     <message>
@@ -5391,7 +5391,7 @@ s</translation>
         <translation>Verdeckung μ₊</translation>
     </message>
     <message>
-        <source>Of neighbouring points, in any unit; the camera does not depend on it</source>
+        <source>Between neighboring points, in any unit; the camera does not depend on it</source>
         <translation>Benachbarter Punkte, in beliebiger Einheit; die Kamera hängt nicht davon ab</translation>
     </message>
     <message>
@@ -5627,8 +5627,8 @@ s</translation>
         <translation>Kleinstes Gewicht eines Paars von Nachbarn</translation>
     </message>
     <message>
-        <source>The same in a column</source>
-        <translation>Dasselbe in einer Spalte</translation>
+        <source>Inner corners, or circles, in a column</source>
+        <translation>Innere Ecken oder Kreise in einer Spalte</translation>
     </message>
     <message>
         <source>The total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, as in the paper</source>
@@ -5911,7 +5911,7 @@ s</translation>
         <translation>Labeling</translation>
     </message>
     <message>
-        <source>labeling neighbouring views</source>
+        <source>labeling neighboring views</source>
         <translation>Labeling benachbarter Ansichten</translation>
     </message>
     <message>
@@ -6059,7 +6059,7 @@ s</translation>
         <translation>Ansichten werden gelesen</translation>
     </message>
     <message>
-        <source>regularising</source>
+        <source>regularizing</source>
         <translation>Regularisierung</translation>
     </message>
     <message>
@@ -6551,7 +6551,7 @@ s</translation>
         <translation>Ordner für die Masken aller Ansichten</translation>
     </message>
     <message>
-        <source>Folder for the masks of this view; segment all views first to have those of all</source>
+        <source>Folder for the masks of this view; segment all views first to save all masks</source>
         <translation>Ordner für die Masken dieser Ansicht; für die aller erst alle Ansichten segmentieren</translation>
     </message>
 </context>
@@ -6811,7 +6811,7 @@ s</translation>
         <translation>Schlecht über</translation>
     </message>
     <message>
-        <source>Visible judged pixels that are off by more than the threshold</source>
+        <source>Visible evaluated pixels that are off by more than the threshold</source>
         <translation>Sichtbare bewertete Pixel, deren Fehler über der Schwelle liegt</translation>
     </message>
     <message>
@@ -6870,7 +6870,7 @@ s</translation>
         <translation>Dies zeigt die Labels aller Ansichten: erst alle Ansichten segmentieren (Umschalt+U).</translation>
     </message>
     <message>
-        <source>This label is not seen in this view.</source>
+        <source>This view does not show this label.</source>
         <translation>Dieses Label ist in dieser Ansicht nicht zu sehen.</translation>
     </message>
 </context>
@@ -6996,7 +6996,7 @@ s</translation>
         <translation>Seine Werte</translation>
     </message>
     <message>
-        <source>Values, as 0.1, 0.2, 0.4, or first:last:number, as 0.1:1.6:5, evenly spread or in powers as the slider of the parameter</source>
+        <source>Values such as 0.1, 0.2, 0.4, or first:last:number such as 0.1:1.6:5, spread like the slider of the parameter</source>
         <translation>Werte wie 0.1, 0.2, 0.4 oder erster:letzter:Anzahl wie 0.1:1.6:5, gleichmäßig oder in Potenzen verteilt wie der Regler des Parameters</translation>
     </message>
     <message>
@@ -7008,11 +7008,11 @@ s</translation>
         <translation>Führt das Verfahren auf der mittleren Ansicht mit jedem der Werte aus</translation>
     </message>
     <message>
-        <source>Ends the sweep; the points that are there stay</source>
+        <source>Ends the sweep and keeps its points</source>
         <translation>Beendet die Versuchsreihe; vorhandene Punkte bleiben</translation>
     </message>
     <message>
-        <source>Keeps the map of this point in the list of results, where else the next point takes its place</source>
+        <source>Keeps the map of this point in the list of results; otherwise the next point replaces it</source>
         <translation>Behält die Karte dieses Punkts in der Liste der Ergebnisse, wo sonst der nächste Punkt ihren Platz einnimmt</translation>
     </message>
     <message>
@@ -7032,7 +7032,7 @@ s</translation>
         <translation>Entfernt diese Versuchsreihe</translation>
     </message>
     <message>
-        <source>Runs on every light field that is open, one after the other</source>
+        <source>Runs on every open light field, one after the other</source>
         <translation>Läuft nacheinander auf jedem offenen Lichtfeld</translation>
     </message>
     <message>
@@ -7040,7 +7040,7 @@ s</translation>
         <translation>Versuchsreihen</translation>
     </message>
     <message>
-        <source>The sweeps that are there; they are kept in the project</source>
+        <source>Sweeps so far; they are kept in the project</source>
         <translation>Die vorhandenen Versuchsreihen; sie bleiben im Projekt</translation>
     </message>
     <message>
@@ -7186,7 +7186,7 @@ s</translation>
         <translation>Automatische Helligkeit</translation>
     </message>
     <message>
-        <source>Brightens dark views; again shows them as they are</source>
+        <source>Brightens dark views, or shows them unchanged</source>
         <translation>Hellt dunkle Ansichten auf; noch einmal zeigt sie unverändert</translation>
     </message>
     <message>
@@ -7229,7 +7229,7 @@ s</translation>
         <translation>Schwarzpunkt</translation>
     </message>
     <message>
-        <source>What is darker is shown as black; 1 is white</source>
+        <source>Darker values are shown as black; 1 is white</source>
         <translation>Was dunkler ist, wird schwarz gezeigt; 1 ist Weiß</translation>
     </message>
     <message>
@@ -7249,7 +7249,7 @@ s</translation>
         <translation>Zeigt die Samples unverändert</translation>
     </message>
     <message>
-        <source>Brightens what is shown: views, EPIs, tiles, the points of the 3D tab, and pictures and movies, which are saved as shown. Results, labels, PLY files and converted light fields keep the samples.</source>
+        <source>Brightens views, EPIs, tiles, the points of the 3D tab, and saved pictures and movies. Results, labels, PLY files and converted light fields keep the samples.</source>
         <translation>Hellt auf, was gezeigt wird: Ansichten, EPIs, Kacheln, die Punkte des Reiters 3D sowie Bilder und Filme, die wie gezeigt gespeichert werden. Ergebnisse, Labels, PLY-Dateien und umgewandelte Lichtfelder behalten die Samples.</translation>
     </message>
 </context>

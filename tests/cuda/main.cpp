@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares every method on the GPU with the CPU, or times it: see README.md.
+// Compares every method on the GPU with the CPU, or times it; run.sh builds and runs both:
+//   episcope_cuda_compare compare --size 256 --methods epi_
+//   episcope_cuda_compare compare --methods label --scenes demo
+//   episcope_cuda_compare time --size 768 --methods st_ --range -2 2 --center
+// `compare` goes through scenes, grids, types of samples and profiles. `label` is compared in its
+// parts: votes of a seeded forest, labels from mistaken probabilities. `time` prints the least of
+// several runs, the ratio to the CPU, and bytes and operations of every kernel.
 #include "engine/core/text_table.h"
 #include "engine/cuda/device.h"
 #include "tests/cuda/agreement.h"

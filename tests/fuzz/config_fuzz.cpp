@@ -28,7 +28,7 @@ void read(const std::filesystem::path& file) {
   for (const char* key : {"num_cams_x", "baseline_mm", "focal_length_mm", "disp_min"}) {
     (void)config.number(key);
   }
-  io::FolderAccount account(file.parent_path());
+  io::FileUsage account(file.parent_path());
   (void)io::stated_unit(file.parent_path(), account);
   if (!is_read_whole()) return;
   const std::filesystem::path scene = file.parent_path() / "scene";

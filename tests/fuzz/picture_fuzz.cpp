@@ -37,7 +37,7 @@ void write_seeds(const std::filesystem::path& folder) {
 void read(const std::filesystem::path& file) {
   constexpr std::uint64_t kLarge = 200'000;
   tolerate([&] { (void)io::read_image_header(file); });
-  if (!is_read_whole() && io::claimed_pixels(file).value_or(0) > kLarge) return;
+  if (!is_read_whole() && io::declared_pixels(file).value_or(0) > kLarge) return;
   tolerate([&] { (void)io::decode_image(file); });
   tolerate([&] { (void)io::decode_image(file, io::PicturePart::Depth); });
   if (!is_read_whole()) return;

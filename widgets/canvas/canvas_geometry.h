@@ -16,41 +16,41 @@
 
 namespace episcope {
 
-/// Zoom and pan of a canvas, a value that linked viewports share. Image coordinates are continuous:
-/// pixel (y, x) covers [x, x + 1) × [y, y + 1). Widget coordinates are logical pixels.
+/// Zoom and pan of a canvas, shared by linked viewports. Image coordinates are continuous: pixel
+/// (y, x) covers [x, x + 1) × [y, y + 1). Widget coordinates are logical pixels.
 struct CanvasTransform {
   double scale = 1;  ///< Logical pixels per image pixel.
   QPointF center;    ///< Image point in the middle of the widget.
 
   [[nodiscard]] QPointF to_widget(QPointF image, QSizeF widget) const;
   [[nodiscard]] QPointF to_image(QPointF point, QSizeF widget) const;
-  /// Zoomed by `factor` so that the image point under `anchor` (widget coordinates) stays there.
+  /// Zooms by `factor` around `anchor` (widget coordinates).
   [[nodiscard]] CanvasTransform zoomed(double factor, QPointF anchor, QSizeF widget) const;
-  /// Moved by `delta` logical pixels, the picture following.
+  /// Moves the picture by `delta` logical pixels.
   [[nodiscard]] CanvasTransform panned(QPointF delta) const;
   friend bool operator==(const CanvasTransform&, const CanvasTransform&) = default;
 };
 
-/// Scale limits of every canvas.
+/// Scale limits of all canvases.
 inline constexpr double kMinCanvasScale = 1.0 / 64;
 inline constexpr double kMaxCanvasScale = 128;
 
-/// Zoom factor of a key, and of a notch of the wheel.
+/// Zoom factor of a key press or a notch of the wheel.
 inline constexpr double kCanvasZoomStep = 1.25;
-/// `angle` as in QWheelEvent::angleDelta: 120 a notch.
+/// `angle` as in QWheelEvent::angleDelta: 120 per notch.
 [[nodiscard]] double wheel_zoom(double angle);
 
-/// The whole image in the middle of the widget, with a margin of `margin` logical pixels.
+/// Fits the whole image into the widget, with `margin` logical pixels around it.
 [[nodiscard]] CanvasTransform fit_transform(QSizeF image, QSizeF widget, double margin = 4);
 
 /// A line between pixels, from corner to corner.
 using PixelEdges = std::vector<QLine>;
 
-/// What surrounds the pixels of a mask that are not 0; its first pixel lies at `offset`.
+/// Outline of the nonzero pixels of a mask whose first pixel lies at `offset`.
 [[nodiscard]] PixelEdges outline_of(ImageView<const std::uint8_t> mask, QPoint offset);
 
-/// The lines between pixels of different labels, within the image: those with `label` on one side,
-/// or all others. Coordinates as in `labels`.
+/// Edges between pixels of different labels, within the image: edges of `label`, or all others.
+/// Coordinates as in `labels`.
 enum class Boundaries { OfLabel, Others };
 [[nodiscard]] PixelEdges boundaries_of(ImageView<const std::int32_t> labels, std::int32_t label,
                                        Boundaries which);
@@ -58,7 +58,7 @@ enum class Boundaries { OfLabel, Others };
 /// A named point on a picture. Places are in image coordinates (CanvasTransform).
 struct CanvasMark {
   QPointF at;
-  /// Where it should be: a line leads there.
+  /// Expected place, connected by a line.
   std::optional<QPointF> wanted{};
   QString name{};
   bool is_emphasised = false;

@@ -16,10 +16,10 @@ class QPainter;
 
 namespace episcope {
 
-/// Drawn under the lines of a tool, so that they are seen on any picture.
+/// Ground under the lines of a tool, so that they are visible on any picture.
 inline constexpr QColor kToolShadow{0, 0, 0, 170};
 
-/// A press of a button over the picture. Places are in image coordinates, see CanvasTransform.
+/// A press of a mouse button on the picture, in image coordinates (CanvasTransform).
 struct ToolPress {
   QPointF at;
   Qt::MouseButton button = Qt::LeftButton;  ///< Left or right.
@@ -27,9 +27,8 @@ struct ToolPress {
   bool is_double = false;  ///< The second press of a double click.
 };
 
-/// A tool that the mouse of a ViewCanvas is given to: it is handed whatever is not zoom or pan, and
-/// tells its host by signals of its own what the user wants. A gesture lasts from a press to the
-/// release, or until it is ended or cancelled.
+/// Tool of a ViewCanvas. Gets all mouse input except zoom and pan, and emits what the user wants. A
+/// gesture lasts from press to release, or until it is ended or cancelled.
 class CanvasTool : public QObject {
   Q_OBJECT
 
@@ -38,34 +37,34 @@ class CanvasTool : public QObject {
 
   virtual void press(const ToolPress& press) = 0;
   virtual void drag(QPointF /*image*/) {}
-  /// The mouse moves without a button.
+  /// The mouse moved without a button.
   virtual void hover(QPointF /*image*/) {}
   void release() { end(); }
-  /// Ends the gesture, as a release would, or takes it back; what the hand goes on to do until the
-  /// release is ignored. Returns whether there was one.
+  /// Ends the gesture like a release, or takes it back; ignores input until the release. Returns
+  /// whether there was a gesture.
   virtual bool end() { return false; }
   virtual bool cancel() { return false; }
-  /// Another tool is taken, or none.
+  /// Another tool, or none, replaces this one.
   virtual void putAway() { end(); }
   /// Ctrl+Shift+wheel, in notches.
   virtual void step(double /*steps*/) {}
 
   [[nodiscard]] virtual QCursor cursor() const = 0;
-  /// What the tool draws around the cursor, with margin, at `scale` logical pixels an image pixel;
-  /// empty = nothing. `center` is in widget coordinates.
+  /// Area of the mark around the cursor, with margin, at `scale` logical pixels per image pixel;
+  /// empty = no mark. `center` is in widget coordinates.
   [[nodiscard]] virtual QRectF markRect(QPointF /*center*/, double /*scale*/) const { return {}; }
   virtual void paintMark(QPainter& /*painter*/, QPointF /*center*/, double /*scale*/) const {}
-  /// Draws what the gesture has drawn on the picture so far.
+  /// Draws the unfinished gesture on the picture.
   virtual void paintShape(QPainter& /*painter*/, const QTransform& /*widget_from_image*/) const {}
 
  signals:
-  /// Cursor or mark look different now.
+  /// Cursor or mark changed.
   void changed();
-  /// Likewise what `paintShape` draws.
+  /// The drawing of `paintShape` changed.
   void shapeChanged();
 };
 
-/// Picks points by clicks of either button.
+/// Picks points by clicking either button.
 class PointTool : public CanvasTool {
   Q_OBJECT
 
@@ -76,11 +75,11 @@ class PointTool : public CanvasTool {
   [[nodiscard]] QCursor cursor() const override { return Qt::PointingHandCursor; }
 
  signals:
-  /// In image coordinates, between pixels.
+  /// Position in image coordinates, between pixels.
   void pointPicked(QPointF image);
 };
 
-/// Draws rectangles of whole pixels by drags of either button, from corner to corner.
+/// Draws rectangles of whole pixels by dragging either button, from corner to corner.
 class RectangleTool : public CanvasTool {
   Q_OBJECT
 
@@ -94,9 +93,9 @@ class RectangleTool : public CanvasTool {
   [[nodiscard]] QCursor cursor() const override { return Qt::CrossCursor; }
 
  signals:
-  /// While it is drawn; may reach beyond the image.
+  /// Emitted during the drag; may reach beyond the image.
   void rectangleDragged(const episcope::PixelRect& rectangle);
-  /// The button was released; not after a click.
+  /// The button was released after a drag.
   void rectangleDrawn(const episcope::PixelRect& rectangle);
   void rectangleCancelled();
 

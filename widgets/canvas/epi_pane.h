@@ -25,27 +25,29 @@ class EpiPane : public QWidget {
  public:
   explicit EpiPane(Qt::Orientation orientation, QWidget* parent = nullptr);
 
-  /// Picture with one row a view: `[u][x]` of `horizontal_epi` or `[v][y]` of `vertical_epi`, as
+  /// Picture with one row per view: `[u][x]` of `horizontal_epi` or `[v][y]` of `vertical_epi`, as
   /// `render::shade_samples` shows them. Null = none.
   void setEpi(const QImage& epi);
-  /// The cross-hair: its pixel along the image axis, and the row (u or v) of the current view.
+  /// Cross-hair: pixel along the image axis, and row (u or v) of the current view.
   void setCrossHair(std::optional<int> pixel, int row);
-  /// Disparities at the cross-hair, drawn as lines through it; none = not drawn.
+  /// Disparities at the cross-hair, drawn as lines through it; none = no line.
   void setSlopes(std::optional<double> estimate_px, std::optional<double> truth_px);
-  /// Where two surfaces are seen: the same of the second one.
+  /// Disparities of the second surface, where two are visible.
   void setBackgroundSlopes(std::optional<double> estimate_px, std::optional<double> truth_px);
-  /// Shear that the host applied to the picture, px per view step.
+  /// Shear already applied to the picture, px per view step.
   void setFocus(double focus_px);
   void clearMeasurement();
-  /// Whether a vertical pane may lie on its side: not beside a canvas, with which it is aligned.
+  /// Whether a vertical pane may lie on its side. It may not beside a canvas that it is aligned
+  /// with.
   void setMayLie(bool may_lie);
-  /// Draws a line of this disparity through the cross-hair, as if it had been drawn by hand.
+  /// Draws a line of this disparity through the cross-hair, as if drawn by hand.
   void showMeasurement(double disparity_px);
 
   [[nodiscard]] Qt::Orientation orientation() const { return orientation_; }
-  /// The line drawn by hand, if there is one.
+  /// Disparity of the line drawn by hand; none without one.
   [[nodiscard]] std::optional<double> measuredDisparity() const { return measured_px_; }
-  /// The pixel along the image axis where it meets the current view; none without it, or outside.
+  /// Pixel along the image axis where the line meets the current view; none without a line, or
+  /// outside.
   [[nodiscard]] std::optional<int> measuredPixel() const;
   /// Logical pixels per row.
   [[nodiscard]] double rowExtent() const;
@@ -56,15 +58,15 @@ class EpiPane : public QWidget {
   [[nodiscard]] QSize minimumSizeHint() const override;
 
  public slots:
-  /// Follows the canvas.
+  /// Follows the zoom and pan of the canvas.
   void setCanvasTransform(const episcope::CanvasTransform& transform);
 
  signals:
-  /// The user zoomed or panned here; the canvas should follow.
+  /// The user zoomed or panned the EPI; the canvas should follow.
   void transformChanged(const episcope::CanvasTransform& transform);
-  /// Px per view step of the line just drawn.
+  /// The user drew a line of this disparity, px per view step.
   void disparityMeasured(double disparity_px);
-  /// A click: pixel along the image axis and row (u or v).
+  /// The user clicked a pixel along the image axis and a row (u or v).
   void positionClicked(int pixel, int row);
 
  protected:
@@ -75,12 +77,12 @@ class EpiPane : public QWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
 
  private:
-  /// Whether the image axis runs to the right.
+  /// Whether the image axis is horizontal.
   [[nodiscard]] bool lies() const;
-  /// The canvas as if it lay likewise, and back.
+  /// Converts a transform between the orientations of canvas and pane.
   [[nodiscard]] CanvasTransform turned(const CanvasTransform& transform) const;
   [[nodiscard]] QPointF epiAt(QPointF position) const;
-  /// Through the cross-hair, over all rows, in EPI coordinates.
+  /// Line through the cross-hair over all rows, in EPI coordinates.
   [[nodiscard]] QLineF epiLine(double disparity_px) const;
   [[nodiscard]] QLineF slopeLine(double disparity_px) const;
   void paintPicture(QPainter& painter) const;

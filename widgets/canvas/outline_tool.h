@@ -7,17 +7,17 @@
 
 namespace episcope {
 
-/// Draws around a region, which is then painted, or erased if it was begun with the right button:
-/// what lasso and polygon have in common.
+/// Outlines a region to paint it, or to erase it if begun with the right button. Base of lasso and
+/// polygon.
 class OutlineTool : public CanvasTool {
   Q_OBJECT
 
  public:
   using CanvasTool::CanvasTool;
 
-  /// Colour of the current label, in which lines are drawn; invalid = there is none.
+  /// Line colour: the current label's; invalid = no label.
   void setColor(const QColor& color);
-  /// The corners that were set so far, in image coordinates.
+  /// Corners set so far, in image coordinates.
   [[nodiscard]] const QPolygonF& corners() const { return corners_; }
   [[nodiscard]] bool isDrawing() const { return !corners_.isEmpty(); }
 
@@ -27,7 +27,7 @@ class OutlineTool : public CanvasTool {
   void paintShape(QPainter& painter, const QTransform& widget_from_image) const override;
 
  signals:
-  /// It is closed: `start` tells how it was begun.
+  /// The outline was closed; `start` tells how it began.
   void outlined(const QPolygonF& corners, const episcope::StrokeStart& start);
   /// A corner was set or removed, or the gesture ended.
   void cornersChanged();
@@ -36,9 +36,9 @@ class OutlineTool : public CanvasTool {
   void begin(const ToolPress& press);
   void addCorner(QPointF image);
   void removeCorner();
-  /// Ends the gesture and tells of it, unless there are too few corners to enclose anything.
+  /// Ends the gesture and emits it, unless the corners enclose nothing.
   void close();
-  /// Where the next corner would be, if it is drawn; empty = not.
+  /// Preview of the next corner; empty = none.
   void setNext(const QPolygonF& next);
 
  private:
@@ -50,7 +50,7 @@ class OutlineTool : public CanvasTool {
   QColor color_;
 };
 
-/// Draws around a region in one drag; the release closes it.
+/// Outlines a region in one drag, closed by the release.
 class LassoTool : public OutlineTool {
   Q_OBJECT
 
@@ -62,8 +62,8 @@ class LassoTool : public OutlineTool {
   bool end() override;
 };
 
-/// Draws around a region corner by corner: each click sets one, a double click closes it. It stays
-/// in hand while other views are shown.
+/// Outlines a region corner by corner: a click sets a corner, a double click closes it. The outline
+/// survives a change of the view.
 class PolygonTool : public OutlineTool {
   Q_OBJECT
 
@@ -72,9 +72,9 @@ class PolygonTool : public OutlineTool {
 
   void press(const ToolPress& press) override;
   void hover(QPointF image) override;
-  /// Closes it; false if nothing is drawn.
+  /// Closes the outline; false if there is none.
   bool closeUp();
-  /// Takes the last corner back; false if nothing is drawn.
+  /// Removes the last corner; false if there is no outline.
   bool takeBack();
 };
 

@@ -7,30 +7,30 @@
 
 namespace episcope {
 
-/// How a stroke or a fill begins, in image coordinates.
+/// Start of a stroke or fill, in image coordinates.
 struct StrokeStart {
   QPointF at;
   bool erases = false;
   bool protects_others = false;  ///< Shift was held.
 };
 
-/// Brush and eraser: drags are strokes, and a ring of the exact size shows what they would cover.
-/// The right button erases, whichever is in use.
+/// Brush and eraser: drags are strokes, and a ring shows the exact area. The right button always
+/// erases.
 class StrokeTool : public CanvasTool {
   Q_OBJECT
 
  public:
-  /// Half the side of a ring's surroundings beyond its radius, logical pixels.
+  /// Margin of a ring's mark beyond its radius, logical pixels.
   static constexpr double kRingMargin = 4;
 
   using CanvasTool::CanvasTool;
 
-  /// The eraser instead of the brush.
+  /// Selects the eraser instead of the brush.
   void setErasing(bool erases);
   /// Diameters in image pixels, 1 … 100.
   void setBrushSize(double diameter_px);
   void setEraserSize(double diameter_px);
-  /// Colour of the current label, shown in the middle of the ring; invalid = there is none.
+  /// Colour of the current label, shown in the centre of the ring; invalid = none.
   void setColor(const QColor& color);
 
   [[nodiscard]] bool isErasing() const { return is_eraser_; }
@@ -69,7 +69,7 @@ class StrokeTool : public CanvasTool {
   bool erases_by_button_ = false;
 };
 
-/// Fills the region under a click, or empties it with the right button.
+/// Fills the region under a click; the right button erases it.
 class FillTool : public CanvasTool {
   Q_OBJECT
 

@@ -9,7 +9,7 @@
 
 namespace episcope {
 
-/// One picture of a wall.
+/// A picture of the wall.
 struct Tile {
   quint64 id = 0;
   QString caption;
@@ -18,7 +18,7 @@ struct Tile {
   ViewCanvas::PixelText pixel_text = {};  ///< Printed when zoomed in far enough; may be empty.
 };
 
-/// Zoom that canvases of different sizes share.
+/// Zoom shared by canvases of different sizes.
 struct LinkedZoom {
   double relative_scale = 1;  ///< 1 = the whole picture just fits.
   QPointF center;             ///< Image point in the middle.
@@ -42,11 +42,11 @@ class TileWall : public QScrollArea {
   [[nodiscard]] LinkedZoom zoom() const;
   [[nodiscard]] int count() const { return static_cast<int>(ids_.size()); }
   [[nodiscard]] int columns() const { return columns_; }
-  /// In the order given to `setTiles`.
+  /// Tile by its index in `setTiles`.
   [[nodiscard]] ViewCanvas* tile(int index) const {
     return tiles_[static_cast<std::size_t>(index)];
   }
-  /// What zoom commands act on: the tile under the mouse, else the first; null without tiles.
+  /// Target of zoom commands: the tile under the mouse, else the first; null without tiles.
   [[nodiscard]] ViewCanvas* active() const;
 
  signals:
@@ -78,7 +78,7 @@ class TileWall : public QScrollArea {
 [[nodiscard]] LinkedZoom zoom_of(const ViewCanvas& canvas);
 void set_zoom(ViewCanvas& canvas, const LinkedZoom& zoom);
 
-/// Columns of a wall of `count` pictures that make them largest inside `wall`.
+/// Number of columns that makes `count` pictures largest in `wall`.
 [[nodiscard]] int best_columns(int count, QSizeF picture, QSizeF wall);
 
 }  // namespace episcope

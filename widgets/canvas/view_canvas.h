@@ -32,49 +32,48 @@ class ViewCanvas : public QWidget {
 
  public:
   enum class State { Empty, Loading, Failed, Picture };
-  /// Lines printed inside pixel (y, x) when it is drawn large.
+  /// Lines printed inside an enlarged pixel (y, x).
   using PixelText = std::function<QStringList(int y, int x)>;
 
   explicit ViewCanvas(QWidget* parent = nullptr);
 
-  /// Shows `picture`; one of another size than the last is fitted. A null picture shows the empty
-  /// state. Use `to_qimage` to hand over an Image without a copy.
+  /// Shows `picture`; fits it if its size differs from the last. A null picture shows the empty
+  /// state. `to_qimage` converts an Image without a copy.
   void setPicture(const QImage& picture);
-  /// Drawn over the picture, stretched to its size; null = none.
+  /// Sets the overlay, stretched to the picture; null = none.
   void setOverlay(const QImage& overlay);
   void setOverlayOpacity(double opacity);
   void setCrossHair(std::optional<PixelIndex> pixel);
   void setPixelText(PixelText text);
-  /// What is shown, e.g. "view (4, 4)", drawn in the upper left corner, after the badge of a side;
-  /// empty = none.
+  /// Caption in the upper left corner, e.g. "view (4, 4)", after the badge of a side; empty = none.
   void setCaption(const QString& caption, Side side = Side::None);
-  /// Right of a divider at `position` (part of the width, clamped to [0, 1]), `overlay` is drawn
-  /// instead of the overlay, with `caption` in the upper right corner.
+  /// Draws `overlay` instead of the overlay right of a divider at `position` (part of the width,
+  /// clamped to [0, 1]), with `caption` in the upper right corner.
   void setWipe(double position, const QImage& overlay, const QString& caption);
   void endWipe();
-  /// What is painted on the view, drawn over the overlay; null = nothing. As large as the picture.
+  /// Scribbles drawn over the overlay, as large as the picture; null = none.
   void setScribbles(const QImage& scribbles);
-  /// Replaces a rectangle of the scribbles and redraws no more than that.
+  /// Replaces a rectangle of the scribbles and redraws only that.
   void patchScribbles(QPoint at, const QImage& patch);
   void setScribbleOpacity(double opacity);
-  /// Draws a line around what is to be looked at; empty = nothing.
+  /// Outlines a place of interest; empty = none.
   void setOutline(PixelEdges outline);
-  /// Draws a line around the part of the view that numbers are of; empty = nothing.
+  /// Outlines the region that numbers refer to; empty = none.
   void setRegion(PixelEdges region);
-  /// Draws named points over the picture; empty = none.
+  /// Named points over the picture; empty = none.
   void setMarks(std::vector<CanvasMark> marks);
-  /// Gives the mouse to a tool; null takes it back. The tool must outlive this, or be taken back.
+  /// Gives the mouse to a tool, which outlives this; null removes it.
   void setTool(CanvasTool* tool);
-  /// Whether a left drag is parallax (default). Off: it pans.
+  /// Whether a left drag is parallax (default) instead of a pan.
   void setParallaxEnabled(bool enabled);
 
-  /// No picture: a hint what to do.
+  /// Shows no picture, but a hint.
   void showEmpty();
-  /// What is said while nothing is shown.
+  /// Hint shown without a picture.
   void setEmptyHint(const QString& hint);
-  /// No picture yet: what is loading and how far it is, in [0, 1]; negative = unknown.
+  /// Shows the name of what is being loaded and its progress in [0, 1]; negative = unknown.
   void showLoading(const QString& name, double fraction);
-  /// No picture: a sentence why.
+  /// Shows an error instead of a picture.
   void showError(const QString& sentence);
 
   [[nodiscard]] State state() const { return state_; }
@@ -84,21 +83,21 @@ class ViewCanvas : public QWidget {
   [[nodiscard]] const PixelEdges& outline() const { return outline_; }
   [[nodiscard]] const PixelEdges& region() const { return region_; }
   [[nodiscard]] const std::vector<CanvasMark>& marks() const { return marks_; }
-  /// Which of them is drawn at a widget position; none = none.
+  /// Index of the mark at a widget position; none if there is none.
   [[nodiscard]] std::optional<int> markAt(QPointF position) const;
   [[nodiscard]] CanvasTool* tool() const { return tool_; }
   [[nodiscard]] std::optional<PixelIndex> crossHair() const { return cross_hair_; }
   [[nodiscard]] CanvasTransform canvasTransform() const { return transform_; }
-  /// Scale at which the whole picture just fits.
+  /// Scale at which the whole picture fits.
   [[nodiscard]] double fitScale() const;
-  /// The pixels in sight; empty without a picture.
+  /// Visible pixels; empty without a picture.
   [[nodiscard]] QRect visiblePixels() const;
-  /// Where the divider stands; none without a wipe.
+  /// Position of the divider; none without a wipe.
   [[nodiscard]] std::optional<double> wipePosition() const { return wipe_position_; }
   [[nodiscard]] bool isFitted() const { return fitted_; }
-  /// The pixel under a widget position; none outside the picture.
+  /// Pixel under a widget position; none outside the picture.
   [[nodiscard]] std::optional<PixelIndex> pixelAt(QPointF position) const;
-  /// Middle of a pixel in widget coordinates.
+  /// Centre of a pixel in widget coordinates.
   [[nodiscard]] QPointF positionOf(PixelIndex pixel) const;
 
   [[nodiscard]] QSize sizeHint() const override;
@@ -109,11 +108,11 @@ class ViewCanvas : public QWidget {
   void setCanvasTransform(const episcope::CanvasTransform& transform);
   void zoomIn();
   void zoomOut();
-  /// The whole picture; kept fitted while the widget is resized, until the user zooms or pans.
+  /// Fits the whole picture, also after resizing until the user zooms or pans.
   void zoomToFit();
-  /// 100 %: one image pixel on one pixel of the screen.
+  /// 100 %: one image pixel per screen pixel.
   void zoomToActualSize();
-  /// Pans as little as is needed to bring a pixel into sight.
+  /// Pans as little as needed to make a pixel visible.
   void ensureVisible(episcope::PixelIndex pixel);
 
  signals:
@@ -124,16 +123,17 @@ class ViewCanvas : public QWidget {
   void centerRequested();
   /// Pixel under the mouse, or none.
   void cursorMoved(std::optional<episcope::PixelIndex> pixel);
-  /// A left drag in browse mode: begin, way since the beginning, end. `views` is (du, dv), not
-  /// rounded; what is nearer than the zero plane follows the hand.
+  /// A left drag in browse mode: begin, movement since then, end. `views` is (du, dv), not rounded;
+  /// points nearer than the zero plane follow the hand.
   void parallaxStarted();
   void parallaxDragged(QPointF views);
   void parallaxFinished();
-  /// The divider was dragged to a part of the width.
+  /// The user dragged the divider to a part of the width.
   void wipeMoved(double position);
-  /// Space pressed and released without a drag. Held, it pans: no shortcut hears it in the canvas.
+  /// Space was pressed and released without a drag. Held Space pans; shortcuts on Space do not
+  /// reach the canvas.
   void spaceTapped();
-  /// Alt+wheel or Ctrl+wheel: steps of the focus plane, positive = nearer.
+  /// Alt+wheel or Ctrl+wheel: focus plane steps, positive = nearer.
   void focusStepped(double steps);
 
  protected:

@@ -23,8 +23,8 @@ class vtkScalarBarActor;
 
 namespace episcope {
 
-/// One cloud in a scene of VTK, drawn with all its points or with few. The arrays of VTK are those
-/// of the cloud, which is not copied.
+/// One cloud in a VTK scene, drawn with all its points or with few. VTK's arrays refer to the cloud
+/// without a copy.
 class CloudActor {
  public:
   /// `part` and `renderer` must outlive this.
@@ -33,18 +33,18 @@ class CloudActor {
   CloudActor(const CloudActor&) = delete;
   CloudActor& operator=(const CloudActor&) = delete;
 
-  /// Draws few points instead of all.
+  /// Draws few points, for speed, or all.
   void drawFew(bool few);
   void setPointSize(double device_pixels);
-  /// Lit from the viewer; else in the plain colours of the points.
+  /// Lights surfaces from the viewer; else shows plain colours.
   void setShaded(bool is_shaded);
-  /// Factor on z around a point.
+  /// Scales z by a factor around a point.
   void setStretch(double factor, const std::array<double, 3>& around);
-  /// What is beyond one of these planes is not drawn.
+  /// Clips the cloud at these planes.
   void setClip(vtkPlaneCollection& planes);
 
   [[nodiscard]] const PointCloud& cloud() const { return part_.all; }
-  /// For searches in it.
+  /// Points for searches.
   [[nodiscard]] vtkPolyData& points() const;
 
  private:
@@ -63,8 +63,7 @@ class CloudActor {
   vtkNew<vtkActor> actor_;
 };
 
-/// What is drawn over the clouds of a scene, whatever lies in front: crosses at points, named
-/// marks, and the colour bar.
+/// Marks drawn over the clouds of a scene, never hidden: crosses, named marks and the colour bar.
 class CloudMarks {
  public:
   /// `renderer` must outlive this.
@@ -73,14 +72,13 @@ class CloudMarks {
   CloudMarks(const CloudMarks&) = delete;
   CloudMarks& operator=(const CloudMarks&) = delete;
 
-  /// A cross at each of these places.
+  /// Draws a cross at each place.
   void setCrosses(const std::vector<std::array<double, 3>>& places);
-  /// A small cross with its name at each of these, those emphasised in the colour of the
-  /// cross-hair.
+  /// Draws a small named cross at each mark; emphasised ones in the colour of the cross-hair.
   void setNamed(const std::vector<CloudMark>& marks);
-  /// The colour bar; an empty title takes it away.
+  /// Shows the colour bar; an empty title removes it.
   void setLegend(const QString& title, const render::Shading& shading);
-  /// Sizes follow it: device pixels per logical one, and the height of the view.
+  /// Scales marks: device pixels per logical pixel, and height of the view.
   void setScale(double ratio, int height);
 
  private:

@@ -18,7 +18,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// Of the vertices: sums of those of their faces, whose lengths are their areas.
+// Normals of vertices: sums of face normals, weighted by area.
 std::vector<Vector> normals_of(const PointCloud& cloud) {
   std::vector<Vector> normals(cloud.positions.size());
   for (const auto& [a, b, c] : cloud.triangles) {

@@ -13,17 +13,17 @@
 
 namespace episcope {
 
-/// Clouds of one scene, shared with whoever made them.
+/// Clouds of one scene, shared with their creator.
 using CloudParts = std::vector<CloudPart>;
 using CloudPartsPtr = std::shared_ptr<const CloudParts>;
 
-/// A point of one of them.
+/// A picked point of a part.
 struct PickedPoint {
   std::size_t part = 0;
   std::size_t point = 0;
 };
 
-/// A named place among the clouds, in their coordinates; drawn over whatever lies in front.
+/// A named mark among the clouds, in their coordinates; never hidden.
 struct CloudMark {
   std::array<double, 3> at{};
   std::string name{};
@@ -31,13 +31,13 @@ struct CloudMark {
   friend bool operator==(const CloudMark&, const CloudMark&) = default;
 };
 
-/// How clouds are drawn, whatever they are.
+/// How clouds are drawn.
 struct CloudLook {
   double z_stretch = 1;    ///< Factor on z, > 0.
   double point_size = 2;   ///< Logical pixels.
   bool is_shaded = false;  ///< Surfaces are lit from the viewer.
-  /// What is drawn, as parts of the depth of the scene: 0 = nearest, 1 = farthest. At the ends
-  /// nothing is cut.
+  /// Visible range as fractions of the scene's depth: 0 = nearest, 1 = farthest. The defaults clip
+  /// nothing.
   double clip_near = 0;
   double clip_far = 1;
   friend bool operator==(const CloudLook&, const CloudLook&) = default;
@@ -45,10 +45,10 @@ struct CloudLook {
 
 enum class CloudColoring { Image, Disparity, Error, Labels, Distance, Source };
 
-/// What is shown with the result.
+/// What is shown together with the result.
 enum class CloudCompanion { None, Truth, Other };
 
-/// What a user chose to see in 3D.
+/// The user's choice in the 3D view.
 struct CloudChoice {
   CloudColoring coloring = CloudColoring::Image;
   CloudCompanion companion = CloudCompanion::None;
@@ -58,8 +58,8 @@ struct CloudChoice {
   friend bool operator==(const CloudChoice&, const CloudChoice&) = default;
 };
 
-/// A surface for the 3D view, lit from the viewer: vertex i is position i, with y and z turned (a
-/// mesh has y downwards and z forwards, like images). Faces are three indices of vertices. Linear.
+/// Surface for the 3D view, lit from the viewer. Vertex i is position i with y and z negated, since
+/// a mesh has y downwards and z forwards, like images. Faces are three vertex indices. Linear.
 [[nodiscard]] PointCloud make_mesh_cloud(std::span<const std::array<float, 3>> vertices,
                                          std::span<const std::array<std::uint32_t, 3>> faces);
 

@@ -29,8 +29,8 @@ namespace episcope {
 
 class OffscreenGl;
 
-/// Everything of VTK in a point cloud view: one render window, one renderer, an actor for each
-/// cloud, never shared. Drawing needs the OpenGL context of the view to be current.
+/// The VTK part of a point cloud view: one render window, one renderer and one actor per cloud,
+/// never shared. Drawing needs the view's OpenGL context to be current.
 class CloudScene {
  public:
   /// `view` must outlive this.
@@ -39,35 +39,35 @@ class CloudScene {
   CloudScene(const CloudScene&) = delete;
   CloudScene& operator=(const CloudScene&) = delete;
 
-  /// For a new context of the view, and before it ends.
+  /// Call for a new context of the view, and before it ends.
   void initialize();
   void finalize();
-  /// Follows the size of the view.
+  /// Adapts to the size of the view.
   void resize();
   void paint();
 
   void setParts(CloudPartsPtr parts);
   [[nodiscard]] const CloudParts& parts() const { return *parts_; }
-  /// Of all parts.
+  /// Number of points in all parts.
   [[nodiscard]] std::size_t size() const;
   void setLook(const CloudLook& look);
   [[nodiscard]] const CloudLook& look() const { return look_; }
-  /// A cross at the point of this pixel in every part that has one.
+  /// Marks the point of this pixel in every part that has one.
   void setMarkedPixel(std::optional<PixelIndex> pixel);
-  /// Crosses at any other places, and named marks; see CloudMarks.
+  /// Sets crosses at other places, and named marks; see CloudMarks.
   void setMarkedPlaces(std::vector<std::array<double, 3>> places);
   void setNamedMarks(std::vector<CloudMark> marks);
   [[nodiscard]] CloudMarks& marks() { return marks_; }
-  /// While it moves, few points are drawn.
+  /// Draws few points while the camera moves.
   void setMoving(bool is_moving);
   [[nodiscard]] bool isMoving() const { return is_moving_; }
-  /// From an azimuth and elevation in degrees. Takes effect with the next frame, when the size of
-  /// the window is known.
+  /// Looks from an azimuth and elevation in degrees, beginning with the next frame, when the
+  /// window's size is known.
   void lookFrom(double azimuth, double elevation) { wanted_direction_ = {azimuth, elevation}; }
 
   void handle(const QMouseEvent& event, unsigned long vtk_event);
   void handle(const QWheelEvent& event);
-  /// The point that is seen at a place of the widget, or nearest to it within a few pixels.
+  /// Visible point at a place of the widget, or nearest to it within a few pixels.
   [[nodiscard]] std::optional<PickedPoint> pick(QPointF at);
 
  private:

@@ -193,8 +193,8 @@ void CloudControls::addColoring(QGridLayout& grid) {
       {CloudColoring::Distance, tr("distance")}, {CloudColoring::Source, tr("one each")}};
   for (const auto& [value, text] : rows) coloring_->addItem(text, static_cast<int>(value));
   coloring_->setItemData(static_cast<int>(CloudColoring::Distance),
-                         tr("How far each point is from the nearest point of the truth, or of what "
-                            "is shown with it, in units of the scene"),
+                         tr("Distance of each point to the nearest point of the truth or of the "
+                            "other result, in units of the scene"),
                          Qt::ToolTipRole);
   connect(coloring_, &QComboBox::currentIndexChanged, this, &CloudControls::choiceChanged);
   grid.addWidget(new QLabel(tr("Colour"), this), 0, 0);
@@ -203,7 +203,7 @@ void CloudControls::addColoring(QGridLayout& grid) {
 
 void CloudControls::addCompanion(QGridLayout& grid) {
   companion_->setObjectName("cloud.companion");
-  companion_->setToolTip(tr("What is shown with the result"));
+  companion_->setToolTip(tr("Shown together with the result"));
   companion_->setAccessibleName(tr("Shown with the result"));
   companion_->addItem(tr("nothing else"), static_cast<int>(CloudCompanion::None));
   companion_->addItem(tr("the truth"), static_cast<int>(CloudCompanion::Truth));
@@ -276,8 +276,8 @@ void CloudControls::addLook(QGridLayout& grid) {
   size_->setRange(kSizeSteps, kSizeSteps * kMostPixels);
   stretch_ = makeSlider("cloud.stretch", tr("Stretch z"), tr("Stretch along the line of sight"));
   stretch_->setRange(-kStretchSteps, kStretchSteps);
-  near_ = makeSlider("cloud.near", tr("Cut nearer than"), tr("Leaves out what is nearer"));
-  far_ = makeSlider("cloud.far", tr("Cut farther than"), tr("Leaves out what is farther"));
+  near_ = makeSlider("cloud.near", tr("Cut nearer than"), tr("Hides everything nearer"));
+  far_ = makeSlider("cloud.far", tr("Cut farther than"), tr("Hides everything farther away"));
   for (auto* slider : {near_, far_}) {
     slider->setRange(0, kClipSteps);
     connect(slider, &QSlider::valueChanged, this, [this, slider] { keepClipOpen(slider); });

@@ -19,23 +19,23 @@ namespace episcope {
 
 class NumberSpin;
 
-/// The 3D view, or a sentence on why nothing is seen in it. Can be moved to another window.
+/// The 3D view, or a sentence that tells why it is empty. Can move to another window.
 class CloudDisplay : public QWidget {
   Q_OBJECT
 
  public:
   explicit CloudDisplay(QWidget* parent = nullptr);
 
-  /// Clouds without points show `hint` instead.
+  /// Shows clouds, or `hint` if they have no points.
   void setParts(const CloudPartsPtr& parts, const QString& hint);
-  /// Null where there is no display to draw on.
+  /// Null without a display to draw on.
   [[nodiscard]] PointCloudView* view() const { return view_; }
 
  signals:
-  /// It came on screen, or left it.
+  /// The display became visible or hidden.
   void shown();
   void hidden();
-  /// A click on a point that is from this pixel.
+  /// The user clicked a point that comes from this pixel.
   void pixelPicked(episcope::PixelIndex pixel);
 
  protected:
@@ -49,7 +49,7 @@ class CloudDisplay : public QWidget {
   CloudPartsPtr parts_;
 };
 
-/// What of the choices of a user can be had now.
+/// Choices that are available now.
 struct CloudOffers {
   bool has_truth = false;
   bool has_error = false;
@@ -58,7 +58,7 @@ struct CloudOffers {
   QString other{};  ///< Name of the result to compare with; empty = there is none.
 };
 
-/// Controls of the 3D view: what is seen, and how.
+/// Controls of the 3D view: its contents and look.
 class CloudControls : public QWidget {
   Q_OBJECT
 
@@ -69,13 +69,13 @@ class CloudControls : public QWidget {
   [[nodiscard]] CloudChoice choice() const;
   void setLook(const CloudLook& look);
   [[nodiscard]] CloudLook look() const;
-  /// What cannot be had cannot be chosen; what is chosen stays chosen.
+  /// Disables unavailable choices; the current choice stays.
   void setOffers(const CloudOffers& offers);
-  /// What is drawn, in words, below the controls.
+  /// Describes the drawn clouds below the controls.
   void setSummary(const QString& text);
 
  signals:
-  /// The host should give clouds of this choice.
+  /// The host should provide clouds for this choice.
   void choiceChanged();
   void lookChanged();
 
@@ -112,10 +112,10 @@ class PointCloudPanel : public QWidget {
   /// Whether a 3D view exists; if not, making clouds is wasted work.
   [[nodiscard]] bool isAvailable() const { return display_->view() != nullptr; }
 
-  /// Something says here where the display is while it is elsewhere. The caller gives it a parent.
+  /// Gives the display away and shows `where` instead. The caller reparents the display.
   void lendDisplay(const QString& where);
   void takeDisplayBack();
-  /// Buttons of commands beside those of the presets.
+  /// Adds a command's button beside the presets.
   void addButton(QWidget* button);
 
  private:

@@ -24,32 +24,32 @@ namespace episcope {
 
 class CloudScene;
 
-/// A widget whose picture OpenGL draws off screen, and that is painted like any other.
-/// QOpenGLWidget would have Qt make the native window anew when it is first shown: the window
-/// vanishes for a moment, and a double click loses its second half.
+/// A widget drawn by OpenGL off screen and painted like any other widget. With QOpenGLWidget, Qt
+/// would recreate the native window when it is first shown: the window would vanish for a moment,
+/// and a double click would lose its second half.
 class OffscreenGl : public QWidget {
   Q_OBJECT
 
  public:
   explicit OffscreenGl(QWidget* parent = nullptr);
-  /// Whoever has objects in the context frees them before.
+  /// Owners of objects in the context free them before.
   ~OffscreenGl() override;
 
-  /// Draws and returns the picture, in device pixels; null where OpenGL is not to be had.
+  /// Draws and returns the picture, in device pixels; null without OpenGL.
   [[nodiscard]] QImage grabFramebuffer();
-  /// Null until something was drawn.
+  /// Null until the first drawing.
   [[nodiscard]] QOpenGLContext* context() const { return context_.get(); }
-  /// Nothing, as long as there is no context.
+  /// Does nothing without a context.
   void makeCurrent();
   void doneCurrent();
-  /// What `paintGL` draws into.
+  /// Target of `paintGL`.
   [[nodiscard]] unsigned int defaultFramebufferObject() const;
 
  signals:
   void frameDrawn();
 
  protected:
-  /// Once, with the context current, before the first `paintGL`.
+  /// Called once before the first `paintGL`, with the context current.
   virtual void initializeGL() = 0;
   /// Draws an opaque picture.
   virtual void paintGL() = 0;
@@ -65,14 +65,14 @@ class OffscreenGl : public QWidget {
   bool is_unavailable_ = false;
 };
 
-/// Why nothing is drawn where there is no OpenGL.
+/// Text shown without OpenGL.
 [[nodiscard]] QString no_gl_text();
 
 enum class CloudPreset { Front, Tilted, Side };
 
-/// Point clouds and surfaces drawn by VTK: left drag turns, middle drag pans, wheel zooms, a click
-/// picks a point. While the camera moves, few points are drawn if all take too long. Nothing is
-/// drawn while nothing changes. Cannot live on the offscreen platform: use `make_point_cloud_view`.
+/// Point clouds and surfaces drawn by VTK: left drag turns, middle drag pans, the wheel zooms, a
+/// click picks a point. Draws few points while the camera moves, if all take too long, and nothing
+/// while nothing changes. Does not work on the offscreen platform: use `make_point_cloud_view`.
 class PointCloudView : public OffscreenGl {
   Q_OBJECT
 
@@ -80,32 +80,32 @@ class PointCloudView : public OffscreenGl {
   explicit PointCloudView(QWidget* parent = nullptr);
   ~PointCloudView() override;
 
-  /// Keeps the camera if the user turned it. The parts are held, not copied.
+  /// Shows parts, which are held, not copied. Keeps the camera if the user turned it.
   void setParts(CloudPartsPtr parts);
-  /// One cloud, always with all its points.
+  /// Shows one cloud, always with all its points.
   void setCloud(PointCloud cloud);
   void setLook(const CloudLook& look);
-  /// The point of this pixel is marked in every part that has one.
+  /// Marks the point of this pixel in every part that has one.
   void setMarkedPixel(std::optional<PixelIndex> pixel);
-  /// A cross at each of these places, in the coordinates of the clouds.
+  /// Draws a cross at each place, in the coordinates of the clouds.
   void setMarkedPlaces(const std::vector<std::array<double, 3>>& places);
   void setNamedMarks(const std::vector<CloudMark>& marks);
-  /// A colour bar over the scene; an empty title takes it away.
+  /// Shows a colour bar; an empty title removes it.
   void setLegend(const QString& title, const render::Shading& shading = {});
 
   [[nodiscard]] std::size_t pointCount() const;
   [[nodiscard]] const CloudLook& look() const;
-  /// Whether the last frame may have been one of few points.
+  /// Whether the last frame may have had few points.
   [[nodiscard]] bool isMoving() const;
 
  signals:
-  /// Place of the point in its part, and which one that is.
+  /// The user picked a point: its index in its part, and the part's index.
   void pointPicked(std::size_t point, std::size_t part);
 
  public slots:
-  /// Everything in sight, also after a change of size until the user turns it.
+  /// Shows everything from a preset direction, also after a resize until the user turns the camera.
   void showPreset(episcope::CloudPreset preset);
-  /// The tilted preset, everything in sight.
+  /// Shows everything from the tilted preset.
   void resetCamera();
 
  protected:
@@ -125,10 +125,10 @@ class PointCloudView : public OffscreenGl {
   qint64 full_frame_ms_ = 0;  // that the last frame of all points took
 };
 
-/// A PointCloudView, or, where there is no display to draw it, a QLabel saying why.
+/// Creates a PointCloudView, or a QLabel that tells why there is none.
 [[nodiscard]] QWidget* make_point_cloud_view(QWidget* parent);
 
-/// Of the VTK that is loaded: "9.1.0".
+/// Version of the loaded VTK: "9.1.0".
 [[nodiscard]] std::string vtk_version();
 
 }  // namespace episcope

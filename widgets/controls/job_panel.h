@@ -17,14 +17,13 @@ namespace episcope {
 
 class ElidedLabel;
 
-/// Time left of a job that has done `fraction` in `seconds`, e.g. "about 12 s left"; empty while
-/// nothing can be said.
+/// Remaining time of a job that has done `fraction` in `seconds`, e.g. "about 12 s left"; empty
+/// while unknown.
 [[nodiscard]] QString time_left_text(double fraction, double seconds);
 
-/// Running and waiting jobs, one row each, with bar, stage, time left and a cancel button; a job
-/// that can end early has a button for that beside it. Shows a quiet line when there are none.
-/// However many there are, it keeps its height, of one row and the top of the next: the rest is
-/// scrolled to.
+/// Running and waiting jobs, one row each: bar, stage, time left, cancel button, and a button to
+/// end early for jobs that can. Shows a quiet line without jobs. The height stays at one row and
+/// the top of the next; more rows scroll.
 class JobPanel : public QWidget {
   Q_OBJECT
 
@@ -33,11 +32,11 @@ class JobPanel : public QWidget {
 
   /// Adds a job, waiting until its first progress.
   void addJob(quint64 id, const QString& title);
-  /// Ignored for an unknown id. The clock of a job starts with its first progress.
+  /// Ignored for an unknown id. A job's clock starts with its first progress.
   void setProgress(quint64 id, double fraction, const QString& stage);
-  /// Offers to take what an iterative job has so far, once it has begun.
+  /// Offers to end an iterative job early, once it has begun.
   void setIterative(quint64 id);
-  /// The row says so until it is removed.
+  /// Marks the job as being cancelled.
   void setCancelling(quint64 id);
   void setFinishing(quint64 id);
   void removeJob(quint64 id);

@@ -7,8 +7,8 @@
 
 namespace episcope {
 
-/// One line of plain text that is elided where it does not fit; the whole of it is then the tool
-/// tip. Never asks for more width than it gets.
+/// One line of plain text, elided if it does not fit; the full text is the tool tip then. Never
+/// asks for more width than it gets.
 class ElidedLabel : public QLabel {
   Q_OBJECT
 
@@ -25,9 +25,9 @@ class ElidedLabel : public QLabel {
   void changeEvent(QEvent* event) override;
 
  private:
-  /// What is shown of the text in `room` pixels.
+  /// The text elided to `room` pixels.
   [[nodiscard]] virtual QString shortened(int room) const;
-  /// The tool tip while not all is shown.
+  /// Tool tip while the text is elided.
   [[nodiscard]] virtual QString tip() const { return full_text_; }
   void elide();
 
@@ -35,7 +35,7 @@ class ElidedLabel : public QLabel {
   QString full_text_;
 };
 
-/// A long text of which two lines are shown, and all of it after a click, or as tool tip. Never
+/// A long text that shows two lines, or all of it after a click; the tool tip has all of it. Never
 /// asks for more width than it gets.
 class FoldedLabel : public QLabel {
   Q_OBJECT
@@ -62,8 +62,8 @@ class FoldedLabel : public QLabel {
   bool is_open_ = false;
 };
 
-/// One line of parts, "a · b · c". Where they do not all fit, the first ones are shown whole and
-/// the line ends in "+2 more"; the tool tip then lists all. Never asks for more width than it gets.
+/// One line of parts, "a · b · c". If they do not fit, it shows the first ones and "+2 more"; the
+/// tool tip lists all. Never asks for more width than it gets.
 class PartsLabel : public ElidedLabel {
   Q_OBJECT
 
@@ -75,7 +75,7 @@ class PartsLabel : public ElidedLabel {
  private:
   [[nodiscard]] QString shortened(int room) const override;
   [[nodiscard]] QString tip() const override;
-  /// The first `count` parts and how many are left out.
+  /// The first `count` parts and the number of the others.
   [[nodiscard]] QString textOf(qsizetype count) const;
 
   QStringList parts_;

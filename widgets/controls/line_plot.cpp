@@ -51,6 +51,8 @@ bool is_finite(QPointF point) {
   return std::isfinite(point.x()) && std::isfinite(point.y());
 }
 
+}  // namespace
+
 /// An axis of a chart: which values it shows, and where. Logarithmic axes hold decades.
 struct ChartAxis {
   QString title;
@@ -65,6 +67,8 @@ struct ChartAxis {
     return begin + (at - min) / (max - min) * (end - begin);
   }
 };
+
+namespace {
 
 // With a little room, so that no point lies on the frame.
 ChartAxis axis_of(const Plot& plot, const PlotAxis& described,

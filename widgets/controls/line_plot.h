@@ -22,8 +22,8 @@ struct PlotAxis {
 };
 
 struct PlotSeries {
-  QString name;                 ///< In the legend, which there is with two series or more.
-  std::vector<QPointF> points;  ///< In the order of x; those that are not finite are left out.
+  QString name;                 ///< Shown in a legend, if there are several series.
+  std::vector<QPointF> points;  ///< In order of x; points that are not finite are skipped.
 };
 
 struct Plot {
@@ -51,8 +51,8 @@ struct SeriesLook {
 /// Colours repeat after six series, markers after five.
 [[nodiscard]] SeriesLook series_look(std::size_t series, const QPalette& palette);
 
-/// Lines over an axis, with their points. A click near a point chooses it; with the focus, the
-/// arrows walk over points and lines, and Return chooses. Setters never emit.
+/// Lines over an axis, with their points. A click near a point chooses it; with the focus, arrows
+/// walk over points and lines, and Return chooses. Setters never emit.
 class LinePlot : public QWidget {
   Q_OBJECT
 
@@ -61,17 +61,17 @@ class LinePlot : public QWidget {
   ~LinePlot() override;
 
   void setPlot(const Plot& plot);
-  /// Said in place of a plot without points.
+  /// Text shown without points.
   void setEmptyText(const QString& text);
-  /// The point that is marked; none = no mark.
+  /// Marks a point; none = no mark.
   void setMark(std::optional<PlotPlace> place);
 
   [[nodiscard]] const Plot& plot() const { return plot_; }
   [[nodiscard]] const QString& emptyText() const { return empty_text_; }
   [[nodiscard]] std::optional<PlotPlace> mark() const { return mark_; }
-  /// Where a point was drawn last, in widget coordinates.
+  /// Last drawn position of a point, in widget coordinates.
   [[nodiscard]] QPointF positionOf(PlotPlace place) const;
-  /// The point nearest to a position, within reach of the mouse.
+  /// Nearest point within reach of the mouse.
   [[nodiscard]] std::optional<PlotPlace> placeAt(QPointF position) const;
 
   [[nodiscard]] QSize sizeHint() const override;

@@ -16,8 +16,8 @@ namespace episcope {
 
 enum class Severity { Info, Success, Warning, Error };
 
-/// One message that blocks nothing: severity, text, a close button and at most two actions. Info
-/// and success go away by themselves; warnings and errors stay until closed. Hidden when empty.
+/// One message that does not block: severity, text, close button and at most two actions. Info and
+/// success disappear by themselves; warnings and errors stay until closed. Hidden when empty.
 class MessageBar : public QWidget {
   Q_OBJECT
 
@@ -30,7 +30,7 @@ class MessageBar : public QWidget {
   explicit MessageBar(QWidget* parent = nullptr);
 
   void showMessage(Severity severity, const QString& text);
-  /// With `other`, there is a second button.
+  /// Shows a second button if `other` is set.
   void showMessage(Severity severity, const QString& text, Action action, Action other = {});
 
   [[nodiscard]] const QString& text() const { return sentence_; }

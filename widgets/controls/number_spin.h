@@ -9,16 +9,16 @@
 
 namespace episcope {
 
-/// A field for a number with a decimal point, whatever the language, and a true minus; a hyphen may
-/// be typed for it, and a comma for the point where the language has one. Any number can be typed:
-/// one beyond the range becomes the limit, which a tool tip says.
+/// A field for a number with a decimal point in any language, and a true minus. Accepts a hyphen
+/// for the minus, and a comma for the point if the language has one. Clamps numbers beyond the
+/// range, as a tool tip says.
 class NumberSpin : public QDoubleSpinBox {
   Q_OBJECT
 
  public:
   explicit NumberSpin(QWidget* parent = nullptr);
 
-  /// Shows no zeros at the end beyond this many decimals; by default all are shown.
+  /// Hides trailing zeros beyond this many decimals; by default shows all.
   void setLeastDecimals(int decimals);
 
  protected:
@@ -33,19 +33,19 @@ class NumberSpin : public QDoubleSpinBox {
   int least_decimals_ = 100;
 };
 
-/// How a slider of `steps` + 1 positions covers the domain of a number: evenly, or in powers where
-/// the description says so (an interval that touches 0 is covered by powers of 1 + value/scale).
+/// Maps a slider of `steps` + 1 positions to the domain of a number: evenly, or in powers if the
+/// description says so (powers of 1 + value/scale if the domain touches 0).
 class NumberScale {
  public:
   NumberScale(double min, double max, bool logarithmic, int steps);
   explicit NumberScale(const ParameterDescription& description);
 
   [[nodiscard]] int steps() const { return steps_; }
-  /// Position of a value clamped to the domain.
+  /// Position of a value, clamped to the domain.
   [[nodiscard]] int position(double value) const;
-  /// The ends of the slider give the ends of the domain exactly.
+  /// Value of a position; the slider's ends are exactly the domain's ends.
   [[nodiscard]] double value(int position) const;
-  /// Decimals that show a tenth of the smallest step that matters.
+  /// Decimals for a tenth of the smallest relevant step.
   [[nodiscard]] int decimals() const;
 
  private:

@@ -14,10 +14,10 @@ namespace episcope {
 
 class ParameterEditor;
 
-/// A form generated from parameter descriptions: one row each, with label, editor and unit; tool
-/// tips tell help, domain and default; labels of changed parameters are bold, with a reset button.
-/// A choice with presets (Preset) changes the defaults of other rows: those that were at their
-/// default follow, those that were changed stay.
+/// A form generated from parameter descriptions, one row each: label, editor and unit. Tool tips
+/// tell help, domain and default; labels of changed parameters are bold, with a reset button. A
+/// choice with presets (Preset) changes the defaults of other rows: rows at their default follow,
+/// changed rows stay.
 class ParameterForm : public QWidget {
   Q_OBJECT
 
@@ -26,11 +26,11 @@ class ParameterForm : public QWidget {
 
   /// Rebuilds the form with the defaults.
   void setParameters(const std::vector<ParameterDescription>& parameters);
-  /// Overrides some values, after the presets that they choose; unknown keys and wrong types are
-  /// ignored, numbers are clamped. Does not emit.
+  /// Sets some values, after the presets that they choose. Ignores unknown keys and wrong types,
+  /// and clamps numbers. Does not emit.
   void setValues(const ParameterSet& values);
 
-  /// Every parameter with its value, in the order of the schema.
+  /// All parameters with their values, in the order of the schema.
   [[nodiscard]] ParameterSet values() const;
   /// Values that differ from their default.
   [[nodiscard]] ParameterSet modifiedValues() const;
@@ -52,7 +52,7 @@ class ParameterForm : public QWidget {
   void addRow(const ParameterDescription& description);
   void showModified(const Row& row) const;
   void edit(std::size_t index);
-  /// Takes the defaults that the present choices mean; rows at their default follow.
+  /// Applies the defaults of the chosen presets to rows at their default.
   void followPresets();
 
   QGridLayout* layout_ = nullptr;
@@ -60,14 +60,14 @@ class ParameterForm : public QWidget {
   std::vector<Row> rows_;
 };
 
-/// Edits one parameter. The kind of editor follows the type of the default value: check box, slider
-/// with spin box (powers where the description says so), combo, interval-or-auto, text.
+/// Edits one parameter. The editor follows the type of the default value: check box, slider with
+/// spin box, combo box, interval or auto, text.
 class ParameterEditor : public QWidget {
   Q_OBJECT
 
  public:
   [[nodiscard]] virtual ParameterValue value() const = 0;
-  /// Clamped to the domain. A value of another type is ignored. Does not emit.
+  /// Sets a value, clamped to the domain; ignores other types. Does not emit.
   virtual void setValue(const ParameterValue& value) = 0;
 
  signals:

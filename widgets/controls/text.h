@@ -12,37 +12,36 @@ namespace episcope {
 
 inline constexpr QChar kMinus(0x2212);
 
-/// A number as it is shown: with a true minus, without one before what is rounded to zero, and with
-/// an exponent from ten millions on.
+/// Displayed form of a number: with a true minus, none before zero after rounding, and an exponent
+/// from ten million on.
 [[nodiscard]] QString number_text(double value, int decimals = 3);
 
-/// A sentence with a true minus before its numbers; hyphens within words, names and exponents stay.
+/// Replaces hyphens before numbers by a true minus; hyphens in words, names and exponents stay.
 [[nodiscard]] QString with_minus(QString sentence);
 
 /// Texts of the table of quantities (engine/render/quantity.h), translated.
 
-/// As in a sentence: "signed error"; "none" for Quantity::View.
+/// Name within a sentence: "signed error"; "none" for Quantity::View.
 [[nodiscard]] QString quantity_label(render::Quantity quantity);
-/// As on a button: "Error".
+/// Name on a button: "Error".
 [[nodiscard]] QString quantity_button(render::Quantity quantity);
 [[nodiscard]] QString quantity_tip(render::Quantity quantity);
-/// "px"; empty where numbers have no unit.
+/// Unit: "px"; empty without one.
 [[nodiscard]] QString quantity_unit(render::Quantity quantity);
 
-/// A label, help, unit or choice of a schema, a sentence on a method, or the name of a file kind.
-/// The engine holds these in English; translations of them are looked up in the context
-/// "episcope::Schema".
+/// Translates a schema's label, help, unit or choice, a sentence on a method, or the name of a file
+/// kind. The engine holds these in English; translations have the context "episcope::Schema".
 [[nodiscard]] QString schema_text(const std::string& text);
 
-/// A value as users read it: "on" or "off", "auto", the label of a choice, a number with its unit.
+/// Displayed form of a value: "on" or "off", "auto", the label of a choice, a number with its unit.
 [[nodiscard]] QString value_text(const ParameterDescription& description,
                                  const ParameterValue& value);
 
-/// The domain of a number or an interval, "0 … 10 px"; empty for parameters of other types.
+/// Domain of a number or an interval, "0 … 10 px"; empty for other types.
 [[nodiscard]] QString domain_text(const ParameterDescription& description);
 
-/// The text with invisible places to break in its long words: after the marks of names and paths,
-/// and wherever a word would go on for too long without one. For showing only, not for copying.
+/// Adds invisible break opportunities to long words: after the marks of names and paths, and within
+/// words that are too long. For display only, not for copying.
 [[nodiscard]] QString breakable(const QString& text);
 
 }  // namespace episcope

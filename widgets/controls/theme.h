@@ -12,7 +12,7 @@ class QPainter;
 
 namespace episcope::theme {
 
-/// Colours of our own dark canvases, which do not follow the desktop theme.
+/// Colours of our dark canvases, which ignore the desktop theme.
 inline constexpr QColor kCanvas{0x26, 0x28, 0x2b};
 inline constexpr QColor kCanvasText{0xd6, 0xd9, 0xdd};
 inline constexpr QColor kCanvasMuted{0x9a, 0xa0, 0xa8};
@@ -25,22 +25,21 @@ inline constexpr QColor kMeasured{0xff, 0x8b, 0xd1};  ///< A line drawn by hand.
 inline constexpr int kSpacing = 6;  ///< Between controls, logical pixels.
 inline constexpr int kMargin = 8;   ///< Around groups.
 
-/// Whether the palette is a dark one.
+/// Whether the palette is dark.
 [[nodiscard]] bool is_dark(const QPalette& palette);
-/// Text of lesser weight, still legible: contrast ≥ 4.5 against window and tabs.
+/// Less prominent text, still legible: contrast ≥ 4.5 against window and tabs.
 [[nodiscard]] QColor muted_text(const QPalette& palette);
-/// Frames of controls that nothing else sets off: contrast ≥ 3 against window and tabs, less where
-/// they are disabled.
+/// Frame colour of controls: contrast ≥ 3 against window and tabs, less if disabled.
 [[nodiscard]] QColor frame(const QPalette& palette);
-/// Text colours of meanings, legible on the palette's window.
+/// Text colours for errors, warnings and success, legible on the palette's window.
 [[nodiscard]] QColor error_text(const QPalette& palette);
 [[nodiscard]] QColor warning_text(const QPalette& palette);
 [[nodiscard]] QColor success_text(const QPalette& palette);
 
-/// `part` of the way from one colour to the other.
+/// Interpolates between two colours; `part` in [0, 1].
 [[nodiscard]] QColor blend(const QColor& from, const QColor& to, double part);
 
-/// A palette that sets nothing but the colour of labels, so that all else is still inherited.
+/// Palette that sets only the colour of labels and inherits the rest.
 [[nodiscard]] QPalette text_palette(const QColor& color);
 
 /// Contrast ratio of two opaque colours, 1 … 21 (WCAG 2.1, relative luminance).
@@ -54,23 +53,21 @@ inline constexpr int kMargin = 8;   ///< Around groups.
 
 namespace episcope {
 
-/// The two that are compared: A is the result shown, B the one it is compared with.
+/// The two compared results: A is shown, B is compared with it.
 enum class Side { None, A, B };
 
 /// "A", "B" or nothing.
 [[nodiscard]] QString side_letter(Side side);
-/// Blue for A, orange for B: told apart on any picture and by the colour-blind.
+/// Blue for A, orange for B: distinct on any picture and for the colour-blind.
 [[nodiscard]] QColor side_color(Side side);
 /// The letter on its colour, for lists; null for None.
 [[nodiscard]] QIcon side_icon(Side side);
 /// Draws the letter on its colour.
 void draw_side(QPainter& painter, const QRectF& badge, Side side);
 
-/// The Fusion style, with frames of check boxes that are seen in a dark theme as well: Fusion draws
-/// them darker than the window, whatever that is. Tabs stand closer together, and buttons of
-/// dialogs have no icons, which Fusion draws dark, too. Handles of splitters are a short line in
-/// the middle instead of a row of dark dots as wide as the handle. Names that are too long for a
-/// combo box end in "…".
+/// The Fusion style with changes for dark themes and little room: visible frames of check boxes,
+/// tabs closer together, no icons on dialog buttons, a short line as splitter handle, and long
+/// names in combo boxes that end in "…".
 class OutlinedStyle : public QProxyStyle {
   Q_OBJECT
 

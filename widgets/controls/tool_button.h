@@ -18,19 +18,18 @@ struct ToolButtonText {
   QString text = {};  ///< Beside the icon; empty = icon alone.
 };
 
-/// A flat tool button, the same everywhere.
+/// A flat tool button in the common style.
 [[nodiscard]] QToolButton* make_tool_button(const ToolButtonText& text, QWidget* parent);
 
-/// A flat tool button of an action, with its icon, tip and state; it takes no focus.
+/// A flat tool button of an action, with its icon, tip and state; takes no focus.
 [[nodiscard]] QToolButton* make_action_button(QAction* action, const QString& object_name,
                                               QWidget* parent);
 
-/// Keeps the tool tip of a widget that of the command behind it, with its keys.
+/// Keeps a widget's tool tip equal to its command's, including keys.
 void follow_tip(QWidget* widget, const QAction* action);
 
-/// A vertical splitter that gives its first part the height that it asks for, and the rest to the
-/// second one, but at least `least_rest` pixels; from the first drag of the handle on it leaves
-/// both as the user wants them.
+/// A vertical splitter that gives its first part its preferred height and the rest to the second,
+/// but at least `least_rest` pixels. Dragging the handle ends that.
 class FittingSplitter : public QSplitter {
   Q_OBJECT
 
@@ -48,13 +47,13 @@ class FittingSplitter : public QSplitter {
   bool is_dragged_ = false;
 };
 
-/// Draws a second, quieter text in the row of an item: at its right end, or in a column right of
-/// the longest first text.
+/// Draws a second, quieter text in an item's row: at its right end, or in a column right of the
+/// longest first text.
 class AsideDelegate : public QStyledItemDelegate {
   Q_OBJECT
 
  public:
-  /// Of the item's data: the second text.
+  /// Role of the second text in the item's data.
   static constexpr int kAsideRole = Qt::UserRole + 100;
 
   enum class Place { End, Column };
@@ -66,7 +65,7 @@ class AsideDelegate : public QStyledItemDelegate {
                                const QModelIndex& index) const override;
 
  private:
-  /// From the left edge to where the second text may begin.
+  /// Distance from the left edge to the second text.
   [[nodiscard]] int begin(const QStyleOptionViewItem& option, const QModelIndex& index) const;
 
   Place place_;

@@ -50,12 +50,12 @@ BrushPanel::BrushPanel(QWidget* parent)
   opacity_->setObjectName("brush.opacity");
   opacity_->setRange(0, 100);
   opacity_->setValue(kFirstOpacity);
-  opacity_->setToolTip(tr("Opacity of what is painted"));
+  opacity_->setToolTip(tr("Opacity of painted labels"));
   form->addRow(tr("Opacity"), opacity_);
   protects_->setObjectName("brush.protect");
   protects_->setToolTip(
       tr("The brush paints only unpainted pixels, and the eraser erases only the current label. "
-         "Holding Shift does the same."));
+         "Hold Shift for a single stroke of this kind."));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, theme::kSpacing, 0, 0);
   layout->setSpacing(theme::kSpacing);
@@ -97,7 +97,7 @@ void BrushPanel::addFill(QFormLayout& form) {
   bound_->addItem(tr("up to edges"), static_cast<int>(FillBound::Edges));
   bound_->addItem(tr("its segment"), static_cast<int>(FillBound::Segmentation));
   bound_->setToolTip(
-      tr("What bounds a fill: edges of the view, or the segment of the current segmentation"));
+      tr("Limits of a fill: edges of the view, or the segment of the current segmentation"));
   gradient_->setObjectName("fill.gradient");
   gradient_->setLocale(QLocale::c());
   gradient_->setRange(0.5, 99);

@@ -19,30 +19,30 @@ namespace episcope {
 
 class ElidedLabel;
 
-/// What stops a fill.
+/// Limit of a fill.
 enum class FillBound { Edges, Segmentation };
 
-/// Buttons of the tools, sizes of brush and eraser, and what bounds a fill. Setters never emit.
+/// Buttons of the tools, sizes of brush and eraser, and limits of a fill. Setters never emit.
 class BrushPanel : public QWidget {
   Q_OBJECT
 
  public:
   explicit BrushPanel(QWidget* parent = nullptr);
 
-  /// A button for an action, in order of the calls; a gap before those of another group.
+  /// Adds a button for an action, in order of the calls, with a gap before another group.
   void addAction(QAction* action, const QString& object_name);
   void addGap();
   void setBrushSize(double diameter_px);
   void setEraserSize(double diameter_px);
-  /// Keys that change the size, for its tool tips; empty if there are none.
+  /// Keys that change the size, for the tool tips; empty without keys.
   void setSizeKeys(const QString& keys);
   void setProtectsOthers(bool protects);
   void setScribbleOpacity(double opacity);
-  /// Without a segmentation, fills can be bounded by edges only.
+  /// Without a segmentation, only edges can limit fills.
   void setSegmentationAvailable(bool is_available);
 
   [[nodiscard]] FillBound fillBound() const;
-  /// Change of colour from pixel to pixel that is an edge, in grey levels of 255.
+  /// Least difference between neighbouring pixels at an edge, in grey levels of 255.
   [[nodiscard]] double fillGradient() const;
   [[nodiscard]] bool protectsOthers() const;
   [[nodiscard]] double scribbleOpacity() const;
@@ -72,25 +72,25 @@ class BrushPanel : public QWidget {
   QSlider* opacity_;
 };
 
-/// What is done with all scribbles: carrying them to all views, saving, exporting, importing.
-/// Setters never emit.
+/// Actions on all scribbles: carrying them to all views, saving, exporting, importing. Setters
+/// never emit.
 class AnnotationBar : public QWidget {
   Q_OBJECT
 
  public:
-  /// What scribbles are carried by.
+  /// Disparity used to carry scribbles.
   enum class CarriedBy { Estimate, Truth };
 
   explicit AnnotationBar(QWidget* parent = nullptr);
 
-  /// A button for an action, in order of the calls.
+  /// Adds a button for an action, in order of the calls.
   void addAction(QAction* action, const QString& object_name);
-  /// Which disparities there are; what is missing cannot be chosen.
+  /// Enables the available disparities.
   void setSources(bool has_estimate, bool has_truth);
   void setCarried(bool is_carried);
-  /// What carrying is about, e.g. "carrying …"; empty = nothing.
+  /// State of carrying, e.g. "carrying …"; empty = none.
   void setCarryState(const QString& state);
-  /// The file and whether it holds what is painted.
+  /// File name, and whether the file is up to date.
   void setFileState(const QString& state);
 
   [[nodiscard]] bool isCarried() const;

@@ -99,9 +99,9 @@ CapturePanel::CapturePanel(QWidget* parent)
 QWidget* CapturePanel::makeView() {
   auto* part = new QWidget(this);
   hint_->setText(
-      tr("Open a mesh of what the light field shows. Then set the cross-hair in the "
-         "centre view, click the same point of the mesh here, and add the pair. Four "
-         "pairs give its pose.\n\nWithout a gantry at hand, “Lens” makes a demo to try it with."));
+      tr("Open a mesh of an object in the light field. Then set the cross-hair in the centre view, "
+         "click the same point of the mesh here, and add the pair. Four pairs give its "
+         "pose.\n\nWithout a gantry at hand, “Lens” makes a demo to try it with."));
   hint_->setAlignment(Qt::AlignCenter);
   QWidget* made = make_point_cloud_view(part);
   view_ = qobject_cast<PointCloudView*>(made);
@@ -120,8 +120,7 @@ QWidget* CapturePanel::makePairs() {
   table_->setObjectName("capture.pairs");
   table_->setAccessibleName(tr("Picked pairs"));
   table_->setColumnCount(5);
-  table_->setHorizontalHeaderLabels(
-      {tr("Pair"), tr("kPairLock"), tr("View"), tr("Mesh"), tr("kPairOff by")});
+  table_->setHorizontalHeaderLabels({tr("Pair"), tr("Lock"), tr("View"), tr("Mesh"), tr("Off by")});
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(kPairPoint, QHeaderView::Stretch);
   table_->verticalHeader()->hide();
@@ -239,7 +238,8 @@ void CapturePanel::setRows(const std::vector<CaptureRow>& rows) {
     auto* lock = make_cell({}, false);
     lock->setFlags(lock->flags() | Qt::ItemIsUserCheckable);
     lock->setCheckState(row.is_locked ? Qt::Checked : Qt::Unchecked);
-    lock->setToolTip(tr("A locked pair is right: it is not removed, nor taken for a wrong pick"));
+    lock->setToolTip(
+        tr("A locked pair is trusted: it is neither removed nor treated as a wrong pick"));
     table_->setItem(i, kPairLock, lock);
     table_->setItem(
         i, kPairPixel,
@@ -319,7 +319,7 @@ CaptureObjects::CaptureObjects(QWidget* parent)
   auto* add = make_button(this, "capture.addObject", tr("Add…"),
                           tr("Adds one more object, with a mesh of its own"));
   auto* open = make_button(this, "capture.open", tr("Open mesh…"),
-                           tr("A scan of what the light field shows: PLY, OBJ or STL"));
+                           tr("A scan of an object in the light field: PLY, OBJ or STL"));
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setVerticalSpacing(theme::kSpacing / 2);
@@ -375,8 +375,8 @@ PhotographSteps::PhotographSteps(QWidget* parent)
       rectify_(new QPushButton(tr("Rectify…"), this)) {
   rectify_->setObjectName("capture.rectify");
   rectify_->setToolTip(
-      tr("Makes a light field of the photographs that are open: without distortion, rows and "
-         "columns aligned. Pairs picked in them are carried over."));
+      tr("Rectifies the open photographs into a light field with aligned rows and columns. Pairs "
+         "picked in them are carried over."));
   lens_->setObjectName("capture.lens");
   auto* menu = new QMenu(lens_);
   connect(menu->addAction(tr("Calibrate from photographs…")), &QAction::triggered, this,

@@ -28,11 +28,11 @@ class ElidedLabel;
 class PhotographSteps;
 class PointCloudView;
 
-/// A pair as the table shows it.
+/// A row of the table of pairs.
 struct CaptureRow {
   QString name;
-  QPointF pixel;                 ///< Of the centre view.
-  std::array<double, 3> point;   ///< Of the mesh.
+  QPointF pixel;                 ///< In the centre view.
+  std::array<double, 3> point;   ///< On the mesh.
   std::optional<double> off_px;  ///< From where the pose puts it; nothing without a pose.
   bool is_outlier = false;
   bool is_locked = false;
@@ -45,28 +45,27 @@ class CapturePanel : public QWidget {
  public:
   explicit CapturePanel(QWidget* parent = nullptr);
 
-  /// The mesh of the current object; without parts a hint is shown.
+  /// Shows the mesh of the current object, or a hint if it has no parts.
   void setMesh(const CloudPartsPtr& mesh);
   void setRows(const std::vector<CaptureRow>& rows);
-  /// What the next pair would be: the text of its pixel, its point if one is marked, and whether
-  /// both are there.
+  /// Next pair: text of its pixel, its mesh point if one is marked, and whether both exist.
   void setNext(const QString& pixel, const std::optional<std::array<double, 3>>& point,
                bool is_complete);
-  /// Marks of the mesh: where the next pair would lie, and the pairs by name.
+  /// Marks of the mesh: the place of the next pair, and the named pairs.
   void setPicked(const std::optional<std::array<double, 3>>& point);
   void setMarks(const std::vector<CloudMark>& marks);
-  /// The row of the pair under the mouse elsewhere; none = none.
+  /// Row of the pair under the mouse elsewhere; none = none.
   void setHovered(std::optional<int> row);
   /// What is known of the pose, or what is missing.
   void setPose(const QString& text, bool is_known);
   void setUndoable(bool is_undoable);
   void setRedoable(bool is_redoable);
-  /// Whether picks are to move to the corner or blob beside them.
+  /// Whether picks snap to the nearest corner or blob.
   [[nodiscard]] bool snaps() const;
   [[nodiscard]] PhotographSteps* steps() const { return steps_; }
   [[nodiscard]] CaptureObjects* objects() const { return objects_; }
   [[nodiscard]] std::vector<int> selectedRows() const;
-  /// It is selected, or under the mouse.
+  /// Whether the row is selected, or under the mouse.
   [[nodiscard]] bool isEmphasised(int row) const;
 
  signals:
@@ -79,11 +78,11 @@ class CapturePanel : public QWidget {
   void redoRequested();
   void renamed(int row, const QString& name);
   void lockChanged(int row, bool is_locked);
-  /// Rows were selected, or the mouse is over another one.
+  /// The selection, or the row under the mouse, changed.
   void emphasisChanged();
-  /// A double click on a pair.
+  /// The user double-clicked a pair.
   void rowChosen(int row);
-  /// A click on the mesh.
+  /// The user clicked a vertex of the mesh.
   void vertexPicked(std::size_t vertex);
   void showRequested();
   void savePoseRequested();
@@ -119,21 +118,21 @@ class CapturePanel : public QWidget {
   std::optional<int> hovered_;  // row
 };
 
-/// The things before the cameras, one of which is worked on, and its mesh. Setters never emit.
+/// The objects before the cameras, one of them current, and its mesh. Setters never emit.
 class CaptureObjects : public QWidget {
   Q_OBJECT
 
  public:
   explicit CaptureObjects(QWidget* parent = nullptr);
 
-  /// `current`: place of the one that is worked on.
+  /// `current`: index of the current object.
   void setObjects(const QStringList& names, int current);
-  /// What is known of its mesh; empty = there is none.
+  /// Describes its mesh; empty = none.
   void setMesh(const QString& text);
 
  signals:
   void chosen(int object);
-  /// The current one, by typing.
+  /// The user renamed the current object.
   void renamed(const QString& name);
   void addRequested();
   void removeRequested();
@@ -145,17 +144,17 @@ class CaptureObjects : public QWidget {
   ElidedLabel* mesh_;
 };
 
-/// The steps from photographs to a rectified light field: what each has brought, and what can be
-/// done. Setters never emit.
+/// The steps from photographs to a rectified light field: their results and actions. Setters never
+/// emit.
 class PhotographSteps : public QWidget {
   Q_OBJECT
 
  public:
   explicit PhotographSteps(QWidget* parent = nullptr);
 
-  /// `text`: what is known of the lens; `details`: the same at length, the tool tip of its button.
+  /// `text`: state of the lens; `details`: a longer form for the tool tip.
   void setCamera(const QString& text, const QString& details, bool is_known);
-  /// `text`: how the light field that is shown came to be aligned, or why it cannot be.
+  /// `text`: how the shown light field was aligned, or why it cannot be.
   void setAlignment(const QString& text, bool can_rectify);
 
  signals:

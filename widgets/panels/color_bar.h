@@ -15,8 +15,8 @@ namespace episcope {
 class ColorRamp;
 class NumberSpin;
 
-/// Legend of an overlay: name and unit, the colour map between two range ends that can be edited,
-/// the colour of invalid pixels, a lock, and a button for the automatic range. Setters never emit.
+/// Legend of an overlay: name and unit, the colour map between two editable limits, the colour of
+/// invalid pixels, a lock, and a button for the automatic range. Setters never emit.
 class ColorBar : public QWidget {
   Q_OBJECT
 
@@ -28,7 +28,7 @@ class ColorBar : public QWidget {
   void setMarker(double value);
   void setRangeLocked(bool locked);
 
-  /// The buttons take the tool tips of what they do, with the keys in them.
+  /// Keeps the buttons' tool tips equal to their commands', including keys.
   void followTips(const QAction* automatic, const QAction* own);
 
   [[nodiscard]] Interval range() const;
@@ -37,9 +37,9 @@ class ColorBar : public QWidget {
  signals:
   void rangeEdited(episcope::Interval range);
   void rangeLockToggled(bool locked);
-  /// From the data of this map.
+  /// The user wants a range from the data of this map.
   void automaticRangeRequested();
-  /// The quantity's own range.
+  /// The user wants the quantity's own range.
   void ownRangeRequested();
 
  private:
@@ -55,7 +55,7 @@ class ColorBar : public QWidget {
   QToolButton* own_;
 };
 
-/// The painted colour map of a ColorBar, low to high from left to right.
+/// The colour map of a ColorBar, low to high from left to right.
 class ColorRamp : public QWidget {
   Q_OBJECT
 

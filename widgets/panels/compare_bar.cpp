@@ -92,7 +92,7 @@ RegionBar::RegionBar(QWidget* parent)
       layout_(new QHBoxLayout(this)) {
   setObjectName("regionBar");
   part_->setObjectName("region.part");
-  part_->setToolTip(tr("The pixels that the table and the plot are of"));
+  part_->setToolTip(tr("Pixels that the table and the plot evaluate"));
   part_->setAccessibleName(tr("Judged part of the view"));
   summary_->setObjectName("region.summary");
   auto* label = new QLabel(tr("Judged:"), this);

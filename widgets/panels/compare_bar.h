@@ -14,8 +14,7 @@ namespace episcope {
 
 class ElidedLabel;
 
-/// Which result is A (shown), which is B (compared), and buttons for what can be done with the two.
-/// Setters never emit.
+/// Chooses A (shown) and B (compared), with buttons for actions on both. Setters never emit.
 class CompareBar : public QWidget {
   Q_OBJECT
 
@@ -27,10 +26,9 @@ class CompareBar : public QWidget {
 
   explicit CompareBar(QWidget* parent = nullptr);
 
-  /// A button for the action, in order of the calls.
+  /// Adds a button for an action, in order of the calls.
   void addAction(QAction* action, const QString& object_name);
-  /// The results there are, which one is A and which B; 0 = none, then `other` tells what stands in
-  /// for B, e.g. "truth".
+  /// Available results, with A and B; 0 = none: `other` then names what replaces B, e.g. "truth".
   void setChoices(const std::vector<Choice>& choices, quint64 a, quint64 b, const QString& other);
 
  signals:
@@ -43,19 +41,19 @@ class CompareBar : public QWidget {
   QHBoxLayout* buttons_;
 };
 
-/// Which part of the view is judged, and how many pixels that is. Setters never emit.
+/// Region that metrics evaluate, and its number of pixels. Setters never emit.
 class RegionBar : public QWidget {
   Q_OBJECT
 
  public:
   explicit RegionBar(QWidget* parent = nullptr);
 
-  /// A button for the action.
+  /// Adds a button for the action.
   void addAction(QAction* action, const QString& object_name);
-  /// Parts that can be chosen, in their order.
+  /// Available regions, in order.
   void setParts(const QStringList& names);
   void setCurrent(int part);
-  /// "1 024 px", or why nothing is judged.
+  /// "1 024 px", or why nothing is evaluated.
   void setSummary(const QString& text);
   [[nodiscard]] QString summary() const;
 

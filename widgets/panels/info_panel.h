@@ -14,28 +14,28 @@ namespace episcope {
 
 class ElidedLabel;
 
-/// One fact: a short key, a value of any length, and how it was found out.
+/// A fact: short key, value of any length, and evidence.
 struct InfoRow {
   QString key;
   QString value;
   QString check;  ///< "checked against truth: …", drawn quietly below the value; may be empty.
   QString id{};   ///< "order": the value is the object "info.order"; may be empty.
   QAction* action = nullptr;  ///< A command that changes it, as a link below; may be null.
-  QString tip{};              ///< What the value says in short; may be empty.
+  QString tip{};              ///< Long form of the value; may be empty.
   friend bool operator==(const InfoRow&, const InfoRow&) = default;
 };
 
-/// Facts of the scene, the conventions found with their checks, and warnings. Values wrap; what
-/// cannot wrap is elided, with the whole of it as tool tip.
+/// Facts of the scene, its conventions with their checks, and warnings. Values wrap; unbreakable
+/// values are elided, with a tool tip.
 class InfoPanel : public QWidget {
   Q_OBJECT
 
  public:
   explicit InfoPanel(QWidget* parent = nullptr);
 
-  /// An empty title says that there is no light field. Costs nothing if all is as before.
+  /// Shows facts; an empty title means no light field. Costs nothing without changes.
   void setInfo(const QString& title, const std::vector<InfoRow>& rows, const QStringList& warnings);
-  /// The command behind the button beside the title; it is disabled with the action.
+  /// Command of the button beside the title, which is disabled with the action.
   void setConventionsAction(QAction* action) { conventions_->setDefaultAction(action); }
 
  protected:

@@ -19,10 +19,9 @@ class QTreeWidgetItem;
 
 namespace episcope {
 
-/// The labels that can be painted with: colour, id, name and amount of each, whether it is shown
-/// and locked, the current one marked. A click makes a label the current one, a click on its colour
-/// asks for another colour, one on its eye or lock hides or locks it, a double click renames it in
-/// its row, Delete removes it. Setters never emit; what the user wants is a signal.
+/// The labels: colour, id, name, amount, visibility and lock of each, with the current one marked.
+/// A click makes a label current; a click on its colour, eye or lock changes that; a double click
+/// renames it; Delete removes it. Setters never emit; user actions are signals.
 class LabelPalette : public QWidget {
   Q_OBJECT
 
@@ -32,19 +31,19 @@ class LabelPalette : public QWidget {
   void setLabels(const std::vector<LabelInfo>& labels);
   /// 0 = none.
   void setCurrent(int id);
-  /// Ids of the labels that are not shown, and of those that cannot be painted.
+  /// Ids of hidden labels, and of locked labels.
   void setHidden(const std::set<std::int32_t>& ids);
   void setLocked(const std::set<std::int32_t>& ids);
-  /// How much there is of a label, in its row and in full as its tool tip.
+  /// Amount of a label: short for its row, long for its tool tip.
   struct Amount {
     QString text;
     QString tip;
   };
-  /// By id; labels that are not among them have none.
+  /// Amounts by id; labels without an entry have none.
   void setAmounts(const std::map<std::int32_t, Amount>& amounts);
-  /// Shown instead of an empty list.
+  /// Text shown instead of an empty list.
   void setHint(const QString& hint);
-  /// Begins to edit the name of a label in its row.
+  /// Begins to edit a label's name in its row.
   void editName(int id);
 
   [[nodiscard]] int current() const { return current_; }

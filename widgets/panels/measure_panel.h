@@ -13,8 +13,8 @@ class QTreeWidget;
 
 namespace episcope {
 
-/// The disparities that were measured by hand and kept: a click on one goes there, a double click
-/// renames it, Delete removes it. Setters never emit; what the user wants is a signal.
+/// Disparities measured by hand: a click goes to one, a double click renames it, Delete removes it.
+/// Setters never emit; user actions are signals.
 class MeasurePanel : public QWidget {
   Q_OBJECT
 
@@ -30,14 +30,14 @@ class MeasurePanel : public QWidget {
 
   explicit MeasurePanel(QWidget* parent = nullptr);
 
-  /// Buttons above the list, and under it those of what is done with the chosen one, in order of
-  /// the calls.
+  /// Adds a button above the list, or (`addChosenAction`) below it for the chosen measurement, in
+  /// order of the calls.
   void addAction(QAction* action);
   void addChosenAction(QAction* action);
   void setRows(const std::vector<Row>& rows, int current);
-  /// Shown while there are none.
+  /// Text shown without measurements.
   void setHint(const QString& hint);
-  /// Begins to edit the name of a measurement in its row.
+  /// Begins to edit a measurement's name in its row.
   void editName(int index);
 
  signals:

@@ -25,7 +25,7 @@ namespace episcope {
 class ElidedLabel;
 class ParameterForm;
 
-/// What the panel needs to know of a method.
+/// Description of a method for the panel.
 struct MethodDescription {
   std::string id;
   std::string name;
@@ -35,15 +35,15 @@ struct MethodDescription {
   std::vector<ParameterDescription> parameters;
 };
 
-/// What a run was asked for, by value: changing the form later changes nothing.
+/// A requested run, by value: later changes of the form do not affect it.
 struct RunRequest {
   std::string method;
   ParameterSet values;
   bool all_views = false;
 };
 
-/// Method, its parameters, Run, Live, Cancel, Reset and Copy as command. Values of a method are
-/// kept while another one is chosen.
+/// Method and parameters, with Run, Live, Cancel, Reset and Copy as command. Remembers the values
+/// of each method.
 class MethodPanel : public QWidget {
   Q_OBJECT
 
@@ -53,25 +53,25 @@ class MethodPanel : public QWidget {
   void setMethods(std::vector<MethodDescription> methods);
   /// Ignored for an unknown id.
   void setCurrentMethod(const std::string& id);
-  /// Chooses method, parameters and views, e.g. those of an earlier result.
+  /// Sets method, parameters and views, e.g. from an earlier result.
   void setRequest(const RunRequest& request);
-  /// While running, Cancel is enabled; Run stays so, and queues.
+  /// Enables Cancel while running; Run stays enabled and queues.
   void setRunning(bool running);
-  /// An empty reason enables Run; else it is greyed out and the reason is its tool tip.
+  /// Disables Run and shows the reason as its tool tip; an empty reason enables it.
   void setRunBlocked(const QString& reason);
-  /// Whether every change of the request is to be answered at once.
+  /// Whether every change of the request runs at once.
   void setLive(bool is_live);
-  /// How that goes, a few words beside the box of views; they never take room from others.
+  /// State of the live estimate in a few words, which never take room from other controls.
   void setLiveStatus(const QString& text);
-  /// The buttons take the tool tips of what they do, with the keys in them.
+  /// Keeps the buttons' tool tips equal to their commands', including keys.
   void followTips(const QAction* cancel, const QAction* copy);
   void followLiveTip(const QAction* live);
 
-  /// `method` is empty while there are no methods.
+  /// `method` is empty if there are no methods.
   [[nodiscard]] RunRequest request() const;
   [[nodiscard]] ParameterForm* form() const { return form_; }
 
-  /// As high as the whole form.
+  /// Height of the whole form.
   [[nodiscard]] QSize sizeHint() const override;
 
  signals:
@@ -79,9 +79,9 @@ class MethodPanel : public QWidget {
   void cancelRequested();
   void copyCommandRequested(const episcope::RunRequest& request);
   void methodChanged(const QString& id);
-  /// Another method, other parameters or other views.
+  /// Method, parameters or views changed.
   void requestChanged();
-  /// By the user.
+  /// The user switched Live.
   void liveToggled(bool is_live);
 
  protected:
@@ -113,7 +113,7 @@ class MethodPanel : public QWidget {
   QPushButton* copy_;
 };
 
-/// Chooses methods, and light fields to run them on.
+/// Chooses methods and the light fields to run them on.
 class BatchDialog : public QDialog {
   Q_OBJECT
 
@@ -126,7 +126,7 @@ class BatchDialog : public QDialog {
 
   BatchDialog(const std::vector<Row>& methods, const std::vector<Row>& scenes, QWidget* parent);
 
-  /// Ids of the rows that are checked, in their order.
+  /// Ids of the checked rows, in order.
   [[nodiscard]] QStringList methods() const;
   [[nodiscard]] QStringList scenes() const;
 

@@ -14,12 +14,12 @@ class QToolButton;
 
 namespace episcope {
 
-/// Which value of a column is the best one.
+/// Best value of a column.
 enum class BestValue { None, Least, Greatest };
 
 struct MetricColumn {
-  QString key;    ///< Of the CSV header, e.g. "mse_100".
-  QString label;  ///< Of the table header.
+  QString key;    ///< CSV header, e.g. "mse_100".
+  QString label;  ///< Table header.
   QString help;   ///< Tool tip.
   int decimals = 3;
   BestValue best = BestValue::None;
@@ -29,30 +29,30 @@ struct MetricColumn {
 
 struct MetricRow {
   quint64 id = 0;
-  /// One a column: a double, a string, or an invalid QVariant where the metric is absent.
+  /// One value per column: a double, a string, or an invalid QVariant if the metric is missing.
   std::vector<QVariant> values;
   friend bool operator==(const MetricRow&, const MetricRow&) = default;
 };
 
-/// Metrics of all results, sortable by any column (numbers as numbers, absent ones and NaN last),
-/// the best of each column stressed, copied or saved as CSV or LaTeX in the order shown. Ctrl+C
-/// copies the table as CSV.
+/// Metrics of all results, sortable by any column (numbers as numbers, missing and NaN last), with
+/// the best of each column emphasised. Copies or saves the shown order as CSV or LaTeX; Ctrl+C
+/// copies CSV.
 class MetricTable : public QWidget {
   Q_OBJECT
 
  public:
   explicit MetricTable(QWidget* parent = nullptr);
 
-  /// Costs nothing if they are as before.
+  /// Costs nothing without changes.
   void setTable(const std::vector<MetricColumn>& columns, const std::vector<MetricRow>& rows);
-  /// Says why the table is empty, e.g. that there is no ground truth.
+  /// Why the table is empty, e.g. no ground truth.
   void setEmptyText(const QString& text);
-  /// Marks the rows of the result on screen and of the one it is compared with; 0 = none.
+  /// Marks the rows of the shown and the compared result; 0 = none.
   void setSides(quint64 a, quint64 b);
 
-  /// RFC 4180, full precision, decimal point, keys as header; absent values are empty.
+  /// RFC 4180, full precision, decimal point, keys as header; missing values are empty.
   [[nodiscard]] QString toCsv() const;
-  /// A `tabular` with the decimals shown and the best of each column in bold; absent values are
+  /// A `tabular` with the shown decimals and the best of each column in bold; missing values are
   /// "--".
   [[nodiscard]] QString toLatex() const;
 
@@ -63,9 +63,9 @@ class MetricTable : public QWidget {
  signals:
   void rowClicked(quint64 id);
   void compareRequested(quint64 id);
-  /// "CSV" or "LaTeX" is in the clipboard.
+  /// "CSV" or "LaTeX" was copied to the clipboard.
   void copied(const QString& form);
-  /// "csv" or "tex" with the text to be written by the host.
+  /// The host should write the text, "csv" or "tex".
   void saveRequested(const QString& suffix, const QString& text);
 
  protected:

@@ -31,7 +31,7 @@ MoviePanel::MoviePanel(QWidget* parent)
       farthest_(new NumberSpin(this)),
       seconds_(new NumberSpin(this)),
       width_(new QSpinBox(this)),
-      overlay_(new QCheckBox(tr("With what is drawn over the view"), this)) {
+      overlay_(new QCheckBox(tr("With the overlay of the view"), this)) {
   setObjectName("moviePanel");
   auto* form = new QFormLayout(this);
   addKinds(*form);
@@ -75,7 +75,7 @@ void MoviePanel::addFocus(QFormLayout& form) {
     each->setSingleStep(0.1);
     each->setRange(-kFarthestFocus_px, kFarthestFocus_px);
     each->setSuffix(tr(" px"));
-    each->setToolTip(tr("Points of this disparity are in focus at an end of the movement"));
+    each->setToolTip(tr("Disparity in focus at one end of the movement"));
   }
   nearest_->setAccessibleName(tr("Focus to"));
   auto* row = new QHBoxLayout;

@@ -16,17 +16,17 @@ namespace episcope {
 
 class NumberSpin;
 
-/// What a movie shows, how the camera moves, how long it lasts and how large it is. Rows that do
-/// not belong to the kind of movie are disabled. Setters never emit.
+/// Kind, camera path, duration and size of a movie. Disables rows that its kind does not use.
+/// Setters never emit.
 class MoviePanel : public QWidget {
   Q_OBJECT
 
  public:
   explicit MoviePanel(QWidget* parent = nullptr);
 
-  /// Kinds that there can be now; at least the parallax.
+  /// Available kinds; at least the parallax.
   void setAvailable(const std::set<render::MovieKind>& kinds);
-  /// Whether there is a map to show over the views.
+  /// Whether there is an overlay to include.
   void setOverlayAvailable(bool is_available);
   void setFocusRange(Interval range_px);
   [[nodiscard]] render::MovieChoice choice() const;

@@ -41,7 +41,7 @@ OverlayBar::OverlayBar(QWidget* parent)
       row_(new QHBoxLayout(this)) {
   setObjectName("overlayBar");
   quantity_->setObjectName("overlay.quantity");
-  quantity_->setToolTip(tr("What is drawn over the view (M: next)"));
+  quantity_->setToolTip(tr("Overlay of the view (M: next)"));
   for (const render::QuantityInfo& info : render::quantities()) {
     if (info.quantity == Quantity::Difference) continue;  // chosen by a command of its own
     quantity_->addItem(quantity_label(info.quantity), static_cast<int>(info.quantity));

@@ -18,8 +18,8 @@ namespace episcope {
 
 class NumberSpin;
 
-/// One row of controls above the canvas: which overlay, how opaque, and the focus plane (shear).
-/// Setters never emit.
+/// A row of controls above the canvas: overlay, opacity and focus plane (shear). Setters never
+/// emit.
 class OverlayBar : public QWidget {
   Q_OBJECT
 
@@ -28,18 +28,18 @@ class OverlayBar : public QWidget {
 
   explicit OverlayBar(QWidget* parent = nullptr);
 
-  /// Quantities that can be shown now; others are listed greyed out. "None" always can.
+  /// Quantities that are available; others are greyed out. "None" always is.
   void setAvailable(const std::vector<render::Quantity>& quantities);
-  /// Off: the host has another way to choose the quantity.
+  /// False: the host has another control for the quantity.
   void setSelectorVisible(bool visible);
   /// Quantity::View = no overlay.
   void setQuantity(render::Quantity quantity);
   void setOpacity(double opacity);
-  /// Reach of the focus slider, px per view step. The field beside it takes numbers of up to
-  /// kFarthestFocus; the slider then reaches that far too.
+  /// Range of the focus slider, px per view step. The field beside it takes numbers up to
+  /// kFarthestFocus and extends the slider.
   void setFocusRange(Interval range_px);
   void setFocus(double focus_px);
-  /// A button for what can be done with the focus plane, beside its controls.
+  /// Adds a button for a focus plane action, beside its controls.
   void addFocusAction(QAction* action);
 
   [[nodiscard]] render::Quantity quantity() const;
@@ -47,9 +47,9 @@ class OverlayBar : public QWidget {
   [[nodiscard]] double focus() const;
 
  public slots:
-  /// As if the user chose the next available quantity ("next metric map").
+  /// Selects the next available quantity, like the user ("next metric map").
   void selectNextQuantity();
-  /// As if the user moved the focus plane by slider steps.
+  /// Moves the focus plane by slider steps, like the user.
   void stepFocus(double steps);
 
  signals:

@@ -13,7 +13,7 @@ class QTreeWidget;
 
 namespace episcope {
 
-/// One result as the list shows it.
+/// A row of the list of results.
 struct ResultRow {
   quint64 id = 0;
   QString method;
@@ -21,13 +21,12 @@ struct ResultRow {
   double seconds = 0;  ///< 0 = unknown.
   std::optional<double> mse_100;
   QString detail;  ///< Further tool tip: source, notes.
-  QString note{};  ///< What the user wrote.
+  QString note{};  ///< The user's note.
 };
 
-/// Results of this light field, newest last, with the shown one (A) and the compared one (B)
-/// marked. Choosing a row is an intent to show it, a click on its mark to compare with it, a double
-/// click on its name to change that; remove, export and the rest are in buttons and in the context
-/// menu.
+/// Results of this light field, newest last, with A (shown) and B (compared) marked. Choosing a row
+/// asks to show it; a click on its mark to compare with it; a double click on its name renames it.
+/// Other actions are in buttons and the context menu.
 class ResultList : public QWidget {
   Q_OBJECT
 
@@ -35,9 +34,9 @@ class ResultList : public QWidget {
   explicit ResultList(QWidget* parent = nullptr);
 
   void setResults(const std::vector<ResultRow>& results);
-  /// Whether a method runs whose result will come; an empty list says so.
+  /// Whether a running method will add a result; an empty list says so.
   void setExpecting(bool is_expecting);
-  /// Marks the row whose picture is on screen and the one it is compared with; none = no mark.
+  /// Marks the rows of the shown and the compared result; none = no mark.
   void setShown(std::optional<quint64> id, std::optional<quint64> compared = std::nullopt);
 
   [[nodiscard]] std::optional<quint64> selectedId() const;
@@ -49,7 +48,7 @@ class ResultList : public QWidget {
   void renameRequested(quint64 id, const QString& name);
   void exportRequested(quint64 id);
   void copyCommandRequested(quint64 id);
-  /// Bring its parameters back into the form.
+  /// The user wants its parameters back in the form.
   void reuseRequested(quint64 id);
   void noteRequested(quint64 id);
 
@@ -63,7 +62,7 @@ class ResultList : public QWidget {
   void showMenu(const QPoint& position);
   void editName(quint64 id);
   [[nodiscard]] bool hasRowsOf(const std::vector<ResultRow>& results) const;
-  /// What the buttons act on: the selected result, else the shown one.
+  /// Target of the buttons: the selected result, else the shown one.
   [[nodiscard]] std::optional<quint64> target() const;
   void updateButtons();
 

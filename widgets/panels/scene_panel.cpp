@@ -267,8 +267,7 @@ void ScenePanel::showCount() {
     hint_->setText(tr("No light field matches the filter."));
   } else if (folder_.isEmpty()) {
     hint_->setText(
-        tr("Open a folder of light fields, or drop it here: all that it holds at any "
-           "depth is listed."));
+        tr("Open a folder of light fields, or drop it here. Its subfolders are listed too."));
   } else {
     hint_->setText(is_searching_ ? tr("Searching …") : tr("There is no light field in here."));
   }

@@ -23,8 +23,8 @@ namespace episcope {
 class ElidedLabel;
 class SceneList;
 
-/// The light fields of a folder: a list with thumbnails, filtered by a text and sorted. Double
-/// click or Return asks to open one.
+/// The light fields of a folder: a sortable list with thumbnails and a text filter. Double click or
+/// Return asks to open one.
 class ScenePanel : public QWidget {
   Q_OBJECT
 
@@ -32,14 +32,14 @@ class ScenePanel : public QWidget {
   /// `list` must outlive this.
   ScenePanel(SceneList* list, QWidget* parent);
 
-  /// The button beside the filter, and in the empty panel.
+  /// Action of the button beside the filter and in the empty panel.
   void setOpenAction(QAction* action);
-  /// Which folder is shown; while it is searched, the count goes on. Empty = none.
+  /// Shown folder; the count grows while it is being searched. Empty = none.
   void setFolder(const QString& folder, bool is_searching);
   /// Scrolls to a light field and selects it.
   void reveal(const QString& path);
-  /// The path `step` rows from that of `path` among those shown that can be opened; of a path that
-  /// is not shown, the first or last of them. Empty if there is none.
+  /// Path `step` rows from `path` among the shown light fields that can be opened; from a hidden
+  /// path, the first or last of them. Empty if there is none.
   [[nodiscard]] QString neighbour(const QString& path, int step) const;
 
  signals:
@@ -71,7 +71,7 @@ class TimeBar : public QWidget {
  public:
   explicit TimeBar(QWidget* parent = nullptr);
 
-  /// The button that plays; takes its icon, tip and state from the action.
+  /// Action of the play button, which takes its icon, tip and state.
   void setPlayAction(QAction* action);
   /// Shows frame `frame` of `count`; emits nothing.
   void setFrame(int frame, int count);
@@ -86,20 +86,20 @@ class TimeBar : public QWidget {
   QLabel* number_;
 };
 
-/// One light field as the list shows it.
+/// A row of the list.
 struct SceneItem {
-  QString path;  ///< What opens it; unique.
+  QString path;  ///< Path to open; unique.
   QString name;
   QString form;        ///< "archive"
   QString shape;       ///< "9×9 · 512×512 RGB"; empty = unknown.
-  QStringList parts;   ///< "disparity of all views", "labels", "2 results": what it comes with.
+  QStringList parts;   ///< "disparity of all views", "labels", "2 results".
   QString problem;     ///< Why it cannot be opened; empty = it can.
   qint64 samples = 0;  ///< Pixels of all views, to sort by.
   bool has_truth = false;
 };
 
-/// The light fields of a folder, in the order in which they were found. Thumbnails are asked for
-/// when they are first to be painted.
+/// The light fields of a folder in the order found. Requests thumbnails when they are first
+/// painted.
 class SceneList : public QAbstractListModel {
   Q_OBJECT
 
@@ -119,12 +119,12 @@ class SceneList : public QAbstractListModel {
   using QAbstractListModel::QAbstractListModel;
 
   void clear();
-  /// A light field of the same path is replaced.
+  /// Adds a light field, or replaces the one with this path.
   void add(const SceneItem& item);
-  /// Replaces all; thumbnails of the same paths stay.
+  /// Replaces all light fields; keeps thumbnails of remaining paths.
   void setItems(const std::vector<SceneItem>& items);
   void setThumbnail(const QString& path, const QImage& thumbnail);
-  /// Marks the light field that is open; none if there is no such path.
+  /// Marks the open light field; none if the path is unknown.
   void setOpen(const QString& path);
   [[nodiscard]] const SceneItem& item(int row) const { return rows_[row].item; }
 
@@ -132,7 +132,7 @@ class SceneList : public QAbstractListModel {
   [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
 
  signals:
-  /// Emitted once for each path, as long as its row exists.
+  /// Emitted once per path while its row exists.
   void thumbnailWanted(const QString& path) const;
 
  private:

@@ -21,16 +21,16 @@ namespace episcope {
 class NumberSpin;
 class ParameterForm;
 
-/// What the state chip is coloured by.
+/// Meaning of the state chip's colour.
 enum class ChipMood { Quiet, Busy, Stale, Hint, Failed };
 
-/// The segmentation learnt from scribbles: its state and quality, buttons of what is done and
-/// shown, and, folded away, its settings. Setters never emit.
+/// The segmentation learnt from scribbles: state and quality, action buttons, and settings folded
+/// away. Setters never emit.
 class SegmentPanel : public QWidget {
   Q_OBJECT
 
  public:
-  /// A disparity that can be chosen.
+  /// An available disparity.
   struct Source {
     int id = 0;
     QString name;
@@ -39,12 +39,12 @@ class SegmentPanel : public QWidget {
 
   explicit SegmentPanel(QWidget* parent = nullptr);
 
-  /// Buttons for actions, in order of the calls: above what is done, below what is shown.
+  /// Adds buttons for actions in order of the calls: computing above, display below.
   void addAction(QAction* action, const QString& object_name);
   void addOverlay(QAction* action, const QString& object_name);
   /// "refining …", "idle · 2.1 s"; `detail` is its tool tip.
   void setState(const QString& text, ChipMood mood, const QString& detail);
-  /// A sentence on what is missing or what was found; empty = none.
+  /// Sentence on what is missing or was found; empty = none.
   void setNote(const QString& sentence);
   void setParameters(const std::vector<ParameterDescription>& parameters);
   void setSources(const std::vector<Source>& sources, int current);
@@ -52,9 +52,9 @@ class SegmentPanel : public QWidget {
   void setSmoothing(double smoothing_px);
 
   [[nodiscard]] ParameterSet parameters() const;
-  /// Id of the disparity that was chosen.
+  /// Id of the chosen disparity.
   [[nodiscard]] int source() const;
-  /// Whether all views are wanted after each stroke.
+  /// Whether to segment all views after each stroke.
   [[nodiscard]] bool keepsAllViews() const;
   [[nodiscard]] QString state() const;
   [[nodiscard]] QString note() const;

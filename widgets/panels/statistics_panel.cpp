@@ -80,7 +80,7 @@ void StatisticsPanel::addThreshold(QGridLayout& layout) {
   auto* label = new QLabel(tr("Bad if off by more than"), this);
   label->setBuddy(threshold_);
   label->setToolTip(tip);
-  values_[kBad]->setToolTip(tr("Visible judged pixels that are off by more than the threshold"));
+  values_[kBad]->setToolTip(tr("Visible evaluated pixels that are off by more than the threshold"));
   auto* row = new QHBoxLayout;
   row->setSpacing(theme::kSpacing);
   row->addWidget(label);

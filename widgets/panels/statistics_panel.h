@@ -21,7 +21,7 @@ class LinePlot;
 class NumberSpin;
 struct Plot;
 
-/// What is in sight of a map: a histogram and a few numbers. Setters never emit.
+/// Histogram and a few numbers of the visible part of a map. Setters never emit.
 class StatisticsPanel : public QWidget {
   Q_OBJECT
 
@@ -38,9 +38,9 @@ class StatisticsPanel : public QWidget {
 
   void setSummary(const Summary& summary);
   void setBadThreshold(double threshold_px);
-  /// No map: says why.
+  /// Shows why there is no map.
   void clear(const QString& why);
-  /// "min −0.120, median …", "–" where nothing is known.
+  /// "min −0.120, median …", "–" for unknown numbers.
   [[nodiscard]] QString text() const;
 
  signals:
@@ -62,18 +62,18 @@ class StatisticsPanel : public QWidget {
 };
 
 /// A histogram in the colours of its map, with a handle at each end of the colour range. Dragging a
-/// handle is an intent to change the range, dragging between them moves both. Setters never emit.
+/// handle asks to change the range; dragging between them moves both. Setters never emit.
 class HistogramView : public QWidget {
   Q_OBJECT
 
  public:
   explicit HistogramView(QWidget* parent = nullptr);
 
-  /// No counts: nothing but the handles is drawn.
+  /// Without counts only the handles are drawn.
   void setHistogram(const render::Histogram& histogram, const render::Shading& shading);
   [[nodiscard]] const render::Histogram& histogram() const { return histogram_; }
   [[nodiscard]] Interval range() const { return shading_.range; }
-  /// Where a value stands, in widget coordinates.
+  /// Position of a value in widget coordinates.
   [[nodiscard]] double xOf(double value) const;
 
   [[nodiscard]] QSize sizeHint() const override;
@@ -103,7 +103,7 @@ class HistogramView : public QWidget {
   Interval pressed_range_;
 };
 
-/// Errors by true disparity: two plots under each other, or why there are none.
+/// Errors over true disparity: two plots, or why there are none.
 class ErrorPlotPanel : public QWidget {
   Q_OBJECT
 
@@ -111,7 +111,7 @@ class ErrorPlotPanel : public QWidget {
   explicit ErrorPlotPanel(QWidget* parent = nullptr);
 
   void setPlots(const QString& title, const Plot& squares, const Plot& bad);
-  /// No plots: says why.
+  /// Shows why there are no plots.
   void clear(const QString& why);
 
  private:

@@ -89,8 +89,8 @@ SweepPanel::Row SweepPanel::makeRow(const QString& name, const QString& accessib
   row.values->setObjectName(name + ".values");
   row.values->setAccessibleName(tr("Its values"));
   row.values->setToolTip(
-      tr("Values, as 0.1, 0.2, 0.4, or first:last:number, as 0.1:1.6:5, evenly spread or in powers "
-         "as the slider of the parameter"));
+      tr("Values such as 0.1, 0.2, 0.4, or first:last:number such as 0.1:1.6:5, spread like the "
+         "slider of the parameter"));
   connect(row.parameter, &QComboBox::activated, this, [this, row] {
     propose(row);
     emit planEdited();
@@ -118,12 +118,12 @@ QHBoxLayout* SweepPanel::makeButtons() {
   run_->setObjectName("sweep.run");
   run_->setToolTip(tr("Runs the method on the centre view with each of the values"));
   cancel_->setObjectName("sweep.cancel");
-  cancel_->setToolTip(tr("Ends the sweep; the points that are there stay"));
+  cancel_->setToolTip(tr("Ends the sweep and keeps its points"));
   auto* row = new QHBoxLayout;
   row->addWidget(run_);
   row->addWidget(cancel_);
   everywhere_->setObjectName("sweep.everywhere");
-  everywhere_->setToolTip(tr("Runs on every light field that is open, one after the other"));
+  everywhere_->setToolTip(tr("Runs on every open light field, one after the other"));
   row->addWidget(everywhere_);
   connect(everywhere_, &QCheckBox::toggled, this, &SweepPanel::planEdited);
   row->addStretch(1);
@@ -137,7 +137,7 @@ QHBoxLayout* SweepPanel::makeButtons() {
 QHBoxLayout* SweepPanel::makeSweepRow() {
   sweeps_->setObjectName("sweep.list");
   sweeps_->setAccessibleName(tr("Sweeps"));
-  sweeps_->setToolTip(tr("The sweeps that are there; they are kept in the project"));
+  sweeps_->setToolTip(tr("Sweeps so far; they are kept in the project"));
   scenes_->setObjectName("sweep.scene");
   scenes_->setAccessibleName(tr("Light fields that are plotted"));
   scenes_->setToolTip(tr("Which light fields are plotted"));
@@ -159,9 +159,8 @@ QHBoxLayout* SweepPanel::makeSweepRow() {
 QHBoxLayout* SweepPanel::makeActions() {
   chosen_->setObjectName("sweep.chosen");
   keep_->setObjectName("sweep.keep");
-  keep_->setToolTip(
-      tr("Keeps the map of this point in the list of results, where else the next "
-         "point takes its place"));
+  keep_->setToolTip(tr(
+      "Keeps the map of this point in the list of results; otherwise the next point replaces it"));
   use_->setObjectName("sweep.use");
   use_->setToolTip(tr("Sets the form of the Estimate tab to the values of this point"));
   auto* row = new QHBoxLayout;

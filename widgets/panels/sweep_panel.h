@@ -22,9 +22,8 @@ namespace episcope {
 
 class ElidedLabel;
 
-/// Sweeps over one or two parameters of a method: what is tried next, how it goes, the sweeps that
-/// are there, and two plots of what one of them found out, a click on a point of which chooses it.
-/// Setters never emit.
+/// Sweeps over one or two parameters of a method: the plan of the next one, its progress, existing
+/// sweeps, and two plots of one of them whose points can be clicked. Setters never emit.
 class SweepPanel : public QWidget {
   Q_OBJECT
 
@@ -36,7 +35,7 @@ class SweepPanel : public QWidget {
     QString values;            ///< Proposed, as the user would type them.
     bool is_searched = false;  ///< A search varies it, too: such a one is proposed first.
   };
-  /// What the user asks for; `key` is empty where no parameter is chosen.
+  /// The requested sweep; `key` is empty without a chosen parameter.
   struct Choice {
     QString key;
     QString values;
@@ -44,41 +43,38 @@ class SweepPanel : public QWidget {
 
   explicit SweepPanel(QWidget* parent = nullptr);
 
-  /// What was chosen stays if there is still such a parameter and `method` is the same.
+  /// Keeps the choice if its parameter still exists and `method` is unchanged.
   void setMethod(const QString& method, const QString& title,
                  const std::vector<Parameter>& parameters);
-  /// What Run would do, or why it cannot be run.
+  /// Describes the sweep that Run starts, or why it cannot.
   void setPlan(const QString& plan, bool can_run);
   void setRunning(bool is_running);
-  /// How many light fields are open: with several, a sweep can be over all of them.
+  /// Number of open light fields; with several, a sweep can cover all.
   void setSceneCount(int count);
-  /// The sweeps that are there, and which of them is shown: −1 = none.
+  /// Existing sweeps and the shown one; −1 = none.
   void setSweeps(const QStringList& titles, const std::vector<quint64>& ids, int shown);
-  /// Of which light fields the plots can be; empty = there is no choice. The place that was chosen
-  /// stays if the names are the same.
+  /// Light fields to plot; empty = no choice. Keeps the chosen index if the names are unchanged.
   void setScenes(const QStringList& names);
-  /// Names of what can be plotted; those that are shown stay if they are among them, else `first`
-  /// and `second` are shown.
+  /// Names of measures. Keeps the shown ones if they remain, else shows `first` and `second`.
   void setMeasures(const QStringList& names, int first, int second);
-  /// A null text enables the plots; else it is said in their place.
+  /// A null text enables the plots; else it replaces them.
   void setPlots(const Plot& upper, const Plot& lower, const QString& instead = {});
-  /// The point that is shown, where it is in the upper and the lower plot, in words, and what can
-  /// be done with it.
+  /// The chosen point: its places in both plots, its description, and its actions.
   void setChosen(std::array<std::optional<PlotPlace>, 2> places, const QString& text, bool can_keep,
                  bool can_use);
   void setExportable(bool can_export);
 
-  /// The first parameter and the second.
+  /// First and second parameter.
   [[nodiscard]] std::array<Choice, 2> choices() const;
-  /// Places among the names of the upper and the lower plot.
+  /// Indices of the measures of upper and lower plot.
   [[nodiscard]] std::array<int, 2> measures() const;
   [[nodiscard]] bool isOnAllScenes() const;
-  /// Place among the names of `setScenes`; 0 without a choice.
+  /// Index among the names of `setScenes`; 0 without a choice.
   [[nodiscard]] int scene() const;
   [[nodiscard]] bool isExportable() const;
 
  signals:
-  /// What is asked for changed.
+  /// The user edited the plan.
   void planEdited();
   void runRequested();
   void cancelRequested();

@@ -33,7 +33,7 @@ TonePanel::TonePanel(QWidget* parent) : QWidget(parent) {
       1, {"tone.gamma", tr("Gamma"), tr("More than 1 lifts the shadows"), render::kGammaRange, {}});
   black_ = addRow(2, {"tone.black",
                       tr("Black point"),
-                      tr("What is darker is shown as black; 1 is white"),
+                      tr("Darker values are shown as black; 1 is white"),
                       render::kBlackRange,
                       {}});
   addButtons();
@@ -90,10 +90,10 @@ void TonePanel::addButtons() {
 }
 
 void TonePanel::addReach() {
-  auto* reach = new QLabel(tr("Brightens what is shown: views, EPIs, tiles, the points of the 3D "
-                              "tab, and pictures and movies, which are saved as shown. Results, "
-                              "labels, PLY files and converted light fields keep the samples."),
-                           this);
+  auto* reach = new QLabel(
+      tr("Brightens views, EPIs, tiles, the points of the 3D tab, and saved pictures and movies. "
+         "Results, labels, PLY files and converted light fields keep the samples."),
+      this);
   reach->setObjectName("tone.reach");
   reach->setTextFormat(Qt::PlainText);
   reach->setWordWrap(true);

@@ -13,7 +13,7 @@ namespace episcope {
 
 class NumberSpin;
 
-/// Exposure, gamma and black point of the shown views. Setters never emit.
+/// Exposure, gamma and black point of displayed views. Setters never emit.
 class TonePanel : public QWidget {
   Q_OBJECT
 
@@ -28,7 +28,7 @@ class TonePanel : public QWidget {
   void automaticRequested();
 
  private:
-  /// A number with a slider beside its field.
+  /// A number with slider and field.
   struct Row {
     QSlider* slider = nullptr;
     NumberSpin* field = nullptr;
@@ -43,7 +43,7 @@ class TonePanel : public QWidget {
 
   Row addRow(int place, const Quality& quality);
   void addButtons();
-  /// Says what is brightened and what is not.
+  /// Adds the text on what brightness affects.
   void addReach();
   void showRow(const Row& row, double value);
 

@@ -20,11 +20,11 @@ class PartsLabel;
 struct EstimateReading {
   QString name;
   std::optional<double> disparity_px;  ///< None = invalid there.
-  /// Where two surfaces are seen: what lies behind the first.
+  /// Disparity of the second surface, where two are visible.
   std::optional<double> background_px = {};
 };
 
-/// All that is known about one pixel.
+/// Everything known about one pixel.
 struct PixelReading {
   PixelIndex pixel;
   QString samples;  ///< As stored, e.g. "120 88 40"; colour of the swatch beside it:
@@ -32,11 +32,11 @@ struct PixelReading {
   bool has_truth = false;          ///< The scene has truth for this view;
   std::optional<double> truth_px;  ///< none = invalid at this pixel.
   std::vector<EstimateReading> estimates;
-  std::optional<double> background_truth_px = {};  ///< Where two surfaces are seen: the second.
+  std::optional<double> background_truth_px = {};  ///< Second surface, where two are visible.
 };
 
 /// The line at the bottom: pixel, colour, truth, every estimate with its difference (estimate −
-/// truth); at the right end a short state ("1 job · ready").
+/// truth), and on the right a short state ("1 job · ready").
 class ValueBar : public QWidget {
   Q_OBJECT
 

@@ -21,32 +21,31 @@ namespace episcope {
 
 class ViewGridCells;
 
-/// The camera grid as v × u thumbnails with the current view marked, and a play button. Any grid
-/// from 1×1 up is usable: cells scale with the panel, down to plain squares. Keys are left to the
-/// host.
+/// The camera grid as v × u thumbnails with the current view marked, and a play button. Works for
+/// any grid from 1×1: cells scale with the panel, down to plain squares. Keys are the host's.
 class ViewGrid : public QWidget {
   Q_OBJECT
 
  public:
   explicit ViewGrid(QWidget* parent = nullptr);
 
-  /// A new light field: no thumbnails yet, centre view current, playing stops.
+  /// Starts a light field: no thumbnails, centre view current, playing stops.
   void setGrid(GridShape grid);
   void setCurrent(ViewIndex view);
-  /// A light field is being read: as long as there is no grid, that is said in its place.
+  /// Tells that a light field is being read, while there is no grid.
   void setOpening(bool is_opening);
   /// Ignored for a view outside the grid.
   void setThumbnail(ViewIndex view, const QImage& thumbnail);
-  /// Marks views that are painted.
+  /// Marks painted views.
   void setPainted(const std::vector<ViewIndex>& views);
 
   [[nodiscard]] GridShape grid() const;
   [[nodiscard]] ViewIndex current() const;
   [[nodiscard]] bool isPlaying() const { return timer_.isActive(); }
   [[nodiscard]] ViewGridCells* cells() const { return cells_; }
-  /// Size in device pixels that a thumbnail need not exceed.
+  /// Largest useful size of a thumbnail, in device pixels.
   [[nodiscard]] QSize thumbnailSize() const;
-  /// The button that plays shows the tool tip of this command, with its key.
+  /// Keeps the play button's tool tip equal to its command's, including the key.
   void followTip(const QAction* play);
 
  public slots:
@@ -54,7 +53,7 @@ class ViewGrid : public QWidget {
   void setPlayPath(episcope::render::CameraPath path);
 
  signals:
-  /// The user, or the player, wants to see this view.
+  /// The user or the player requests this view.
   void viewSelected(episcope::ViewIndex view);
   void playingChanged(bool playing);
 
@@ -71,7 +70,7 @@ class ViewGrid : public QWidget {
   std::size_t place_ = 0;  ///< In `loop_`.
 };
 
-/// The painted cells of a ViewGrid: input and painting, nothing of playing.
+/// The cells of a ViewGrid: input and painting, without playing.
 class ViewGridCells : public QWidget {
   Q_OBJECT
 
@@ -82,12 +81,12 @@ class ViewGridCells : public QWidget {
   void setCurrent(ViewIndex view);
   void setOpening(bool is_opening);
   void setThumbnail(ViewIndex view, const QImage& thumbnail);
-  /// Marks views that are painted.
+  /// Marks painted views.
   void setPainted(const std::vector<ViewIndex>& views);
 
   [[nodiscard]] GridShape grid() const { return grid_; }
   [[nodiscard]] ViewIndex current() const { return current_; }
-  /// Place of a cell in widget coordinates.
+  /// Area of a cell in widget coordinates.
   [[nodiscard]] QRectF cellRect(ViewIndex view) const;
   [[nodiscard]] std::optional<ViewIndex> viewAt(QPointF position) const;
 

@@ -10,9 +10,9 @@ namespace episcope::cli {
 
 /// The page of the manual of `episcope-cli`, in troff.
 [[nodiscard]] std::string program_man_page(const std::vector<VerbPage>& verbs);
-/// That of one verb, `episcope-cli-estimate`.
+/// Page of one verb, `episcope-cli-estimate`.
 [[nodiscard]] std::string verb_man_page(const VerbPage& verb);
-/// That of the window, around what its `--help` prints.
+/// Page of the window, around what its `--help` prints.
 [[nodiscard]] std::string window_man_page(const std::string& help);
 
 }  // namespace episcope::cli

@@ -125,8 +125,8 @@ OptionValue<std::vector<Estimator>> methods_value() {
 ParameterDescription profile_description() {
   ParameterDescription profile = profile_schema().description(kProfileKey);
   profile.help =
-      "Defaults of every method: tuned, the best known; paper, the method as published. With "
-      "--search, paper is the experiment of the paper";
+      "Defaults of every method: tuned (the best known) or paper (as published). With --search, "
+      "paper repeats the experiment of the paper";
   return profile;
 }
 
@@ -143,7 +143,7 @@ std::vector<ParameterDescription> with_defaults(std::vector<ParameterDescription
   return parameters;
 }
 
-/// Every set of features with every regulariser.
+/// Every set of features with every regularizer.
 std::vector<LabelerParameters> label_ways(const BenchmarkRequest& request) {
   std::vector<LabelerParameters> ways;
   for (const FeatureSet features : request.features.value_or(all_values<FeatureSet>())) {
@@ -164,16 +164,15 @@ void declare_what(Arguments& parser, BenchmarkRequest& request) {
   parser.option("--methods", request.methods, methods_value(),
                 "Ids of estimators, separated by commas, or all");
   parser.flag("--labels", request.has_labels,
-              "Label all views from the strokes of each scene, by every set of features and "
-              "regulariser; instead of methods, unless --methods is given");
+              "Label all views from the scribbles of each scene, with every set of features and "
+              "regularizer; replaces methods unless --methods is given");
   parser.option("--features", request.features, values_value<FeatureSet>("NAME,..."),
                 "With --labels: sets of features, separated by commas (default all)");
   parser.option("--regularizers", request.regularizers, values_value<Regularizer>("NAME,..."),
-                "With --labels: regularisers, separated by commas (default all)");
-  parser.option(
-      "--scribbles", request.scribbles, text_value("DIR"),
-      "With --labels: folder of scribbles, NAME.h5 for the scene NAME, which replace those "
-      "next to it");
+                "With --labels: regularizers, separated by commas (default all)");
+  parser.option("--scribbles", request.scribbles, text_value("DIR"),
+                "With --labels: folder of scribbles, NAME.h5 for scene NAME; they replace those "
+                "next to the scene");
   request.profile.declare(parser, {profile_description()});
   parser.flag("--search", request.has_search,
               "Also search for the best parameters, of each scene and of all scenes together");
@@ -182,7 +181,7 @@ void declare_what(Arguments& parser, BenchmarkRequest& request) {
   ParameterDescription views = run_schema().description("views");
   views.help = "Views to estimate for the tables; all if the method can";
   ParameterDescription device = run_schema().description("device");
-  device.help = "Device to compute on; methods that cannot stay on the CPU";
+  device.help = "Device to compute on; methods that cannot use it run on the CPU";
   request.job.run.declare(parser, {views, device});
   parser.flag("--json", request.is_json, "Print one JSON object instead of tables");
 }
@@ -199,20 +198,19 @@ OptionValue<SlurmRequest> slurm_value() {
 void declare_tasks(Arguments& parser, BenchmarkRequest& request) {
   parser.heading("Many machines");
   parser.option("--slurm", request.slurm, slurm_value(),
-                "Submit all tasks that are not finished as a job array to Slurm, and a job that "
-                "then collects; OPTIONS are those of sbatch, as one text");
-  parser.option(
-      "--plan", request.plan_file, text_value("FILE"),
-      "Only divide the work into tasks, and write the plan to FILE and the output folder");
+                "Submit all unfinished tasks to Slurm as a job array, followed by a job that "
+                "collects; OPTIONS for sbatch are one text");
+  parser.option("--plan", request.plan_file, text_value("FILE"),
+                "Only divide the work into tasks; write the plan to FILE and to the output folder");
   parser.option("--point", request.point, integer_value("I", 0, kMaxTask),
-                "Run one task of the plan, from 0 on; INPUT and methods may be left out");
+                "Run one task of the plan, counted from 0; INPUT and methods may be left out");
   parser.flag("--collect", request.collects,
-              "Make the tables of what the tasks have finished; likewise");
+              "Make the tables of all finished tasks; INPUT and methods may be left out");
   parser.flag("--status", request.wants_status,
-              "Count finished, failed and missing tasks; likewise");
+              "Count finished, failed and missing tasks; INPUT and methods may be left out");
   parser.option("--task-seconds", request.task_seconds, real_value("SECONDS", 0, kMaxTaskSeconds),
-                "With --slurm or --plan: put runs together until a task is estimated to take so "
-                "long; 0: each run is a task (default 60)");
+                "With --slurm or --plan: combine runs until a task is estimated to take this long; "
+                "0 = one run per task (default 60)");
   parser.exclude_each_other({"--slurm", "--plan", "--point", "--collect", "--status"});
 }
 
@@ -232,8 +230,8 @@ void check(const BenchmarkRequest& request) {
   }
   if (request.methods || request.has_labels || request.has_search || !request.submissions.empty()) {
     throw UsageError(
-        "benchmark: without INPUT all is taken from the plan; leave out what to run, or name INPUT "
-        "as well");
+        "benchmark: without INPUT the plan says what to run; leave out methods and labels, or name "
+        "INPUT as well");
   }
 }
 
@@ -241,10 +239,10 @@ void check(const BenchmarkRequest& request) {
 bool parse_benchmark(const VerbArguments& arguments, BenchmarkRequest& request) {
   Arguments parser(
       "benchmark",
-      {"Runs methods on scenes, evaluates the centre view by both protocols, and writes ranked\n"
+      {"Runs methods on scenes, evaluates the center view by both protocols, and writes ranked\n"
        "tables (HTML, CSV, LaTeX, JSON), pictures and maps. Finished runs are kept: the same\n"
        "command resumes where it was stopped. The exit code is 1 if anything failed; the\n"
-       "tables are written nevertheless.",
+       "tables are written anyway.",
        "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search\n"
        "episcope-cli benchmark demo:edge demo:bars --labels --features image -o tables\n"
        "episcope-cli benchmark scenes --methods all --search -o tables --slurm "

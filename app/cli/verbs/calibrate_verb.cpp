@@ -28,7 +28,7 @@ struct CalibrateRequest {
 bool parse(const VerbArguments& arguments, CalibrateRequest& request) {
   Arguments parser("calibrate",
                    {"Calibrates a camera from photographs of a flat pattern, with OpenCV: focal\n"
-                    "length, centre and distortion of the lens, as YAML that OpenCV reads.\n"
+                    "length, center and distortion of the lens, as YAML that OpenCV reads.\n"
                     "Photographs that do not show the whole pattern sharply, or do not fit, are\n"
                     "named and left out.",
                     "episcope-cli calibrate pattern/*.jpg --pattern 9x6 -o camera.yml\n"
@@ -40,7 +40,7 @@ bool parse(const VerbArguments& arguments, CalibrateRequest& request) {
   parser.option("--kind", request.pattern.kind, choice_of<capture::PatternKind>(),
                 "Kind of pattern (default chessboard)");
   parser.option("--square", request.pattern.square, real_value("LENGTH", 1e-9, 1e9),
-                "Distance of neighbouring points (default 1); the camera does not depend on it");
+                "Distance of neighboring points (default 1); the camera does not depend on it");
   parser.required_option("-o,--output", request.output, text_value("CAMERA.yml"),
                          "Camera to write");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
@@ -83,7 +83,7 @@ void print(const capture::Calibration& calibration, const std::string& output) {
   }
   const capture::LensCamera& camera = calibration.camera;
   std::cout << fmt::format(
-      "{}: focal length {:.2f} × {:.2f} px, centre ({:.2f}, {:.2f}), error {:.3f} px over {} of {} "
+      "{}: focal length {:.2f} × {:.2f} px, center ({:.2f}, {:.2f}), error {:.3f} px over {} of {} "
       "photographs\n",
       output, camera.focal_x, camera.focal_y, camera.center_x, camera.center_y, camera.rms, used,
       calibration.photographs.size());

@@ -34,21 +34,20 @@ std::vector<std::string> writer_ids() {
 bool parse(const VerbArguments& arguments, ConvertRequest& request) {
   Arguments parser(
       "convert",
-      {"Writes a light field or a result in another form, by the suffix of OUT:\n"
-       ".h5 (archive form), .npy, .npz, .mat (LFToolbox), .png (lenslets, ESLF), or a\n"
-       "folder (benchmark form), or in the form that --to names; .pfm, .tiff, .ply, of\n"
-       "a RESULT also .npy (disparity of the centre view: of a RESULT, or the truth of\n"
-       "an INPUT). Views, truth, labels, masks and camera are kept as far as the form\n"
-       "can hold them; what it cannot is said. A RESULT becomes the truth of its light\n"
-       "field. Of a folder that holds light fields, each is written into the folder OUT,\n"
-       "named after it.",
+      {"Converts a light field or a result to another form, chosen by the suffix of OUT or by\n"
+       "--to. Light fields: .h5 (archive form), .npy, .npz, .mat (LFToolbox), .png (lenslets,\n"
+       "ESLF) or a folder (benchmark form). Disparity of the center view: .pfm, .tiff, .ply,\n"
+       "and .npy for a RESULT; an INPUT gives its truth. Views, truth, labels, masks and\n"
+       "camera are kept where the form can hold them; notes name what it cannot hold.\n"
+       "A RESULT becomes the truth of its light field. Light fields in a folder are converted\n"
+       "one by one into the folder OUT and keep their names.",
        "episcope-cli convert demo demo_folder/\n"
        "  episcope-cli convert demo views/ --to grid\n"
        "  episcope-cli convert demo.h5 demo.ply"});
   parser.positional("INPUT", request.input, "A light field or a result");
   parser.positional("OUT", request.output, "File or folder to write");
   parser.option("--to", request.form, one_of(writer_ids()),
-                "Form of the light field; by default told by the suffix of OUT");
+                "Form of the light field; by default chosen by the suffix of OUT");
   parser.option("--truth", request.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one named in its file");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
@@ -126,7 +125,7 @@ ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
   return subject;
 }
 
-/// The centre view of the map, or the only one there is.
+/// The center view of the map, or the only one there is.
 DisparityView map_of(const ConvertSubject& subject, const std::string& name) {
   const DisparityField& field = subject.field();
   if (field.empty()) throw InvalidInput(name + " has no disparity to convert");

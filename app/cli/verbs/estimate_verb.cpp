@@ -68,33 +68,31 @@ void require_method(const VerbArguments& arguments, const std::vector<Estimator>
 /// With the parameters of `estimator` among the options, if it is known.
 bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
               EstimateArguments& request) {
-  Arguments parser("estimate",
-                   {"Estimates disparity and writes a result file. METHOD is an id listed by\n"
-                    "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its "
-                    "parameters.\n"
-                    "Of several light fields, or of a folder that holds some, each gets a result\n"
-                    "file in the folder DIR, named after it; one that fails does not stop the "
-                    "others.",
-                    "episcope-cli estimate epi_l demo -o demo.h5 --views center\n"
-                    "  episcope-cli estimate epi_l demo:edge demo:bars -o results\n"
-                    "  episcope-cli estimate plane_pm benchmark2016 -o ours --submission"});
+  Arguments parser(
+      "estimate",
+      {"Estimates disparity and writes a result file. METHOD is an id listed by\n"
+       "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its parameters.\n"
+       "Several light fields, or those in a folder, get a result file each in the folder DIR,\n"
+       "named after the light field; one that fails does not stop the others.",
+       "episcope-cli estimate epi_l demo -o demo.h5 --views center\n"
+       "  episcope-cli estimate epi_l demo:edge demo:bars -o results\n"
+       "  episcope-cli estimate plane_pm benchmark2016 -o ours --submission"});
   parser.positional("METHOD", request.method, "Id of the estimator");
   parser.positionals("INPUT", request.inputs, "The light field, or several");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5|DIR"),
-                         "Result file to write; of several light fields, the folder for theirs");
+                         "Result file to write; for several light fields, a folder");
   parser.flag("--frames", request.frames, Frames::All,
               "Estimate all frames of a sequence, one result file each");
   parser.flag("--submission", request.is_submission,
               "Write a submission to the 2016 benchmark: DIR/disp_maps, DIR/runtimes");
   const Schema<RunOptions> run = run_schema();
   request.job.run.declare(parser, {run.description("views"), run.description("device")});
-  parser.option(
-      "--memory", request.memory, bytes_value("SIZE"),
-      "Memory that program, light field and method may take, such as 4G; by default two "
-      "thirds of what is free. Within it, epi_l, epi_s, epi_c, epi_two_layer, the local and "
-      "denoised stereo methods and plane_pm write their maps block by block to OUT.h5.partial, and "
-      "the same command continues what was interrupted; other methods run at once and put on disk "
-      "what does not fit");
+  parser.option("--memory", request.memory, bytes_value("SIZE"),
+                "Memory for program, light field and method together, such as 4G; by default two "
+                "thirds of what is free. Within it, epi_l, epi_s, epi_c, epi_two_layer, the local "
+                "and denoised stereo methods and plane_pm write their maps block by block to "
+                "OUT.h5.partial, and the same command continues an interrupted run; other methods "
+                "run at once and put on disk what does not fit");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_job_options(parser, request.job);
   declare_read_options(parser, request.read);
@@ -126,7 +124,7 @@ ViewSelection selected_views(const EstimateArguments& request) {
   if (request.is_submission) {
     if (request.job.run.is_given("views") &&
         request.job.run_options().views != ViewSelection::Center) {
-      throw UsageError("a submission holds centre views; leave out --views");
+      throw UsageError("a submission holds center views; leave out --views");
     }
     return ViewSelection::Center;
   }
@@ -149,7 +147,7 @@ struct CoveredViews {
 };
 CoveredViews covered_views(const MapGeometry& maps, ViewIndex center) {
   if (maps.grid.count() > 1) return {name_of(ViewSelection::All), "all views"};
-  if (maps.first == center) return {name_of(ViewSelection::Center), "the centre view"};
+  if (maps.first == center) return {name_of(ViewSelection::Center), "the center view"};
   return {view_text(maps.first), "view " + view_text(maps.first)};
 }
 
@@ -281,7 +279,7 @@ class Runner {
 
   void submit(const Task& task, const Estimate& estimate, ViewIndex center) {
     if (!estimate.contains(center)) {
-      throw InvalidInput("a submission holds centre views, but view " +
+      throw InvalidInput("a submission holds center views, but view " +
                          view_text(estimate.field.disparity.first()) + " was estimated");
     }
     const DisparityView map = estimate.field.view(center);

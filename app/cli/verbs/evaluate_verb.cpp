@@ -3,6 +3,7 @@
 #include "app/cli/input.h"
 #include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
+#include "app/session/known_files.h"
 #include "app/session/picture.h"
 #include "app/session/result_files.h"
 #include "engine/core/text.h"
@@ -97,10 +98,10 @@ std::vector<std::filesystem::path> error_map_paths(const EvaluateRequest& reques
     const std::filesystem::path result = std::filesystem::path(file).lexically_normal();
     const std::string stem =
         (result.has_filename() ? result.stem() : result.parent_path().stem()).string();
-    std::string name = path.stem().string() + "-" + stem;
-    for (int copy = 2; !taken.insert(name).second; ++copy) {
-      name = path.stem().string() + "-" + stem + "-" + std::to_string(copy);
-    }
+    const std::string name =
+        unique_name(path.stem().string() + "-" + stem, "-",
+                    [&](const std::string& each) { return taken.contains(each); });
+    taken.insert(name);
     paths.push_back(path.parent_path() / (name + path.extension().string()));
   }
   return paths;

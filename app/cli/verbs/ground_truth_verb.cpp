@@ -33,8 +33,8 @@ struct GroundTruthRequest {
 bool parse(const VerbArguments& arguments, GroundTruthRequest& request) {
   Arguments parser(
       "ground-truth",
-      {"Adds the exact depth of meshes to a light field, for all views: in each pixel that of\n"
-       "the polygon with the largest visible area. Silhouettes, discontinuities and holes are\n"
+      {"Adds the exact depth of meshes to all views of a light field. Each pixel takes the depth\n"
+       "of the polygon with the largest visible area. Silhouettes, discontinuities and holes are\n"
        "masked; labels tell the meshes apart.",
        "episcope-cli ground-truth raw.h5 --pose head.json --pose box.json -o lf.h5"});
   parser.positional("INPUT", request.input, "A light field, as rectify writes it");
@@ -42,11 +42,11 @@ bool parse(const VerbArguments& arguments, GroundTruthRequest& request) {
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "Light field to write, with GT_DEPTH, its mask and labels");
   parser.option("--step", request.step, real_value("LENGTH", 1e-9, 1e9),
-                "Step of the grid in the unit of the mesh (default: as the light field tells)");
+                "Step of the grid in the unit of the mesh (default: from the light field)");
   parser.option("--jump", request.depth.jump_px, real_value("PX", 1e-6, 1e6),
-                "Least jump of disparity that is masked (default 0.1)");
+                "Smallest jump of disparity that is masked, in px (default 0.1)");
   parser.flag("--both-sides", request.depth.both_sides, true,
-              "Faces are not oriented: what is seen from inside counts too");
+              "Show both sides of faces, for meshes whose faces are not oriented");
   parser.flag("--json", request.is_json, "Print one JSON object instead of text");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
   request.read.needs_truth = false;

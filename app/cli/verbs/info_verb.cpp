@@ -6,11 +6,12 @@
 #include "app/session/scene_summary.h"
 #include "engine/core/parameter.h"
 #include "engine/core/scene.h"
+#include "engine/core/text.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <iostream>
-#include <sstream>
 #include <string>
 
 namespace episcope::cli {
@@ -122,93 +123,77 @@ void print_line(const std::string& label, const std::string& text) {
 }
 
 std::string ids_text(const std::vector<int>& ids) {
-  std::string text;
-  for (const int id : ids) text += (text.empty() ? "" : ", ") + std::to_string(id);
-  return text;
+  return joined(ids, ", ", [](int id) { return std::to_string(id); });
+}
+
+std::string range_text(const Interval& range) {
+  return fmt::format("{:.4g} … {:.4g} px", range.min, range.max);
+}
+
+/// "(how it was checked)" behind what was found.
+std::string checked_text(const std::string& found, const std::string& check) {
+  return check.empty() ? found : found + " (" + check + ")";
+}
+
+void print_shape(const LightField& light_field, const SceneSummary& summary) {
+  print_line("shape",
+             fmt::format("{}×{} views of {}×{} px, {}, {}, {:.3g} MiB", light_field.grid().v,
+                         light_field.grid().u, light_field.width(), light_field.height(),
+                         light_field.channels() == 3 ? "RGB" : "gray", summary.sample_type,
+                         static_cast<double>(light_field.byte_size()) / (1 << 20)));
+}
+
+void print_valid(const LightField& light_field) {
+  if (light_field.valid().empty()) return;
+  print_line("valid", fmt::format("{:.4g} % of the pixels; the others are dark or empty",
+                                  valid_percent(light_field)));
+}
+
+void print_camera(const LightFieldInfo& info) {
+  const CameraGrid& camera = info.camera;
+  if (!camera.is_known()) return print_line("camera", "not known: disparity has no depth");
+  const std::string distance =
+      camera.cam_distance ? fmt::format(", d = 0 at Z = {:g}", *camera.cam_distance) : "";
+  print_line("camera", fmt::format("baseline {:g}, focal length {:g}, shift {:g} px{}",
+                                   camera.baseline, camera.focal_length, camera.shift, distance));
 }
 
 void print_positions(const LightFieldInfo& info) {
   if (info.positions.empty()) return;
   const CameraPosition first = info.positions.front();
   const CameraPosition last = info.positions.back();
-  std::ostringstream text;
-  text << "x " << first.x << " … " << last.x << ", y " << first.y << " … " << last.y << ' '
-       << (info.position_unit.empty() ? "(unit not known)" : info.position_unit)
-       << ", first to last view";
-  print_line("positions", text.str());
+  print_line(
+      "positions",
+      fmt::format("x {:g} … {:g}, y {:g} … {:g} {}, first to last view", first.x, last.x, first.y,
+                  last.y, info.position_unit.empty() ? "(unit not known)" : info.position_unit));
 }
 
-void print_valid(const LightField& light_field) {
-  if (light_field.valid().empty()) return;
-  std::ostringstream text;
-  text.precision(4);
-  text << valid_percent(light_field) << " % of the pixels; the others are dark or empty";
-  print_line("valid", text.str());
-}
-
-void print_shape(const LightField& light_field, const SceneSummary& summary) {
-  std::ostringstream shape;
-  shape.precision(3);
-  shape << light_field.grid().v << "×" << light_field.grid().u << " views of "
-        << light_field.width() << "×" << light_field.height() << " px, "
-        << (light_field.channels() == 3 ? "RGB" : "grey") << ", " << summary.sample_type << ", "
-        << static_cast<double>(light_field.byte_size()) / (1 << 20) << " MiB";
-  print_line("shape", shape.str());
-}
-
-void print_camera(const LightFieldInfo& info) {
-  std::ostringstream camera;
-  if (!info.camera.is_known()) {
-    camera << "not known: disparity has no depth";
-  } else {
-    camera << "baseline " << info.camera.baseline << ", focal length " << info.camera.focal_length
-           << ", shift " << info.camera.shift << " px";
-    if (info.camera.cam_distance) camera << ", d = 0 at Z = " << *info.camera.cam_distance;
-  }
-  print_line("camera", camera.str());
-}
-
-std::string range_text(const Interval& range) {
-  std::ostringstream text;
-  text.precision(4);
-  text << range.min << " … " << range.max << " px";
-  return text.str();
+void print_true_disparity(const SceneSummary::Truth& truth) {
+  print_line(
+      "truth",
+      fmt::format("disparity of {} view{}, {:.4g} % of the pixels, {} in the center view{}",
+                  truth.views, truth.views == "all" ? "s" : "", truth.valid_percent,
+                  range_text(truth.center),
+                  truth.all == truth.center ? "" : ", " + range_text(truth.all) + " in all"));
 }
 
 void print_truth(const Scene& scene, const SceneSummary& summary) {
   if (const auto& promised = scene.light_field->info().disparity_range) {
     print_line("disparity", range_text(*promised) + ", as the files say");
   }
-  if (summary.truth) {
-    std::ostringstream valid;
-    valid.precision(4);
-    valid << summary.truth->valid_percent << " % of the pixels";
-    print_line("truth", "disparity of " + summary.truth->views + " view" +
-                            (summary.truth->views == "all" ? "s" : "") + ", " + valid.str() + ", " +
-                            range_text(summary.truth->center) + " in the centre view" +
-                            (summary.truth->all == summary.truth->center
-                                 ? ""
-                                 : ", " + range_text(summary.truth->all) + " in all"));
-  } else if (!summary.has_layers) {
-    print_line("truth", "none");
-  }
+  if (summary.truth) print_true_disparity(*summary.truth);
+  if (!summary.truth && !summary.has_layers) print_line("truth", "none");
   if (summary.has_layers) print_line("truth", "two layers: foreground and background");
   if (!summary.label_ids.empty()) {
     print_line("labels", ids_text(summary.label_ids) + " in " + summary.label_views + " view" +
                              (summary.label_views == "all" ? "s" : ""));
   }
   if (summary.painted_percent > 0) {
-    std::ostringstream painted;
-    painted.precision(3);
-    painted << summary.painted_percent << " % of view " << summary.painted_views << ", labels "
-            << ids_text(summary.scribble_ids);
-    print_line("scribbles", painted.str());
+    print_line("scribbles", fmt::format("{:.3g} % of view {}, labels {}", summary.painted_percent,
+                                        summary.painted_views, ids_text(summary.scribble_ids)));
   }
-  std::string regions;
-  for (const auto& [name, mask] : scene.truth->regions) {
-    regions += (regions.empty() ? "" : ", ") + name;
-  }
-  print_line("regions", regions);
+  print_line("regions",
+             joined(scene.truth->regions, ", ", [](const auto& each) { return each.first; }));
 }
 
 void print_scene(const Scene& scene) {
@@ -233,14 +218,9 @@ void print_scene(const Scene& scene) {
   if (const double focus_px = scene.convention.focus_px; focus_px != 0) {
     print_line("focus", "a plane of " + to_text(focus_px) + " px was baked in: it has 0 now");
   }
-  print_line(
-      "order",
-      order_text(scene.convention) +
-          (scene.convention.order_check.empty() ? "" : " (" + scene.convention.order_check + ")"));
-  print_line(
-      "sign",
-      sign_text(scene.convention) +
-          (scene.convention.sign_check.empty() ? "" : " (" + scene.convention.sign_check + ")"));
+  const ConventionReport& how = scene.convention;
+  print_line("order", checked_text(order_text(how), how.order_check));
+  print_line("sign", checked_text(sign_text(how), how.sign_check));
   print_line("units", units_text(scene.convention));
   print_line("files", files_text(scene.convention));
   for (const auto& warning : scene.convention.warnings) print_line("warning", warning);
@@ -253,10 +233,10 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
   bool is_json = false;
   JobOptions job_options;
   ReadOptions read;
-  Arguments parser("info",
-                   {"Describes a light field: what it contains, how it was read and how that "
-                    "was checked.",
-                    "episcope-cli info demo --json"});
+  Arguments parser(
+      "info",
+      {"Describes a light field: what it contains, how it was read, and how that was checked.",
+       "episcope-cli info demo --json"});
   parser.positional("INPUT", input, "The light field");
   parser.flag("--json", is_json, "Print one JSON object instead of lines");
   if (!parse_reading(parser, arguments, job_options, read)) return;

@@ -46,14 +46,14 @@ bool parse(const VerbArguments& arguments, LabelRequest& request) {
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "File of labels to write");
   parser.option("--scribbles", request.scribbles, text_value("LABELS.h5"),
-                "File of scribbles, a picture of label numbers (0 = unpainted) of the centre view, "
+                "File of scribbles, a picture of label numbers (0 = unpainted) of the center view, "
                 "or a folder of scribbles_VV_UU.png; by default the file next to INPUT");
   parser.option(
       "--disparity", request.disparity, text_value("RESULT.h5"),
       std::string("Disparity of all views; by default ") + kLabelingEstimator + " estimates it");
   parser.option("--probabilities", request.given, text_value("FILE.h5"),
-                "Label probabilities of all views to use instead of learning them, as the archive "
-                "stores them");
+                "Label probabilities of all views, in the form of the archive, to use instead of "
+                "learning them");
   parser.option("--write-archive", request.archive, text_value("DIR"),
                 "Also write edge_weights.h5 and the label probabilities of all sets of features "
                 "into this folder, under the archive's names");
@@ -182,7 +182,7 @@ void print_text_answer(const LabelRequest& request, const Labeling& labeling,
   print("  mean IoU of labels      ", scores.all_views.all.mean_overlap());
   print("  near boundaries         ", scores.all_views.boundaries.share());
   print("  IoU of thin labels      ", scores.all_views.thin_overlap());
-  print("accuracy of the centre    ", scores.view.all.share());
+  print("accuracy of the center    ", scores.view.all.share());
   for (const std::int32_t id : labeling.probabilities.ids) {
     if (const auto of_label = scores.view.all.share(id)) {
       std::cout << "  of label " << std::setw(3) << id << "            " << 100 * *of_label

@@ -30,11 +30,12 @@ struct ListRequest {
 };
 
 bool parse(const VerbArguments& arguments, ListRequest& request) {
-  Arguments parser("list",
-                   {"Lists every light field in folders and below: form, views, size, truth,\n"
-                    "labels, and results beside it. Reads headers only, and remembers them.",
-                    "episcope-cli list ~/light_fields\n"
-                    "  episcope-cli list training test --json"});
+  Arguments parser(
+      "list",
+      {"Lists all light fields in and below folders: form, views, size, truth, labels, and\n"
+       "the results next to them. Reads headers only, and remembers them.",
+       "episcope-cli list ~/light_fields\n"
+       "  episcope-cli list training test --json"});
   parser.positionals("FOLDER", request.folders, "Folders to search");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
   declare_job_options(parser, request.job);
@@ -70,7 +71,7 @@ std::string views_text(const io::SceneProbe& probe) {
 std::string size_text(const io::SceneProbe& probe) {
   if (probe.width == 0) return "?";
   std::string text = product(probe.width, probe.height);
-  if (probe.channels > 0) text += probe.channels == 3 ? " RGB" : " grey";
+  if (probe.channels > 0) text += probe.channels == 3 ? " RGB" : " gray";
   if (probe.sample_type) text += std::string(" ") + sample_type_name(*probe.sample_type);
   return text;
 }
@@ -85,7 +86,7 @@ std::vector<std::string> row_of(const io::CollectionEntry& entry) {
           size_text(entry.probe),
           text_or_none(entry.probe.truth),
           text_or_none(entry.probe.labels),
-          text_or_none(joined(entry.results, ", ", &io::ResultBeside::method)),
+          text_or_none(joined(entry.results, ", ", &io::ListedResult::method)),
           entry.path.string()};
 }
 
@@ -124,9 +125,9 @@ std::string time_text(std::int64_t seconds) {
   return text;
 }
 
-Json results_json(const std::vector<io::ResultBeside>& results) {
+Json results_json(const std::vector<io::ListedResult>& results) {
   Json array = Json::array();
-  for (const io::ResultBeside& result : results) {
+  for (const io::ListedResult& result : results) {
     array.push_back(Json::object({{"file", result.path.string()}, {"method", result.method}}));
   }
   return array;

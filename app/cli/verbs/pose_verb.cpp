@@ -29,10 +29,10 @@ struct PoseRequest {
 bool parse(const VerbArguments& arguments, PoseRequest& request) {
   Arguments parser(
       "pose",
-      {"Finds where a mesh lies before the camera, from points of the centre view and\n"
-       "the same points of the mesh: at least 4 pairs, best 10. Wrong picks are named.\n"
-       "A line of the pairs is name,x_px,y_px,X,Y,Z; with ,1 behind it the pair is locked,\n"
-       "that is, no wrong pick.",
+      {"Finds the pose of a mesh before the camera from pairs of points, in the center view\n"
+       "and on the mesh: at least 4 pairs, better 10. Wrong picks are named. Each line of\n"
+       "PAIRS.csv is name,x_px,y_px,X,Y,Z; a trailing ,1 locks a pair, which then never counts\n"
+       "as a wrong pick.",
        "episcope-cli pose lf.h5 --mesh scan.ply --pairs pairs.csv -o pose.json"});
   parser.positional("INPUT", request.input, "A light field, as rectify writes it");
   parser.required_option("--mesh", request.mesh, text_value("MESH"), "Mesh as PLY, OBJ or STL");
@@ -97,8 +97,8 @@ void run_pose(const VerbArguments& arguments, std::stop_token stop) {
   story.camera = scene.light_field->info().camera;
   if (!story.camera.pinhole) {
     throw IoError(request.input,
-                  "this light field does not tell its pinhole (focal length and centre in px); "
-                  "make it with episcope-cli rectify");
+                  "the pinhole of this light field (focal length and center in px) is not known; "
+                  "make the light field with episcope-cli rectify");
   }
   // Read for its errors alone: a mesh that cannot be used is told now, not by the next step.
   (void)capture::read_mesh(request.mesh, job.progress().part(0.5, 1));

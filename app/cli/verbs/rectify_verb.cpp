@@ -23,7 +23,7 @@ struct RectifyRequest {
   std::string picks;
   std::string pairs;
   std::optional<double> step;
-  bool equalise = false;
+  bool equalize = false;
   bool is_json = false;
   Overwrite overwrite = Overwrite::No;
   JobOptions job;
@@ -33,9 +33,9 @@ struct RectifyRequest {
 bool parse(const VerbArguments& arguments, RectifyRequest& request) {
   Arguments parser(
       "rectify",
-      {"Makes a light field of photographs taken on a grid: without distortion of the lens,\n"
-       "rows and columns aligned, shifted so that the scene is at disparity 0, each sample\n"
-       "interpolated once.",
+      {"Makes a light field of photographs taken on a grid: undistorted, with rows and columns\n"
+       "aligned, and shifted so that the scene lies at disparity 0. Each sample is interpolated\n"
+       "once.",
        "episcope-cli rectify photographs/ --camera camera.yml --step 12 -o lf.h5"});
   parser.positional("FOLDER", request.input, "The photographs, or any light field");
   parser.required_option("--camera", request.camera, text_value("CAMERA.yml"),
@@ -44,12 +44,12 @@ bool parse(const VerbArguments& arguments, RectifyRequest& request) {
                          "Light field to write");
   parser.option("--step", request.step, real_value("LENGTH", 1e-9, 1e9),
                 "Step of the gantry in the unit of the mesh (default 1: depth is in steps)");
-  parser.flag("--even-gain", request.equalise, true,
-              "Divide each view by its gain, as measured against the centre");
+  parser.flag("--even-gain", request.equalize, true,
+              "Divide each view by its gain, as measured against the center");
   parser.option("--picks", request.picks, text_value("PICKS.csv"),
-                "Pairs picked in the photograph of the centre view, to carry over");
+                "Pairs picked in the photograph of the center view, to transfer");
   parser.option("--pairs", request.pairs, text_value("PAIRS.csv"),
-                "Where to write the picks, as pixels of the rectified centre view");
+                "File for the transferred picks, in pixels of the rectified center view");
   parser.flag("--json", request.is_json, "Print one JSON object instead of text");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
   request.read.needs_truth = false;
@@ -85,7 +85,7 @@ void print(const capture::Rectified& rectified, const std::string& output) {
   const auto [low, high] = std::ranges::minmax(rectified.gains);
   std::cout << fmt::format(
       "{}: {}×{} views of {}×{} px, shifted by {:.3f} px per view step\n"
-      "vertical disparity of neighbours (median, 95 %): before {:.3f}, {:.3f} px, after {:.3f}, "
+      "vertical disparity of neighbors (median, 95 %): before {:.3f}, {:.3f} px, after {:.3f}, "
       "{:.3f} px, of {} points\n"
       "the camera was turned by {:.3f}° against the gantry; gains {:.3f} … {:.3f}\n",
       output, field.grid().v, field.grid().u, field.width(), field.height(),
@@ -116,7 +116,7 @@ void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
   Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.2));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
   CaptureWork work{.lens = CaptureLens{.camera = camera},
-                   .rectify = {request.step.value_or(1), request.equalise}};
+                   .rectify = {request.step.value_or(1), request.equalize}};
   work.objects = {{.name = request.picks, .pairs = std::move(picks)}};
   const RectifiedFile made = rectify_to_file({std::move(scene), std::move(work), request.output},
                                              job.progress().part(0.2, 1));

@@ -55,8 +55,8 @@ Interval focus_range(const MovieRequest& request, const LoadedMap& loaded) {
   const Interval known = loaded.scene ? known_disparity_range(*loaded.scene) : Interval{};
   if (known.length() > 0) return known;
   throw InvalidInput(
-      "the disparities of this light field are not known; say with --focus-range A,B from where to "
-      "where the focus moves");
+      "the disparities of this light field are not known; give the range of the focus with "
+      "--focus-range A,B");
 }
 
 void declare_movie_options(Arguments& parser, MovieRequest& request) {
@@ -65,13 +65,13 @@ void declare_movie_options(Arguments& parser, MovieRequest& request) {
                 choice_of<MovieKind>({{MovieKind::Parallax, "parallax"},
                                       {MovieKind::Refocus, "refocus"},
                                       {MovieKind::Flip, "flip"}}),
-                "What changes: the view, the focus plane, or a RESULT and that of --minus in "
+                "What changes: the view, the focus plane, or RESULT and the result of --minus in "
                 "turns; by default the view if OUT is a movie");
   parser.option("--path", request.choice.path,
                 choice_of<CameraPath>({{CameraPath::Circle, "circle"},
                                        {CameraPath::Swing, "swing"},
                                        {CameraPath::Snake, "snake"}}),
-                "How a parallax moves: around the centre, along the row of the centre, or through "
+                "How a parallax moves: around the center, along the row of the center, or through "
                 "all views (default circle)");
   parser.option("--seconds", request.choice.seconds,
                 real_value("S", render::kMovieSeconds.min, render::kMovieSeconds.max),
@@ -80,7 +80,7 @@ void declare_movie_options(Arguments& parser, MovieRequest& request) {
                 integer_value("PIXELS", 0, render::kWidestMovie_px),
                 "Width of the movie; its height follows (default 0: as the picture)");
   parser.option("--focus-range", request.focus, interval_value(),
-                "Where the focus moves; by default over the disparities that are known");
+                "Disparities that the focus passes through; by default all that are known");
 }
 
 /// The movie of a map that was loaded, which outlives it. Throws InvalidInput if the views or
@@ -203,32 +203,32 @@ bool parse(const VerbArguments& arguments, ShowRequest& request) {
   Arguments parser("show", {"Writes a picture of a light field, a result or labels, as the window "
                             "shows it.",
                             "episcope-cli show demo.h5 -o error.png --what error"});
-  parser.positional("INPUT|RESULT", request.map.subject,
-                    "A light field, a result, labels, or a project, of which "
-                    "the light field that was in front is shown");
+  parser.positional(
+      "INPUT|RESULT", request.map.subject,
+      "A light field, a result, labels, or a project, whose current light field is shown");
   parser.required_option("-o,--output", request.output, text_value("OUT.png"),
                          "Picture to write; a movie as .mp4, .webm or .gif");
   parser.option("--what", request.what, what_value(),
-                "By default the view of an INPUT, the disparity of a RESULT, the labels of a file "
-                "of labels");
+                "What to show; by default the view of an INPUT, the disparity of a RESULT, the "
+                "labels of a file of labels");
   parser.option("--view", request.map.view, view_value(),
-                "Camera row and column; by default the centre view");
+                "Camera row and column; by default the center view");
   parser.option("--row", request.row, index_value("Y"), "Image row of a horizontal EPI");
   parser.option("--column", request.column, index_value("X"), "Image column of a vertical EPI");
   parser.exclude_each_other({"--row", "--column"});
   parser.option("--range", request.shading.range, interval_value(),
-                "Values at the ends of the colour map");
+                "Values at the ends of the color map");
   parser.option("--colormap", request.shading.color_map, one_of(render::color_map_names()),
-                "Colour map");
-  parser.option("--fit", request.longest_px, index_value("PIXELS"),
-                "Scale a larger picture down until its longer side has so many pixels (default 0: "
-                "as it is)");
+                "Color map");
+  parser.option(
+      "--fit", request.longest_px, index_value("PIXELS"),
+      "Scale a larger picture down to this many pixels on its longer side (default 0: as it is)");
   parser.option("--truth", request.map.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one named in its file");
   parser.option(
       "--layer", request.layer,
       choice_of<Layer>({{Layer::Foreground, "foreground"}, {Layer::Background, "background"}}),
-      "Which layer to show where there are two");
+      "Layer to show where there are two");
   parser.option("--label", request.map.label, integer_value("N", 1, kMost),
                 "Label whose probability is shown (default 1)");
   parser.option("--minus", request.map.minus, text_value("RESULT"),
@@ -246,7 +246,7 @@ RgbaImage epi_picture(const ShowRequest& request, const LightField& light_field,
   return horizontal_epi_picture(light_field, view, request.row.value_or(light_field.height() / 2));
 }
 
-/// The source in the colours that were asked for.
+/// The source in the colors that were asked for.
 RgbaImage picture_of(const ShowRequest& request, const LoadedMap& loaded, const MapSource& source) {
   if (source.quantity == Quantity::View) {
     return render::shade_view(*source.light_field, source.view);

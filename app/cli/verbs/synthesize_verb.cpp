@@ -40,9 +40,8 @@ std::string list_of_scenes() {
     list += "  " + scene.id + ": " + scene.summary + "\n";
   }
   list +=
-      "  gantry: what a capture begins with, written to a folder OUT: photographs of a grid and "
-      "of\n"
-      "    a pattern, a scanned mesh, picked points, and the commands that lead on\n";
+      "  gantry: the input of a capture, written to a folder OUT: photographs of a grid and of a\n"
+      "    pattern, a scanned mesh, picked points, and the commands to go on with\n";
   return list;
 }
 
@@ -51,7 +50,7 @@ bool parse(const VerbArguments& arguments, SynthesizeRequest& request) {
                                   "episcope-cli synthesize edge -o lf.h5 --views 9x9 "
                                   "--size 256x256"});
   parser.positional("SCENE", request.scene,
-                    "Id of a built-in scene, of a random one with its kind: 'random?kind=thin'");
+                    "Id of a built-in scene; a random one with its kind: 'random?kind=thin'");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "Light field to write");
   parser.option("--views", request.views, extent_value("VxU", kMostViews),
@@ -59,9 +58,9 @@ bool parse(const VerbArguments& arguments, SynthesizeRequest& request) {
   parser.option("--size", request.size, extent_value("WxH", kMostPixels),
                 "Pixels of a view (default 512x512)");
   parser.option("--noise", request.noise, real_value("SIGMA", 0, kMostNoise),
-                "Standard deviation of Gaussian noise, in grey levels of 255 (default 0)");
+                "Standard deviation of Gaussian noise, in gray levels of 255 (default 0)");
   parser.option("--seed", request.seed, integer_value("N", 0, std::numeric_limits<int>::max()),
-                "Seed of a scene that is drawn from one, and of the noise (default 1)");
+                "Seed of a random scene and of the noise (default 1)");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
   declare_job_options(parser, request.job);
   return parser.parse(arguments);

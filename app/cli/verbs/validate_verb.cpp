@@ -22,17 +22,18 @@ struct ValidateRequest {
 };
 
 bool parse(const VerbArguments& arguments, ValidateRequest& request) {
-  Arguments parser("validate",
-                   {"Checks a submission to the 2016 benchmark: a map and a runtime of every "
-                    "scene,\nsizes, finite samples, little endian.",
-                    "episcope-cli validate ours\n"
-                    "  episcope-cli validate ours --scenes boxes cotton dino --json"});
+  Arguments parser(
+      "validate",
+      {"Checks a submission to the 2016 benchmark: a map and a runtime for every scene, sizes,\n"
+       "finite samples, little endian.",
+       "episcope-cli validate ours\n"
+       "  episcope-cli validate ours --scenes boxes cotton dino --json"});
   parser.positional("FOLDER", request.folder, "The submission: disp_maps, runtimes");
   parser.list_option("--scenes", request.scenes, "NAME",
-                     "Scenes that are wanted; without it, the twelve of the benchmark");
+                     "Scenes to expect; by default the twelve of the benchmark");
   constexpr int most = 1 << 16;
   parser.option("--size", request.size, extent_value("WxH", most),
-                "Width and height of the maps; 512x512 if not given");
+                "Width and height of the maps (default 512x512)");
   parser.flag("--json", request.is_json, "Print one JSON object");
   return parser.parse(arguments);
 }

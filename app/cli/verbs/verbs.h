@@ -8,15 +8,15 @@
 
 namespace episcope::cli {
 
-/// What stands after the verb.
+/// The words after the verb.
 using VerbArguments = std::vector<std::string>;
 
 /// A row of the table of verbs.
 struct Verb {
   const char* name;
   const char* summary;
-  /// Does it, and writes its answer to standard output. Throws UsageError for a wrong command line,
-  /// Error for what failed, Cancelled.
+  /// Runs the verb and writes its answer to standard output. Throws UsageError for a wrong command
+  /// line, Error, Cancelled.
   void (*run)(const VerbArguments& arguments, std::stop_token stop);
 };
 

@@ -383,11 +383,11 @@ void AnnotateController::addToolCommands() {
            {AnnotationTool::Fill, "fill", tr("Fill"),
             tr("Fills a region up to its edges; the right button clears it"), Qt::Key_F},
            {AnnotationTool::Polygon, "polygon", tr("Polygon"),
-            tr("Paints what is inside a polygon: click its corners, then double-click or press "
-               "Return; begun with the right button, it erases"),
+            tr("Paints the inside of a polygon: click its corners, then double-click or press "
+               "Return; begin with the right button to erase"),
             Qt::Key_O},
            {AnnotationTool::Lasso, "lasso", tr("Lasso"),
-            tr("Paints what a drag goes around; the right button erases it"), Qt::Key_Q},
+            tr("Paints the region that a drag encloses; the right button erases it"), Qt::Key_Q},
            {AnnotationTool::Pick, "pick", tr("Pick label"),
             tr("Selects the label under the cursor"), Qt::Key_I}}) {
     QAction* action =
@@ -410,7 +410,7 @@ void AnnotateController::addPolygonCommands() {
   bench_.commands.add({.id = "annotate.close_polygon",
                        .menu = Menu::Annotate,
                        .text = tr("Close the polygon"),
-                       .tip = tr("Paints what is inside the polygon that is being drawn"),
+                       .tip = tr("Paints the inside of the polygon being drawn"),
                        .keys = {Qt::Key_Return, Qt::Key_Enter},
                        .run = [this] { polygon_tool_->closeUp(); },
                        .section = annotate_section::kTools,
@@ -419,7 +419,7 @@ void AnnotateController::addPolygonCommands() {
   bench_.commands.add({.id = "annotate.take_corner_back",
                        .menu = Menu::Annotate,
                        .text = tr("Take the last corner back"),
-                       .tip = tr("Removes the corner of the polygon that was set last"),
+                       .tip = tr("Removes the last corner of the polygon"),
                        .keys = {Qt::Key_Backspace},
                        .run = [this] { polygon_tool_->takeBack(); },
                        .section = annotate_section::kTools,
@@ -445,15 +445,16 @@ void AnnotateController::addSizeCommands() {
                        .run = [this] { stepSize(-1); },
                        .section = annotate_section::kTools,
                        .enabled = has_document});
-  bench_.commands.add({.id = "annotate.protect",
-                       .menu = Menu::Annotate,
-                       .text = tr("Protect other labels"),
-                       .tip = tr("Paints only unpainted pixels and erases only the current label; "
-                                 "holding Shift does the same"),
-                       .run = [this] { setProtectsOthers(!protects_others_); },
-                       .section = annotate_section::kTools,
-                       .enabled = has_document,
-                       .checked = [this] { return protects_others_; }});
+  bench_.commands.add(
+      {.id = "annotate.protect",
+       .menu = Menu::Annotate,
+       .text = tr("Protect other labels"),
+       .tip = tr(
+           "Paints only unpainted pixels and erases only the current label, as holding Shift does"),
+       .run = [this] { setProtectsOthers(!protects_others_); },
+       .section = annotate_section::kTools,
+       .enabled = has_document,
+       .checked = [this] { return protects_others_; }});
 }
 
 const History<Edit>& AnnotateController::history() const {

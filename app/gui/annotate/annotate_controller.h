@@ -21,7 +21,8 @@ class ViewCanvas;
 
 enum class AnnotationTool { Brush, Eraser, Fill, Polygon, Lasso, Pick };
 
-/// Painting on the view: browse or annotate, the tool in use, sizes, strokes, fills and outlines.
+/// Painting on the view: the mode (browse or annotate), the current tool, sizes, strokes, fills and
+/// outlines.
 class AnnotateController : public QObject {
   Q_OBJECT
 
@@ -29,14 +30,14 @@ class AnnotateController : public QObject {
   AnnotateController(const Workbench& bench, BrushPanel* panel);
   ~AnnotateController() override;
 
-  /// While annotating, the mouse paints; the tab is shown. Without a light field nothing happens.
+  /// Turns the mouse into a painting tool and shows the tab. Does nothing without a light field.
   void setAnnotating(bool is_annotating);
   [[nodiscard]] bool isAnnotating() const { return is_annotating_; }
 
-  /// Chooses a tool, and begins to annotate.
+  /// Chooses a tool and switches to annotating.
   void setTool(AnnotationTool tool);
   [[nodiscard]] AnnotationTool tool() const { return tool_; }
-  /// Makes the brush, or the eraser if that is in use, larger or smaller.
+  /// Resizes the tool in use, brush or eraser.
   void stepSize(double steps);
   void setProtectsOthers(bool protects);
   [[nodiscard]] bool protectsOthers() const { return protects_others_; }
@@ -57,14 +58,13 @@ class AnnotateController : public QObject {
   void showMode();
   void showSizeKeys();
   void showColor();
-  /// Strokes are shown only with the tab they are edited in: elsewhere they would hide what lies
-  /// below.
+  /// Shows strokes only with the tab that edits them; elsewhere they would hide the view.
   void showScribbles();
   [[nodiscard]] bool isTabShown() const;
   [[nodiscard]] CanvasTool* canvasTool() const;
   [[nodiscard]] PaintStyle styleOf(const StrokeStart& start) const;
-  /// Whether the current label can be painted: adds one if there is none, shows a hidden one, and
-  /// says so if it is locked.
+  /// Ensures that the current label can be painted: adds a label if there is none and shows a
+  /// hidden one. Returns false and tells the user if the label is locked.
   bool requireLabel();
   void paintOutlined(const OutlineTool& tool, EditKind kind);
   void fill(const StrokeStart& start);
@@ -97,7 +97,7 @@ inline constexpr int kCarry = 3;
 
 }  // namespace annotate_section
 
-/// Sections of its menu Label.
+/// Sections of the submenu Label.
 namespace label_section {
 
 inline constexpr int kLabels = 0;

@@ -163,8 +163,7 @@ void AnnotationFiles::saveTo(const QString& path, std::function<void()> then) {
                          {.overwrite = [this, path, then] { write(path, then); },
                           .elsewhere = [this, then] { askForPlace(then); },
                           .reload = [this, path] { reload(path); },
-                          .of_reloading = tr("Reloading replaces the labels and strokes that are "
-                                             "open here.")});
+                          .of_reloading = tr("Reloading replaces the open labels and strokes.")});
 }
 
 void AnnotationFiles::reload(const QString& path) {
@@ -389,10 +388,9 @@ void ask_to_export_masks(const Workbench& bench, const SegmentController& segmen
   ask_for_folder(
       &bench.window,
       {.name = "export_masks",
-       .title = has_all
-                    ? SegmentationExportText::tr("Folder for the masks of all views")
-                    : SegmentationExportText::tr("Folder for the masks of this view; segment all "
-                                                 "views first to have those of all")},
+       .title = has_all ? SegmentationExportText::tr("Folder for the masks of all views")
+                        : SegmentationExportText::tr("Folder for the masks of this view; segment "
+                                                     "all views first to save all masks")},
       [bench, &segment](const QString& folder) { export_masks(bench, segment, folder); });
 }
 

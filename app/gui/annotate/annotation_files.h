@@ -23,32 +23,31 @@ namespace episcope {
 class AnnotationBar;
 class SegmentController;
 
-/// Saves, exports and imports scribbles in the background, and ensures that none are lost by
-/// leaving the light field. Files hold views as stored, also while a focus plane is applied
-/// (shear.h).
+/// Saves, exports and imports scribbles in the background, and ensures that leaving the light field
+/// loses none. Files hold views as stored, also while a focus plane is applied (shear.h).
 class AnnotationFiles : public QObject {
   Q_OBJECT
 
  public:
   AnnotationFiles(const Workbench& bench, AnnotationBar* bar);
 
-  /// Where `save` writes: where it wrote last, else beside the light field. Empty if neither is
-  /// known and writable: then `save` asks.
+  /// Target of `save`: the last file written, else a file beside the light field. Empty if neither
+  /// is known and writable; `save` asks then.
   [[nodiscard]] QString place() const;
   void save();
   void saveAsDialog();
   void saveAs(const QString& path);
-  /// A picture of each painted view into a folder.
+  /// Writes a picture of each painted view into a folder.
   void exportDialog();
   void exportPictures(const QString& folder);
   void importDialog();
-  /// From an HDF5 file of labels, or the folder of an exported picture.
+  /// Imports an HDF5 file of labels, or the folder of an exported picture.
   void importFrom(const QString& path);
   /// Compares the segmentation with the GT_LABELS of another file.
   void compareDialog();
   void compareWith(const QString& path);
-  /// Calls `go_on` at once if nothing is unsaved; else asks whether to save or to discard first. It
-  /// is never called if the user cancels or saving fails.
+  /// Calls `go_on` at once if nothing is unsaved; else asks whether to save or to discard. Never
+  /// calls it if the user cancels or saving fails.
   void leave(std::function<void()> go_on);
 
  private:
@@ -56,12 +55,12 @@ class AnnotationFiles : public QObject {
   void addCommand(const QString& id, const QString& text, const QString& tip, const QString& icon,
                   const QList<QKeySequence>& keys, void (AnnotationFiles::*run)());
   void showState();
-  /// Asks first if another program wrote the file meanwhile.
+  /// Asks first if another program has written the file since.
   void saveTo(const QString& path, std::function<void()> then);
   void write(const QString& path, std::function<void()> then);
   void reload(const QString& path);
   [[nodiscard]] bool hasChangedOnDisk(const QString& path) const;
-  /// As `save`, then calls `then` on success.
+  /// Saves, then calls `then` on success.
   void saveAndThen(std::function<void()> then);
   void askForPlace(std::function<void()> then);
   [[nodiscard]] std::function<Scribbles()> snapshot();
@@ -77,16 +76,16 @@ class AnnotationFiles : public QObject {
   QPointer<QMessageBox> question_;
 };
 
-/// Asks where to write the segmentation of the current view or of all, as below.
+/// Asks for a file, then calls `export_segmentation` for the current view or all views.
 void ask_to_export_segmentation(const Workbench& bench, const SegmentController& segment);
 
 /// Writes labels and probabilities (.h5), or the labels of this view in their colours (.png), in
-/// the background. The user is told if the path has another suffix.
+/// the background. Rejects other suffixes with a message.
 void export_segmentation(const Workbench& bench, const SegmentController& segment,
                          const QString& path);
 
-/// Asks for a folder and writes masks of every label there: of all views once they are segmented,
-/// else of this one.
+/// Asks for a folder and writes masks of every label: for all views if they are segmented, else for
+/// this view.
 void ask_to_export_masks(const Workbench& bench, const SegmentController& segment);
 void export_masks(const Workbench& bench, const SegmentController& segment, const QString& folder);
 

@@ -107,7 +107,7 @@ void LabelController::addEditCommands() {
                            return is_first ? hasDocument() : labels_.current() != 0;
                          }});
   };
-  add_one("add_label", tr("Add label"), tr("Adds a label, to be named and painted with"), "add",
+  add_one("add_label", tr("Add label"), tr("Adds a label to name and paint with"), "add",
           {tr("Ctrl+Shift+N")}, [this] { add(); });
   add_one("rename_label", tr("Rename label"), tr("Renames the current label"), "rename",
           {Qt::Key_F2}, [this] { rename(); });
@@ -304,7 +304,7 @@ void LabelLookController::addCommands() {
   bench_.commands.add({.id = "annotate.only_label",
                        .menu = Menu::Label,
                        .text = tr("Show only this label"),
-                       .tip = tr("Hides all other labels; again shows all"),
+                       .tip = tr("Hides all other labels; a second time shows them again"),
                        .run = [this, current] { showOnly(current()); },
                        .section = label_section::kLook,
                        .enabled = has_label});
@@ -374,8 +374,8 @@ void LabelLookController::tellLocked(const Edit& edit, bool is_undo) {
     if (is_locked && touched.contains(label.id)) names << QString::fromStdString(label.name);
   }
   if (names.isEmpty()) return;
-  bench_.messages.hint((is_undo ? tr("Undo changed what is locked: %1. Redo brings it back.")
-                                : tr("Redo changed what is locked: %1. Undo brings it back."))
+  bench_.messages.hint((is_undo ? tr("Undo changed locked labels: %1. Redo restores them.")
+                                : tr("Redo changed locked labels: %1. Undo restores them."))
                            .arg(names.join(", ")));
 }
 

@@ -16,8 +16,7 @@ namespace episcope {
 struct Edit;
 class LabelPalette;
 
-/// The labels that can be painted with: shows them, and adds, renames, recolours, removes and
-/// chooses them.
+/// Lists the labels, and adds, renames, recolours, removes and chooses them.
 class LabelController : public QObject {
   Q_OBJECT
 
@@ -27,7 +26,7 @@ class LabelController : public QObject {
   void choose(int id);
   void add();
   void rename();
-  /// Asks first if something is painted with it.
+  /// Asks first if the label has been painted.
   void remove(int id);
   void recolor(int id);
 
@@ -48,8 +47,7 @@ class LabelController : public QObject {
   LabelPalette* palette_;
 };
 
-/// Which labels are shown and locked, how they are drawn, and how much of each is painted on the
-/// view.
+/// Visibility, locks and drawing style of labels, and how much of the view each label covers.
 class LabelLookController : public QObject {
   Q_OBJECT
 
@@ -63,12 +61,12 @@ class LabelLookController : public QObject {
   void showOnly(int id);
   void setLocked(int id, bool locks);
   void setDrawing(render::LabelDrawing drawing);
-  /// What undo or redo did to labels that are locked.
+  /// Tells the user if undo or redo changed locked labels.
   void tellLocked(const Edit& edit, bool is_undo);
-  /// Forgets the marks of labels that are gone.
+  /// Forgets hidden and locked marks of removed labels.
   void followLabels();
   void count();
-  /// `all`: pixels of the view.
+  /// `all`: number of pixels of the view.
   void showAmounts(const std::vector<LabelAmount>& amounts, double all);
 
   Workbench bench_;

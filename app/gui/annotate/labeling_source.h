@@ -17,14 +17,14 @@
 
 namespace episcope {
 
-/// Finds the disparity for a segmentation: of all views, since labels are carried through them all.
-/// By default it takes the shown result, else the newest one that covers all views, else runs a
-/// method once, in the background.
+/// Finds the disparity for a segmentation, over all views, since labels are carried through them.
+/// By default takes the shown result, else the newest result that covers all views; else runs a
+/// method once in the background.
 class LabelingSource : public QObject {
   Q_OBJECT
 
  public:
-  /// What is chosen besides the ids of results.
+  /// Choices besides the ids of results.
   enum Choice { Automatic = 0, None = -1, Truth = -2 };
 
   LabelingSource(Session& session, Jobs& jobs, QObject* parent);
@@ -32,16 +32,16 @@ class LabelingSource : public QObject {
   void choose(int choice);
   [[nodiscard]] int choice() const { return choice_; }
   [[nodiscard]] std::vector<SegmentPanel::Source> sources() const;
-  /// What the features ask for; without a field if there is none (yet).
+  /// Inputs for these features; without a field if there is none yet.
   [[nodiscard]] LabelingDisparity find(FeatureSet features) const;
-  /// Begins to estimate what is missing, unless that was tried already while this scene is in
-  /// memory, something is chosen, or a run is under way that may give it.
+  /// Begins to estimate a missing disparity. Does nothing if that was tried since this scene was
+  /// loaded, if the user chose a source, or if a running method may provide it.
   void provide();
-  /// Whether a disparity is on its way.
+  /// Whether a disparity is being computed.
   [[nodiscard]] bool isComing() const;
 
  signals:
-  /// What is found, or what can be chosen, may be another.
+  /// The disparity found, or the choices, may have changed.
   void changed();
 
  private:
@@ -59,23 +59,23 @@ class LabelingSource : public QObject {
   std::map<std::uint64_t, LabelingDisparity> own_;
 };
 
-/// The edge weights that lie beside the light field, read in the background when a scene is opened:
-/// boundaries between labels go by them instead of computed ones.
+/// Edge weights from a file beside the light field, read in the background when a scene is opened.
+/// They replace computed weights for label boundaries.
 class EdgeSource : public QObject {
   Q_OBJECT
 
  public:
   EdgeSource(Session& session, QObject* parent);
 
-  /// Of all views; null if there are none, or not yet.
+  /// Weights of all views; null if there are none, or not yet.
   [[nodiscard]] std::shared_ptr<const ViewStack<float>> edges() const;
-  /// What edges are taken from, as a sentence.
+  /// Sentence that tells where the edges come from.
   [[nodiscard]] QString origin() const;
 
  signals:
-  /// Edges are there.
+  /// Edges were read.
   void changed();
-  /// They could not be read: a sentence for the user.
+  /// Edges could not be read; `sentence` is for the user.
   void failed(const QString& sentence);
 
  private:

@@ -14,7 +14,7 @@ namespace episcope {
 
 class MessageBar;
 
-/// Offers what crashed sessions left behind, one after the other, in a bar that blocks nothing.
+/// Offers the journals of crashed sessions one after the other, in a bar that does not block.
 class RecoveryController : public QObject {
   Q_OBJECT
 

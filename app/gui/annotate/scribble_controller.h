@@ -15,9 +15,8 @@ namespace episcope {
 class AnnotationBar;
 class ViewCanvas;
 
-/// Shows scribbles: on the view, and in which views there are any. Where wanted, carries
-/// them to all views by a disparity map, in the background, as a layer of its own that follows
-/// every edit.
+/// Shows scribbles on the view and marks painted views. On request carries them to all views by a
+/// disparity map, in the background, as a separate layer that follows every edit.
 class ScribbleController : public QObject {
   Q_OBJECT
 
@@ -26,8 +25,8 @@ class ScribbleController : public QObject {
 
   void setCarried(bool is_carried);
   [[nodiscard]] bool isCarried() const { return is_carried_; }
-  /// What was carried, empty wherever something is painted; null if nothing is. It may be older
-  /// than the document.
+  /// Carried labels; empty wherever something is painted, null if nothing is carried. May lag
+  /// behind the document.
   [[nodiscard]] const std::shared_ptr<const ScribbleLayer>& carried() const { return carried_; }
   [[nodiscard]] bool isCarrying() const { return is_carrying_; }
 
@@ -40,7 +39,8 @@ class ScribbleController : public QObject {
   [[nodiscard]] QImage picture(const PixelRect& rect) const;
   void carry();
   void dropCarried();
-  /// The disparity to carry by, which keeps its scene or estimate alive; null if there is none.
+  /// Disparity used to carry scribbles, which keeps its scene or estimate alive; null if there is
+  /// none.
   [[nodiscard]] std::shared_ptr<const DisparityField> field() const;
 
   Workbench bench_;

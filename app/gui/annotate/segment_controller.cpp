@@ -410,7 +410,7 @@ void SegmentController::endAllViewsOfClosed() {
   }
 }
 
-// The newest final labels stay with the scene; those of a view never in the place of those of all.
+// Keeps the newest final labels with the scene. Labels of one view never replace labels of all.
 void SegmentController::keep(const LabelingPtr& labeling, const LabelingInput& input) {
   const KeptLabels& kept = session_.labels();
   const bool keeps_all = kept.covers_many() || (!kept.labeling && !kept.file.empty());

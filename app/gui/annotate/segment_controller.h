@@ -20,9 +20,9 @@
 
 namespace episcope {
 
-/// Segments from scribbles while painting continues: the current view, live or on request, and all
-/// views as a job. Shows the state and the quality of the labels, and provides the overlay with
-/// maps of the segmentation.
+/// Segments from scribbles while painting continues: the current view, live or on request, or all
+/// views as a job. Shows state and quality of the labels, and provides segmentation maps to the
+/// overlay.
 class SegmentController : public QObject, public MapProvider {
   Q_OBJECT
 
@@ -30,22 +30,22 @@ class SegmentController : public QObject, public MapProvider {
   SegmentController(const Workbench& bench, SegmentPanel* panel);
   ~SegmentController() override;
 
-  /// Live: every change of the document, the view or the settings gives new labels.
+  /// Live mode: recomputes labels after every change of document, view or settings.
   void setLive(bool is_live);
   [[nodiscard]] bool isLive() const { return is_live_; }
-  /// Labels of this view, once.
+  /// Segments this view once.
   void updateNow();
-  /// Labels of all views, as a job that goes on while other scenes are shown.
+  /// Segments all views as a job, which continues while other scenes are shown.
   void segmentAllViews();
-  /// Ends what is under way for this view; false if nothing is.
+  /// Ends the current computation for this view; false if there is none.
   bool cancel();
 
   [[nodiscard]] const LiveLabeler& labeler() const { return live_; }
-  /// Of the scene that is shown.
+  /// Whether all views of the shown scene are being segmented.
   [[nodiscard]] bool isSegmentingAll() const;
-  /// Labels that cover the current view, as files hold them; nothing without.
+  /// Labels that cover the current view, as files store them; none if there are none.
   [[nodiscard]] std::optional<Segmentation> segmentation() const;
-  /// Boundaries of all labels; one step of the history.
+  /// Smooths the boundaries of all labels, as one step of the history.
   void smoothBoundaries(double smoothing_px);
 
   [[nodiscard]] bool has_map(render::Quantity quantity) const override;

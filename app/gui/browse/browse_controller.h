@@ -20,7 +20,7 @@ namespace episcope {
 class ViewCanvas;
 class ViewGrid;
 
-/// Walks through the views: current view, cross-hair, EPIs, focus plane, view grid, playing,
+/// Walks through the views: current view, cross-hair, EPIs, focus plane, view grid, player,
 /// parallax.
 class BrowseController : public QObject {
   Q_OBJECT
@@ -34,9 +34,9 @@ class BrowseController : public QObject {
   void togglePlay();
   void stepFocus(double steps);
   void resetFocus();
-  /// Whether the view is refocused with the focus plane, or only the EPIs are sheared.
+  /// Refocuses the view at the focus plane, or only shears the EPIs.
   void setRefocusing(bool refocuses);
-  /// Stops playing or removes the line drawn in an EPI; false if there was neither.
+  /// Stops playing, or removes the line drawn in an EPI; false if there was neither.
   bool endWhatIsInHand();
 
  private:

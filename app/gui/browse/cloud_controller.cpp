@@ -31,7 +31,7 @@ struct CloudSettings {
 };
 
 // A number of an enumeration, at most `last`; 0 for what another version may have written.
-template <class Value>
+template <typename Value>
 Value read_value(const QSettings& settings, const char* key, Value last) {
   const int number = settings.value(key).toInt();
   return number >= 0 && number <= static_cast<int>(last) ? static_cast<Value>(number) : Value{};
@@ -149,7 +149,7 @@ void CloudController::setLarge(bool is_large) {
   makePanel();
   is_large_ = is_large;
   if (is_large) {
-    panel_->lendDisplay(tr("The 3D view is in the place of the view."));
+    panel_->lendDisplay(tr("The 3D view is shown in place of the view."));
     bench_.viewer_area.setGuest(&panel_->display());
   } else {
     bench_.viewer_area.releaseGuest();
@@ -240,7 +240,7 @@ void CloudController::askToExport() const {
   const std::string& scene = session_.light_field()->info().name;
   ask_where_to_save(&bench_.window,
                     {.name = "export_cloud",
-                     .title = tr("Save what the 3D view shows"),
+                     .title = tr("Save the 3D view"),
                      .filter = tr("Point cloud or surface (*.ply)"),
                      .proposal = QString::fromStdString(scene + ".ply")},
                     [this, parts = parts_](const QString& path) {

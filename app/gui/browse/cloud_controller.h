@@ -18,62 +18,62 @@ namespace episcope {
 struct EstimateEntry;
 class PointCloudPanel;
 
-/// Turns what a user chose of the 3D view into what is to be made of the session, as things are
-/// now. What is seen is the shown result; without one, the ground truth.
+/// Turns a choice of the 3D view into a request to the session in its current state. Shows the
+/// current result, or the ground truth if there is none.
 class CloudRequests {
  public:
   explicit CloudRequests(const Workbench& bench) : bench_(bench) {}
 
-  /// Why nothing can be seen, as a sentence; empty if something can.
+  /// Sentence that tells why there is nothing to show; empty if there is.
   [[nodiscard]] QString obstacle() const;
-  /// What can be chosen. Precondition: there is no obstacle.
+  /// Available choices. Precondition: there is no obstacle.
   [[nodiscard]] CloudOffers offers() const;
-  /// Nothing if a map of it is not there yet: its evaluation tells when it is. What cannot be had
-  /// is left out. Precondition: there is no obstacle.
+  /// Request for the choice; none until its maps exist, which their evaluation announces. Leaves
+  /// out what is unavailable. Precondition: there is no obstacle.
   [[nodiscard]] std::optional<PointCloudRequest> request(const CloudChoice& choice) const;
-  /// What distances are measured to: "ground truth" or a result.
+  /// Reference of distances: "ground truth" or a result.
   [[nodiscard]] QString referenceName(const CloudChoice& choice) const;
-  /// What is drawn: "EPI_L", or "EPI_L and ground truth".
+  /// Name of the drawn clouds: "EPI_L", or "EPI_L and ground truth".
   [[nodiscard]] QString title(const CloudChoice& choice) const;
-  /// Whose colours a legend explains; none for those of views, labels and sources.
+  /// Quantity whose colours need a legend; none for colours of views, labels and sources.
   [[nodiscard]] QString legend(const CloudChoice& choice) const;
 
  private:
-  /// What is shown, if it has a map of this view; the truth stands in for it.
+  /// The shown result if it has a map of this view; the truth replaces it otherwise.
   [[nodiscard]] const EstimateEntry* result() const;
   [[nodiscard]] CloudChoice possible(CloudChoice choice) const;
   [[nodiscard]] std::shared_ptr<const DisparityField> truth() const;
   [[nodiscard]] std::shared_ptr<const DisparityField> other() const;
   [[nodiscard]] std::shared_ptr<const DisparityField> reference(CloudCompanion companion) const;
-  /// What is drawn beside the companion.
+  /// Source that is drawn beside the companion.
   [[nodiscard]] std::shared_ptr<const DisparityField> main() const;
   [[nodiscard]] render::Quantity quantity(CloudColoring coloring) const;
   [[nodiscard]] std::optional<MapSource> map(CloudColoring coloring, int estimate) const;
-  /// Whether all are there.
+  /// Returns whether all maps exist.
   [[nodiscard]] bool addMaps(const CloudChoice& choice, PointCloudRequest& request) const;
   [[nodiscard]] QString otherName() const;
 
   Workbench bench_;
 };
 
-/// The 3D view: makes it when it is shown first, keeps its clouds up to date while it is on screen
-/// and lets go of them when they are out of date and it is not; ties its points to the cross-hair;
-/// puts it in the place of the view and back.
+/// The 3D view. Creates it when first shown, updates its clouds while it is visible, and drops
+/// outdated clouds while it is not. Links its points to the cross-hair, and moves it in place of
+/// the view and back.
 class CloudController : public QObject {
   Q_OBJECT
 
  public:
   CloudController(const Workbench& bench, QWidget* tab);
 
-  /// In the place of the view, else in its tab.
+  /// Shows the 3D view in place of the view, or in its tab.
   void setLarge(bool is_large);
   [[nodiscard]] bool isLarge() const { return is_large_; }
-  /// Asks for a file and writes what is seen.
+  /// Asks for a file and writes the shown clouds.
   void askToExport() const;
   [[nodiscard]] bool hasScene() const { return parts_ && !parts_->empty(); }
 
  private:
-  /// What became of a request.
+  /// Outcome of a request.
   struct Made {
     CloudPartsPtr parts;
     std::optional<CloudDistance> distance;

@@ -25,8 +25,8 @@ void FocusController::addCommands() {
       bench_.commands.add({.id = "view.focus_apply",
                            .menu = Menu::View,
                            .text = tr("Apply focus plane"),
-                           .tip = tr("Shifts all disparities, those of results and ground truth "
-                                     "too, so that what is in focus has 0"),
+                           .tip = tr("Shifts all disparities, including results and ground truth, "
+                                     "so that the focus plane has disparity 0"),
                            .icon = "apply",
                            .keys = {tr("Ctrl+Alt+Return")},
                            .run = [this] { this->apply(); },

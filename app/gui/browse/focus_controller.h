@@ -12,23 +12,23 @@
 
 namespace episcope {
 
-/// Applies the focus plane (shear.h). The light field is read again, so that it is interpolated
-/// only once however often this is done; results are converted in the background.
+/// Applies the focus plane (shear.h). Reads the light field again, so that repeated shifts
+/// interpolate only once; converts results in the background.
 class FocusController : public QObject {
   Q_OBJECT
 
  public:
   explicit FocusController(const Workbench& bench);
 
-  /// What is in focus gets disparity 0.
+  /// Shifts disparities so that the focus plane has disparity 0.
   void apply();
-  /// Back to the plane of zero disparity of the files.
+  /// Restores the zero plane of the files.
   void undo();
   [[nodiscard]] bool canApply() const;
   [[nodiscard]] bool canUndo() const;
 
  private:
-  /// What is looked at and was done there, and the results.
+  /// State of the view, the document and the results before the shift.
   struct Kept {
     ScenePlace place;
     std::vector<EstimateEntry> results;
@@ -40,8 +40,8 @@ class FocusController : public QObject {
   void bake(double focus_px);
   [[nodiscard]] Kept kept() const;
   void bringBack(const Kept& kept, double moved_px);
-  /// Not among the jobs that the user can cancel, nor those that opening ends: the results would be
-  /// lost with it.
+  /// Neither the user nor opening another light field can cancel this job, since its results would
+  /// be lost.
   void moveResults(const Kept& kept, double moved_px);
   void addMoved(const Kept& kept, const std::vector<FinishedEstimate>& moved, std::uint64_t scene);
   void showAsBefore(const Kept& kept);

@@ -98,7 +98,7 @@ QString summary_of(const io::PatternPreview& preview) {
   }
   const QString grid =
       preview.is_list
-          ? PatternPanel::tr("a list of %1 views, whose rows the images tell").arg(preview.grid.u)
+          ? PatternPanel::tr("a list of %1 views; the images tell its rows").arg(preview.grid.u)
           : PatternPanel::tr("%1×%2 views").arg(preview.grid.v).arg(preview.grid.u);
   QString warnings;
   for (const std::string& warning : preview.warnings) {
@@ -474,21 +474,21 @@ InfoController::InfoController(const Workbench& bench)
     : QObject(&bench.owner), bench_(bench), panel_(new InfoPanel(&bench.frame)), gpu_job_(this) {
   panel_->setContentsMargins(theme::kSpacing, 0, theme::kSpacing, theme::kSpacing);
   bench.frame.addToColumn(panel_, true);
-  QAction* conventions = bench.commands.add(
-      {.id = "file.conventions",
-       .menu = Menu::File,
-       .text = tr("Conventions…"),
-       .tip = tr("Overrides the order of views, the units or the file names that were found"),
-       .keys = {tr("Ctrl+Shift+R")},
-       .run = [this] { askForConventions(); },
-       .section = section::kOpen,
-       .enabled = [this] { return !bench_.opener.reopenable().isEmpty(); }});
+  QAction* conventions =
+      bench.commands.add({.id = "file.conventions",
+                          .menu = Menu::File,
+                          .text = tr("Conventions…"),
+                          .tip = tr("Overrides the detected order of views, units or file names"),
+                          .keys = {tr("Ctrl+Shift+R")},
+                          .run = [this] { askForConventions(); },
+                          .section = section::kOpen,
+                          .enabled = [this] { return !bench_.opener.reopenable().isEmpty(); }});
   panel_->setConventionsAction(conventions);
   reverse_ = bench.commands.add(
       {.id = "file.reverse_sign",
        .menu = Menu::File,
        .text = tr("Reverse near and far"),
-       .tip = tr("Reverses the order of views along both axes: what was near is far"),
+       .tip = tr("Reverses the order of views along both axes, which swaps near and far"),
        .run = [this] { reverseSign(); },
        .section = section::kOpen,
        .enabled = [this] { return canReverseSign(); }});

@@ -16,15 +16,15 @@ namespace episcope {
 
 class InfoPanel;
 
-/// Shows what is open: the facts of the light field, the conventions found and how they were
-/// checked, which the user can override.
+/// Shows facts of the open light field, and the conventions found and how they were checked. The
+/// user can override them.
 class InfoController : public QObject {
   Q_OBJECT
 
  public:
   explicit InfoController(const Workbench& bench);
 
-  /// Asks for the GPU in another way: for tests. The question runs on a worker.
+  /// Replaces the query for the GPU, for tests. The query runs on a worker.
   void setGpuQuestion(std::function<CudaDevice()> question) { question_ = std::move(question); }
 
  private:

@@ -45,7 +45,7 @@ MeasureController::MeasureController(const Workbench& bench)
   bench.frame.addTab({.id = "measure",
                       .title = tr("Measure"),
                       .command_text = tr("Measure tab"),
-                      .command_tip = tr("Lists the disparities that were measured in EPIs"),
+                      .command_tip = tr("Lists the disparities measured in EPIs"),
                       .widget = panel_,
                       .waits = true});
   addCommands();
@@ -73,18 +73,17 @@ void MeasureController::addCommand(const Row& row) {
 
 void MeasureController::addCommands() {
   addCommand({"measure.keep", tr("Keep the measured line"),
-              tr("Keeps the disparity of the line that was drawn in an EPI, in the list of the "
-                 "Measure tab"),
+              tr("Keeps the disparity of the line drawn in an EPI in the list of the Measure tab"),
               tr("Ctrl+K"), "add", &MeasureController::keep});
   addCommand({"measure.rename",
               tr("Rename the chosen measurement"),
-              tr("Renames the chosen one of the list of measured lines"),
+              tr("Renames the chosen measured line"),
               {},
               "rename",
               &MeasureController::nameCurrent});
   addCommand({"measure.remove",
               tr("Remove the chosen measurement"),
-              tr("Removes the chosen one from the list of measured lines"),
+              tr("Removes the chosen measured line"),
               {},
               "trash",
               &MeasureController::removeCurrent});
@@ -102,7 +101,7 @@ void MeasureController::addCommands() {
               &MeasureController::save});
   addCommand({"measure.focus",
               tr("Focus on the chosen measurement"),
-              tr("Moves the focus plane to the disparity that was measured"),
+              tr("Moves the focus plane to the measured disparity"),
               {},
               "",
               &MeasureController::focusOnCurrent});

@@ -14,17 +14,16 @@ namespace episcope {
 class EpiPane;
 class MeasurePanel;
 
-/// The disparities that were measured by lines in EPIs and are kept: lists them, goes back to them,
-/// focuses on them and writes them.
+/// Disparities measured by lines in EPIs: lists, revisits, focuses and writes them.
 class MeasureController : public QObject {
   Q_OBJECT
 
  public:
   explicit MeasureController(const Workbench& bench);
 
-  /// Keeps the line that was drawn last.
+  /// Keeps the line drawn last.
   void keep();
-  /// Goes to one of the list and draws its line.
+  /// Goes to a measurement of the list and draws its line.
   void choose(int index);
 
  private:

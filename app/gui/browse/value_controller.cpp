@@ -142,7 +142,7 @@ void ToneController::addCommands() {
   bench_.commands.add({.id = "view.auto_tone",
                        .menu = Menu::View,
                        .text = tr("Automatic brightness"),
-                       .tip = tr("Brightens dark views; again shows them as they are"),
+                       .tip = tr("Brightens dark views, or shows them unchanged"),
                        .keys = {tr("Shift+A")},
                        .run =
                            [this] {

@@ -20,8 +20,8 @@ namespace episcope {
 class TonePanel;
 class ValueBar;
 
-/// Shows the values of the pixel under the cursor (of the cross-hair while the cursor is
-/// elsewhere), prints values into large pixels, and counts the running jobs.
+/// Shows the values of the pixel under the cursor, or at the cross-hair while the cursor is
+/// elsewhere; prints values into large pixels; counts running jobs.
 class ValueController : public QObject {
   Q_OBJECT
 
@@ -39,7 +39,7 @@ class ValueController : public QObject {
   std::optional<PixelIndex> cursor_;
 };
 
-/// Disparity of one pixel; none where the field does not cover the view or the pixel is invalid.
+/// Disparity of one pixel; none outside the field or where it is invalid.
 [[nodiscard]] inline std::optional<double> disparity_at(const DisparityField& field, ViewIndex view,
                                                         PixelIndex pixel) {
   if (!field.contains(view)) return std::nullopt;
@@ -49,7 +49,7 @@ class ValueController : public QObject {
   return map.disparity.at(pixel.y, pixel.x);
 }
 
-/// Disparities of the first surface of a pixel and, where two are seen, of the second.
+/// Disparities of the first and, where two surfaces are visible, the second surface of a pixel.
 struct DisparityPair {
   std::optional<double> front;
   std::optional<double> behind;
@@ -75,7 +75,7 @@ struct DisparityPair {
   return pair;
 }
 
-/// How views are brightened for display, by scene; offers it where they are dark.
+/// Brightness of displayed views, per scene; offers to brighten dark ones.
 class ToneController : public QObject {
   Q_OBJECT
 

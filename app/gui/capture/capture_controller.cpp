@@ -413,7 +413,7 @@ bool CaptureController::eventFilter(QObject* watched, QEvent* event) {
 std::optional<capture::SnappedPick> PickSnapper::snap(const LightFieldPtr& light_field,
                                                       PixelIndex pixel) {
   if (light_field_.lock() != light_field) {
-    grey_ = capture::grey_view(*light_field, light_field->center());
+    grey_ = capture::gray_view(*light_field, light_field->center());
     light_field_ = light_field;
   }
   return capture::snap_pick(

@@ -28,8 +28,8 @@ class MeshShelf;
 class Photographs;
 struct ReadMesh;
 
-/// Moves picks in the centre view to the corner or blob beside them. Keeps the grey centre view of
-/// the last light field.
+/// Snaps picks in the centre view to the nearest corner or blob. Caches the grey centre view of the
+/// last light field.
 class PickSnapper {
  public:
   static constexpr double kReach_px = 5;
@@ -42,14 +42,15 @@ class PickSnapper {
   Image<float> grey_;
 };
 
-/// The Capture tab: objects with their meshes, picks on view and mesh, and what follows from them.
+/// The Capture tab: objects with their meshes, picks on view and mesh, and the poses computed from
+/// them.
 class CaptureController : public QObject {
   Q_OBJECT
 
  public:
   CaptureController(const Workbench& bench, QWidget* tab);
 
-  /// The mesh of the current object; the first one becomes an object.
+  /// Opens the mesh of the current object; the first mesh creates an object.
   void openMesh(const QString& path);
   void addObject(const QString& mesh);
   void importPairs(const QString& path);
@@ -60,9 +61,9 @@ class CaptureController : public QObject {
   void pickVertex(std::size_t vertex);
 
   [[nodiscard]] Photographs& photographs() { return *photographs_; }
-  /// Of the light field that is shown.
+  /// Work on the shown light field.
   [[nodiscard]] const CaptureWork& work() const;
-  /// Of the current object.
+  /// Pairs of the current object.
   [[nodiscard]] const std::vector<capture::PointPair>& pairs() const;
   [[nodiscard]] const std::optional<capture::SolvedPose>& pose() const;
 
@@ -81,25 +82,25 @@ class CaptureController : public QObject {
   void readMesh(const QString& path, const Change& then);
   void goTo(const capture::PointPair& pair);
   void addPair();
-  /// Undo and redo are of this tab while it is worked in. Returns whether the key was one of them.
+  /// Handles undo and redo while the tab has the focus. Returns whether the key was one of them.
   bool hearKey(const QKeyEvent& event);
-  /// The document, or the mesh of its object, is another.
+  /// Shows another document, or another mesh of its object.
   void show();
-  /// The same, with the meshes that are read by now.
+  /// Shows the document with the meshes read so far.
   void showRead();
   void showMesh();
   void showPairs();
-  /// What the next pair would take.
+  /// Shows the points that the next pair would use.
   void showNext();
-  /// The pairs on the centre view and on the mesh, while the tab is there.
+  /// Marks the pairs on centre view and mesh while the tab exists.
   void showMarks();
-  /// The mark beside the cross-hair, if picks are to move to one.
+  /// Corner or blob near the cross-hair, if snapping is on.
   [[nodiscard]] std::optional<capture::SnappedPick> snapped();
-  /// The place in the view that the next pair would take.
+  /// Place in the view that the next pair would use, as text.
   [[nodiscard]] QString nextText();
-  /// The built-in gantry brings its lens, its mesh and its picks.
+  /// Takes lens, mesh and picks from the built-in gantry.
   void followGantry();
-  /// Of the current object; null = it has none, or it is not read yet.
+  /// Mesh of the current object; null if there is none, or not yet.
   [[nodiscard]] const ReadMesh* mesh() const;
 
   Workbench bench_;

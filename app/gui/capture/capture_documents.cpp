@@ -104,7 +104,7 @@ bool is_new_light_field(const QString& path, Messages& messages) {
   if (!has_suffix(path, {"h5"}, messages)) return false;
   if (!std::filesystem::exists(path_of(path))) return true;
   messages.fail(
-      CaptureFilesText::tr("%1 is there already; name a new file, so that no light field is lost")
+      CaptureFilesText::tr("%1 exists already; name a new file, so that no light field is lost")
           .arg(path));
   return false;
 }

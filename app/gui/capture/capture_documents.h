@@ -18,40 +18,40 @@ namespace episcope {
 
 class Messages;
 
-/// What the user does in the Capture tab: a document for each open light field, which the session
-/// keeps with it. A light field that is opened after another goes on with its lens; what was
-/// prepared before any was open belongs to the first.
+/// Documents of the Capture tab, one for each open light field, kept with it in the session. A new
+/// light field inherits the lens of the previous one; work prepared before any was open goes to the
+/// first.
 class CaptureDocuments : public QObject {
   Q_OBJECT
 
  public:
   CaptureDocuments(const Workbench& bench, QObject* parent);
 
-  /// Of the light field that is shown, with poses.
+  /// Document of the shown light field, with poses.
   [[nodiscard]] const CaptureDocument& now() const { return documents_.at(scene_); }
-  /// Why the current object has no pose although it has pairs enough; empty = no such reason.
+  /// Why the current object has no pose although it has enough pairs; empty if it has.
   [[nodiscard]] const QString& problem() const { return problem_; }
   /// Meshes of all open light fields.
   [[nodiscard]] std::set<std::string> meshes() const;
 
-  /// Changes the document of the light field that is shown.
+  /// Changes the document of the shown light field.
   void change(const std::function<void(CaptureDocument&)>& change);
-  /// The same of the light field that was shown when `scene` was `Session::generation`; what began
-  /// with none goes on with the one that came next. Returns false, and does nothing, if it is
-  /// closed.
+  /// Changes the document of the light field that was shown when `Session::generation` was `scene`.
+  /// Work begun without a light field goes to the one opened next. Returns false, and does nothing,
+  /// if it was closed.
   [[nodiscard]] bool changeOf(std::uint64_t scene,
                               const std::function<void(CaptureDocument&)>& change);
-  /// What the light field that is shown begins with; nothing of it can be undone.
+  /// Sets the initial work of the shown light field, which cannot be undone.
   void begin(CaptureWork work);
-  /// Light fields that were just opened are told of later: this follows at once.
+  /// Follows newly opened light fields at once, instead of when the session announces them.
   void follow();
 
  signals:
-  /// The document that is shown changed, or another one is.
+  /// The shown document changed, or another document is shown.
   void changed();
 
  private:
-  /// The last time that there was no light field, and the one that came next.
+  /// Links work begun without a light field to the light field opened next.
   struct Heir {
     std::uint64_t none = 0;
     std::uint64_t next = 0;
@@ -68,8 +68,8 @@ class CaptureDocuments : public QObject {
   QString problem_;
 };
 
-/// Whether a light field can be written there: its name ends in .h5 and nothing has it yet, so that
-/// none is lost; if not, the user is told.
+/// Whether a new light field can be written to the path: its name ends in .h5 and no file exists.
+/// Tells the user if not.
 [[nodiscard]] bool is_new_light_field(const QString& path, Messages& messages);
 
 }  // namespace episcope

@@ -22,7 +22,7 @@ namespace episcope {
 class CaptureDocuments;
 class MeshShelf;
 
-/// What meshes and their poses give: a result, ground truth, files of poses.
+/// Outputs of meshes and poses: a result, ground truth, files of poses.
 class MeshResults : public QObject {
   Q_OBJECT
 
@@ -30,15 +30,15 @@ class MeshResults : public QObject {
   MeshResults(const Workbench& bench, const CaptureDocuments& documents, const MeshShelf& shelf,
               QObject* parent);
 
-  /// The depth of all objects in the centre view becomes a result, in the place of the former.
+  /// Adds the depth of all objects in the centre view as a result, replacing the previous one.
   void showOverView();
-  /// Writes the light field with the depth of all objects in all views.
+  /// Writes the light field with the depth of all objects in all views as ground truth.
   void writeTruth(const QString& path);
-  /// The pose of the current object.
+  /// Writes the pose of the current object.
   void savePose(const QString& path);
 
  private:
-  /// All objects with mesh and pose. The user is told which are left out.
+  /// All objects with mesh and pose. Tells the user which are left out.
   [[nodiscard]] std::vector<PosedMesh> posedMeshes() const;
 
   Workbench bench_;
@@ -47,32 +47,32 @@ class MeshResults : public QObject {
   std::map<std::uint64_t, int> results_;  // by OpenScene::id
 };
 
-/// A mesh that was read, and as the 3D view shows it.
+/// A mesh, and its form for the 3D view.
 struct ReadMesh {
   std::shared_ptr<const capture::TriangleMesh> mesh;
   CloudPartsPtr cloud;
 };
 
-/// The meshes of objects, read in the background, each file once.
+/// Meshes of objects; reads each file once, in the background.
 class MeshShelf : public QObject {
   Q_OBJECT
 
  public:
   MeshShelf(const Workbench& bench, QObject* parent);
 
-  /// Reads a file, anew if it was read before; `then` is called if it is a mesh.
+  /// Reads a file, even if it was read before; calls `then` on success.
   void read(const std::string& file, const std::function<void()>& then);
-  /// Reads the files that are not there, but for those that could not be read, and forgets all
-  /// others. What was cancelled is read again.
+  /// Reads missing files, except those that failed before, and forgets all others. Reads cancelled
+  /// files again.
   void keep(const std::set<std::string>& files);
-  /// Null if it is not there (yet).
+  /// Null if the mesh is not read (yet).
   [[nodiscard]] const ReadMesh* find(const std::string& file) const;
   [[nodiscard]] bool isReading(const std::string& file) const { return reading_.contains(file); }
-  /// Whether it could not be read.
+  /// Whether reading the mesh failed.
   [[nodiscard]] bool isBroken(const std::string& file) const { return broken_.contains(file); }
 
  signals:
-  /// A mesh is there that `keep` asked for, or reading one has failed or was cancelled.
+  /// A mesh requested by `keep` was read, failed or was cancelled.
   void changed();
 
  private:

@@ -14,23 +14,23 @@
 
 namespace episcope {
 
-/// A mesh for the 3D view, coarser while it moves. Linear.
+/// Mesh for the 3D view, coarser while it moves. Linear.
 [[nodiscard]] CloudPartsPtr mesh_parts(const capture::TriangleMesh& mesh);
 
-/// A point of the mesh in the coordinates of the 3D view.
+/// Mesh point in the coordinates of the 3D view.
 [[nodiscard]] std::array<double, 3> in_mesh_view(const capture::Point3& point);
 
-/// Pairs as the table shows them.
+/// Pairs as rows of the table.
 [[nodiscard]] std::vector<CaptureRow> pair_rows(const std::vector<capture::PointPair>& pairs,
                                                 const std::optional<capture::SolvedPose>& pose);
 
-/// Pairs as marks of both pictures.
+/// Pairs as marks in view and mesh.
 struct PairMarks {
   std::vector<CanvasMark> on_view;  ///< With where the pose puts each, if there is one.
   std::vector<CloudMark> on_mesh;
 };
 
-/// `is_emphasised` of the place of a pair; `pose` may be null.
+/// Emphasises the pair at place `is_emphasised`; `pose` may be null.
 [[nodiscard]] PairMarks pair_marks(const std::vector<capture::PointPair>& pairs,
                                    const capture::RigidPose* pose,
                                    const std::optional<Pinhole>& pinhole,

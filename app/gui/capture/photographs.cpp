@@ -44,7 +44,7 @@ struct FormQuestion {
   ParameterSet values{};  ///< To begin with, in place of defaults.
 };
 
-// `answer` is called with all values if the user goes on.
+// Calls `answer` with all values if the user confirms.
 void ask_for_values(QWidget* window, const FormQuestion& question,
                     std::function<void(const ParameterSet&)> answer) {
   auto* dialog = new QDialog(window);
@@ -148,7 +148,7 @@ void Photographs::attach(PhotographSteps* steps) {
   });
   connect(steps, &PhotographSteps::demoRequested, this, [this] {
     ask_for_folder(&bench_.window,
-                   {.name = "make_demo", .title = tr("Where to put the folder of the demo")},
+                   {.name = "make_demo", .title = tr("Folder in which to create the demo")},
                    [this](const QString& folder) { makeDemo(folder); });
   });
   show();

@@ -17,25 +17,25 @@ namespace episcope {
 class CaptureDocuments;
 class PhotographSteps;
 
-/// From photographs of a pattern to a camera, and from the photographs that are open to a light
-/// field whose rows and columns are aligned.
+/// Calibrates a camera from photographs of a pattern, and rectifies open photographs into a light
+/// field with aligned rows and columns.
 class Photographs : public QObject {
   Q_OBJECT
 
  public:
   Photographs(const Workbench& bench, CaptureDocuments& documents, QObject* parent);
 
-  /// Shows the state there from now on, and does what is asked for there.
+  /// Shows its state in these steps and obeys them.
   void attach(PhotographSteps* steps);
 
   void calibrate(const QStringList& photographs, const capture::Pattern& pattern);
-  /// Begins with the mesh of the demo, its picks and the step of its gantry, and calibrates.
+  /// Loads mesh, picks and step of the demo's gantry, and calibrates.
   void beginGantry(const GantryFolder& demo);
   void openCamera(const QString& path);
   void saveCamera(const QString& path);
-  /// Writes the light field of what is open, and opens it; the work goes on there.
+  /// Writes the rectified light field and opens it; the work continues there.
   void rectify(const QString& path);
-  /// Writes photographs of a gantry, of a pattern and a mesh into a new folder in `folder`,
+  /// Writes photographs of a gantry and a pattern, and a mesh, into a new folder in `folder`;
   /// calibrates, and opens the photographs.
   void makeDemo(const QString& folder, const capture::DemoOptions& options = {});
 

@@ -21,13 +21,13 @@ class CompareBar;
 class TileWall;
 class ViewCanvas;
 
-/// A tile to be made: a view, with a map over it if there is one.
+/// Request for a tile: a view, with a map if there is one.
 struct TileRequest {
   LightFieldPtr light_field;
   ViewIndex view;
   std::optional<MapSource> source;
   render::Shading shading;
-  double opacity = 1;  ///< Of the map.
+  double opacity = 1;  ///< Opacity of the map.
   render::Tone tone{};
 };
 /// Whether two requests give the same picture.
@@ -38,24 +38,24 @@ struct TilePicture {
   QuantityMapPtr map;  ///< Null without a map.
 };
 
-/// For a worker. Throws Cancelled.
+/// Runs on a worker. Throws Cancelled.
 [[nodiscard]] std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requests,
                                                           const Progress& progress);
 
-/// Arranges results for comparison: wipe, side by side, or a wall of all.
+/// Arranges results for comparison: wipe, side by side, or a wall of all results.
 class CompareController : public QObject {
   Q_OBJECT
 
  public:
   CompareController(const Workbench& bench, CompareBar* bar);
 
-  /// Ignored if there is nothing to compare. Choosing the current mode again leaves it.
+  /// Ignored if there is nothing to compare. Choosing the current mode again ends it.
   void toggleMode(CompareMode mode);
   void setMode(CompareMode mode);
   [[nodiscard]] CompareMode mode() const { return mode_; }
   /// Whether a mode has something to show now.
   [[nodiscard]] bool isAvailable(CompareMode mode) const;
-  /// Back to the single picture; false if it is there already.
+  /// Returns to the single picture; false if it is shown already.
   bool leave();
   /// Shows A − B instead of the quantity, which ends a wipe.
   void toggleDifference();

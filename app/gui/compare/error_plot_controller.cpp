@@ -60,7 +60,7 @@ QString ErrorPlotController::obstacle() const {
   }
   if (!session_.side_a()) return tr("Run a method: its errors by true disparity appear here.");
   if (!can_judge(*session_.side_a()->estimate, *scene, judged_view(*scene))) {
-    return tr("%1 has no map of the view that the ground truth is of.")
+    return tr("%1 has no map of the view with the ground truth.")
         .arg(QString::fromStdString(session_.side_a()->name));
   }
   return {};

@@ -20,8 +20,8 @@ struct EstimateEntry;
 class RegionController;
 class Session;
 
-/// The tab of errors by true disparity, of the shown result and of the one it is compared with, in
-/// the judged part of the view. Computed in the background, and only while the tab is shown.
+/// The tab of errors over true disparity, for the shown result and the one compared with it, in the
+/// evaluated region. Computed in the background, only while the tab is visible.
 class ErrorPlotController : public QObject {
   Q_OBJECT
 
@@ -32,12 +32,12 @@ class ErrorPlotController : public QObject {
   struct Judged {
     std::string name;
     EvaluationPtr evaluation;
-    DisparityView truth;  ///< Of the scene, which outlives the job.
+    DisparityView truth;  ///< Owned by the scene, which outlives the job.
   };
 
   void update();
   [[nodiscard]] QString obstacle() const;
-  /// Nothing while the evaluation is on its way.
+  /// None while the evaluation runs.
   [[nodiscard]] std::optional<Judged> judged(const EstimateEntry& entry);
   void start(const std::vector<Judged>& results);
 

@@ -142,11 +142,11 @@ void MetricController::fillTable() {
 
 void MetricController::addPixels(std::vector<MetricColumn>& columns) const {
   if (!region_.region()) return;
-  columns.push_back({"vmv2013.pixels", tr("Pixels"), tr("Pixels of the part that were judged"), 0,
-                     BestValue::None});
+  columns.push_back(
+      {"vmv2013.pixels", tr("Pixels"), tr("Pixels that were evaluated"), 0, BestValue::None});
   columns.push_back({"benchmark2016.pixels", tr("Pixels\n2016"),
-                     tr("Those without the border of 15 px that this protocol ignores"), 0,
-                     BestValue::None});
+                     tr("Evaluated pixels without the border of 15 px that this protocol ignores"),
+                     0, BestValue::None});
 }
 
 QStringList MetricController::provenanceOf(const EstimateEntry& entry) const {
@@ -297,8 +297,7 @@ constexpr MetricName kNames[] = {
                        "in %")},
     {"missed_dots_50_0400", QT_TRANSLATE_NOOP("episcope::MetricTable", "missed dots"),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Dots of which half of the pixels or more are off by more than 0.4 px, "
-                       "in %")},
+                       "Dots with at least half of their pixels off by more than 0.4 px, in %")},
     {"background_mse_100", QT_TRANSLATE_NOOP("episcope::MetricTable", "MSE backgr."),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
                        "Mean squared error ×100 of the background between dots, px²"),

@@ -21,16 +21,16 @@ struct MetricColumn;
 class MetricTable;
 class RegionController;
 
-/// A result with the numbers that are known of it.
+/// A result with its known scores.
 struct Judged {
   int id = 0;
   std::string name;
   double seconds = 0;
   std::map<Protocol, Metrics> metrics;
-  std::map<Protocol, std::size_t> pixels{};  ///< That were judged; empty for the whole view.
+  std::map<Protocol, std::size_t> pixels{};  ///< Evaluated pixels; empty for the whole view.
 };
 
-/// Fills the table of metrics: every result under both protocols, in the judged part of the view.
+/// Fills the table of metrics: every result under both protocols, in the evaluated region.
 class MetricController : public QObject {
   Q_OBJECT
 
@@ -38,7 +38,7 @@ class MetricController : public QObject {
   MetricController(const Workbench& bench, MetricTable* table, const RegionController& region);
 
  private:
-  /// What a part of an evaluation scored.
+  /// Score of a region in an evaluation.
   struct Scored {
     EvaluationPtr evaluation;
     Protocol protocol;
@@ -50,10 +50,10 @@ class MetricController : public QObject {
   void addPixels(std::vector<MetricColumn>& columns) const;
   [[nodiscard]] QStringList provenanceOf(const EstimateEntry& entry) const;
   [[nodiscard]] std::vector<Judged> judgeAll();
-  /// Of the judged part; nothing while it is being scored.
+  /// Score of the evaluated region; none while it is being computed.
   [[nodiscard]] const PartScore* scoreOf(const EvaluationPtr& evaluation, Protocol protocol) const;
   void score(std::vector<Scored> wanted);
-  /// Warns of metrics that are missing, once for each light field.
+  /// Warns once per light field of missing metrics.
   void tell(const std::vector<std::string>& notes);
   void save(const QString& suffix, const QString& text);
 
@@ -69,7 +69,7 @@ class MetricController : public QObject {
 /// Header, tool tip and decimals of a metric, by its key in engine/evaluation.
 [[nodiscard]] MetricColumn metric_column(Protocol protocol, const std::string& key);
 
-/// Position of a metric in tables: the most important first, whatever the protocol.
+/// Rank of a metric in tables: the most important first, independent of the protocol.
 [[nodiscard]] int metric_rank(const std::string& key);
 
 }  // namespace episcope

@@ -78,7 +78,7 @@ void RegionController::addCommands(RegionBar& bar) {
       {.id = "compare.rectangle",
        .menu = Menu::Compare,
        .text = tr("Judge a rectangle"),
-       .tip = tr("The next drag on the view draws the rectangle that metrics are of"),
+       .tip = tr("The next drag on the view draws a rectangle in which metrics are computed"),
        .icon = "rectangle",
        .keys = {tr("Ctrl+Alt+R")},
        .run = [this] { beginRectangle(); },
@@ -87,7 +87,7 @@ void RegionController::addCommands(RegionBar& bar) {
   bench_.commands.add({.id = "compare.whole",
                        .menu = Menu::Compare,
                        .text = tr("Judge the whole view"),
-                       .tip = tr("Metrics are of the whole view again"),
+                       .tip = tr("Computes metrics over the whole view again"),
                        .keys = {tr("Ctrl+Alt+W")},
                        .run = [this] { choose(JudgedPixels::Whole); },
                        .section = compare_section::kRange,
@@ -159,7 +159,7 @@ void RegionController::choose(JudgedPixels pixels) {
 void RegionController::askForMask() {
   ask_for_file(&bench_.window,
                {.name = "open_mask",
-                .title = tr("Mask of the pixels that are judged: those that are not black"),
+                .title = tr("Mask of the evaluated pixels: all that are not black"),
                 .filter = tr("Images (*.png *.tif *.tiff *.pgm *.bmp)")},
                [this](const QString& path) { useMask(path); });
 }

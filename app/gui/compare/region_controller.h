@@ -21,12 +21,11 @@ namespace episcope {
 class RectangleTool;
 class RegionBar;
 
-/// Which pixels are judged; null = all.
+/// Mask of evaluated pixels; null = all.
 using RegionPtr = std::shared_ptr<const Image<std::uint8_t>>;
 
-/// Chooses the part of the judged view that metrics are of, for each open light field: all of it, a
-/// rectangle drawn on the view, the current label, the pixels that every result has a value in, or
-/// those of a mask in a file.
+/// Chooses the region that metrics evaluate, per open light field: the whole view, a rectangle, the
+/// current label, the pixels with a value in every result, or a mask file.
 class RegionController : public QObject {
   Q_OBJECT
 
@@ -34,12 +33,12 @@ class RegionController : public QObject {
   RegionController(const Workbench& bench, RegionBar* bar);
   ~RegionController() override;
 
-  /// Of the size of the view; null = everywhere.
+  /// Mask of the view's size; null = everywhere.
   [[nodiscard]] const RegionPtr& region() const { return region_; }
   /// "whole view", "rectangle x 10–49, y 20–59", "label sky": for tables.
   [[nodiscard]] QString name() const;
 
-  /// The next drag on the view draws a rectangle.
+  /// Makes the next drag on the view draw a rectangle.
   void beginRectangle();
   void useMask(const QString& path);
 

@@ -37,7 +37,7 @@ std::optional<double> bad_percent(const EvaluationPtr& evaluation, const PixelRe
   });
 }
 
-// What the numbers of a map are: those of bad pixels are errors.
+// Bad pixels are measured by their errors.
 Quantity measured_by(Quantity quantity) {
   return quantity == Quantity::BadPixels ? Quantity::AbsoluteError : quantity;
 }

@@ -15,17 +15,17 @@ namespace episcope {
 
 class StatisticsPanel;
 
-/// Computes statistics of the visible part of the shown map in the background, and the colour range
-/// from them.
+/// Computes statistics of the visible part of the shown map in the background, and the automatic
+/// colour range.
 class StatisticsController : public QObject {
   Q_OBJECT
 
  public:
   StatisticsController(const Workbench& bench, StatisticsPanel* panel);
 
-  /// Stretches the colours over the visible values; at once, or as soon as they are known.
+  /// Stretches the colours over the visible values, as soon as they are known.
   void useAutomaticRange();
-  /// Of the visible part; none while unknown.
+  /// Statistics of the visible part; none while unknown.
   [[nodiscard]] const std::optional<render::RegionStatistics>& statistics() const {
     return statistics_;
   }

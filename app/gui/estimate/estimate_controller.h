@@ -17,26 +17,26 @@ namespace episcope {
 class MethodPanel;
 class ResultList;
 
-/// The tab of methods and results: runs methods in the background and lists what they found.
+/// The tab of methods and results: runs methods in the background and lists results.
 class EstimateController : public QObject {
   Q_OBJECT
 
  public:
   explicit EstimateController(const Workbench& bench);
 
-  /// Runs what the form says; parameters are copied now.
+  /// Runs the method of the form with its current parameters.
   void run();
   void run(const EstimateRequest& request);
-  /// Cancels all runs on the light field that is shown, as JobCancel does.
+  /// Cancels all runs on the shown light field, as JobCancel does.
   void cancel();
   void removeShown();
-  /// Brings back the result that was removed last.
+  /// Restores the result removed last.
   void restoreRemoved();
   [[nodiscard]] bool canRestore() const;
-  /// The line for what the form says.
+  /// Copies the command line for the form.
   void copyCommand();
   void showNeighbour(int step);
-  /// Asks what is to be kept in mind about a result.
+  /// Asks for a note on a result.
   void askForNote(const EstimateEntry& entry);
 
  private:
@@ -68,12 +68,12 @@ class EstimateController : public QObject {
   std::vector<Removed> removed_;  // the latest last
 };
 
-/// `range` with one end moved to a disparity. The other end stays; where it is not known or would
-/// not lie beyond, it is 0.5 px away. Rounded to 0.01 px, so that what is measured stays inside.
+/// `range` with one end moved to a disparity. The other end stays, or is set 0.5 px away if it is
+/// unknown or on the wrong side. Rounds outwards to 0.01 px.
 enum class RangeEnd { Lower, Upper };
 [[nodiscard]] Interval with_end(Interval range, RangeEnd end, double disparity_px);
 
-/// Commands that make the chosen measurement an end of the range in the form of a method.
+/// Adds commands that make the chosen measurement an end of a method's range.
 void add_measured_range(const Workbench& bench, MethodPanel* panel);
 
 }  // namespace episcope

@@ -50,7 +50,8 @@ void LiveController::addCommand() {
       {.id = "estimate.live",
        .menu = Menu::Estimate,
        .text = tr("Live estimate"),
-       .tip = tr("Estimates what is in sight at every change of parameters or view; Run keeps it"),
+       .tip = tr("Estimates the visible part after every change of parameters or view; Run keeps "
+                 "the result"),
        .icon = "live",
        .keys = {tr("Ctrl+L")},
        .run = [this] { setOn(!is_on_); },
@@ -141,7 +142,7 @@ void LiveController::showStatus() {
 
 QString LiveController::status() const {
   if (!bench_.session.scene()) return tr("Live");
-  if (estimator_.viewer_area() == LiveStage::Failed) {
+  if (estimator_.stage() == LiveStage::Failed) {
     return tr("Live: %1").arg(with_minus(QString::fromStdString(estimator_.sentence())));
   }
   const auto coarse = estimator_.coarse_seconds();

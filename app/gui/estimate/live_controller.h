@@ -15,9 +15,8 @@ namespace episcope {
 
 class MethodPanel;
 
-/// The live estimate: while it is on, every change of method, parameters, view or of what is in
-/// sight is answered by a new map, which is looked at in the place of the shown result and kept
-/// nowhere.
+/// The live estimate: while on, every change of method, parameters, view or visible part yields a
+/// new map, shown in place of the current result and not kept.
 class LiveController : public QObject {
   Q_OBJECT
 
@@ -31,13 +30,13 @@ class LiveController : public QObject {
  private:
   void addCommand();
   void update(Parts parts);
-  /// Asks for what is looked at now.
+  /// Requests a map of the visible part.
   void follow();
   [[nodiscard]] std::optional<LiveRequest> request() const;
   void show();
-  /// A map is seen even if none was before.
+  /// Shows the map even if no overlay was shown before.
   void bringUp();
-  /// What was drawn before it.
+  /// Restores the previous overlay.
   void giveBack();
   void showStatus();
   [[nodiscard]] QString status() const;

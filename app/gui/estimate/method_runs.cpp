@@ -6,30 +6,13 @@
 #include "app/gui/shell/jobs.h"
 #include "app/session/load_scene.h"
 #include "app/session/session.h"
-#include "engine/disparity/disparity_range.h"
 #include "engine/disparity/registry.h"
 #include "widgets/controls/text.h"
 #include "widgets/panels/method_panel.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace episcope {
-namespace {
-
-struct RunResult {
-  FinishedEstimate finished;
-  QString warning;  ///< May be empty.
-};
-
-// A range found that may be too narrow.
-QString range_warning(const LightField& light_field, const Estimate& estimate) {
-  const std::string note = limited_range_note(light_field, estimate.range);
-  if (std::ranges::count(estimate.notes, note) == 0) return {};
-  return with_minus(QString::fromStdString(estimate.method + ": " + note + "."));
-}
-
-}  // namespace
 
 ViewSelection views_of(bool all_views) {
   return all_views ? ViewSelection::All : ViewSelection::Center;
@@ -51,18 +34,17 @@ MethodRuns::MethodRuns(const Workbench& bench) : bench_(bench) {
 void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
   const EstimatorInfo info = find_estimator(request.method).info;
   const QString method = QString::fromStdString(info.name);
-  const quint64 job = bench_.jobs.start<RunResult>(
+  const quint64 job = bench_.jobs.start<FinishedEstimate>(
       Lane::Estimate, job_title(method, scene),
       [request,
        source = scene_source(scene, bench_.opener.cacheFolder(), false)](const Progress& progress) {
         const LightFieldPtr light_field = source(progress)->light_field;
-        FinishedEstimate finished = run_estimator(*light_field, request, progress);
-        QString warning = range_warning(*light_field, *finished.estimate);
-        return RunResult{std::move(finished), std::move(warning)};
+        return run_estimator(*light_field, request, progress);
       },
-      [this, id = scene.id](const RunResult& result) {
-        bench_.session.add_estimate(result.finished.estimate, result.finished.display_range, id);
-        if (!result.warning.isEmpty()) bench_.messages.warn(result.warning);
+      [this, id = scene.id](const FinishedEstimate& finished) {
+        bench_.session.add_estimate(finished.estimate, finished.display_range, id);
+        if (finished.warning.empty()) return;
+        bench_.messages.warn(with_minus(QString::fromStdString(finished.warning)));
       });
   runs_[job] = scene.id;
   bench_.jobs.setScene(job, scene.id);

@@ -19,23 +19,23 @@ namespace episcope {
 
 struct RunRequest;
 
-/// What a form asks for.
+/// Views that a form requests.
 [[nodiscard]] ViewSelection views_of(bool all_views);
 [[nodiscard]] EstimateRequest request_of(const RunRequest& request);
 
-/// Runs methods on open scenes in the background, one after the other. Results go to their scenes,
-/// whichever is shown by then; runs on scenes that are closed are cancelled.
+/// Runs methods on open scenes in the background, one after the other. Results go to their scenes
+/// even if another is shown; closing a scene cancels its runs.
 class MethodRuns : public QObject {
   Q_OBJECT
 
  public:
   explicit MethodRuns(const Workbench& bench);
 
-  /// A scene that is on disk only is read for it.
+  /// Loads a scene that is only on disk.
   void run(const EstimateRequest& request, const OpenScene& scene);
-  /// Whether a method runs, or waits, on the open scene of this id.
+  /// Whether a method runs, or waits, on this open scene.
   [[nodiscard]] bool isRunning(std::uint64_t scene) const;
-  /// Of all runs on it.
+  /// Jobs of all runs on the scene.
   [[nodiscard]] std::vector<quint64> jobsOn(std::uint64_t scene) const;
 
  signals:
@@ -49,11 +49,10 @@ class MethodRuns : public QObject {
   std::map<quint64, std::uint64_t> runs_;  // jobs and the scenes they run on
 };
 
-/// Gives a worker an open scene: what is in memory, else it is read. Throws what `load_scene`
-/// throws.
+/// Gives a worker an open scene, loading it if necessary. Throws what `load_scene` throws.
 using SceneSource = std::function<std::shared_ptr<const Scene>(const Progress&)>;
 
-/// `cache` keeps built-in scenes. Without `needs_truth`, what is read may lack its ground truth.
+/// `cache` holds built-in scenes. Without `needs_truth`, a loaded scene may lack its ground truth.
 [[nodiscard]] SceneSource scene_source(const OpenScene& scene, const std::filesystem::path& cache,
                                        bool needs_truth);
 

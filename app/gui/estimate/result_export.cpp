@@ -102,7 +102,7 @@ void export_result(const Workbench& bench, const EstimateEntry& entry, const QSt
   if (is_result(path)) {
     answers.reload = [bench, path] { bench.results.open(path); };
     answers.of_reloading =
-        ResultExportText::tr("Reloading adds what is in the file to the list of results.");
+        ResultExportText::tr("Reloading adds the results in the file to the list.");
   }
   ask_about_changed_file(&bench.window, path, answers);
 }
@@ -110,7 +110,7 @@ void export_result(const Workbench& bench, const EstimateEntry& entry, const QSt
 void ask_to_submit(const Workbench& bench, const EstimateEntry& entry) {
   ask_for_folder(&bench.window,
                  {.name = "export_submission",
-                  .title = ResultExportText::tr("Folder of the submission that %1 goes into")
+                  .title = ResultExportText::tr("Folder of the submission for %1")
                                .arg(QString::fromStdString(entry.name))},
                  [bench, id = entry.id](const QString& path) {
                    if (const auto* found = bench.session.find_estimate(id)) {

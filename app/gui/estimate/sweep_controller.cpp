@@ -61,7 +61,7 @@ void SweepController::addTab() {
                        .command_tip = tr("Tries values of one or two parameters of the method"),
                        .widget = panel_,
                        .waits = true,
-                       .key = QKeySequence()});  // that of “Sweep parameters…”
+                       .key = QKeySequence()});  // “Sweep parameters…” has one
 }
 
 void SweepController::connectPanel() {

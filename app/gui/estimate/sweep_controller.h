@@ -25,36 +25,36 @@ struct PlotPlace;
 class SweepPanel;
 class SweepRuns;
 
-/// A plot of a sweep, with what its points are.
+/// Plot of a sweep, and the sweep point of each plot point.
 struct SweepChart {
-  /// The mean of all light fields is of none.
+  /// The mean of all light fields has no place.
   struct Place {
-    std::optional<std::size_t> scene;  ///< Among those of the sweep.
-    std::size_t point = 0;             ///< Of that scene, or of every one.
+    std::optional<std::size_t> scene;  ///< Index among the sweep's scenes.
+    std::size_t point = 0;             ///< Index of the point.
   };
   Plot plot;
   std::vector<std::vector<Place>> places;  ///< By series and point.
 };
 
-/// "smoothing λ [px]": a parameter as the user reads it.
+/// Axis title of a parameter: "smoothing λ [px]".
 [[nodiscard]] QString axis_text(const ParameterDescription& description);
 
-/// What can be plotted, with units; nothing that needs ground truth if there is none.
+/// Names of plottable measures, with units; without ground truth, none that need it.
 [[nodiscard]] QStringList measure_names(const Sweep& sweep);
-/// Of which light fields: all together first, then each. Empty if there is only one.
+/// Choices of light fields: all together first, then each. Empty if there is only one.
 [[nodiscard]] QStringList scene_choices(const Sweep& sweep);
-/// A measure, by its place in these names, over the first parameter, for a choice by its place.
-/// All together are a line for each and their mean; with a second parameter, lines of the mean.
+/// Plots measure number `measure` over the first parameter, for choice number `scene`. The choice
+/// "all" has one line per light field and their mean; with a second parameter, only lines of the
+/// mean.
 [[nodiscard]] SweepChart chart_of(const Sweep& sweep, int measure, int choice);
-/// Where a point is in such a plot, or the mean that it counts in; none for the present values
-/// beside the grid.
+/// Plot place of a sweep point, or of the mean that it counts in; none for values off the grid.
 [[nodiscard]] std::optional<PlotPlace> place_in(const SweepChart& chart, SweepPlace point);
 
 /// "EPI_L, inner_scale · 3 light fields"
 [[nodiscard]] QString title_of(const Sweep& sweep);
 /// "EPI_L, lambda 0.2"
 [[nodiscard]] std::string name_of(const Sweep& sweep, const SweepPoint& point);
-/// The same with its numbers, or what went wrong; with the light field if there are several.
+/// Name and scores of a point, or its failure; with the light field if there are several.
 [[nodiscard]] QString text_of(const Sweep& sweep, SweepPlace point);
 
 /// The tab of sweeps: runs the method of the form with a grid of values of one or two of its
@@ -69,12 +69,12 @@ class SweepController : public QObject {
   SweepController(const Workbench& bench, MethodPanel& method);
 
  private:
-  /// The result that shows a point.
+  /// The result added for a point.
   struct Shown {
     int id = 0;
     std::string name;
   };
-  /// What Run would do.
+  /// The sweep that Run would start.
   struct Planned {
     Sweep sweep;
     std::vector<ParameterSet> points;
@@ -86,21 +86,21 @@ class SweepController : public QObject {
   void followSweeps();
   void showMethod();
   void showPlan();
-  /// Throws InvalidInput, a sentence, for what cannot be run.
+  /// Throws InvalidInput with a sentence if the plan cannot run.
   [[nodiscard]] Planned planned() const;
   void run();
   void end(quint64 sweep);
-  /// The sweep that is shown; null if there is none.
+  /// The shown sweep; null if there is none.
   [[nodiscard]] const Sweep* current() const;
   void showSweep(std::uint64_t id);
   void showList();
   void showPlots();
   void choose(int plot, const PlotPlace& place);
   void showPoint(SweepPlace place);
-  /// Of a point of the light field that is in sight.
+  /// Shows the map of a point on the visible light field.
   void showMap(SweepPlace place, const EstimatePtr& map);
   void runAgain(SweepPlace place);
-  /// On the light field that is in sight.
+  /// The point shown on the visible light field.
   [[nodiscard]] Shown shownHere() const;
   void dropShown();
   void describe();

@@ -11,21 +11,21 @@
 
 namespace episcope {
 
-/// Runs sweeps in the background, one at a time, one light field after the other; those that are on
-/// disk only are read for it. Points go to the list of sweeps (SceneSwitcher::sweeps).
+/// Runs sweeps in the background, one at a time and one light field after the other, loading those
+/// that are only on disk. Adds points to SceneSwitcher::sweeps.
 class SweepRuns : public QObject {
   Q_OBJECT
 
  public:
   explicit SweepRuns(const Workbench& bench);
 
-  /// Begins a sweep at these points (`sweep_points`). Returns its id. Precondition: none runs, and
-  /// its scenes are open.
+  /// Begins a sweep over these points (`sweep_points`) and returns its id. Precondition: none runs,
+  /// and its scenes are open.
   std::uint64_t run(Sweep sweep, const std::vector<ParameterSet>& points);
   [[nodiscard]] bool isRunning() const { return job_ != 0; }
   /// 0 if none runs.
   [[nodiscard]] quint64 job() const { return job_; }
-  /// Of the one that runs, or ran last.
+  /// The running sweep, else the last one.
   [[nodiscard]] std::uint64_t sweep() const { return sweep_; }
 
  signals:

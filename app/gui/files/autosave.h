@@ -17,33 +17,33 @@
 
 namespace episcope {
 
-/// Keeps the open scenes and every result in a workspace, so that a crash loses none: results as
-/// soon as they are there, the rest soon after. What is painted has journals of its own.
+/// Keeps open scenes and results in a workspace, so that a crash loses none: results at once, the
+/// rest soon after. Scribbles have their own journals.
 class Autosave : public QObject {
   Q_OBJECT
 
  public:
   explicit Autosave(const Workbench& bench);
-  /// The workspace stays, unless the window was closed with nothing to lose.
+  /// Keeps the workspace, unless the window was closed with nothing to lose.
   ~Autosave() override;
 
-  /// Where workspaces are, the user's own folder at first; empty = nothing is kept.
+  /// Folder of workspaces, initially the user's own; empty = keeps nothing.
   void setRoot(std::filesystem::path root) { root_ = std::move(root); }
   [[nodiscard]] const std::filesystem::path& root() const { return root_; }
-  /// Goes on with a workspace that was left, and is left as it is until the scenes of it are open;
-  /// the present one is removed. Throws IoError.
+  /// Continues with a workspace left by another session, unchanged until its scenes are open, and
+  /// removes the present one. Throws IoError.
   void takeOver(const std::filesystem::path& folder);
-  /// The user's own file of what is open; empty = none yet.
+  /// Sets the project file of the open scenes; empty = none yet.
   void setProjectFile(std::filesystem::path file);
   [[nodiscard]] const std::filesystem::path& projectFile() const { return project_file_; }
-  /// Whether all that is open is kept.
+  /// Whether everything open is stored.
   [[nodiscard]] bool isIdle() const { return !is_writing_ && !is_due_; }
 
  signals:
   void projectFileChanged();
 
  private:
-  /// What was written, also where the rest could not be.
+  /// What was written, even if the rest failed.
   struct Kept {
     std::vector<std::pair<int, std::filesystem::path>> results;  ///< Estimates and their files.
     struct Labels {

@@ -205,7 +205,7 @@ void CollectionController::addCommands() {
   panel_->setOpenAction(open);
   addStep("next", tr("Next scene"), tr("Opens the next light field of the collection"),
           Qt::Key_PageDown, 1);
-  addStep("previous", tr("Previous scene"), tr("Opens the light field before in the collection"),
+  addStep("previous", tr("Previous scene"), tr("Opens the previous light field of the collection"),
           Qt::Key_PageUp, -1);
 }
 
@@ -273,7 +273,7 @@ void CollectionController::markOpen() {
 }
 
 void CollectionController::step(int step) {
-  // A key that repeats goes on from what is loading.
+  // A repeating key continues from the scene being loaded.
   const QString path = panel_->neighbour(wanted_.isEmpty() ? openPath() : wanted_, step);
   if (path.isEmpty()) return;
   panel_->reveal(path);
@@ -352,7 +352,7 @@ void FrameController::addCommands() {
   bench_.commands.add(add("next", tr("Next frame"), tr("Opens the next frame of the sequence"),
                           tr("Alt+Right"), [this] { step(1); }));
   bench_.commands.add(add("previous", tr("Previous frame"),
-                          tr("Opens the frame before in the sequence"), tr("Alt+Left"),
+                          tr("Opens the previous frame of the sequence"), tr("Alt+Left"),
                           [this] { step(-1); }));
   Command play = add("play", tr("Play frames"), tr("Plays the frames of the sequence, or pauses"),
                      tr("Ctrl+Space"), [this] { setPlaying(!is_playing_); });

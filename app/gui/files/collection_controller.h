@@ -27,7 +27,7 @@ class CollectionController : public QObject {
  public:
   explicit CollectionController(const Workbench& bench);
 
-  /// Shows the tab and searches a folder; what it held the last time is there at once.
+  /// Shows the tab and searches a folder, beginning with the entries remembered from last time.
   void openCollection(const QString& folder);
 
  private:
@@ -37,7 +37,7 @@ class CollectionController : public QObject {
   void finish(const std::vector<io::CollectionEntry>& entries);
   void step(int step);
   void open(const QString& path);
-  /// Closes a light field that was set aside, unless something was done on it.
+  /// Whether the user has worked on the scene; untouched scenes are closed when another is opened.
   [[nodiscard]] bool isTouched(const OpenScene& scene) const;
   void closeIfUntouched(std::uint64_t id);
   [[nodiscard]] QString openPath() const;
@@ -54,7 +54,7 @@ class CollectionController : public QObject {
   quint64 search_ = 0;  // number of the newest one
 };
 
-/// The slider of time: opens the frames of a sequence, and keeps view, cross-hair and zoom.
+/// The time slider: opens frames of a sequence, keeping view, cross-hair and zoom.
 class FrameController : public QObject {
   Q_OBJECT
 

@@ -203,10 +203,10 @@ void FileController::addOpenCommands() {
           {tr("Ctrl+Shift+O")}, &FileController::askForFolder);
   folder.icon = "open";
   bench_.commands.add(std::move(folder));
-  Command again = add("file.read_again", tr("Read again"),
-                      tr("Reads what is open again, as a program that is still writing it has left "
-                         "it by now"),
-                      {tr("Ctrl+F5")}, &FileController::readAgain);
+  Command again =
+      add("file.read_again", tr("Read again"),
+          tr("Reads the open light field again, with what a program has added to its file since"),
+          {tr("Ctrl+F5")}, &FileController::readAgain);
   again.enabled = [this] { return !bench_.opener.reopenable().isEmpty(); };
   bench_.commands.add(std::move(again));
   Command result =

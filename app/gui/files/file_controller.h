@@ -31,9 +31,9 @@ class FileController : public QObject {
   void readAgain();
   void askForResult();
   void askForBuiltin();
-  /// A result is added to the open light field; anything else is opened.
+  /// Adds a result to the open light field; opens anything else.
   void openAny(const QString& path);
-  /// Tells of earlier failures once all of them were tried.
+  /// Reports earlier failures once all paths were tried.
   void openAll(QStringList paths, const QStringList& failures);
   void remember(const QString& input);
   void fillRecentMenu();
@@ -43,20 +43,20 @@ class FileController : public QObject {
   QMenu* recent_menu_;
 };
 
-/// What was opened before, newest first, as the settings keep it.
+/// Inputs opened before, newest first, from the settings.
 [[nodiscard]] QStringList recent_inputs();
 
 void remember_recent(const QString& input);
 void forget_recent();
 
-/// The menu from which the open light field is saved: an entry for each form (`io::writers`).
+/// Menu with one entry for each writable form (`io::writers`).
 [[nodiscard]] QMenu* make_save_menu(const Workbench& bench);
 
-/// Asks for a file or a new folder and writes the open light field, as below.
+/// Asks for a file or a new folder, then calls `save_light_field`.
 void ask_to_save_light_field(const Workbench& bench, const io::Writer& writer);
 
-/// Writes the open light field with its truth, labels and what is painted, in the background. What
-/// the form cannot hold is told. Nothing is written over the light field that is open.
+/// Writes the open light field with truth, labels and scribbles, in the background. Warns of parts
+/// that the form cannot hold. Never overwrites the open light field.
 void save_light_field(const Workbench& bench, const io::Writer& writer, const QString& path);
 
 }  // namespace episcope

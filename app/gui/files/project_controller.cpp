@@ -166,7 +166,7 @@ void ProjectController::saveTo(const QString& path, std::function<void()> then) 
                          {.overwrite = [this, path, then] { write(path, then); },
                           .elsewhere = [this, then] { saveAs(then); },
                           .reload = [this, path] { read(path); },
-                          .of_reloading = tr("Reloading replaces what is open here.")});
+                          .of_reloading = tr("Reloading replaces the open light fields.")});
 }
 
 void ProjectController::write(const QString& path, std::function<void()> then) {
@@ -209,13 +209,12 @@ void ProjectController::locate(quint64 scene) {
   const OpenScene* missing = bench_.session.find_scene(scene);
   if (!missing) return;
   const QString input = QString::fromStdString(missing->input);
-  auto* box = new_question_box(
-      &bench_.window,
-      {.name = "moved_light_field",
-       .title = tr("Light field not found"),
-       .text = tr("“%1” is no longer at %2. Where is it now? Others that were moved with it are "
-                  "then found as well.")
-                   .arg(QString::fromStdString(missing->name), input)});
+  auto* box = new_question_box(&bench_.window,
+                               {.name = "moved_light_field",
+                                .title = tr("Light field not found"),
+                                .text = tr("“%1” is no longer at %2. Where is it now? Files that "
+                                           "were moved with it are then found too.")
+                                            .arg(QString::fromStdString(missing->name), input)});
   const auto add = [&](const char* name, const QString& text, auto ask) {
     QPushButton* button = box->addButton(text, QMessageBox::AcceptRole);
     button->setObjectName(name);

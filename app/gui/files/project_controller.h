@@ -22,16 +22,16 @@ class ProjectController : public QObject {
  public:
   ProjectController(const Workbench& bench, Autosave& autosave);
 
-  /// In the place of all that is open, once nothing of that would be lost.
+  /// Opens a project in place of everything open, once nothing would be lost.
   void open(const QString& path);
-  /// To its file, else to one that is asked for. `then` is called after success.
+  /// Saves to the project's file, or asks for one. Calls `then` on success.
   void save(std::function<void()> then = nullptr);
   void saveAs(std::function<void()> then = nullptr);
-  /// Asks first if another program wrote the file meanwhile.
+  /// Asks first if another program has written the file since.
   void saveTo(const QString& path, std::function<void()> then);
   /// Empty if there is none yet.
   [[nodiscard]] QString file() const;
-  /// Whether the project has a file, which does not hold the scenes and results that are open.
+  /// Whether the project has a file that lacks the current scenes and results.
   [[nodiscard]] bool hasChanged() const;
 
  private:

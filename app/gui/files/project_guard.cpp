@@ -94,13 +94,13 @@ QString ProjectGuard::sentence(const Loss& loss) {
   QStringList sentences;
   if (!loss.results.empty()) sentences << tr("Not saved: %1.").arg(list_of(loss.results));
   if (!loss.scribbled.empty()) {
-    sentences << tr("Scribbles that are not saved: on %1.").arg(list_of(loss.scribbled));
+    sentences << tr("Unsaved scribbles: on %1.").arg(list_of(loss.scribbled));
   }
   if (!loss.picked.empty()) {
-    sentences << tr("Pairs of points that are not saved: on %1.").arg(list_of(loss.picked));
+    sentences << tr("Unsaved pairs of points: on %1.").arg(list_of(loss.picked));
   }
   if (!loss.measured.empty()) {
-    sentences << tr("Kept lines that are not saved: on %1.").arg(list_of(loss.measured));
+    sentences << tr("Unsaved measured lines: on %1.").arg(list_of(loss.measured));
   }
   if (loss.of_project && sentences.isEmpty()) sentences << tr("The project has changed.");
   if (loss.is_running) {

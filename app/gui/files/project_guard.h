@@ -18,16 +18,15 @@ namespace episcope {
 
 class ProjectController;
 
-/// Asks once before results that took long to compute, scribbles of scenes that are set aside,
-/// changes of a project, or a method that still runs are lost; offers to save them as a project.
+/// Asks once before losing expensive results, scribbles of other scenes, project changes or a
+/// running method; offers to save a project.
 class ProjectGuard : public QObject {
   Q_OBJECT
 
  public:
   ProjectGuard(const Workbench& bench, ProjectController& project);
 
-  /// Results that took less time are made again more quickly than the question is answered: 5 s
-  /// unless set.
+  /// Results computed in less time are not worth a question: 5 s by default.
   void setWorthKeeping(double seconds) { worth_keeping_s_ = seconds; }
 
  private:

@@ -33,7 +33,7 @@ SceneChooser::SceneChooser(const Workbench& bench)
     : QObject(&bench.owner), bench_(bench), list_(new QComboBox(&bench.frame)) {
   list_->setObjectName("scenes.open");
   list_->setAccessibleName(tr("Open light fields"));
-  list_->setToolTip(tr("The light fields that are open: choose the one to show"));
+  list_->setToolTip(tr("Open light fields: choose the one to show"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   list_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   bench.frame.addToColumn(list_, false);
@@ -54,7 +54,7 @@ void SceneChooser::addCommands() {
   bench_.commands.add({.id = "scenes.next",
                        .menu = Menu::View,
                        .text = tr("Next open light field"),
-                       .tip = tr("Shows the next light field of those that are open"),
+                       .tip = tr("Shows the next open light field"),
                        .keys = {tr("Ctrl+Alt+PgDown")},
                        .run = [this] { bench_.scenes.step(1); },
                        .section = section::kTabs,
@@ -62,7 +62,7 @@ void SceneChooser::addCommands() {
   bench_.commands.add({.id = "scenes.previous",
                        .menu = Menu::View,
                        .text = tr("Previous open light field"),
-                       .tip = tr("Shows the previous light field of those that are open"),
+                       .tip = tr("Shows the previous open light field"),
                        .keys = {tr("Ctrl+Alt+PgUp")},
                        .run = [this] { bench_.scenes.step(-1); },
                        .section = section::kTabs,

@@ -12,7 +12,7 @@ namespace episcope {
 class Autosave;
 class ProjectController;
 
-/// The list of open light fields, from which another one is shown.
+/// The list of open light fields, which switches between them.
 class SceneChooser : public QObject {
   Q_OBJECT
 
@@ -27,8 +27,8 @@ class SceneChooser : public QObject {
   QComboBox* list_;
 };
 
-/// Names the window after the light field and the project that are open; a star says that scribbles
-/// or changes of the project are not saved.
+/// Titles the window after light field and project; a star marks unsaved scribbles or project
+/// changes.
 class WindowTitle : public QObject {
   Q_OBJECT
 

@@ -28,7 +28,7 @@ std::size_t result_count(const Project& project) {
 }
 
 // The journals that the killed session left: each belongs to the scene that it was painted on. Also
-// where all of it is in the user's own project: what is recovered goes on from there.
+// where the user's own project holds everything: recovered strokes continue from there.
 void name_journals(ReadProject& read, const std::filesystem::path& folder) {
   for (const OrphanedJournal& journal : orphaned_journals(folder)) {
     try {
@@ -158,7 +158,7 @@ std::vector<std::filesystem::path> show_project(const Workbench& bench, ReadProj
   bench.session.set_bad_threshold(read.project.bad_threshold_px);
   std::uint64_t current = 0;
   std::vector<std::filesystem::path> kept;
-  std::map<std::uint64_t, std::uint64_t> ids;  // of scenes: those of the project, those of now
+  std::map<std::uint64_t, std::uint64_t> ids;  // of scenes: in the project, now
   for (std::size_t i = 0; i < read.project.scenes.size(); ++i) {
     const ProjectScene& scene = read.project.scenes[i];
     const std::uint64_t id = bench.session.add_aside(scene_of(scene, is_saved));

@@ -19,8 +19,8 @@ namespace episcope {
 class Autosave;
 class MessageBar;
 
-/// Offers the scenes and results of a session that ended unexpectedly, with what was painted on
-/// them, in a bar that blocks nothing.
+/// Offers scenes, results and scribbles of a session that ended unexpectedly, in a bar that does
+/// not block.
 class SessionRecovery : public QObject {
   Q_OBJECT
 
@@ -42,24 +42,24 @@ class SessionRecovery : public QObject {
   LatestJob job_;
 };
 
-/// A project as it is read by a worker.
+/// A project as read by a worker.
 struct ReadProject {
   Project project;
   std::map<std::size_t, RecoveredAnnotation> strokes;  ///< By the place of their scene.
   QStringList failures;                                ///< Sentences on strokes that are damaged.
 };
 
-/// Reads the strokes that a project names.
+/// Reads the strokes of a project.
 void read_strokes(ReadProject& read);
 
-/// Where a project comes from.
+/// Origin of a project.
 enum class ProjectOrigin {
-  File,   ///< Of the user's: it takes the place of all that is open.
-  Crash,  ///< Nothing of it is saved; what else was opened meanwhile stays.
+  File,   ///< A project file, which replaces everything open.
+  Crash,  ///< A crashed session, unsaved; scenes opened since then stay.
 };
 
-/// Opens the scenes of a project and shows the current one. Returns the files of strokes that are
-/// in journals of their own again.
+/// Opens the scenes of a project and shows the current one. Returns the stroke files that have
+/// journals again.
 std::vector<std::filesystem::path> show_project(const Workbench& bench, ReadProject read,
                                                 ProjectOrigin origin);
 

@@ -96,10 +96,10 @@ bool DocumentController::takeAside() {
   session_.set_unread_strokes(generation_, now_.stored);
   finish(now_);
   now_ = {};
-  emit problem((is_stored ? tr("What was painted on “%1” belongs to a light field of another size; "
-                               "it is kept in the project.")
-                          : tr("What was painted on “%1” belongs to a light field of another size; "
-                               "it is offered again at the next start."))
+  emit problem((is_stored ? tr("The scribbles on “%1” belong to a light field of another size; "
+                               "they are kept in the project.")
+                          : tr("The scribbles on “%1” belong to a light field of another size; "
+                               "they are offered again at the next start."))
                    .arg(name));
   return false;
 }
@@ -115,7 +115,7 @@ void DocumentController::openDocument() {
   } catch (const InvalidInput& error) {
     setDocument(make({}), false, {});
     emit problem(tr("The scribbles of this light field cannot be edited: %1. They are left "
-                    "unchanged, and what you paint is saved to another file.")
+                    "unchanged; new scribbles are saved to another file.")
                      .arg(QString::fromUtf8(error.what())));
   }
 }
@@ -288,7 +288,7 @@ void DocumentController::run(Open& open, const std::function<void()>& change) {
   } catch (const IoError& error) {
     open.annotation->drop_journal();
     session_.set_unread_strokes(sceneOf(open), open.stored);
-    emit problem(tr("What you paint can no longer be recovered after a crash, so save it soon: %1")
+    emit problem(tr("Scribbles can no longer be recovered after a crash, so save them soon: %1")
                      .arg(QString::fromUtf8(error.what())));
   } catch (const Error& error) {
     emit problem(QString::fromUtf8(error.what()));

@@ -18,7 +18,7 @@
 
 namespace episcope {
 
-/// A document of an open scene that has a journal.
+/// Document of an open scene, with its journal and state.
 struct EditedDocument {
   std::uint64_t scene = 0;  ///< OpenScene::id.
   std::filesystem::path journal;
@@ -26,9 +26,9 @@ struct EditedDocument {
   std::filesystem::path stored{};  ///< The file of a project that holds it now.
 };
 
-/// The annotation documents of the open light fields, of which one is shown: creates it, changes
-/// it, keeps its journal and reports changes. Whatever shows, saves or learns from scribbles
-/// listens to this.
+/// Annotation documents of the open light fields, one of them shown. Creates and changes it, keeps
+/// its journal and reports changes. Everything that shows, saves or learns from scribbles listens
+/// to it.
 class DocumentController : public QObject {
   Q_OBJECT
 
@@ -36,51 +36,49 @@ class DocumentController : public QObject {
   explicit DocumentController(Session& session, QObject* parent);
   ~DocumentController() override;
 
-  /// Where journals are kept, the user's own folder at first; empty = nowhere.
+  /// Folder of journals, initially the user's own; empty = no journals.
   void setJournalFolder(std::filesystem::path folder);
   [[nodiscard]] const std::filesystem::path& journalFolder() const { return journal_folder_; }
 
-  /// Null if nothing is open, or not yet.
+  /// Null without a light field, or before its document exists.
   [[nodiscard]] AnnotationDocument* document();
   [[nodiscard]] const AnnotationDocument* document() const;
-  /// Whether it holds all scribbles of the light field's own files; if not, those must not be
-  /// overwritten.
+  /// Whether the document holds all scribbles of the light field's own files; if not, those must
+  /// not be overwritten.
   [[nodiscard]] bool isWhole() const { return now_.is_whole; }
   [[nodiscard]] bool hasUnsavedChanges() const;
-  /// Whether its last changes are in a project only, not in the file of scribbles.
+  /// Whether the last changes are only in a project, not in the file of scribbles.
   [[nodiscard]] bool isInProjectOnly() const;
-  /// The file that it was saved to last; empty if it was not.
+  /// File that it was last saved to; empty if none.
   [[nodiscard]] std::string file() const;
-  /// Puts another document in the place of the present one, whose journal ends. `is_whole` and
-  /// `file` as above.
-  /// Returns whether it is kept in a journal.
+  /// Replaces the document and ends its journal. `is_whole` and `file` as above. Returns whether
+  /// the new one has a journal.
   bool replace(AnnotationDocument document, bool is_whole, const std::string& file);
-  /// Notes that the state of a scene's document was written to a file; if painting went on
-  /// meanwhile, there are unsaved changes still.
+  /// Notes that a state of a scene's document was written to a file; later strokes remain unsaved.
   void noteSaved(std::uint64_t scene, std::uint64_t state, const std::string& file);
-  /// The user discards the present changes: they may be dropped with the document.
+  /// Lets the current changes be dropped with the document.
   void discardChanges();
-  /// The same of all open scenes.
+  /// Discards the changes of all open scenes.
   void discardAll();
   /// Open scenes (OpenScene::id) whose documents have changes that no file holds.
   [[nodiscard]] std::vector<std::uint64_t> unsavedScenes() const;
-  /// The documents of open scenes that were edited, each with its journal and its state now.
+  /// Edited documents of open scenes, with journals and current states.
   [[nodiscard]] std::vector<EditedDocument> editedDocuments() const;
-  /// Notes that these states are in a project.
+  /// Notes that a project holds these states.
   void noteKept(const std::vector<EditedDocument>& documents);
-  /// What was painted before on a scene that is set aside. `stored`: the file of a project of the
-  /// user's that holds it; empty = none does. Returns whether it is kept in a journal anew.
+  /// Adds recovered scribbles to a scene that is not shown. `stored`: project file that holds them,
+  /// or empty. Returns whether they have a journal again.
   bool bring(std::uint64_t scene, RecoveredAnnotation found, std::filesystem::path stored);
-  /// Ensures that what is painted next survives a crash; whether that is so.
+  /// Ensures that the next strokes survive a crash; returns whether they do.
   bool keepJournal();
 
-  /// Applies any edit; what it throws is reported as a problem. Returns whether the document
-  /// changed.
+  /// Applies an edit; reports what it throws as a problem. Returns whether the document changed.
   bool edit(const std::function<void(AnnotationDocument&)>& change);
   void undo();
   void redo();
 
-  /// A stroke on one view, under way until it is ended or cancelled. False if it cannot begin.
+  /// Begins a stroke on one view, which lasts until it is ended or cancelled. False if it cannot
+  /// begin.
   bool beginStroke(ViewIndex view, const PaintStyle& style, StrokePoint at);
   void extendStroke(StrokePoint at);
   void endStroke();
@@ -88,18 +86,17 @@ class DocumentController : public QObject {
   [[nodiscard]] bool isStroking() const { return stroke_ != nullptr; }
 
  signals:
-  /// Another document, or none.
+  /// Another document is shown, or none.
   void replaced();
-  /// Pixels of a view changed within a stroke.
+  /// A stroke changed pixels of a view.
   void painted(episcope::ViewIndex view, const episcope::PixelRect& rect);
-  /// The history went a step forward or back. Rectangles may cover more than what changed.
+  /// The history moved a step. Rectangles may cover more than the change.
   void changed(const episcope::DocumentChange& change);
-  /// As `changed`, by undo or redo, with the edit undone or redone: who works on it wants to see
-  /// where.
+  /// Undo or redo moved the history over `edit`; editors show the place.
   void steppedBack(const episcope::DocumentChange& change, const episcope::Edit& edit,
                    bool is_undo);
   void unsavedChanged(bool has_unsaved_changes);
-  /// A sentence for the user.
+  /// Problem as a sentence for the user.
   void problem(const QString& sentence);
 
  private:
@@ -109,7 +106,7 @@ class DocumentController : public QObject {
     bool is_whole = true;
     std::filesystem::path stored{};  ///< The file of a project that held it last.
     std::optional<std::uint64_t> discarded_state{};
-    std::optional<std::uint64_t> project_state{};  ///< What a project holds and no other file.
+    std::optional<std::uint64_t> project_state{};  ///< State held by a project only.
     void note_kept(const EditedDocument& kept);
     [[nodiscard]] bool has_unsaved_changes() const;
   };
@@ -118,21 +115,21 @@ class DocumentController : public QObject {
   void openDocument();
   void leaveDocument();
   void leaveClosed();
-  /// Takes the document that was set aside for the scene that is shown; false if there is none.
+  /// Takes over the document kept for the shown scene; false if there is none.
   bool takeAside();
   void beginHash();
-  /// Ends a document: a journal with unsaved changes stays, to be offered at the next start.
+  /// Closes a document. A journal with unsaved changes stays, to be offered at the next start.
   static void finish(Open& open);
   void setDocument(AnnotationDocument document, bool is_whole, const std::string& file);
   void go(DocumentChange (AnnotationDocument::*step)());
   void markSaved(Open& open, std::uint64_t state);
-  /// The document of a scene that is set aside; null if there is none.
+  /// Document of a scene that is not shown; null if there is none.
   [[nodiscard]] Open* findAside(std::uint64_t scene);
   bool keepJournal(Open& open);
   void tell(const DocumentChange& change);
   void tellUnsaved();
-  /// Runs a change and reports what it threw. A journal that fails is abandoned; what a project
-  /// holds of the strokes then stays in it.
+  /// Runs a change and reports what it throws. Abandons a failing journal, but keeps strokes stored
+  /// in a project there.
   void run(const std::function<void()>& change) { run(now_, change); }
   void run(Open& open, const std::function<void()>& change);
   [[nodiscard]] std::uint64_t sceneOf(const Open& open) const;
@@ -153,7 +150,7 @@ class DocumentController : public QObject {
   bool was_unsaved_ = false;
 };
 
-/// The current label of the document: the one painted with and whose probability is shown.
+/// The current label of the document, used to paint and for its probability.
 class LabelChoice : public QObject {
   Q_OBJECT
 
@@ -162,16 +159,16 @@ class LabelChoice : public QObject {
 
   /// Id of the current label; 0 without labels.
   [[nodiscard]] int current() const { return current_; }
-  /// The same with name and colour; null without labels.
+  /// The current label; null without labels.
   [[nodiscard]] const LabelInfo* info() const;
-  /// Returns whether there is such a label.
+  /// Returns whether the label exists.
   bool choose(int id);
   void chooseNext();
-  /// Back to the label before this one.
+  /// Returns to the previous label.
   void swap();
 
  signals:
-  /// The current label is another one, or has another name or colour.
+  /// Another label is current, or its name or colour changed.
   void changed();
 
  private:

@@ -21,24 +21,24 @@
 
 namespace episcope {
 
-/// Gives the overlay the maps of a subject that the session does not hold.
+/// Provides the overlay with maps that the session does not hold.
 class MapProvider {
  public:
   virtual ~MapProvider() = default;
 
-  /// Whether a quantity can be shown now, in the current view.
+  /// Whether the quantity can be shown in the current view now.
   [[nodiscard]] virtual bool has_map(render::Quantity quantity) const = 0;
-  /// Whether there may be maps of it later, so that what is shown stays chosen until then.
+  /// Whether a map may come later, so that the quantity stays chosen until then.
   [[nodiscard]] virtual bool awaits_map(render::Quantity quantity) const = 0;
-  /// What the map shows, in words; empty where the name of the quantity says it.
+  /// Title of the map; empty to use the name of the quantity.
   [[nodiscard]] virtual QString title(render::Quantity) const { return {}; }
-  /// What the map of a view is made from; nothing if there is no such map.
+  /// Source of a map; none if there is no such map.
   [[nodiscard]] virtual std::optional<MapSource> map_source(render::Quantity quantity,
                                                             ViewIndex view) const = 0;
 };
 
-/// Pictures of maps in their colours, made in the background one at a time. The most recently used
-/// are kept, since flips and wipes alternate between two.
+/// Coloured pictures of maps, made in the background one at a time. Keeps the most recent ones,
+/// since flips and wipes alternate between two.
 class OverlayPictures {
  public:
   struct Entry {
@@ -48,16 +48,16 @@ class OverlayPictures {
     QImage picture;
   };
 
-  /// `made` is called on the thread of `post` when a picture that was begun is there, or failed.
+  /// Calls `made` on the thread of `post` when a picture is finished or failed.
   OverlayPictures(JobRunner::Post post, std::function<void()> made);
 
-  /// Null if it is not there.
+  /// Null if it is not made.
   [[nodiscard]] const Entry* find(const MapSource& source, const render::Shading& shading);
-  /// The map alone, which may be there before its picture; null if it is not.
+  /// The map alone, which may exist before its picture; null if it does not.
   [[nodiscard]] QuantityMapPtr find_map(const MapSource& source) const;
-  /// Begins to make a picture, unless one is being made: then `made` tells when to ask again.
+  /// Begins a picture, unless one is being made; `made` tells when to ask again.
   void begin(const MapSource& source, const render::Shading& shading);
-  /// Forgets all; what is being made is not kept.
+  /// Forgets all pictures, including the one being made.
   void clear();
 
  private:
@@ -70,22 +70,22 @@ class OverlayPictures {
   JobRunner runner_;
 };
 
-/// Draws a quantity over the view: which one, how opaque, in which range; flips to the other result
-/// on request. Pictures are made in the background: what was drawn stays until they are ready.
+/// Draws a quantity over the view, with opacity and range; flips to the other result on request.
+/// Pictures are made in the background; the previous one stays until they are ready.
 class Overlay : public QObject {
   Q_OBJECT
 
  public:
   Overlay(Session& session, ViewerArea& viewer_area, QObject* parent);
 
-  /// Whose maps are drawn for quantities of this subject; it must outlive this. Null takes it away.
+  /// Sets the provider of maps of a subject, which must outlive this; null removes it.
   void setProvider(render::Subject subject, const MapProvider* provider);
-  /// The maps of a provider changed, or which of them there are.
+  /// A provider's maps, or their availability, changed.
   void updateProvided();
 
-  /// Ignored if it is not available.
+  /// Ignored if the quantity is unavailable.
   void setQuantity(render::Quantity quantity);
-  /// Disparity, unless what is shown is of results already.
+  /// Shows disparity, unless a quantity of results is shown already.
   void showResults();
   void selectNextQuantity();
   [[nodiscard]] render::Quantity quantity() const { return quantity_; }
@@ -99,30 +99,29 @@ class Overlay : public QObject {
   void setFlipped(bool is_flipped);
   [[nodiscard]] bool isFlipped() const { return is_flipped_; }
 
-  /// What is drawn: A, the difference, or B while flipped.
+  /// Drawn choice: A, the difference, or B while flipped.
   [[nodiscard]] MapChoice choice() const;
-  /// The quantity of the shown result.
+  /// A: the quantity of the shown result.
   [[nodiscard]] MapChoice choiceA() const;
-  /// The same of what it is compared with: the other result, else the truth, else the view alone.
+  /// B: the quantity of the other result, else of the truth, else the view alone.
   [[nodiscard]] MapChoice choiceB() const;
   /// "error of EPI_L", "truth"; "view" without an overlay.
   [[nodiscard]] QString describe(const MapChoice& choice) const;
-  /// The same of B; says so where B is the truth, which has no error to show.
+  /// Description of B; says so where B is the truth, which has no error to show.
   [[nodiscard]] QString describeB() const;
-  /// Colours as they are drawn now, edited ranges included.
+  /// Current colours, with edited ranges.
   [[nodiscard]] render::Shading shadingOf(render::Quantity quantity) const;
-  /// What the map of a choice in the current view is made from; nothing if there is none, or not
-  /// yet.
+  /// Source of a choice's map in the current view; none if there is none, or not yet.
   [[nodiscard]] std::optional<MapSource> sourceOf(const MapChoice& choice) const;
-  /// Picture of a choice in the current view, null if there is none; nothing while it is being
-  /// made: `drawn` tells when to ask again.
+  /// Picture of a choice in the current view, null if there is none. None while it is being made;
+  /// `drawn` tells when to ask again.
   [[nodiscard]] std::optional<QImage> pictureOf(const MapChoice& choice);
 
-  /// Range of what is drawn; none = the quantity's own one.
+  /// Sets the range of the colours; none = the quantity's own range.
   void setRange(std::optional<Interval> range);
-  /// Whether `map` is what was chosen last, and not what stays until that is there.
+  /// Whether `map` shows the last choice, instead of the previous map.
   [[nodiscard]] bool isUpToDate() const { return is_up_to_date_; }
-  /// What is drawn; null without a map.
+  /// Drawn map; null without one.
   [[nodiscard]] const QuantityMapPtr& map() const { return map_; }
   /// Value of the overlay at a pixel of the current view.
   [[nodiscard]] std::optional<double> valueAt(PixelIndex pixel) const;
@@ -130,9 +129,9 @@ class Overlay : public QObject {
   [[nodiscard]] const QImage& picture() const { return picture_; }
 
  signals:
-  /// Quantity, difference, or what is available changed.
+  /// Quantity, difference or availability changed.
   void choiceChanged();
-  /// What is over the view, or its colours, changed.
+  /// The picture over the view, or its colours, changed.
   void drawn();
 
  private:
@@ -166,7 +165,7 @@ class Overlay : public QObject {
 /// Whether a quantity shows a result or its error.
 [[nodiscard]] bool is_of_result(render::Quantity quantity);
 
-/// The samples of a pixel as they are stored, one text a channel.
+/// Stored samples of a pixel, one text per channel.
 [[nodiscard]] QStringList sample_texts(const LightField& light_field, ViewIndex view,
                                        PixelIndex pixel);
 

@@ -20,9 +20,8 @@ class LeaveGuards;
 class SceneSwitcher;
 class ViewerArea;
 
-/// Opens light fields in the background, and asks where files do not tell how. The centre view is
-/// shown as soon as it is read; what was open stays until everything is loaded, and if loading
-/// fails or is cancelled.
+/// Opens light fields in the background, and asks if files leave their reading open. Shows the
+/// centre view as soon as it is read; the previous scene stays until loading succeeds.
 class SceneOpener : public QObject {
   Q_OBJECT
 
@@ -30,58 +29,57 @@ class SceneOpener : public QObject {
   SceneOpener(Session& session, Jobs& jobs, ViewerArea& viewer_area, const LeaveGuards& guards,
               SceneSwitcher& scenes, QObject* parent);
 
-  /// Opens a path, `demo` or `demo:<scene>`, with the conventions that are remembered for it,
-  /// beside what is open already; what is open itself is shown. `then` is called after success,
-  /// `otherwise` after a failure, with the sentence that told it, and after `isCollection`, with
-  /// none; neither if it is cancelled or gives way to another. A project is not opened here: see
-  /// `isProject`.
+  /// Opens a path, `demo` or `demo:<scene>` in addition to the open light fields, with its
+  /// remembered conventions; shows it if it is open already. Calls `then` on success. Calls
+  /// `otherwise` with a sentence on failure, and without one after `isCollection`. Calls neither if
+  /// cancelled or superseded. Does not open projects: see `isProject`.
   void open(const QString& input, std::function<void()> then = nullptr,
             std::function<void(const QString&)> otherwise = nullptr);
-  /// Reads what is open, or what failed to open, again as it is on the disk by now.
+  /// Reads the open input, or the one that failed to open, from disk again.
   void reopen();
-  /// Reads what is open, or what failed to open, again as the user chose. The choice is remembered
-  /// for that file if it could be read.
+  /// Reads the open input, or the one that failed, again with the given options. Remembers them for
+  /// that file on success.
   void reopenWith(const ParameterSet& given);
-  /// The same of what is open, also after something else failed to open.
+  /// As `reopenWith`, but always for the open light field.
   void reopenShownWith(const ParameterSet& given);
-  /// Reads what is open again at another focus plane (0: that of the files). `then` is called after
-  /// success.
+  /// Reads the open light field again at another focus plane (0: the plane of the files). Calls
+  /// `then` on success.
   void reopenAt(double focus_px, std::function<void()> then);
-  /// Reads another frame of the sequence that is open. `then` is called after success.
+  /// Reads another frame of the open sequence. Calls `then` on success.
   void reopenFrame(int frame, std::function<void()> then);
-  /// What `reopenWith` would read; empty if there is nothing, or a built-in scene.
+  /// Input that `reopenWith` would read; empty if there is none, or for a built-in scene.
   [[nodiscard]] QString reopenable() const;
-  /// Whether what was asked for last could not be read.
+  /// Whether the last requested input could not be read.
   [[nodiscard]] bool hasFailed() const { return !failed_input_.isEmpty(); }
-  /// Closes what is shown; another light field that is open is shown then.
+  /// Closes the shown light field and shows another open one.
   void close();
 
-  /// Where built-in scenes, and what is known of collections, are kept; empty = nowhere.
+  /// Folder of built-in scenes and of facts about collections; empty = nowhere.
   [[nodiscard]] const std::filesystem::path& cacheFolder() const { return cache_folder_; }
   /// For tests.
   void setCacheFolder(const std::filesystem::path& folder);
 
  signals:
-  /// A load begins or ended; what `reopenable` says may be another.
+  /// A load began or ended; `reopenable` may have changed.
   void changed();
-  /// The session has a light field that `open` was asked for; paths are absolute.
+  /// The session has a requested light field; paths are absolute.
   void opened(const QString& input);
-  /// `open` was asked for a folder that is no light field but holds some.
+  /// The requested folder is no light field but contains some.
   void isCollection(const QString& folder);
-  /// `open` was asked for a project file.
+  /// The requested path is a project file.
   void isProject(const QString& path);
-  /// Something else is open by now than what this sentence says could not be.
+  /// Another input is open, so that this failure no longer matters.
   void failureIsOver(const QString& sentence);
 
  private:
   struct Load {
     QString input;
     ParameterSet given;
-    bool is_remembered = false;  ///< Conventions that do not fit any more are passed over.
+    bool is_remembered = false;  ///< Skips conventions that no longer fit.
     std::function<void()> then{};
     std::function<void(const QString&)> otherwise{};
     bool keeps_results = false;  ///< `then` brings them back.
-    bool is_added = false;       ///< Beside what is open, not in its place.
+    bool is_added = false;       ///< In addition to the open scenes.
   };
 
   void readAs(const QString& input, const ParameterSet& given, bool is_added);
@@ -114,11 +112,11 @@ class SceneOpener : public QObject {
 /// Whether this opens a built-in scene.
 [[nodiscard]] bool is_builtin(const QString& input);
 
-/// The reading options (io::open_schema) that the user set for this file or folder; none if all are
+/// Reading options (io::open_schema) that the user set for this file or folder; none if all are
 /// automatic. `path` is absolute.
 [[nodiscard]] ParameterSet remembered_conventions(const QString& path);
 
-/// Keeps the options for later opens; without any, the file is forgotten.
+/// Keeps the options for later opens; without any, forgets the file.
 void remember_conventions(const QString& path, const ParameterSet& given);
 
 }  // namespace episcope

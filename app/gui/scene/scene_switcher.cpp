@@ -238,7 +238,7 @@ void ResultOpener::open(const QString& path) {
         session_.add_estimate(read.estimate, read.display_range, generation);
         if (!read.differing_options.empty()) {
           messages_.warn(tr("%1 was estimated with%2: its errors may be meaningless. Choose the "
-                            "same in Conventions…")
+                            "same values in Conventions…")
                              .arg(name, QString::fromStdString(read.differing_options)));
         } else if (read.is_of_others) {
           messages_.warn(

@@ -19,36 +19,35 @@ class Jobs;
 class Messages;
 class Session;
 
-/// Shows another of the open scenes: at once if it is in memory, else after reading it and its
-/// results in the background; keeps the sweeps over them. Lets go of the memory of scenes that were
-/// not looked at for long while all of them take more than a budget; what was computed for them is
-/// in files by then.
+/// Switches between open scenes: at once if the scene is in memory, else after reading it and its
+/// results in the background. Keeps the sweeps over scenes. Frees the least recently used scenes
+/// while all exceed a memory budget; their results are in files by then.
 class SceneSwitcher : public QObject {
   Q_OBJECT
 
  public:
   SceneSwitcher(Session& session, Jobs& jobs, Messages& messages, QObject* parent);
 
-  /// `then` is called once it is shown. Ignored for a scene that is not open.
+  /// Calls `then` once the scene is shown. Ignores a scene that is not open.
   void show(std::uint64_t scene, std::function<void()> then = nullptr);
-  /// One that is at another place now; `found` is called if its samples are there, before it is
-  /// shown. If there are others, that is told, and the scene stays as it was.
+  /// Shows a scene that was moved. Calls `found` first if its samples are there; else tells the
+  /// user and leaves the scene unchanged.
   void showMoved(std::uint64_t scene, const std::string& input, std::function<void()> found);
-  /// The next of the list, or the one before.
+  /// Shows the next scene of the list, or the previous one.
   void step(int step);
-  /// The one that was shown last, if nothing is shown.
+  /// Shows the last shown scene, if nothing is shown.
   void showLatest();
 
-  /// What was swept over them, whichever is shown.
+  /// Sweeps over all scenes.
   [[nodiscard]] SweepList& sweeps() { return sweeps_; }
 
-  /// Memory for all scenes together; a third of the machine's at first.
+  /// Memory budget of all scenes; a third of the machine's memory by default.
   void setBudget(std::size_t bytes);
-  /// Where built-in scenes are kept; empty = nowhere.
+  /// Folder of built-in scenes; empty = nowhere.
   void setCacheFolder(std::filesystem::path folder) { cache_folder_ = std::move(folder); }
 
  signals:
-  /// The light field of a scene is not where it was.
+  /// The light field of a scene is not at its place.
   void notFound(quint64 scene);
 
  private:
@@ -75,10 +74,10 @@ class SceneSwitcher : public QObject {
   std::uint64_t wanted_ = 0;  // asked for last, and on its way
 };
 
-/// Whether a path names a result. False for what cannot be read: opening it tells what is wrong.
+/// Whether a path names a result. False for unreadable files; opening those reports the problem.
 [[nodiscard]] bool is_result(const QString& path);
 
-/// Adds result files, and maps of other programs, to the results of the open light field, in the
+/// Adds result files and maps of other programs to the open light field's results, in the
 /// background. Warns of results that may belong to another light field.
 class ResultOpener : public QObject {
   Q_OBJECT

@@ -18,10 +18,9 @@ class Panes;
 class TileWall;
 class ViewCanvas;
 
-/// Where the light field is seen: the view with the vertical EPI beside it, the horizontal one
-/// under it and the legend between, divided as the user wants it; or a wall of tiles, or a guest,
-/// in the place of view and vertical EPI. While a preview is on the canvas, which is not of the
-/// session, nobody else draws there.
+/// Where the light field is seen: the view, the vertical EPI beside it, the horizontal EPI below
+/// and the legend between, in adjustable sizes. A wall of tiles or a guest can replace view and
+/// vertical EPI. While a preview is on the canvas, nothing else is drawn there.
 class ViewerArea : public QWidget {
   Q_OBJECT
 
@@ -33,40 +32,40 @@ class ViewerArea : public QWidget {
   [[nodiscard]] EpiPane* horizontalEpi() const { return horizontal_epi_; }
   [[nodiscard]] EpiPane* verticalEpi() const { return vertical_epi_; }
   [[nodiscard]] ColorBar* colorBar() const { return color_bar_; }
-  /// Opacity and focus plane; for the tool bar.
+  /// Opacity and focus plane, for the tool bar.
   [[nodiscard]] OverlayBar* overlayBar() const { return overlay_bar_; }
 
-  /// Shows the wall instead of the canvas; the keyboard focus moves along.
+  /// Shows the wall instead of the canvas, and moves the keyboard focus along.
   void setWallShown(bool is_shown);
   [[nodiscard]] bool isWallShown() const;
-  /// Puts a widget of somebody else in the place of the canvas or the wall until `releaseGuest`, or
-  /// until who owns it gives it another parent. The keyboard focus moves along.
+  /// Shows a foreign widget in place of canvas or wall until `releaseGuest`, or until its owner
+  /// reparents it. Moves the keyboard focus along.
   void setGuest(QWidget* guest);
-  /// The canvas or the wall is seen again. The guest stays a hidden child of this.
+  /// Shows canvas or wall again. The guest stays a hidden child.
   void releaseGuest();
   [[nodiscard]] QWidget* guest() const { return guest_; }
-  /// Adds the EPIs to what can be in a window of its own.
+  /// Adds the EPIs to the panes that can be detached.
   void addPanesTo(Panes& panes);
 
-  /// What the keyboard belongs to: the canvas, a tile, or the guest.
+  /// Widget that owns the keyboard: the canvas, a tile, or the guest.
   [[nodiscard]] QWidget* keyboardHome() const;
   /// The canvas, or the active tile of the wall.
   [[nodiscard]] ViewCanvas* activeCanvas() const;
-  /// Pixels of the view that are in sight.
+  /// Visible pixels of the view.
   [[nodiscard]] QRect pixelsInSight() const;
 
-  /// Asks whoever shows a wall or a wipe to end that.
+  /// Requests the end of a wall or a wipe.
   void requestSingleView() { emit singleViewRequested(); }
 
-  /// Shows a picture that does not belong to the session yet; it cannot be browsed.
+  /// Shows a picture that is not part of the session yet; it cannot be browsed.
   void showPreview(const QImage& picture, const QString& caption);
-  /// Back to the session, which is drawn anew by those who hear `previewChanged`.
+  /// Returns to the session; listeners of `previewChanged` redraw it.
   void endPreview();
   [[nodiscard]] bool isPreviewing() const { return is_previewing_; }
 
  signals:
   void singleViewRequested();
-  /// Something else is asked for in the place of the guest.
+  /// Something else is requested in place of the guest.
   void guestDismissed();
   void previewChanged(bool is_previewing);
 
@@ -77,7 +76,7 @@ class ViewerArea : public QWidget {
   void arrange();
   void showInCenter(QWidget* widget);
   void fitPlaces();
-  /// Columns of both rows keep the same widths, so that view and EPI are aligned.
+  /// Keeps the columns of both rows equally wide, so that view and EPI are aligned.
   void alignColumns();
 
   ViewCanvas* canvas_;

@@ -116,7 +116,7 @@ void remove_translators() {
   qDeleteAll(QCoreApplication::instance()->findChildren<QTranslator*>(kTranslator));
 }
 
-// Of dates: that of the desktop, unless the window speaks another language.
+// Dates follow the desktop, unless the window has another language.
 QLocale locale_for(const QString& code) {
   const QLocale desktop = QLocale::system();
   const bool is_same = desktop.language() == QLocale(code).language() ||

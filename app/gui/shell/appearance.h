@@ -9,34 +9,34 @@ namespace episcope {
 class Commands;
 class Messages;
 
-/// Colours the application: "light", "dark", or "system" for those of the desktop. False for any
-/// other name, and nothing changes.
+/// Applies a theme: "light", "dark", or "system" for the desktop's colours. Returns false for any
+/// other name and changes nothing.
 bool apply_theme(const QString& name);
 
-/// What was chosen in the menu last; "system" at first.
+/// Theme chosen last in the menu; "system" by default.
 [[nodiscard]] QString remembered_theme();
 
-/// Commands that choose the colours, and remember them.
+/// Adds commands that choose and remember the theme.
 void add_theme_commands(Commands& commands);
 
-/// Codes of the languages that this build has, "en" among them: "de", "en". Only English where Qt's
-/// tools for translations were missing when it was built.
+/// Codes of the languages in this build, with "en". Only English if Qt's translation tools were
+/// missing.
 [[nodiscard]] QStringList languages();
 
-/// The one of `languages` that a user wants who prefers `wanted`, best first, as of
-/// QLocale::uiLanguages(): "de-AT", "C". English if there is none.
+/// Best match among `languages` for a user's preferences, best first, as of QLocale::uiLanguages():
+/// "de-AT", "C". English if none matches.
 [[nodiscard]] QString language_for(const QStringList& wanted, const QStringList& languages);
 
-/// Translates all texts that are made from now on: "de", …, or "system" for the language of the
-/// desktop (LANGUAGE, LC_ALL, LC_MESSAGES, LANG). Numbers keep the decimal point, as in files and
-/// on command lines, in the C library too. False for a language that this build does not have, and
-/// nothing changes.
+/// Translates all texts made from now on: "de", …, or "system" for the desktop's language
+/// (LANGUAGE, LC_ALL, LC_MESSAGES, LANG). Numbers keep the decimal point, as in files and on
+/// command lines, also in the C library. Returns false for a language missing in this build and
+/// changes nothing.
 bool apply_language(const QString& name);
 
-/// What was chosen in the menu last; "system" at first.
+/// Language chosen last in the menu; "system" by default.
 [[nodiscard]] QString remembered_language();
 
-/// Commands that choose the language of the next start, and remember it.
+/// Adds commands that choose and remember the language of the next start.
 void add_language_commands(Commands& commands, Messages& messages);
 
 }  // namespace episcope

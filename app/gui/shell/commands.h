@@ -25,7 +25,7 @@ namespace episcope {
 enum class Menu {
   File,
   View,
-  Views,  ///< In View, as all up to Language.
+  Views,  ///< Submenu of View, like all up to Language.
   Measurements,
   Tabs,
   Panes,
@@ -34,8 +34,8 @@ enum class Menu {
   Estimate,
   Compare,
   Annotate,
-  Label,         ///< In Annotate,
-  Segmentation,  ///< as is this one.
+  Label,         ///< Submenu of Annotate,
+  Segmentation,  ///< like this one.
   Help
 };
 
@@ -44,7 +44,7 @@ struct MenuInfo {
   Menu menu;
   const char* text;  ///< Untranslated.
   bool is_submenu = false;
-  Menu parent = Menu::File;  ///< Of a submenu.
+  Menu parent = Menu::File;  ///< Only for submenus.
 };
 
 /// Every menu; a submenu stands after its parent.
@@ -55,9 +55,8 @@ struct MenuInfo {
 /// "Colours", translated.
 [[nodiscard]] QString menu_text(Menu menu);
 
-/// Sections of menus that several features fill. Within a menu, sections stand in the order of
-/// their numbers with lines between them; within a section, commands stand in the order in which
-/// they were added. Submenus come last.
+/// Sections of menus that several features fill. A menu shows its sections by number with lines
+/// between, and commands within a section in order of addition. Submenus come last.
 namespace section {
 
 inline constexpr int kOpen = 0;       ///< File
@@ -81,76 +80,76 @@ enum class BarSection { None, Files, Maps, Compare, Look, Help };
 enum class KeyScope {
   Window,
   Viewer,
-  Held  ///< In the widgets given to `Commands::hearHeldKeys`: `hold` is told of press and release.
+  Held  ///< In widgets of `Commands::hearHeldKeys`; `hold` is called on press and release.
 };
 
-/// One command: all that menus, tool bars, tool tips, the list of keys and the palette show of it,
-/// what it does and when it can be run.
+/// One command: its texts and keys in menus, tool bars, tool tips, key list and palette; its
+/// action; and its conditions.
 struct Command {
   QString id;  ///< "view.left"
   Menu menu = Menu::File;
   QString text;                ///< As in the menu, without mnemonic.
-  QString tip;                 ///< A sentence on what it does.
-  QString icon{};              ///< Of resources/icons; may be empty.
+  QString tip;                 ///< A sentence: what it does.
+  QString icon{};              ///< Name in resources/icons; may be empty.
   QList<QKeySequence> keys{};  ///< Until the user gives it others.
   std::function<void()> run{};
-  int section = 0;  ///< Of the menu, see `section`.
+  int section = 0;  ///< Section of the menu, see `section`.
   BarSection bar = BarSection::None;
   KeyScope scope = KeyScope::Window;
   std::function<bool()> enabled{};       ///< Empty = always.
   std::function<bool()> checked{};       ///< Makes it checkable.
   std::function<bool()> visible{};       ///< Empty = always.
-  std::function<QString()> live_text{};  ///< Its text as things are now; empty = `text`.
+  std::function<QString()> live_text{};  ///< Current text; empty = `text`.
   std::function<void(bool)> hold{};      ///< For KeyScope::Held.
   QMenu* submenu = nullptr;              ///< Opened by the entry, which then runs nothing.
 };
 
-/// The one table of commands, in the order in which they were added. Whoever changes what
-/// `enabled`, `checked`, `visible` or `live_text` depend on calls `refresh`.
+/// The one table of commands, in order of addition. Call `refresh` after changes that `enabled`,
+/// `checked`, `visible` or `live_text` depend on.
 class Commands : public QObject {
   Q_OBJECT
 
  public:
-  /// `window` hears the keys of scope Window, `viewer` those of scope Viewer.
+  /// `window` hears keys of scope Window, `viewer` keys of scope Viewer.
   Commands(QWidget* window, QWidget* viewer);
 
-  /// The action with text, tool tip, icon, keys (the user's, if changed) and handler. Its object
-  /// name is the id.
+  /// Creates the action with text, tool tip, icon, keys (the user's, if changed) and handler. Its
+  /// object name is the id.
   QAction* add(Command command);
   /// Null for an unknown id.
   [[nodiscard]] QAction* find(const QString& id) const;
   [[nodiscard]] const std::vector<Command>& all() const { return commands_; }
-  /// Runs a command if it is enabled. Returns whether it was.
+  /// Runs a command if it is enabled; returns whether it was.
   bool trigger(const QString& id);
 
-  /// The current keys of a command: its defaults unless the user changed them.
+  /// Current keys of a command: the user's, else the defaults.
   [[nodiscard]] QList<QKeySequence> keys(const QString& id) const;
-  /// The first of them as it is written; empty if there is none.
+  /// First key of a command as text; empty if there is none.
   [[nodiscard]] QString keyText(const QString& id) const;
-  /// Whether the user changed the keys of the command.
+  /// Whether the user changed the command's keys.
   [[nodiscard]] bool hasOwnKeys(const QString& id) const;
-  /// Id of the command that a key belongs to; empty if it is free.
+  /// Id of the command that uses a key; empty if it is free.
   [[nodiscard]] QString userOf(const QKeySequence& key) const;
-  /// Changes keys and stores them in the settings. Another command that has them keeps them: check
+  /// Changes keys and stores them in the settings. Does not take keys from other commands: check
   /// first.
   void setKeys(const QString& id, const QList<QKeySequence>& keys);
-  /// Restores the default keys, except those that another command has now.
+  /// Restores the default keys, except keys that another command uses now.
   void resetKeys(const QString& id);
   void resetAllKeys();
-  /// Keys of scope Viewer are heard in this widget as well.
+  /// Hears keys of scope Viewer in this widget, too.
   void hearViewerKeys(QWidget* widget) const;
-  /// Keys of scope Held are heard in this widget, which must outlive this.
+  /// Hears keys of scope Held in this widget, which must outlive this.
   void hearHeldKeys(QWidget* widget);
 
-  /// Fills a menu bar, once all commands are there.
+  /// Fills the menu bar, after all commands were added.
   void fillMenus(QMenuBar& bar) const;
-  /// A widget in the tool bar, before the commands of its section.
+  /// Puts a widget into the tool bar, before the commands of its section.
   void addBarWidget(BarSection section, QWidget* widget);
-  /// Likewise a tool bar.
+  /// Fills the tool bar, after all commands were added.
   void fillBar(QToolBar& bar) const;
 
  public slots:
-  /// Enables, checks, shows and names all commands as things are now.
+  /// Updates enabled, checked, visible and text of all commands.
   void refresh();
 
  signals:
@@ -164,7 +163,7 @@ class Commands : public QObject {
   void apply(const Command& command, const QList<QKeySequence>& keys);
   void show(const Command& command);
   void fillMenu(QMenu& menu, Menu which) const;
-  /// Whether a key event belongs to a held command, which is then told.
+  /// Whether a key event belongs to a held command, which is notified.
   bool hearHeld(const Command& command, const QKeyEvent& event);
 
   QWidget* window_;
@@ -176,26 +175,26 @@ class Commands : public QObject {
   QString held_;  // id of the command whose key is down
 };
 
-/// What the cancel key can end, in the order in which it is tried.
+/// Things that the cancel key can end, in the order of trial.
 enum class CancelRank {
   Stroke,
   LiveSegmentation,
   Browsing,  ///< Playing, a line drawn in an EPI.
   Comparing,
-  Mark,  ///< What is outlined on the view.
+  Mark,  ///< An outline on the view.
   Job,
   Message
 };
 
-/// What can be cancelled, by rank: the cancel key ends the first that is active.
+/// Cancellable activities by rank; the cancel key ends the first active one.
 class Cancels {
  public:
-  /// `cancel` returns whether there was something to end.
+  /// `cancel` returns whether it ended something.
   void add(CancelRank rank, std::function<bool()> cancel) {
     cancels_.emplace(rank, std::move(cancel));
   }
 
-  /// Returns whether anything was ended.
+  /// Returns whether something was ended.
   bool cancel() const {
     for (const auto& [rank, cancel] : cancels_) {
       if (cancel()) return true;
@@ -207,21 +206,21 @@ class Cancels {
   std::multimap<CancelRank, std::function<bool()>> cancels_;
 };
 
-/// What is about to be left.
+/// What the user is about to leave.
 enum class Leaving {
   Scene,    ///< The light field that is shown is closed, or read in another way.
   Reading,  ///< It is read in another way, and its results are brought back.
-  Session   ///< All that is open.
+  Session   ///< Everything open is closed.
 };
 
-/// Keeps what is open from being closed while something would be lost.
+/// Keeps open work from being closed while something would be lost.
 class LeaveGuards {
  public:
   using Continue = std::function<void()>;
 
   struct Guard {
     std::function<bool(Leaving)> may_leave;  ///< Whether nothing would be lost now.
-    /// Asks the user and calls back once nothing is lost any more, or never.
+    /// Asks the user, and calls back once nothing would be lost, or never.
     std::function<void(Leaving, Continue)> ask;
   };
 

@@ -160,9 +160,8 @@ void ask_about_changed_file(QWidget* window, const QString& path,
       window, {.name = "changed_file",
                .icon = QMessageBox::Warning,
                .title = ChangedFileText::tr("The file has changed"),
-               .text = ChangedFileText::tr(
-                           "Another program has written %1 since it was read or saved here. "
-                           "Saving replaces what that program wrote.")
+               .text = ChangedFileText::tr("Another program has written %1 since it was read or "
+                                           "saved here. Saving replaces those changes.")
                            .arg(path) +
                        ' ' + answers.of_reloading});
   const auto add = [box](const char* name, const QString& text, QMessageBox::ButtonRole role,

@@ -23,7 +23,7 @@ class Floating;
 class MessageBar;
 class Panes;
 
-/// A tab at the right.
+/// A tab on the right.
 struct Tab {
   QString id;  ///< "compare"; its command is "tab.compare".
   QString title;
@@ -33,63 +33,63 @@ struct Tab {
   QWidget* widget = nullptr;
   QBoxLayout* room = nullptr;  ///< Where other features may add to it; may be null.
   bool waits = false;          ///< It is not among the tabs until it is asked for.
-  /// Of its command, empty = none; without it, Ctrl and its number among those without.
+  /// Key of its command, empty = none. By default Ctrl and its number among the tabs without a key.
   std::optional<QKeySequence> key{};
 };
 
-/// Lines under everything else, in their order.
+/// Bars below everything else, in order.
 enum class Line { Time, Values };
 
-/// The places of the main window, where features put their widgets: the viewer with a column at its
-/// left, tabs at the right, and lines under both.
+/// The places of the main window, where features put their widgets: the viewer with a column on its
+/// left, tabs on the right, and bars below.
 class Frame : public QWidget {
   Q_OBJECT
 
  public:
   explicit Frame(QWidget* parent);
 
-  /// Holds the column at the left and the viewer area: keys of KeyScope::Viewer are heard there.
+  /// Contains the left column and the viewer area; hears keys of KeyScope::Viewer.
   [[nodiscard]] QWidget* viewer() const { return viewer_; }
-  /// In the column at the left; what stretches takes the room that the others leave, below them.
+  /// Adds a widget to the left column; stretching widgets share the remaining room below the
+  /// others.
   void addToColumn(QWidget* widget, bool stretches);
   void setViewerArea(QWidget* viewer_area);
   void addTab(const Tab& tab);
-  /// Into the room of a tab that has one; else ignored.
+  /// Adds a widget to the room of a tab; ignored if the tab has none.
   void addToTab(const QString& id, QWidget* widget);
-  /// Under the tabs.
+  /// Adds a widget below the tabs.
   void addUnderTabs(QWidget* widget);
   void addLine(Line line, QWidget* widget);
-  /// Over the viewer area: what comes and goes without moving anything.
+  /// Adds a widget that floats over the viewer area, so that nothing moves when it appears.
   void addFloating(QWidget* widget);
 
-  /// The column at the left and the tabs at the right: without them, the viewer area has all the
-  /// room.
+  /// Shows or hides the left column and the tabs; the viewer area takes their room.
   void setPanelsShown(bool are_shown);
   [[nodiscard]] bool arePanelsShown() const;
 
   [[nodiscard]] const std::vector<Tab>& tabs() const { return tabs_; }
   void showTab(const QString& id);
-  /// Id of the tab that is shown among the others; empty if all are torn off.
+  /// Id of the current docked tab; empty if all are detached.
   [[nodiscard]] QString shownTab() const;
-  /// What can be in a window of its own: the tabs (by "tab.ID"), and what others add.
+  /// Detachable parts: the tabs (by "tab.ID"), and panes of features.
   [[nodiscard]] Panes& panes() const { return *panes_; }
 
-  /// The program has begun: features may offer what is left from before.
+  /// Tells features that the program has started: they may offer to recover earlier work.
   void start() { emit started(); }
-  /// It was decided what becomes of an earlier session, if one was left.
+  /// Tells that the user has decided about an earlier session, if one was left.
   void settle() { emit settled(); }
-  /// Everything as at first: tells those that moved something themselves.
+  /// Restores the default layout; whoever moved widgets follows `layoutReset`.
   void resetLayout() { emit layoutReset(); }
-  /// The window is closed, and nothing that the user wants is open any more.
+  /// Tells that the window was closed and nothing is to be kept open.
   void end() { emit ended(); }
 
  signals:
   void started();
   void settled();
   void ended();
-  /// Among the others, or in a window of its own.
+  /// A tab is shown, docked or detached.
   void tabShown(const QString& id);
-  /// All that can be elsewhere goes back to its first place.
+  /// Everything movable returns to its default place.
   void layoutReset();
 
  private:
@@ -111,18 +111,18 @@ class Frame : public QWidget {
   Panes* panes_;
 };
 
-/// Widgets that float at the top of an area, under the captions there and below each other, each as
-/// high as it needs to be: nothing moves when they come and go.
+/// Floats widgets at the top of an area, below its captions and below each other, each as high as
+/// it needs to be, so that nothing moves when they come and go.
 class Floating : public QObject {
   Q_OBJECT
 
  public:
-  /// `parent` is that of the widgets; it outlives this.
+  /// `parent` becomes the widgets' parent and outlives this.
   explicit Floating(QWidget& parent);
 
-  /// They float over this descendant of the parent; over the parent until it is set.
+  /// Lets the widgets float over this descendant of the parent; the default is the parent.
   void setArea(QWidget* area);
-  /// Adds one below those that are there, and makes it a child of the parent.
+  /// Adds a widget below the others and reparents it.
   void add(QWidget* widget);
 
  protected:
@@ -136,25 +136,25 @@ class Floating : public QObject {
   std::vector<QPointer<QWidget>> widgets_;
 };
 
-/// Messages for the user, floating over the view, that block nothing.
+/// Messages for the user that float over the view and do not block.
 class Messages : public QObject {
   Q_OBJECT
 
  public:
   explicit Messages(Frame& frame);
 
-  /// No failure: something to do first.
+  /// Tells what to do first; no failure.
   void hint(const QString& sentence);
   void success(const QString& sentence);
   void warn(const QString& sentence);
   void fail(const QString& sentence);
-  /// "Written: …".
+  /// Shows "Written: …".
   void written(const QString& path);
-  /// What was done, with a button that does something about it.
+  /// Reports an action, with a button that reacts to it.
   void offer(const QString& sentence, const QString& button, std::function<void()> run);
   void dismiss();
   [[nodiscard]] bool isShown(const QString& sentence) const;
-  /// Takes a sentence back that no longer holds, if it is still what is shown.
+  /// Removes a sentence that no longer holds, if it is still shown.
   void retract(const QString& sentence);
 
  private:

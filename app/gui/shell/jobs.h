@@ -26,12 +26,12 @@ class Frame;
 class Messages;
 class Session;
 
-/// Jobs of one lane run one after the other, those of different lanes side by side. A light field
-/// or a project that is opened ends what else is being opened, and nothing in other lanes.
+/// Jobs of one lane run one after the other; lanes run in parallel. Opening a light field or
+/// project ends other jobs of that lane only.
 enum class Lane {
   Open,     ///< Light fields and projects.
-  Load,     ///< What belongs to a light field: results, meshes, masks, labels.
-  Capture,  ///< Light fields that are made of photographs.
+  Load,     ///< Parts of a light field: results, meshes, masks, labels.
+  Capture,  ///< Making light fields from photographs.
   Estimate,
   Label,
   Export,
@@ -39,8 +39,8 @@ enum class Lane {
   Count
 };
 
-/// Every background job that a user sees: start, progress, cancellation, end and failure, in all
-/// lanes, with unique ids.
+/// All background jobs that a user sees, in all lanes: start, progress, cancellation, end and
+/// failure, with unique ids.
 class Jobs : public QObject {
   Q_OBJECT
 
@@ -48,8 +48,8 @@ class Jobs : public QObject {
   explicit Jobs(QObject* parent = nullptr);
   ~Jobs() override;
 
-  /// Runs `work(progress) -> T` in the background. `done(value)` is called on success; `ended` in
-  /// every case after it. Failures are reported by `failed`, in one place for all jobs.
+  /// Runs `work(progress) -> T` in the background. Calls `done(value)` on success, and `ended`
+  /// afterwards in every case. Reports failures by `failed`.
   template <class T>
   quint64 start(Lane lane, const QString& title, std::function<T(const Progress&)> work,
                 std::function<void(T)> done, std::function<void()> ended = nullptr) {
@@ -69,27 +69,27 @@ class Jobs : public QObject {
     return id;
   }
 
-  /// A job that waits or runs.
+  /// A waiting or running job.
   struct Running {
     quint64 id = 0;
     QString title;
-    double seconds = 0;   ///< Since it told of progress first.
-    double fraction = 0;  ///< Of it that is done.
+    double seconds = 0;   ///< Since its first progress.
+    double fraction = 0;  ///< Progress, in [0, 1].
     bool is_cancelling = false;
   };
 
-  /// Notes that a job can end early with what it has.
+  /// Marks a job that can end early with a partial result.
   void setIterative(quint64 id) { emit endsEarly(id); }
-  /// Notes which light field a job is of (OpenScene::id); until then it is of none.
+  /// Assigns a job to a light field (OpenScene::id).
   void setScene(quint64 id, std::uint64_t scene) { jobs_[id].scene = scene; }
   /// Ignored for an unknown id.
   void cancel(quint64 id);
   void cancelLane(Lane lane);
-  /// Asks a job for the best result so far (Progress::finish_requested); not all jobs have one.
+  /// Asks a job for its best result so far (Progress::finish_requested); not all jobs have one.
   void finishEarly(quint64 id);
-  /// Nothing for an unknown id.
+  /// None for an unknown id.
   [[nodiscard]] std::optional<Running> find(quint64 id) const;
-  /// The job begun last among those of a light field and of none.
+  /// Latest job of a light field, or of no light field.
   [[nodiscard]] std::optional<Running> newest(std::uint64_t scene) const;
   [[nodiscard]] int count() const { return static_cast<int>(jobs_.size()); }
   [[nodiscard]] int count(Lane lane) const;
@@ -101,7 +101,7 @@ class Jobs : public QObject {
   void cancelling(quint64 id);
   void finishing(quint64 id);
   void removed(quint64 id);
-  /// A sentence for the user, of a job that is no longer there.
+  /// A job failed; `sentence` is for the user.
   void failed(const QString& sentence, quint64 id);
 
  private:
@@ -128,16 +128,17 @@ class Jobs : public QObject {
   std::array<std::unique_ptr<JobRunner>, static_cast<std::size_t>(Lane::Count)> runners_;
 };
 
-/// What went wrong, as a sentence for the user.
+/// Failure as a sentence for the user.
 [[nodiscard]] QString failure_sentence(const std::exception_ptr& failure);
 
-/// A quick background computation of which only the newest matters: a new start drops the former.
+/// A quick background computation of which only the latest matters: a new start drops the previous
+/// one.
 class LatestJob {
  public:
   /// `context` must outlive this.
   explicit LatestJob(QObject* context);
 
-  /// `done(value)` is called unless the job was dropped, cancelled or failed.
+  /// Calls `done(value)` unless the job was dropped, cancelled or failed.
   template <class T>
   void start(std::function<T(const Progress&)> work, std::function<void(T)> done) {
     drop();
@@ -160,20 +161,20 @@ class LatestJob {
   JobRunner runner_;
 };
 
-/// How the user ends jobs, by the cancel key or by a button. One that took long already is asked
-/// for in a message, and ended if that is wanted again while the message is seen.
+/// Ends jobs for the user, by the cancel key or by buttons. Asks before ending a long-running job;
+/// a second request while the question is shown ends it.
 class JobCancel : public QObject {
   Q_OBJECT
 
  public:
   JobCancel(const Session& session, Jobs& jobs, Messages& messages, QObject* parent);
 
-  /// Ends the newest job of the light field that is shown, or of none. Returns whether there was
-  /// such a job.
+  /// Ends the latest job of the shown light field, or of no light field. Returns whether there was
+  /// one.
   bool cancelNewest();
-  /// Ends all of them, or asks for the one among them that has run longest.
+  /// Ends these jobs, or asks first if one has run long.
   void cancel(const std::vector<quint64>& ids);
-  /// Jobs that ran for less time are ended at once: 10 s unless set.
+  /// Jobs that ran for less time end without a question: 10 s by default.
   void setWorthAsking(double seconds) { worth_asking_s_ = seconds; }
 
  private:
@@ -189,22 +190,22 @@ class JobCancel : public QObject {
   QString question_;   // by this sentence
 };
 
-/// "EPI_S · still_life": several light fields may be open.
+/// Title of a job: "EPI_S · still_life", since several light fields may be open.
 [[nodiscard]] inline QString job_title(const QString& what, const OpenScene& scene) {
   return QStringLiteral("%1 · %2").arg(what, QString::fromStdString(scene.name));
 }
 
-/// The same, of the light field that is shown.
+/// Title of a job on the shown light field.
 [[nodiscard]] inline QString job_title(const QString& what, const Session& session) {
   const OpenScene* scene = session.find_scene(session.generation());
   return scene == nullptr ? what : job_title(what, *scene);
 }
 
-/// Shows the jobs under the tabs, with their buttons, and tells the user of those that failed.
+/// Shows the jobs with their buttons below the tabs, and reports failures to the user.
 void show_jobs(Jobs& jobs, JobCancel& cancel, Frame& frame, Messages& messages);
 
-/// Posts closures through the event loop of the thread of `context`, from any thread; dropped when
-/// `context` is destroyed. Whoever posts must have ended before `context` is.
+/// Posts closures from any thread to the event loop of `context`'s thread; drops them when
+/// `context` is destroyed. Posters must have ended before that.
 [[nodiscard]] JobRunner::Post queued_post(QObject* context);
 
 }  // namespace episcope

@@ -10,18 +10,17 @@ class QWidget;
 
 namespace episcope {
 
-/// Keeps the keyboard with the view, so that browsing keys and letters mean the same wherever the
-/// mouse was: a click on a button, list, slider or tab leaves the focus where it is. Only a field
-/// that is typed in takes it, and gives it back on Return, and on Esc, which drops what was typed.
-/// Controls are still reached by Tab; then arrows are theirs.
+/// Keeps the keyboard focus on the view, so that browsing keys always work: clicking a button,
+/// list, slider or tab leaves the focus alone. A text field takes the focus, and returns it on
+/// Return, or on Esc, which drops the input. Tab still reaches controls; arrows are theirs then.
 class KeyboardHome : public QObject {
   Q_OBJECT
 
  public:
-  /// `home` gives the widget that the keyboard belongs to. Both outlive this.
+  /// `home` returns the widget that owns the keyboard. Both outlive this.
   KeyboardHome(QWidget& window, std::function<QWidget*()> home);
 
-  /// The keyboard goes home unless it is in a field or in a tab bar.
+  /// Returns the focus to the view, unless it is in a field or a tab bar.
   void goHomeFromControls();
 
  protected:

@@ -197,7 +197,7 @@ void TabStack::take(QWidget* pane, const QString& title) {
   if (was_hidden) takeHalf();
 }
 
-// Of what it shares with the tabs: its own size hint is that of an empty scroll area.
+// Shares the height with the tabs evenly, since an empty scroll area has no useful size hint.
 void TabStack::takeHalf() {
   auto* split = qobject_cast<QSplitter*>(parentWidget());
   if (!split) return;

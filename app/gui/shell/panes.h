@@ -18,7 +18,7 @@ namespace episcope {
 class PaneWindow;
 class TabStack;
 
-/// A part of the window that can be elsewhere.
+/// A part of the window that can be detached or stacked.
 struct Pane {
   QString id;
   QString title;
@@ -26,46 +26,45 @@ struct Pane {
   std::function<void()> put_back;  ///< Gives the widget its place in the main window again.
 };
 
-/// The panes that can be torn off, or stacked one over the other behind tabs of their own. Those
-/// that are torn off stay above the main window, hear its keys, and come back when their own window
-/// is closed.
+/// Panes that can be detached into windows, or stacked behind tabs. Detached panes stay above the
+/// main window, hear its keys, and dock again when their window is closed.
 class Panes : public QObject {
   Q_OBJECT
 
  public:
-  /// `home` is in the main window, and outlives this.
+  /// `home` is in the main window and outlives this.
   explicit Panes(QWidget& home);
   ~Panes() override;
 
-  /// Where panes are stacked; nowhere without it. Outlives this.
+  /// Sets where panes are stacked; without it they cannot be. Outlives this.
   void setStack(TabStack* stack);
   void add(Pane pane);
   [[nodiscard]] bool isTorn(const QString& id) const { return windows_.contains(id); }
   [[nodiscard]] bool isStacked(const QString& id) const { return stacked_.contains(id); }
-  /// Opens a window of its own, where and as large as it was the last time. Raises it if there is
-  /// one. Ignored for an unknown id.
+  /// Detaches a pane into a window with its last geometry; raises that window if it exists. Ignores
+  /// unknown ids.
   void tear(const QString& id);
-  /// Whether it is in front where it is. False for an unknown id.
+  /// Whether the pane is visible at its place. False for an unknown id.
   [[nodiscard]] bool isSeen(const QString& id) const;
-  /// Puts it behind a tab of the stack, and shows it there. Ignored for an unknown id.
+  /// Stacks a pane behind a tab and shows it there. Ignores unknown ids.
   void stack(const QString& id);
-  /// Back to its own place; ignored if it is there.
+  /// Docks a pane at its default place.
   void putBack(const QString& id);
   void toggle(const QString& id);
   void toggleStacked(const QString& id);
-  /// Of what is behind a tab of the stack; empty for another widget.
+  /// Id of a stacked pane; empty for another widget.
   [[nodiscard]] QString stackedPane(const QWidget* widget) const;
 
-  /// Remembers in the settings which are elsewhere; `restore` puts them there again.
+  /// Stores in the settings which panes are detached or stacked; `restore` applies that.
   void save() const;
   void restore();
-  /// All come back, and their places are forgotten.
+  /// Docks all panes and forgets their places.
   void reset();
 
  signals:
-  /// It is elsewhere.
+  /// A pane was moved.
   void changed(const QString& id);
-  /// A window was opened, which should hear the keys of the viewer.
+  /// A window was opened, which should hear the viewer's keys.
   void opened(QWidget* window);
 
  private:
@@ -80,28 +79,27 @@ class Panes : public QObject {
   QStringList stacked_;
 };
 
-/// A window that holds one pane of another window.
+/// Window of a detached pane.
 class PaneWindow : public QWidget {
   Q_OBJECT
 
  public:
-  /// Takes the widget, and stays above `owner`.
+  /// Takes the widget and stays above `owner`.
   PaneWindow(QWidget* widget, const QString& title, QWidget* owner);
 
  signals:
-  /// The user closed it; it still holds the pane.
+  /// The user closed the window, which still holds the pane.
   void closed();
 
  protected:
   void closeEvent(QCloseEvent* event) override;
 };
 
-/// The main window of a widget: that of the owner where the widget is in a torn-off pane.
+/// Main window of a widget, also for a widget in a detached pane.
 [[nodiscard]] const QWidget* main_window_of(const QWidget& widget);
 
-/// Panes one over the other, each behind a tab of its own: a second set of tabs below those of the
-/// window, for what the user puts there. Hidden while it is empty. The cross of a tab brings its
-/// pane back to its place, a double click gives it a window of its own.
+/// A second set of tabs below the window's tabs, for stacked panes. Hidden while empty. A tab's
+/// cross docks its pane; a double click detaches it.
 class TabStack : public QTabWidget {
   Q_OBJECT
 
@@ -110,18 +108,18 @@ class TabStack : public QTabWidget {
 
   /// `panes` outlives this.
   void serve(Panes& panes);
-  /// Adds a pane, which is then in front, and is scrolled where there is little room.
+  /// Adds a pane in front; it scrolls if there is little room.
   void take(QWidget* pane, const QString& title);
   void bringToFront(QWidget* pane);
   [[nodiscard]] bool isInFront(const QWidget* pane) const;
-  /// The pane is for somebody else to place.
+  /// Removes a pane, for others to place.
   void release(QWidget* pane);
 
  private:
   void takeHalf();
   void askWhereTabGoes(const QPoint& at);
   [[nodiscard]] QString paneAt(int index) const;
-  /// −1 if it is not here.
+  /// −1 if the pane is not here.
   [[nodiscard]] int placeOf(const QWidget* pane) const;
 
   Panes* panes_ = nullptr;

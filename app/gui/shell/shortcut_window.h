@@ -15,9 +15,9 @@ namespace episcope {
 
 class Commands;
 
-/// Every key and mouse gesture, from the table of commands. Keys can be changed here: choose a
-/// command, press the new key, set it; a key that another command has is named and taken from it
-/// only when asked to. Blocks nothing.
+/// Every key and mouse gesture, from the table of commands. To change a key, choose a command,
+/// press the new key and set it. A key of another command is named, and taken from it only on
+/// request. Does not block.
 class ShortcutWindow : public QDialog {
   Q_OBJECT
 
@@ -30,9 +30,9 @@ class ShortcutWindow : public QDialog {
   void fillCommands();
   QWidget* makeEditor();
   void showKeys();
-  /// Leaves the rows that hold the text.
+  /// Shows only rows that contain the text.
   void filter(const QString& text);
-  /// Of the selected row; empty on gestures.
+  /// Id of the selected command; empty on gestures.
   [[nodiscard]] QString command() const;
   void updateEditor();
   void setKey();

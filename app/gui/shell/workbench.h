@@ -22,11 +22,10 @@ class SceneSwitcher;
 class Session;
 class ViewerArea;
 
-/// What features work with: the places of the window and the services they share. All of it
-/// outlives them.
+/// What features work with: the places of the window and shared services. All of it outlives them.
 struct Workbench {
   QWidget& window;  ///< Parent of dialogs.
-  QObject& owner;   ///< Of the controllers of features.
+  QObject& owner;   ///< Parent of controllers.
   Session& session;
   Jobs& jobs;
   Messages& messages;
@@ -44,8 +43,8 @@ struct Workbench {
   ResultOpener& results;
 };
 
-/// One row of the table of features: a feature hands the window its widgets, tabs, commands and
-/// controllers. Features do not know each other; what they share is the workbench.
+/// Row of the table of features. A feature adds its widgets, tabs, commands and controllers to the
+/// window. Features share only the workbench.
 struct Feature {
   const char* id;
   void (*add)(const Workbench&);

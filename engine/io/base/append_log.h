@@ -19,18 +19,18 @@ namespace episcope::io {
 /// writer never waits for a disk. The file must outlive it.
 class BackgroundFlush {
  public:
-  /// Whether what is in the file by now, and its name, are on the disk.
+  /// Whether the present contents of the file and its name are on the disk.
   enum class Start { Flushed, Unflushed };
 
   BackgroundFlush(int descriptor, std::filesystem::path path, Start start);
-  /// Flushes.
+  /// Flushes first.
   ~BackgroundFlush();
   BackgroundFlush(const BackgroundFlush&) = delete;
   BackgroundFlush& operator=(const BackgroundFlush&) = delete;
 
-  /// Something was written.
+  /// Announces that something was written.
   void request();
-  /// Waits until all that was written is on the disk, or a flush failed.
+  /// Waits until everything written is on the disk, or until a flush fails.
   void wait();
   /// `errno` of a flush that failed; 0 = none did.
   [[nodiscard]] int error() const;
@@ -57,7 +57,7 @@ enum class LogFraming {
   Checked,  ///< Binary: a signature, then every record after its length and a checksum.
 };
 
-/// What a log without records consists of.
+/// The bytes of a log without records.
 [[nodiscard]] std::span<const std::uint8_t> log_signature(LogFraming framing);
 
 /// Adds a record to the bytes of a log. Throws InvalidInput if it is longer than 2 GiB.
@@ -69,8 +69,8 @@ struct LogContent {
   std::size_t whole_bytes = 0;  ///< Of the signature and these records.
 };
 
-/// The records up to the first that is truncated or damaged, as the end of the program in the
-/// middle of a write leaves it. Nothing if these are not the bytes of such a log.
+/// Returns the records before the first truncated or damaged one, which a program that ends during
+/// a write leaves. Empty if the bytes are no such log.
 [[nodiscard]] std::optional<LogContent> parse_log(LogFraming framing,
                                                   std::span<const std::uint8_t> bytes);
 
@@ -80,9 +80,9 @@ enum class LogFlush {
   InBackground,  ///< Soon after, so that the caller never waits for a disk.
 };
 
-/// A file that only grows, by whole records. A record is in the file when `append` returns, and
-/// survives the end of the program, whatever its cause. While the log is open no other process can
-/// hold it; the system releases it when the program ends.
+/// A file that grows by whole records. A record is in the file when `append` returns; it survives
+/// any end of the program. No other process can hold the log while it is open. The system releases
+/// it when the program ends.
 class AppendLog {
  public:
   /// Opens the log, or creates an empty one. Anything after the last whole record (parse_log) is
@@ -94,13 +94,13 @@ class AppendLog {
   AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush,
             std::span<const LogRecord> records);
 
-  /// The records that were there when it was opened.
+  /// Records found when the log was opened.
   [[nodiscard]] const std::vector<LogRecord>& records() const { return records_; }
   /// Throws IoError, also if a flush in the background failed before. The log is then as it was
   /// before the call; if even that failed, it accepts no more records.
   void append(std::span<const std::uint8_t> record);
   void append(std::string_view record);
-  /// Several records in one write; as `append`.
+  /// Appends several records in one write, as `append` does.
   void append_all(std::span<const LogRecord> records);
   /// Waits until all records are on the disk. Throws IoError.
   void flush();
@@ -123,15 +123,15 @@ class AppendLog {
   std::optional<BackgroundFlush> flush_;  ///< None: at once.
 };
 
-/// The records of a log that another process may hold; the file stays as it is. Throws IoError if
-/// it cannot be read or is no such log.
+/// Reads a log that another process may hold, without changing the file. Throws IoError if it
+/// cannot be read or is no such log.
 [[nodiscard]] std::vector<LogRecord> read_log(const std::filesystem::path& path,
                                               LogFraming framing);
 
 /// Whether a living process has the log open. False if there is no such file.
 [[nodiscard]] bool is_held(const std::filesystem::path& path);
 
-/// CRC-32 as PNG has it (ISO 3309).
+/// CRC-32 as in PNG (ISO 3309).
 [[nodiscard]] std::uint32_t checksum(std::span<const std::uint8_t> bytes);
 
 }  // namespace episcope::io

@@ -26,7 +26,7 @@ constexpr bool is_stored_as(NumberType type) {
 
 }  // namespace
 
-std::string array_shape_text(const ArrayShape& shape) {
+std::string shape_text(const ArrayShape& shape) {
   if (shape.empty()) return "a single value";
   return joined(shape, "×", [](std::size_t length) { return std::to_string(length); });
 }

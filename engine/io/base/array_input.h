@@ -37,7 +37,7 @@ template <class T>
 
 [[nodiscard]] std::size_t byte_size(NumberType type);
 [[nodiscard]] bool is_float(NumberType type);
-/// Of integers.
+/// Whether integers of the type have a sign.
 [[nodiscard]] bool is_signed(NumberType type);
 /// "uint8", "float16", …
 [[nodiscard]] const char* number_name(NumberType type);
@@ -53,12 +53,12 @@ void convert_numbers(NumberType type, const std::uint8_t* numbers, std::size_t c
 using ArrayShape = std::vector<std::size_t>;
 
 /// "9×9×512×512×3".
-[[nodiscard]] std::string array_shape_text(const ArrayShape& shape);
+[[nodiscard]] std::string shape_text(const ArrayShape& shape);
 
 /// Product of the lengths, or 2^63 if it is larger.
 [[nodiscard]] std::size_t element_count(const ArrayShape& shape);
 
-/// An array in a file, of which blocks are read when they are needed.
+/// An array in a file, read block by block on demand.
 class ArrayInput {
  public:
   virtual ~ArrayInput() = default;
@@ -66,14 +66,14 @@ class ArrayInput {
   ArrayInput& operator=(const ArrayInput&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Lengths of the axes in the order of rows in C: the last axis is contiguous in the file.
+  /// Lengths of the axes in C order: the last axis is contiguous in the file.
   [[nodiscard]] const ArrayShape& shape() const { return shape_; }
   [[nodiscard]] NumberType type() const { return type_; }
-  /// Whether a block costs everything before it, as in compressed files: to be read once, from the
-  /// front to the end.
+  /// Whether reading a block costs all data before it, as in compressed files. Such an array should
+  /// be read once, from front to end.
   [[nodiscard]] virtual bool is_sequential() const { return false; }
 
-  /// Lengths of the blocks that the file is made of: to be read as a whole.
+  /// Lengths of the blocks that the file stores; they should be read whole.
   [[nodiscard]] virtual ArrayShape unit() const { return ArrayShape(shape_.size(), 1); }
 
   /// Reads `count[i]` elements from `start[i]` on along each axis, converted as `convert_numbers`.
@@ -81,7 +81,7 @@ class ArrayInput {
   template <class T>
   void read(const ArrayShape& start, const ArrayShape& count, T* out) const;
 
-  /// Likewise, without conversion, in the byte order of this machine.
+  /// Reads a block without conversion, in the byte order of this machine.
   void read_raw(const ArrayShape& start, const ArrayShape& count, std::uint8_t* out) const {
     read_block(start, count, out);
   }

@@ -15,8 +15,8 @@
 namespace episcope::io {
 namespace {
 
-constexpr std::size_t kMostViews = 1000;     ///< Along an axis of the grid, or in a list.
-constexpr std::size_t kMostPixels = 100000;  ///< Along an axis of a view.
+constexpr std::size_t kMostArrayViews = 1000;  ///< Along an axis of the grid, or in a list.
+constexpr std::size_t kMostViewSide = 100000;  ///< Along an axis of a view.
 constexpr std::size_t kFewestPixels = 4;
 
 bool can_be_channels(std::size_t length) {
@@ -25,13 +25,13 @@ bool can_be_channels(std::size_t length) {
 
 bool can_be_pixels(std::size_t a, std::size_t b) {
   const auto [least, most] = std::minmax(a, b);
-  return least >= kFewestPixels && most <= kMostPixels;
+  return least >= kFewestPixels && most <= kMostViewSide;
 }
 
 /// Whether the lengths are those of a grid of views and of the pixels of each.
 bool can_be_views(std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
   const std::size_t most = std::max(a, b);
-  return std::min(a, b) > 0 && most > 1 && most <= kMostViews && can_be_pixels(c, d) &&
+  return std::min(a, b) > 0 && most > 1 && most <= kMostArrayViews && can_be_pixels(c, d) &&
          most < std::min(c, d);
 }
 
@@ -63,7 +63,7 @@ bool is_square(std::size_t n) {
 }
 
 bool can_be_list(std::size_t n, std::size_t y, std::size_t x) {
-  return n > 1 && n <= kMostViews && can_be_pixels(y, x) && (n < std::max(y, x) || n > 4);
+  return n > 1 && n <= kMostArrayViews && can_be_pixels(y, x) && (n < std::max(y, x) || n > 4);
 }
 
 void add_lists(const ArrayShape& lengths, std::vector<std::string>& out) {
@@ -189,7 +189,7 @@ ArrayLayout stated_layout(const std::filesystem::path& path, const ArrayShape& s
     return InvalidInput(fmt::format(
         "{}: axes {} do not fit the array of {}: {}; give one of the letters v, u, y, x, c for "
         "each of its axes, or n, y, x, c for a list of views, as in --axes vuyxc",
-        path.string(), axes.substr(0, 40), array_shape_text(in_index_order(stored, order)), why));
+        path.string(), axes.substr(0, 40), shape_text(in_index_order(stored, order)), why));
   };
   if (letters.size() != stored.size()) {
     throw refused(fmt::format("{} letters, but {} axes", letters.size(), stored.size()));
@@ -211,13 +211,13 @@ ArrayLayout stated_layout(const std::filesystem::path& path, const ArrayShape& s
   if (!can_be_channels(layout.length('c'))) {
     throw refused(fmt::format("{} channels, but 1, 3 or 4 are expected", layout.length('c')));
   }
-  const auto is_odd = [](std::size_t length) { return length == 0 || length > kMostPixels; };
+  const auto is_odd = [](std::size_t length) { return length == 0 || length > kMostViewSide; };
   if (std::ranges::any_of(stored, is_odd)) throw refused("that is no size of a light field");
   return layout;
 }
 
 std::string layout_text(const ArrayLayout& layout, IndexOrder order) {
-  return fmt::format("{} ({})", array_shape_text(in_index_order(layout.shape, order)),
+  return fmt::format("{} ({})", shape_text(in_index_order(layout.shape, order)),
                      in_index_order(layout.axes, order));
 }
 

@@ -10,15 +10,14 @@
 
 namespace episcope::io {
 
-/// A view as an 8-bit RGB picture, for the first look; samples other than 8 and 16-bit ones are
-/// scaled by the largest. Where all views of a pixel lie together, rows or columns of pixels are
-/// read one by one, every 64th first, for at most 0.7 s; the others repeat what is beside them.
-/// Throws IoError.
+/// Reads a view as an 8-bit RGB picture for a first look. Samples other than 8 and 16-bit ones are
+/// scaled by the largest. Where all views of a pixel lie together, rows or columns are read for at
+/// most 0.7 s, every 64th first; the others repeat their neighbors. Throws IoError.
 [[nodiscard]] Image<std::uint8_t> array_preview(const ArrayInput& array, const ArrayLayout& layout,
                                                 ViewIndex view);
 
-/// The middle of each of some views, of at most `side` pixels squared, in the
-/// second channel (green) or the only one, of any range. Throws IoError.
+/// Reads a window of at most `side`×`side` pixels from the middle of each view: the green or only
+/// channel, of any range. Throws IoError.
 [[nodiscard]] std::vector<Image<float>> array_windows(const ArrayInput& array,
                                                       const ArrayLayout& layout,
                                                       const std::vector<ViewIndex>& views,

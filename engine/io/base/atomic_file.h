@@ -9,10 +9,10 @@
 
 namespace episcope::io {
 
-/// A file that appears under its name only when it is whole: written as a hidden temporary file in
-/// the same folder, flushed to the disk, then renamed over the old one. Whatever happens before
-/// `commit`, the old file stays and the destructor removes the temporary one; if the program is
-/// killed, the next that writes the same file on this machine does.
+/// A file that appears under its name only when it is complete. It is written as a hidden temporary
+/// file in the same folder, flushed, then renamed over the old one. Before `commit`, the old file
+/// stays and the destructor removes the temporary one. After a kill, the next writer of the same
+/// file on this machine removes it.
 class AtomicFile {
  public:
   /// Creates the temporary file. `bytes`: the expected size, to refuse at once what cannot fit.
@@ -23,14 +23,14 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// As the caller named it.
+  /// The path that the caller gave.
   [[nodiscard]] const std::filesystem::path& target() const { return named_; }
   /// Where to write until `commit`.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
   /// The temporary file must be closed. Throws IoError that names the target.
   void commit();
-  /// As `commit`, but without waiting for the disk, for a file that does not exist yet: a power
-  /// failure may leave it truncated until it is flushed, the end of the program cannot.
+  /// Commits without waiting for the disk; for files that do not exist yet. Until it is flushed, a
+  /// power failure may leave the file truncated. The end of the program cannot.
   void commit_unflushed();
 
  private:
@@ -39,7 +39,7 @@ class AtomicFile {
   std::filesystem::path temporary_;  ///< Empty once renamed.
 };
 
-/// Flushes the names in the folder of a file to the disk, as far as that can be done.
+/// Flushes the names in the folder of `target` to the disk; failures are ignored.
 void flush_folder(const std::filesystem::path& target);
 
 /// Checks that `bytes` more fit on the disk that holds `folder`. Throws IoError naming `target`.
@@ -50,8 +50,8 @@ void require_space(const std::filesystem::path& target, const std::filesystem::p
 void write_atomically(const std::filesystem::path& target, std::span<const std::uint8_t> bytes);
 void write_atomically(const std::filesystem::path& target, std::string_view text);
 
-/// A folder that appears under its name only when it is whole: filled as a hidden folder beside it,
-/// then renamed. Whatever happens before `commit`, nothing is there under the name, and the
+/// A folder that appears under its name only when it is complete. It is filled as a hidden folder
+/// beside `target`, then renamed. Before `commit`, nothing exists under the name, and the
 /// destructor removes what was written.
 class AtomicFolder {
  public:
@@ -72,12 +72,12 @@ class AtomicFolder {
   std::filesystem::path temporary_;  ///< Empty once renamed.
 };
 
-/// A hidden name for what becomes `target` when it is whole, used by no other program on any
-/// machine: `.NAME.<machine>-<process>-<random>-<count>.part`.
+/// A hidden name beside `target` that no other program on any machine uses:
+/// `.NAME.<machine>-<process>-<random>-<count>.part`.
 [[nodiscard]] std::string temporary_name(const std::filesystem::path& target);
 
-/// Removes, as far as that can be done, what programs of this machine that were killed have left
-/// under such names beside `target`. Linear in the number of files of its folder.
+/// Removes temporary files beside `target` that killed programs of this machine have left; failures
+/// are ignored. Linear in the number of files of its folder.
 void remove_abandoned(const std::filesystem::path& target);
 
 /// The folder that holds `target`.

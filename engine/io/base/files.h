@@ -19,7 +19,7 @@ namespace episcope::io {
 class FileDescriptor {
  public:
   FileDescriptor() = default;
-  /// As open(2), with permissions 0666; see `ok`.
+  /// Opens as open(2) does, with permissions 0666; see `ok`.
   FileDescriptor(const std::filesystem::path& path, int flags);
   ~FileDescriptor();
   FileDescriptor(FileDescriptor&& other) noexcept;
@@ -35,14 +35,14 @@ class FileDescriptor {
 /// Writes all bytes; false leaves the reason in `errno`.
 [[nodiscard]] bool write_all(int descriptor, std::span<const std::uint8_t> bytes);
 
-/// The same at `offset` of the file.
+/// Writes all bytes at `offset` of the file.
 [[nodiscard]] bool write_all_at(int descriptor, std::span<const std::uint8_t> bytes,
                                 std::uintmax_t offset);
-/// Fills `bytes` from there; false also if the file ends before.
+/// Fills `bytes` from `offset` on; false also if the file ends before.
 [[nodiscard]] bool read_all_at(int descriptor, std::span<std::uint8_t> bytes,
                                std::uintmax_t offset);
 
-/// Reads from here to the end; false leaves the reason in `errno`.
+/// Reads from the current position to the end; false leaves the reason in `errno`.
 [[nodiscard]] bool read_all(int descriptor, std::vector<std::uint8_t>& bytes);
 
 /// Throws IoError with one sentence unless `path` is a file that can be opened for reading.
@@ -51,22 +51,22 @@ void require_readable_file(const std::filesystem::path& path);
 /// Why writing to `path` failed and what to do about it, from `errno` and the free space.
 [[nodiscard]] IoError write_error(const std::filesystem::path& path);
 
-/// Makes a folder and those above it, unless it is there. Throws IoError: "the folder cannot be
+/// Creates a folder and its parents where they are missing. Throws IoError: "the folder cannot be
 /// created (why)" followed by `advice`, which begins with its own punctuation.
 void make_folder(const std::filesystem::path& folder,
                  std::string_view advice = "; choose another one");
 
-/// Whether a path is a folder, or something in it or below, when all links are followed. What does
-/// not exist yet counts by the folders that do. No if that cannot be found out.
+/// Whether `path`, with all links followed, is `folder` or lies in it. A path that does not exist
+/// yet counts by its existing parents. False if this cannot be determined.
 [[nodiscard]] bool is_inside_folder(const std::filesystem::path& path,
                                     const std::filesystem::path& folder);
 
-/// From now on a file that grows beyond what the process may write (`ulimit -f`, limits of a batch
-/// system) is an error of the write (EFBIG, which `write_error` puts in words). By default the
-/// signal SIGXFSZ ends the program and leaves what is unfinished behind. For `main`.
+/// Turns the signal of a file beyond the size limit of the process (`ulimit -f`, batch systems)
+/// into a failed write: EFBIG, which `write_error` explains. By default SIGXFSZ ends the program
+/// and leaves temporary files. To be called by `main`.
 void report_file_size_limit();
 
-/// The finite number that the whole of `text` spells, with a dot whatever the locale.
+/// Parses all of `text` as a finite number with a decimal point, regardless of the locale.
 [[nodiscard]] inline std::optional<double> parse_number(const std::string& text) {
   double value = 0;
   const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);

@@ -117,9 +117,9 @@ std::string hdf5_version() {
   return fmt::format("{}.{}.{}", major, minor, release);
 }
 
-std::string shape_text(const Hdf5Shape& shape) {
-  if (shape.empty()) return "a single value";
-  return joined(shape, "×", [](std::size_t length) { return std::to_string(length); });
+bool has_hdf5_name(const std::filesystem::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".h5" || suffix == ".hdf5";
 }
 
 bool has_hdf5_signature(const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/io/base/array_input.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/hdf5_drivers.h"
 
@@ -18,7 +19,7 @@ namespace episcope::io {
 /// whole process, since the library as packaged is not thread-safe; the library's own error output
 /// is disabled.
 
-using Hdf5Shape = std::vector<std::size_t>;
+using Hdf5Shape = ArrayShape;
 
 enum class Hdf5Type { UInt8, UInt16, Integer, Float, Other };
 
@@ -38,9 +39,8 @@ struct Hdf5Block {
 /// Of the library that is loaded: "1.10.8".
 [[nodiscard]] std::string hdf5_version();
 
-/// "9×9×512×512×3".
-[[nodiscard]] std::string shape_text(const Hdf5Shape& shape);
-
+/// Whether the name of a file ends as those of HDF5 files do: .h5, .hdf5.
+[[nodiscard]] bool has_hdf5_name(const std::filesystem::path& path);
 /// Whether the file begins with the signature of HDF5; false also if it cannot be read.
 [[nodiscard]] bool has_hdf5_signature(const std::filesystem::path& path);
 

@@ -26,19 +26,19 @@ inline constexpr int kLzfFilter = 32000;
 inline constexpr std::size_t kLzfSizeAt = 2;
 
 /// Three bytes stand for at most 264.
-constexpr std::size_t kDensest = 88;
+constexpr std::size_t kDensestLzf = 88;
 /// What a filter before this one may add to a chunk.
-constexpr std::size_t kHeader = 256;
-constexpr std::size_t kLargest = std::numeric_limits<unsigned>::max();
+constexpr std::size_t kLzfHeader = 256;
+constexpr std::size_t kLargestUnpacked = std::numeric_limits<unsigned>::max();
 
 /// How large what `bytes` are turned into may be; 0 for what LZF cannot hold. Of a chunk that says
 /// its size no less, since the library reads all of it, whatever came out.
 std::size_t room_for(unsigned flags, std::size_t count, const unsigned values[],
                      std::size_t bytes) {
-  if (bytes < 2 || bytes > kLargest / kDensest) return 0;
+  if (bytes < 2 || bytes > kLargestUnpacked / kDensestLzf) return 0;
   if ((flags & H5Z_FLAG_REVERSE) == 0) return bytes - 1;  // else it had better be left as it is
-  const bool is_stated = count > kLzfSizeAt && values[kLzfSizeAt] < kLargest - kHeader;
-  return is_stated ? values[kLzfSizeAt] + kHeader : bytes * kDensest;
+  const bool is_stated = count > kLzfSizeAt && values[kLzfSizeAt] < kLargestUnpacked - kLzfHeader;
+  return is_stated ? values[kLzfSizeAt] + kLzfHeader : bytes * kDensestLzf;
 }
 
 /// As H5Z_func_t: 0 is a failure.
@@ -231,7 +231,7 @@ namespace {
 /// Deflate, the most common filter, reaches 1032 for samples that are all the same.
 constexpr double kLargestCompression = 1100;
 /// What an unwritten dataset may claim, in bytes.
-constexpr double kSmall = 64 << 20;
+constexpr double kSmallDataset = 64 << 20;
 
 double file_bytes(const std::filesystem::path& path) {
   std::error_code error;
@@ -335,7 +335,8 @@ void require_sound_dataset(const std::filesystem::path& path, const std::string&
   const bool is_compressed = H5Pget_nfilters(creation) > 0;
   const double stored =
       std::min(static_cast<double>(H5Dget_storage_size(dataset)), file_bytes(path));
-  if (claimed <= std::max(kSmall, stored * (is_compressed ? kLargestCompression : 1))) return;
+  if (claimed <= std::max(kSmallDataset, stored * (is_compressed ? kLargestCompression : 1)))
+    return;
   throw IoError(path,
                 fmt::format("the dataset {} claims {:.3g} bytes, of which the file can hold "
                             "no more than {:.3g}; it is damaged: copy or download it again",
@@ -344,24 +345,24 @@ void require_sound_dataset(const std::filesystem::path& path, const std::string&
 
 namespace {
 
-using Places = std::vector<hsize_t>;
+using ChunkPlaces = std::vector<hsize_t>;
 
 /// Sides of a chunk; empty if they do not fit the dataset.
-Places sides_of(hid_t creation, std::size_t rank) {
-  Places sides(rank);
+ChunkPlaces sides_of(hid_t creation, std::size_t rank) {
+  ChunkPlaces sides(rank);
   const int count = H5Pget_chunk(creation, static_cast<int>(rank), sides.data());
   const bool is_sound = count == static_cast<int>(rank) && std::ranges::count(sides, 0U) == 0;
-  return is_sound ? sides : Places();
+  return is_sound ? sides : ChunkPlaces();
 }
 
-Places first_chunk(const Hdf5Block& block, const Places& sides) {
-  Places at(sides.size());
+ChunkPlaces first_chunk(const Hdf5Block& block, const ChunkPlaces& sides) {
+  ChunkPlaces at(sides.size());
   for (std::size_t i = 0; i < at.size(); ++i) at[i] = block.start[i] / sides[i] * sides[i];
   return at;
 }
 
 /// Moves `at` to the next chunk of the block; whether there is one.
-bool step(const Hdf5Block& block, const Places& sides, Places& at) {
+bool step(const Hdf5Block& block, const ChunkPlaces& sides, ChunkPlaces& at) {
   for (std::size_t i = at.size(); i-- > 0;) {
     at[i] += sides[i];
     if (at[i] < block.start[i] + block.count[i]) return true;
@@ -370,7 +371,7 @@ bool step(const Hdf5Block& block, const Places& sides, Places& at) {
   return false;
 }
 
-hsize_t bytes_of_chunk(hid_t dataset, const Places& sides) {
+hsize_t bytes_of_chunk(hid_t dataset, const ChunkPlaces& sides) {
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
   hsize_t bytes = H5Tget_size(type);
   for (const hsize_t side : sides) bytes *= side;
@@ -378,9 +379,9 @@ hsize_t bytes_of_chunk(hid_t dataset, const Places& sides) {
 }
 
 /// Whether the dataset may become as large; of axes without an end it may.
-bool fit_dataset(hid_t dataset, const Places& sides) {
+bool fit_dataset(hid_t dataset, const ChunkPlaces& sides) {
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
-  Places extent(sides.size()), most(sides.size());
+  ChunkPlaces extent(sides.size()), most(sides.size());
   H5Sget_simple_extent_dims(space, extent.data(), most.data());
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (most[i] != H5S_UNLIMITED && sides[i] > most[i]) return false;
@@ -433,7 +434,7 @@ hsize_t inflated_size(std::vector<std::uint8_t>& packed, hsize_t most) {
 
 /// Of what damages the shape of chunks, all of them suffer.
 bool is_first_whole(hid_t dataset, hsize_t bytes) {
-  Places offset(H5S_MAX_RANK);
+  ChunkPlaces offset(H5S_MAX_RANK);
   unsigned skipped = 0;
   haddr_t place = HADDR_UNDEF;
   hsize_t stored = 0;
@@ -457,7 +458,7 @@ bool has_sound_chunks(hid_t dataset) {
   if (H5Pget_layout(creation) != H5D_CHUNKED) return true;
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space);
-  const Places sides = sides_of(creation, static_cast<std::size_t>(std::max(0, rank)));
+  const ChunkPlaces sides = sides_of(creation, static_cast<std::size_t>(std::max(0, rank)));
   if (sides.empty() || !fit_dataset(dataset, sides)) return false;
   const hsize_t bytes = bytes_of_chunk(dataset, sides);
   if (!states_packed_size(creation, bytes)) return false;
@@ -470,11 +471,11 @@ bool has_short_chunk(hid_t dataset, const Hdf5Block& block) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
   if (H5Pget_layout(creation) != H5D_CHUNKED) return false;
   if (std::ranges::count(block.count, 0U) > 0) return false;
-  const Places sides = sides_of(creation, block.start.size());
+  const ChunkPlaces sides = sides_of(creation, block.start.size());
   if (sides.empty()) return true;
   const hsize_t bytes = bytes_of_chunk(dataset, sides);
   const unsigned filters = (1U << std::max(0, H5Pget_nfilters(creation))) - 1;
-  Places at = first_chunk(block, sides);
+  ChunkPlaces at = first_chunk(block, sides);
   do {
     unsigned skipped = 0;
     haddr_t place = HADDR_UNDEF;

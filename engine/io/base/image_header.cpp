@@ -159,7 +159,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kHeaderBytes = 4096;
 constexpr std::uint64_t kFewPixels = 16'000'000;
 /// Of a byte: what the forms reach with pixels that are all alike.
-constexpr std::uint64_t kMostPixels = 1100;
+constexpr std::uint64_t kMostPixelsPerByte = 1100;
 
 using Claim = std::optional<std::uint64_t>;
 
@@ -233,7 +233,7 @@ Claim radiance_pixels(std::string_view bytes) {
 
 }  // namespace
 
-std::optional<std::uint64_t> claimed_pixels(const fs::path& path) {
+std::optional<std::uint64_t> declared_pixels(const fs::path& path) {
   const std::string bytes = beginning_of(path);
   const std::string_view begin(bytes);
   if (begin.starts_with("RIFF") && begin.substr(0, 12).ends_with("WEBP")) return webp_pixels(begin);
@@ -248,7 +248,7 @@ std::optional<std::uint64_t> claimed_pixels(const fs::path& path) {
 }
 
 void require_plausible_picture(const fs::path& path) {
-  if (const auto claimed = claimed_pixels(path)) require_plausible_pixels(path, *claimed);
+  if (const auto claimed = declared_pixels(path)) require_plausible_pixels(path, *claimed);
 }
 
 void require_plausible_pixels(const fs::path& path, std::uint64_t claimed) {
@@ -262,7 +262,7 @@ void require_plausible_pixels(const fs::path& path, std::uint64_t claimed) {
 
 std::uint64_t most_plausible_pixels(std::uintmax_t bytes) {
   const std::uint64_t dense = std::numeric_limits<std::uint32_t>::max();
-  return std::max(kFewPixels, std::min<std::uint64_t>(bytes, dense) * kMostPixels);
+  return std::max(kFewPixels, std::min<std::uint64_t>(bytes, dense) * kMostPixelsPerByte);
 }
 
 }  // namespace episcope::io

@@ -12,7 +12,7 @@
 
 namespace episcope::io {
 
-/// Bytes of a file; what lies behind its end reads as 0 and is remembered.
+/// Reader of single bytes of a file. Bytes behind its end read as 0, and `is_short` remembers it.
 class FileBytes {
  public:
   explicit FileBytes(const std::filesystem::path& path) : in_(path, std::ios::binary) {}
@@ -49,7 +49,7 @@ class FileBytes {
   bool is_short_ = false;
 };
 
-/// What `decode_image` would make of a file.
+/// Shape and sample type of the image that `decode_image` returns.
 struct ImageHeader {
   int height = 0;
   int width = 0;
@@ -57,8 +57,8 @@ struct ImageHeader {
   SampleType sample_type = SampleType::UInt8;
 };
 
-/// What the header of a PNG, JPEG, TIFF, BMP or PNM says; `channels` is 0 if a palette decides.
-/// Nothing for other and for damaged files.
+/// Reads the header of a PNG, JPEG, TIFF, BMP or PNM. `channels` is 0 if a palette decides. Returns
+/// nothing for other and for damaged files.
 [[nodiscard]] std::optional<ImageHeader> stated_image_header(const std::filesystem::path& path);
 
 struct ImageSize {
@@ -68,22 +68,22 @@ struct ImageSize {
   [[nodiscard]] long long area() const { return static_cast<long long>(height) * width; }
 };
 
-/// The size of an image as its header says, of PNG, JPEG, BMP and TIFF files; nothing is decoded.
-/// Nothing for other and for damaged files.
+/// Reads the size of a PNG, JPEG, BMP or TIFF image from its header. Returns nothing for other and
+/// for damaged files.
 [[nodiscard]] std::optional<ImageSize> image_size(const std::filesystem::path& path);
 
-/// Pixels that the header of a picture claims, before any of them is decoded: JPEG, BMP, PNM, TIFF,
-/// WebP, JPEG 2000, OpenEXR, Radiance. Nothing for other forms.
-[[nodiscard]] std::optional<std::uint64_t> claimed_pixels(const std::filesystem::path& path);
+/// Number of pixels that the header declares, before any is decoded: JPEG, BMP, PNM, TIFF, WebP,
+/// JPEG 2000, OpenEXR, Radiance. Nothing for other formats.
+[[nodiscard]] std::optional<std::uint64_t> declared_pixels(const std::filesystem::path& path);
 
-/// Throws IoError if a picture claims more pixels than its file can hold, compressed as densely as
-/// can be, unless they are few (16 million).
+/// Throws IoError if a picture declares more pixels than its file can hold at the densest
+/// compression. 16 million pixels are always allowed.
 void require_plausible_picture(const std::filesystem::path& path);
 
-/// The same for so many pixels that are claimed.
+/// Throws IoError if a file of this size cannot hold `claimed` pixels.
 void require_plausible_pixels(const std::filesystem::path& path, std::uint64_t claimed);
 
-/// Pixels that a picture of a file of so many bytes may claim.
+/// Largest number of pixels that a file of so many bytes may declare.
 [[nodiscard]] std::uint64_t most_plausible_pixels(std::uintmax_t bytes);
 
 }  // namespace episcope::io

@@ -6,11 +6,11 @@
 
 namespace episcope::io {
 
-/// Images directly in a folder, by name. Hidden files, and links that lead nowhere or to
-/// themselves, are left out. Throws filesystem_error if the folder cannot be read.
+/// Lists the images directly in a folder, by name. Omits hidden files and links that lead nowhere
+/// or to themselves. Throws filesystem_error if the folder cannot be read.
 [[nodiscard]] std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
 
-/// Folders directly in a folder, in any order, without hidden ones; none if it cannot be opened.
+/// Lists the visible folders directly in a folder, in any order; none if it cannot be opened.
 [[nodiscard]] std::vector<std::filesystem::path> list_folders(const std::filesystem::path& folder);
 
 /// Number of images directly in a folder; 0 if there is no such folder.

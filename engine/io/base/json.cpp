@@ -8,15 +8,15 @@
 namespace episcope::io {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json to_json(const ParameterValue& value) {
+OrderedJson to_json(const ParameterValue& value) {
   return std::visit(
-      []<class T>(const T& held) -> Json {
+      []<class T>(const T& held) -> OrderedJson {
         if constexpr (std::is_same_v<T, IntervalOrAuto>) {
-          return held ? Json::array({held->min, held->max}) : Json(held.word());
+          return held ? OrderedJson::array({held->min, held->max}) : OrderedJson(held.word());
         } else if constexpr (std::is_same_v<T, ViewOrAuto>) {
-          return held ? Json::array({held->v, held->u}) : Json(IntervalOrAuto().word());
+          return held ? OrderedJson::array({held->v, held->u}) : OrderedJson(IntervalOrAuto().word());
         } else {
           return held;
         }
@@ -24,7 +24,7 @@ Json to_json(const ParameterValue& value) {
       value);
 }
 
-ParameterValue from_json(const Json& value) {
+ParameterValue from_json(const OrderedJson& value) {
   if (value.is_boolean()) return value.get<bool>();
   if (value.is_number_integer()) return value.get<int>();
   if (value.is_number()) return value.get<double>();
@@ -41,11 +41,17 @@ ParameterValue from_json(const Json& value) {
   return value.dump();
 }
 
+/// Earlier versions spelled the options for brightness with an s.
+std::string present_key(std::string key) {
+  if (key.ends_with("alise")) key[key.size() - 2] = 'z';
+  return key;
+}
+
 /// Null for what is no JSON.
-Json parsed(const std::string& text) {
+OrderedJson parsed(const std::string& text) {
   try {
-    return parse_json<Json>(text);
-  } catch (const Json::exception&) {
+    return parse_json<OrderedJson>(text);
+  } catch (const OrderedJson::exception&) {
     return {};
   } catch (const InvalidInput&) {
     return {};
@@ -54,20 +60,22 @@ Json parsed(const std::string& text) {
 
 }  // namespace
 
-Json parameters_json(const ParameterSet& parameters) {
-  Json object = Json::object();
+OrderedJson parameters_json(const ParameterSet& parameters) {
+  OrderedJson object = OrderedJson::object();
   for (const auto& [key, value] : parameters) object[key] = to_json(value);
   return object;
 }
 
 std::string parameters_to_json(const ParameterSet& parameters) {
-  return parameters_json(parameters).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return parameters_json(parameters).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
-ParameterSet parameters_from(const Json& object) {
+ParameterSet parameters_from(const OrderedJson& object) {
   ParameterSet parameters;
   if (!object.is_object()) return parameters;
-  for (const auto& [key, value] : object.items()) parameters.emplace_back(key, from_json(value));
+  for (const auto& [key, value] : object.items()) {
+    parameters.emplace_back(present_key(key), from_json(value));
+  }
   return parameters;
 }
 

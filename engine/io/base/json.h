@@ -16,13 +16,13 @@
 
 namespace episcope::io {
 
-/// Of files of JSON; those of Episcope have kilobytes.
+/// Largest JSON file that is read, in bytes; files of Episcope have kilobytes.
 inline constexpr std::uintmax_t kLargestJson = std::uintmax_t{32} << 20;
-/// What copies or writes values calls itself once a level.
+/// Deepest nesting; copying and writing of values recurse once a level.
 inline constexpr int kDeepestJson = 64;
 
-/// Throws Json::exception for what is no JSON, InvalidInput for more than kDeepestJson levels.
-/// Json: nlohmann's json or ordered_json; `text` a string or a stream.
+/// Parses JSON. Throws Json::exception for malformed text, InvalidInput for more than kDeepestJson
+/// levels. Json: nlohmann's json or ordered_json; `text` a string or a stream.
 template <class Json, class Text>
 [[nodiscard]] Json parse_json(Text&& text) {
   return Json::parse(text, [](int depth, typename Json::parse_event_t, Json&) {
@@ -32,7 +32,7 @@ template <class Json, class Text>
   });
 }
 
-/// The whole file. Throws as parse_json; IoError if it cannot be read or is larger than
+/// Reads a JSON file. Throws as parse_json; IoError if it cannot be read or is larger than
 /// kLargestJson.
 template <class Json>
 [[nodiscard]] Json read_json(const std::filesystem::path& path) {
@@ -46,7 +46,7 @@ template <class Json>
 }
 
 /// A whole number that fits an int. Throws Json::exception if it is no number, InvalidInput if it
-/// does not fit: nlohmann's own conversion of those is undefined.
+/// does not fit, where nlohmann's own conversion is undefined.
 template <class Json>
 [[nodiscard]] int int_of(const Json& json) {
   const auto number = whole_int(json.template get<double>());
@@ -54,11 +54,11 @@ template <class Json>
   return *number;
 }
 
-/// Object of parameter values by key, in their order, as in result files, projects and answers of
+/// JSON object of parameter values by key, in their order, as in result files, projects and answers of
 /// the command line: booleans, whole and real numbers, strings, intervals and views `[a, b]`,
 /// "auto" or "found" for those that are not set.
 [[nodiscard]] nlohmann::ordered_json parameters_json(const ParameterSet& parameters);
-/// Its text on one line; bytes that are not UTF-8 become the replacement character.
+/// Writes that object on one line; bytes that are not UTF-8 become the replacement character.
 [[nodiscard]] std::string parameters_to_json(const ParameterSet& parameters);
 
 /// Reads what `parameters_json` made, and null, which earlier versions wrote for "auto". Keeps

@@ -48,7 +48,7 @@ ArrayShape map_size(const ArrayInput& array) {
   if (is_map) return size;
   throw IoError(array.path(), fmt::format("the array has the shape {}, but a map has height × "
                                           "width; save one map alone",
-                                          array_shape_text(array.shape())));
+                                          shape_text(array.shape())));
 }
 
 template <class T>
@@ -84,7 +84,7 @@ NpyFile::Place NpyFile::find(const std::filesystem::path& path, std::uint64_t of
     throw IoError(path,
                   fmt::format("the .npy header states {} {} samples, but the file ends after "
                               "{} of them; copy or save it again",
-                              array_shape_text(place.header.shape), number_name(place.header.type),
+                              shape_text(place.header.shape), number_name(place.header.type),
                               (held - place.header.bytes) / width));
   }
   place.offset = offset + place.header.bytes;
@@ -142,7 +142,7 @@ void write_npy(const std::filesystem::path& path, const ArrayShape& shape,
                std::span<const T> samples) {
   if (element_count(shape) != samples.size()) {
     throw InvalidInput(fmt::format("an array of the shape {} cannot hold {} samples",
-                                   array_shape_text(shape), samples.size()));
+                                   shape_text(shape), samples.size()));
   }
   const std::string header = npy_header(shape, number_type_of<T>());
   AtomicFile file(path, header.size() + samples.size_bytes());

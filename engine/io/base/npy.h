@@ -32,21 +32,21 @@ constexpr std::size_t kLongestNpyHeader = 65536;
 /// Whether a file that begins like this is an `.npy` file.
 [[nodiscard]] bool has_npy_magic(std::string_view begin);
 
-/// Parses the header at the front of a file; `begin` holds it, and may hold more. Nothing in it is
-/// evaluated: objects, records and text are refused. Throws IoError that names `path`.
+/// Parses the header at the front of a file, which `begin` holds. Nothing in it is evaluated:
+/// objects, records and text are refused. Throws IoError that names `path`.
 [[nodiscard]] NpyHeader parse_npy_header(const std::filesystem::path& path, std::string_view begin);
 
 /// A header of version 1.0 for samples in C order of this machine, which must be little-endian.
 [[nodiscard]] std::string npy_header(const ArrayShape& shape, NumberType type);
 
-/// An `.npy` file (versions 1 to 3; integers, booleans, floats of 16 to 64 bits; any byte order, C
-/// or Fortran order), read when it is needed. Arrays in Fortran order have their axes reversed in
-/// `shape`, so that the last is contiguous.
+/// An `.npy` file, read on demand: versions 1 to 3; integers, booleans, floats of 16 to 64 bits;
+/// any byte order, C or Fortran order. Arrays in Fortran order have their axes reversed in `shape`,
+/// so that the last is contiguous.
 class NpyFile : public LinearArray {
  public:
   /// `offset`: where in the file the `.npy` data begins, and `bytes` how many there are at most;
-  /// for arrays inside of an archive. Throws IoError for a file of another kind, for objects,
-  /// records or text, and if the file is shorter than its header states.
+  /// for arrays inside an archive. Throws IoError for a file of another kind, for objects, records
+  /// or text, and if the file is shorter than its header states.
   explicit NpyFile(const std::filesystem::path& path, std::uint64_t offset = 0,
                    std::uint64_t bytes = ~std::uint64_t{0});
 
@@ -73,24 +73,24 @@ class NpyFile : public LinearArray {
 /// An array as a map `[y][x]` of numbers: 2-D, or with further axes of length 1. Throws IoError
 /// that says what the file holds.
 [[nodiscard]] Image<float> read_npy_map(const std::filesystem::path& path);
-/// Likewise, of integers; floats are accepted if all are whole numbers.
+/// Reads an array as a map of integers; floats are accepted if all are whole numbers.
 [[nodiscard]] Image<std::int32_t> read_npy_labels(const std::filesystem::path& path);
 
-/// Both, of any array whose axes are in C order of the file; `is_transposed` swaps y and x.
+/// Read such maps from any array with axes in C order; `is_transposed` swaps y and x.
 [[nodiscard]] Image<float> read_map(const ArrayInput& array, bool is_transposed);
 [[nodiscard]] Image<std::int32_t> read_label_map(const ArrayInput& array, bool is_transposed);
 
 /// Writes a file of version 1.0 in C order. Atomic. T: uint8, uint16, int32, float. Throws IoError;
-/// InvalidInput if the shape is not that of the samples.
+/// InvalidInput if the shape does not match the samples.
 template <class T>
 void write_npy(const std::filesystem::path& path, const ArrayShape& shape,
                std::span<const T> samples);
 
-/// The header of an `.npy` file inside of an archive. Throws IoError.
+/// Reads the header of an `.npy` file inside an archive. Throws IoError.
 [[nodiscard]] NpyHeader read_zipped_header(const std::filesystem::path& path,
                                            const ZipEntry& entry);
 
-/// An `.npy` file that is deflated in an archive: inflated piece by piece while it is read.
+/// A deflated `.npy` file in an archive, inflated piece by piece while it is read.
 class DeflatedNpy : public LinearArray {
  public:
   /// `header` is that of `entry`. Throws IoError.

@@ -39,7 +39,7 @@ struct ExrHeader {
 using ByteSpan = std::span<const std::uint8_t>;
 
 constexpr std::size_t kAfterVersion = 8;
-constexpr std::uint64_t kParts = 0x1000;  ///< Flags of the version.
+constexpr std::uint64_t kManyParts = 0x1000;  ///< Flags of the version.
 constexpr std::uint64_t kDeep = 0x800;
 constexpr std::uint64_t kDwa = 8;  ///< The first compression that goes by names.
 
@@ -142,15 +142,15 @@ ExrHeader exr_header(const std::filesystem::path& path, ByteSpan bytes) {
   std::size_t at = kAfterVersion;
   ExrHeader header = take_header(path, bytes, at);
   const std::uint64_t version = little_number(bytes, 4, 4);
-  if ((version & kParts) != 0) {
+  if ((version & kManyParts) != 0) {
     while (at < bytes.size() && bytes[at] != 0) (void)take_header(path, bytes, at);
   }
   const bool is_whole = header.end < bytes.size();
-  if ((version & (kParts | kDeep)) != 0 || !is_whole || header.compression >= kDwa) return {};
+  if ((version & (kManyParts | kDeep)) != 0 || !is_whole || header.compression >= kDwa) return {};
   return header;
 }
 
-using Bytes = std::vector<std::uint8_t>;
+using ExrBytes = std::vector<std::uint8_t>;
 using Channel = ExrHeader::Channel;
 
 std::string_view last_part(std::string_view name) {
@@ -163,17 +163,17 @@ bool is_depth(const std::string& name) {
 }
 
 /// New names of some channels, by their place in the list.
-using Names = std::map<std::size_t, char>;
+using ExrNames = std::map<std::size_t, char>;
 
-Names names_of_depth(const std::vector<Channel>& channels) {
+ExrNames names_of_depth(const std::vector<Channel>& channels) {
   for (std::size_t i = 0; i < channels.size(); ++i) {
     if (is_depth(channels[i].name)) return {{i, 'Y'}};
   }
   return {};
 }
 
-Names names_of_layer(const std::vector<Channel>& channels) {
-  std::map<std::string, Names> layers;
+ExrNames names_of_layer(const std::vector<Channel>& channels) {
+  std::map<std::string, ExrNames> layers;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const std::string& name = channels[i].name;
     const std::string_view part = last_part(name);
@@ -187,27 +187,28 @@ Names names_of_layer(const std::vector<Channel>& channels) {
     return lower_case(layer.first).find("combined") != std::string::npos;
   });
   if (combined != layers.end()) return combined->second;
-  return layers.empty() ? Names{} : layers.begin()->second;
+  return layers.empty() ? ExrNames{} : layers.begin()->second;
 }
 
-Names names_of(const std::vector<Channel>& channels, PicturePart part) {
+ExrNames names_of(const std::vector<Channel>& channels, PicturePart part) {
   if (part == PicturePart::Depth) {
-    if (Names depth = names_of_depth(channels); !depth.empty()) return depth;
+    if (ExrNames depth = names_of_depth(channels); !depth.empty()) return depth;
   }
   const bool is_known = std::ranges::any_of(channels, [](const Channel& channel) {
     const std::string& name = channel.name;
     return name == "R" || name == "G" || name == "B" || name == "Y";
   });
   if (is_known || channels.empty()) return {};
-  if (Names layer = names_of_layer(channels); !layer.empty()) return layer;
-  if (Names depth = names_of_depth(channels); !depth.empty()) return depth;
-  return channels.size() == 1 ? Names{{0, 'Y'}} : Names{};
+  if (ExrNames layer = names_of_layer(channels); !layer.empty()) return layer;
+  if (ExrNames depth = names_of_depth(channels); !depth.empty()) return depth;
+  return channels.size() == 1 ? ExrNames{{0, 'Y'}} : ExrNames{};
 }
 
 /// The list with the names, the others renamed such that all stay in order: rows are stored in the
 /// order of names.
-Bytes list_with(const Bytes& bytes, const std::vector<Channel>& channels, const Names& names) {
-  Bytes list;
+ExrBytes list_with(const ExrBytes& bytes, const std::vector<Channel>& channels,
+                   const ExrNames& names) {
+  ExrBytes list;
   char before = 'A';  // first letter of what is not wanted
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const auto found = names.find(i);
@@ -223,14 +224,14 @@ Bytes list_with(const Bytes& bytes, const std::vector<Channel>& channels, const 
   return list;
 }
 
-void set_number(Bytes& bytes, std::size_t at, std::size_t count, std::uint64_t value) {
+void set_number(ExrBytes& bytes, std::size_t at, std::size_t count, std::uint64_t value) {
   for (std::size_t i = 0; i < count && at + i < bytes.size(); ++i) {
     bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
   }
 }
 
 /// Replaces the list, and moves the places of the rows: the first of them follow right behind.
-void replace_list(Bytes& bytes, const ExrHeader& header, const Bytes& list) {
+void replace_list(ExrBytes& bytes, const ExrHeader& header, const ExrBytes& list) {
   const std::uint64_t moved = std::uint64_t{list.size()} - std::uint64_t{header.list_size};
   std::uint64_t rows = bytes.size();
   for (std::size_t at = header.end; at < rows; at += 8) {
@@ -244,10 +245,10 @@ void replace_list(Bytes& bytes, const ExrHeader& header, const Bytes& list) {
   bytes.insert(after, list.begin(), list.end());
 }
 
-Bytes bytes_of(const std::filesystem::path& path) {
+ExrBytes bytes_of(const std::filesystem::path& path) {
   constexpr std::string_view kSignature = "\x76\x2f\x31\x01";
   std::ifstream in(path, std::ios::binary);
-  Bytes bytes(kSignature.size());
+  ExrBytes bytes(kSignature.size());
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   const bool is_exr = in && std::equal(bytes.begin(), bytes.end(), kSignature.begin(),
                                        [](std::uint8_t a, char b) { return a == std::uint8_t(b); });
@@ -258,11 +259,12 @@ Bytes bytes_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::optional<Bytes> exr_with_known_channels(const std::filesystem::path& path, PicturePart part) {
-  Bytes bytes = bytes_of(path);
+std::optional<ExrBytes> exr_with_known_channels(const std::filesystem::path& path,
+                                                PicturePart part) {
+  ExrBytes bytes = bytes_of(path);
   if (bytes.empty()) return std::nullopt;
   const ExrHeader header = exr_header(path, bytes);
-  const Names names = names_of(header.channels, part);
+  const ExrNames names = names_of(header.channels, part);
   if (names.empty()) return std::nullopt;
   replace_list(bytes, header, list_with(bytes, header.channels, names));
   return bytes;

@@ -8,15 +8,15 @@
 
 namespace episcope::io {
 
-/// What of an OpenEXR file is wanted, which may hold both.
+/// Part of an OpenEXR file to decode, which may hold both.
 enum class PicturePart { Colours, Depth };
 
-/// An OpenEXR file whose channels have names that OpenCV does not know: the layers of a render
-/// (`View Layer.Combined.R`), or depth (`Z`, `V`, `View Layer.Depth.Z`). Returns its bytes with
-/// such names that OpenCV decodes the part: of layers the combined one, else the first that has
-/// red, green and blue; of a file without colours the depth, or the only channel. `Depth` is that
-/// channel also beside colours. Nothing if the file can be decoded as it is, is no OpenEXR file, or
-/// is one in several parts or packed by DWA, which goes by the names. Linear in the bytes.
+/// Renames channels that OpenCV does not know: layers of a render (`View Layer.Combined.R`) and
+/// depth (`Z`, `V`, `View Layer.Depth.Z`). Returns the bytes of the file with names by which OpenCV
+/// decodes the wanted part. Of several layers the combined one counts, else the first with red,
+/// green and blue. Of a file without colors the depth counts, or the only channel. `Depth` finds
+/// depth also beside colors. Returns nothing if the file can be decoded as it is, is no OpenEXR
+/// file, has several parts, or is packed by DWA, which depends on names. Linear in the bytes.
 /// Throws IoError if a header claims more than the file holds.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> exr_with_known_channels(
     const std::filesystem::path& path, PicturePart part);

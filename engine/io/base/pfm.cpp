@@ -18,7 +18,7 @@
 namespace episcope::io {
 namespace {
 
-constexpr int kLargestSide = 1 << 16;
+constexpr int kLargestPfmSide = 1 << 16;
 
 struct Header {
   int channels = 1;
@@ -59,8 +59,8 @@ Header read_header(const std::filesystem::path& path, std::istream& in) {
   } catch (const std::logic_error&) {
     throw IoError(path, "the header of the PFM file lacks width, height or scale; write it again");
   }
-  const bool has_size = header.width > 0 && header.height > 0 && header.width <= kLargestSide &&
-                        header.height <= kLargestSide;
+  const bool has_size = header.width > 0 && header.height > 0 && header.width <= kLargestPfmSide &&
+                        header.height <= kLargestPfmSide;
   if (!has_size || header.scale == 0 || !std::isfinite(header.scale)) {
     throw IoError(path, fmt::format("the header of the PFM file says {}×{} px and scale {:f}, "
                                     "which is not valid; write it again",

@@ -33,9 +33,9 @@ IoError damaged(const fs::path& path) {
 }
 
 /// Little-endian numbers out of a part of the archive.
-class Bytes {
+class ZipBytes {
  public:
-  Bytes(const fs::path& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
+  ZipBytes(const fs::path& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
 
   template <class T>
   [[nodiscard]] T number(std::size_t at) const {
@@ -77,7 +77,7 @@ Directory find_directory(std::ifstream& in, const fs::path& path, std::uint64_t 
   const std::string end = read_part(in, path, size - tail, tail);
   const std::size_t at = end.rfind(std::string_view("PK\5\6", 4));
   if (at == std::string::npos || end.size() - at < kEndLength) throw damaged(path);
-  const Bytes bytes(path, end);
+  const ZipBytes bytes(path, end);
   Directory found{bytes.number<std::uint32_t>(at + 16), bytes.number<std::uint32_t>(at + 12)};
   const bool has_64 =
       at >= kLocatorLength && bytes.number<std::uint32_t>(at - kLocatorLength) == kLocator64;
@@ -85,7 +85,7 @@ Directory find_directory(std::ifstream& in, const fs::path& path, std::uint64_t 
     const auto place = bytes.number<std::uint64_t>(at - kLocatorLength + 8);
     if (place > size || size - place < 56) throw damaged(path);
     const std::string end64 = read_part(in, path, place, 56);
-    const Bytes large(path, end64);
+    const ZipBytes large(path, end64);
     if (large.number<std::uint32_t>(0) != kEnd64) throw damaged(path);
     found = {large.number<std::uint64_t>(48), large.number<std::uint64_t>(40)};
   }
@@ -96,7 +96,8 @@ Directory find_directory(std::ifstream& in, const fs::path& path, std::uint64_t 
 }
 
 /// Sizes beyond 32 bits lie in an extra field.
-void read_sizes_64(const Bytes& extra, std::size_t length, ZipEntry& entry, std::uint64_t& header) {
+void read_sizes_64(const ZipBytes& extra, std::size_t length, ZipEntry& entry,
+                   std::uint64_t& header) {
   for (std::size_t at = 0; at + 4 <= length;) {
     const auto id = extra.number<std::uint16_t>(at);
     const auto bytes = extra.number<std::uint16_t>(at + 2);
@@ -113,7 +114,7 @@ void read_sizes_64(const Bytes& extra, std::size_t length, ZipEntry& entry, std:
 }
 
 /// Reads the entry at `at` of the directory and moves on.
-ZipEntry read_entry(std::ifstream& in, const fs::path& path, const Bytes& directory,
+ZipEntry read_entry(std::ifstream& in, const fs::path& path, const ZipBytes& directory,
                     std::size_t& at, std::uint64_t size) {
   if (directory.number<std::uint32_t>(at) != kCentral) throw damaged(path);
   const auto flags = directory.number<std::uint16_t>(at + 8);
@@ -126,7 +127,7 @@ ZipEntry read_entry(std::ifstream& in, const fs::path& path, const Bytes& direct
                  method == 8};
   std::uint64_t header = directory.number<std::uint32_t>(at + 42);
   const std::string_view fields = directory.part(at + 46 + name, extra);
-  read_sizes_64(Bytes(path, fields), fields.size(), entry, header);
+  read_sizes_64(ZipBytes(path, fields), fields.size(), entry, header);
   at += 46U + name + extra + comment;
   if ((flags & 1) != 0 || (method != 0 && method != 8)) {
     throw IoError(path, fmt::format("{} in the zip archive is {}; save it with numpy.savez",
@@ -137,7 +138,7 @@ ZipEntry read_entry(std::ifstream& in, const fs::path& path, const Bytes& direct
   }
   if (header > size || size - header < 30) throw damaged(path);
   const std::string local = read_part(in, path, header, 30);
-  const Bytes begin(path, local);
+  const ZipBytes begin(path, local);
   if (begin.number<std::uint32_t>(0) != kLocal) throw damaged(path);
   entry.begin = header + 30 + begin.number<std::uint16_t>(26) + begin.number<std::uint16_t>(28);
   if (entry.begin > size || entry.stored > size - entry.begin) throw damaged(path);
@@ -160,7 +161,7 @@ std::vector<ZipEntry> list_zip(const fs::path& path) {
   const std::uint64_t size = fs::file_size(path);
   const Directory place = find_directory(in, path, size);
   const std::string bytes = read_part(in, path, place.begin, place.bytes);
-  const Bytes directory(path, bytes);
+  const ZipBytes directory(path, bytes);
   std::vector<ZipEntry> entries;
   for (std::size_t at = 0; at + 46 <= bytes.size();) {
     entries.push_back(read_entry(in, path, directory, at, size));
@@ -171,8 +172,8 @@ std::vector<ZipEntry> list_zip(const fs::path& path) {
 namespace {
 
 constexpr std::uint64_t kMostIn16 = 0xFFFF;
-constexpr std::uint16_t kVersion64 = 45;
-constexpr std::uint16_t kVersion = 20;
+constexpr std::uint16_t kZip64Version = 45;
+constexpr std::uint16_t kZipVersion = 20;
 /// 1 January 1980: files of equal contents are equal.
 constexpr std::uint32_t kDate = 0x00210000;
 
@@ -221,7 +222,7 @@ void ZipWriter::add(const std::string& name,
   }
   const bool is_large = entry.size >= kIn64;
   Record header;
-  header.add(std::uint32_t{0x04034B50}).add(is_large ? kVersion64 : kVersion);
+  header.add(std::uint32_t{0x04034B50}).add(is_large ? kZip64Version : kZipVersion);
   header.add(std::uint16_t{0}).add(std::uint16_t{0}).add(kDate).add(entry.checksum);
   header.add(in_32(entry.size)).add(in_32(entry.size));
   header.add(static_cast<std::uint16_t>(name.size()));
@@ -239,7 +240,9 @@ void ZipWriter::close() {
   for (const Entry& entry : entries_) {
     const bool is_large = entry.size >= kIn64 || entry.begin >= kIn64;
     Record record;
-    record.add(std::uint32_t{0x02014B50}).add(kVersion64).add(is_large ? kVersion64 : kVersion);
+    record.add(std::uint32_t{0x02014B50})
+        .add(kZip64Version)
+        .add(is_large ? kZip64Version : kZipVersion);
     record.add(std::uint16_t{0}).add(std::uint16_t{0}).add(kDate).add(entry.checksum);
     const std::uint64_t size = is_large ? kIn64 : entry.size;
     record.add(in_32(size)).add(in_32(size)).add(static_cast<std::uint16_t>(entry.name.size()));
@@ -256,7 +259,7 @@ void ZipWriter::close() {
   const std::uint64_t count = entries_.size();
   Record end;
   if (begin >= kIn64) {
-    end.add(std::uint32_t{0x06064B50}).add(std::uint64_t{44}).add(kVersion64).add(kVersion64);
+    end.add(std::uint32_t{0x06064B50}).add(std::uint64_t{44}).add(kZip64Version).add(kZip64Version);
     end.add(std::uint32_t{0}).add(std::uint32_t{0}).add(count).add(count).add(bytes).add(begin);
     end.add(std::uint32_t{0x07064B50}).add(std::uint32_t{0}).add(position_).add(std::uint32_t{1});
   }

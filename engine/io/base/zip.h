@@ -15,7 +15,7 @@
 
 namespace episcope::io {
 
-/// A file inside of a zip archive.
+/// A file inside a zip archive.
 struct ZipEntry {
   std::string name;
   std::uint64_t begin = 0;   ///< Where its bytes are in the archive,
@@ -60,7 +60,7 @@ class ZipWriter {
 /// Inflates a deflated part of a file from its front to its end.
 class InflateStream {
  public:
-  /// A file inside of a zip archive.
+  /// A file inside a zip archive.
   InflateStream(const std::filesystem::path& path, const ZipEntry& entry);
   /// `bytes` bytes from `begin` on, in the form of zlib.
   InflateStream(const std::filesystem::path& path, std::uint64_t begin, std::uint64_t bytes);
@@ -72,9 +72,9 @@ class InflateStream {
   [[nodiscard]] std::uint64_t position() const { return position_; }
   /// Reads up to `bytes`; fewer at the end, or where the data are damaged.
   std::size_t read(std::size_t bytes, std::uint8_t* out);
-  /// Whether `position` was reached, which must not be behind.
+  /// Skips to `position`, which must not lie behind; false if the stream ends before.
   [[nodiscard]] bool skip_to(std::uint64_t position);
-  /// Reads a little more, with the checksum if that is all; whether nothing was damaged so far.
+  /// Reads on to the checksum if all data was read; whether no damage was found so far.
   [[nodiscard]] bool ends_well();
 
  private:

@@ -41,7 +41,7 @@ struct UnitsFinding {
 
 constexpr double kPlausibleDisparity = 20;
 
-struct Reading {
+struct UnitReading {
   CameraGrid camera;
   std::string name;
   bool has_width = true;  ///< dH is taken to hold the factor xRes.
@@ -63,13 +63,13 @@ double zero_depth(const CameraGrid& camera) {
                           : std::numeric_limits<double>::infinity();
 }
 
-bool holds_zero_depth(const Reading& reading, const Interval& depth) {
+bool holds_zero_depth(const UnitReading& reading, const Interval& depth) {
   const double zero = zero_depth(reading.camera);
   const double margin = 0.1 * depth.length() + 1e-9;
   return zero > depth.min - margin && zero < depth.max + margin;
 }
 
-std::vector<Reading> readings(const DepthFacts& facts) {
+std::vector<UnitReading> readings(const DepthFacts& facts) {
   const auto scaled = [&](double baseline, double shift) {
     CameraGrid camera = facts.stored;
     camera.baseline *= baseline;
@@ -77,10 +77,10 @@ std::vector<Reading> readings(const DepthFacts& facts) {
     return camera;
   };
   const double width = facts.width;
-  std::vector<Reading> all{{scaled(1, 1), "dH and shift as stored", true, {}},
-                           {scaled(width, width), "dH and shift times xRes", false, {}},
-                           {scaled(width, 1), "dH times xRes, shift as stored", false, {}}};
-  for (Reading& one : all) {
+  std::vector<UnitReading> all{{scaled(1, 1), "dH and shift as stored", true, {}},
+                               {scaled(width, width), "dH and shift times xRes", false, {}},
+                               {scaled(width, 1), "dH times xRes, shift as stored", false, {}}};
+  for (UnitReading& one : all) {
     one.disparity = {one.camera.disparity_from_depth(facts.depth.max),
                      one.camera.disparity_from_depth(facts.depth.min)};
   }
@@ -89,18 +89,18 @@ std::vector<Reading> readings(const DepthFacts& facts) {
 
 /// Keeps the readings that satisfy a claim, or all if none does.
 template <class Claim>
-void prefer(std::vector<Reading>& readings, const Claim& claim) {
+void prefer(std::vector<UnitReading>& readings, const Claim& claim) {
   if (std::any_of(readings.begin(), readings.end(), claim)) {
-    std::erase_if(readings, [&](const Reading& one) { return !claim(one); });
+    std::erase_if(readings, [&](const UnitReading& one) { return !claim(one); });
   }
 }
 
-const Reading& best_by_warping(std::vector<Reading>& readings,
-                               const std::function<double(const CameraGrid&)>& warp_error) {
+const UnitReading& best_by_warping(std::vector<UnitReading>& readings,
+                                   const std::function<double(const CameraGrid&)>& warp_error) {
   if (readings.size() == 1) return readings.front();
-  for (Reading& one : readings) one.error = warp_error(one.camera);
-  const Reading* best = &readings.front();
-  for (const Reading& one : readings) {
+  for (UnitReading& one : readings) one.error = warp_error(one.camera);
+  const UnitReading* best = &readings.front();
+  for (const UnitReading& one : readings) {
     if (one.error < 0.97 * best->error) best = &one;
   }
   return *best;
@@ -111,14 +111,14 @@ const Reading& best_by_warping(std::vector<Reading>& readings,
 /// onto each other best. `warp_error(camera)` is in grey levels.
 UnitsFinding find_units(const DepthFacts& facts, Units choice,
                         const std::function<double(const CameraGrid&)>& warp_error) {
-  std::vector<Reading> all = readings(facts);
+  std::vector<UnitReading> all = readings(facts);
   if (choice != Units::Auto) {
     std::erase_if(
-        all, [&](const Reading& one) { return one.has_width != (choice == Units::WithWidth); });
+        all, [&](const UnitReading& one) { return one.has_width != (choice == Units::WithWidth); });
   }
-  prefer(all, [](const Reading& one) { return one.is_plausible(); });
-  prefer(all, [&](const Reading& one) { return holds_zero_depth(one, facts.depth); });
-  const Reading& taken = best_by_warping(all, warp_error);
+  prefer(all, [](const UnitReading& one) { return one.is_plausible(); });
+  prefer(all, [&](const UnitReading& one) { return holds_zero_depth(one, facts.depth); });
+  const UnitReading& taken = best_by_warping(all, warp_error);
 
   UnitsFinding finding{taken.camera, {}, {}, {}};
   finding.text = "d = dH·focalLength/Z − shift with " + taken.name + ": " +

@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/memory.h"
 #include "engine/core/scene.h"
-#include "engine/core/text.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/archive_depth.h"
 #include "engine/io/formats/archive_layout.h"
@@ -168,7 +167,7 @@ std::optional<ViewStack<T>> map_views(const Hdf5Input& file, const ArchiveLayout
   const Hdf5Shape stored = file.dataset(kArchiveLightField).shape;
   const bool has_all_channels =
       !layout.has_channel_axis || stored.back() == static_cast<std::size_t>(layout.channels);
-  if (std::is_floating_point_v<T> || !has_all_channels || options.equalise ||
+  if (std::is_floating_point_v<T> || !has_all_channels || options.equalize ||
       !options.levels.empty())
     return std::nullopt;
   const std::size_t bytes = static_cast<std::size_t>(shape.grid.count()) * shape.height *
@@ -227,7 +226,7 @@ std::optional<Interval> stated_range(const Hdf5Input& file) {
 
 /// Labels of the file or of labels.h5 beside it, whose use is noted.
 ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, ConventionReport& report,
-                          FolderAccount& account, const Progress& progress) {
+                          FileUsage& account, const Progress& progress) {
   const bool has_own = file.has(kTrueLabels) || file.has("SCRIBBLES");
   ArchiveLabels own =
       has_own ? read_archive_labels(file, shape, report, progress) : ArchiveLabels();
@@ -290,7 +289,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   ArchiveTruth depth = read_archive_depth(file, samples, options, report, progress.part(0.6, 0.85));
   progress.step("reading labels");
   ArchiveLabels labels;
-  FolderAccount account(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  FileUsage account(path.has_parent_path() ? path.parent_path() : fs::path("."));
   account.use(path, "light field");
   std::map<std::string, Image<std::uint8_t>> regions;
   if (options.needs_truth) {
@@ -325,11 +324,6 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   return scene;
 }
 
-bool is_hdf5_name(const fs::path& path) {
-  const std::string suffix = suffix_of(path);
-  return suffix == ".h5" || suffix == ".hdf5";
-}
-
 bool holds_archive(const Hdf5Input& file) {
   return file.has(kArchiveLightField) || !archive_group(file).empty();
 }
@@ -341,7 +335,7 @@ fs::path file_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (is_hdf5_name(entry.path()) && entry.is_regular_file(error) &&
+    if (has_hdf5_name(entry.path()) && entry.is_regular_file(error) &&
         has_hdf5_signature(entry.path())) {
       files.push_back(entry.path());
     }
@@ -355,7 +349,7 @@ fs::path find_archive(const fs::path& path, const OpenOptions&) {
     // An image is a picture of the scene that it lies in, not of any light field beside it.
     return fs::is_directory(path) || is_there(folder / "lf.h5") ? file_in(folder) : fs::path();
   }
-  if (!has_hdf5_signature(path) && !is_hdf5_name(path)) return {};
+  if (!has_hdf5_signature(path) && !has_hdf5_name(path)) return {};
   const Hdf5Input file(path);
   if (holds_archive(file)) return path;
   if (file.has("estimate")) {
@@ -368,14 +362,14 @@ fs::path find_archive(const fs::path& path, const OpenOptions&) {
   return is_there(beside) ? beside : path;
 }
 
-constexpr const char* kOptions[] = {"flip", "crop", "units", "levels"};
+constexpr const char* kArchiveOptions[] = {"flip", "crop", "units", "levels"};
 
 }  // namespace
 
 Reader archive_reader() {
   return {.id = kArchiveReader,
           .name = "a light field of the 2013 archive",
-          .options = kOptions,
+          .options = kArchiveOptions,
           .find = find_archive,
           .read = read_archive,
           .probe = probe_archive};

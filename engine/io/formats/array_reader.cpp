@@ -100,12 +100,12 @@ void decode_luma_chroma(const std::string& name, LightField::Samples& samples,
       samples);
 }
 
-constexpr std::size_t kChannels = 3;
-constexpr std::size_t kFewestViews = 4;
+constexpr std::size_t kYuvPlanes = 3;
+constexpr std::size_t kFewestListed = 4;
 
 /// 3N×H×W as N×3×H×W.
 ArrayShape grouped(const ArrayShape& list) {
-  return {list[0] / kChannels, kChannels, list[1], list[2]};
+  return {list[0] / kYuvPlanes, kYuvPlanes, list[1], list[2]};
 }
 
 class GroupedInput : public ArrayInput {
@@ -120,7 +120,7 @@ class GroupedInput : public ArrayInput {
     const ArrayShape part{count[1], count[2], count[3]};
     const std::size_t bytes = element_count(part) * byte_size(type());
     for (std::size_t i = 0; i < count[0]; ++i, out += bytes) {
-      list_->read_raw({(start[0] + i) * kChannels + start[1], start[2], start[3]}, part, out);
+      list_->read_raw({(start[0] + i) * kYuvPlanes + start[1], start[2], start[3]}, part, out);
     }
   }
 
@@ -153,8 +153,8 @@ class GroupedFile : public ArrayFile {
 bool may_be_stacked(const ArrayEntry& entry) {
   constexpr std::size_t kAxes = 3;
   return entry.shape.size() == kAxes && entry.order == IndexOrder::C && entry.stated_axes.empty() &&
-         entry.parts.empty() && entry.shape[0] % kChannels == 0 &&
-         entry.shape[0] / kChannels >= kFewestViews;
+         entry.parts.empty() && entry.shape[0] % kYuvPlanes == 0 &&
+         entry.shape[0] / kYuvPlanes >= kFewestListed;
 }
 
 /// The file as if a list of 3N grey pictures in C order, 3N×H×W, were one of N coloured ones,
@@ -190,7 +190,8 @@ fs::path only_file_in(const fs::path& folder,
   return found;
 }
 
-constexpr const char* kOptions[] = {"flip", "grid", "crop", "dataset", "axes", "frame", "levels"};
+constexpr const char* kArrayOptions[] = {"flip", "grid",  "crop",  "dataset",
+                                         "axes", "frame", "levels"};
 
 /// As the light field itself says which pixels hold something, or a mask beside it.
 void combine(ViewStack<std::uint8_t>& valid, ViewStack<std::uint8_t> mask) {
@@ -309,7 +310,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
 }  // namespace
 
 std::span<const char* const> array_options() {
-  return kOptions;
+  return kArrayOptions;
 }
 
 SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
@@ -416,7 +417,7 @@ constexpr const char* kHdf5Reader = "hdf5";
 /// Of three axes, with enough views to be no picture with channels.
 bool is_list_of_views(const ArrayEntry& entry) {
   const ArrayShape& shape = entry.shape;
-  return shape.size() == 3 && std::min(shape.front(), shape.back()) >= kFewestViews;
+  return shape.size() == 3 && std::min(shape.front(), shape.back()) >= kFewestListed;
 }
 
 /// `[v][h][y][x]` or `[v][h][y][x][c]`, whose reader also explains what is wrong with it.
@@ -461,11 +462,6 @@ bool is_meant(const fs::path& path, const OpenOptions& options) {
   return std::ranges::any_of(entries, [&](const ArrayEntry& entry) {
     return is_like_views(entry) && (!is_beside || has_light_field_name(entry));
   });
-}
-
-bool has_hdf5_name(const fs::path& path) {
-  const std::string suffix = suffix_of(path);
-  return suffix == ".h5" || suffix == ".hdf5";
 }
 
 fs::path find_hdf5_array(const fs::path& path, const OpenOptions& options) {

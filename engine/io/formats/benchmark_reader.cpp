@@ -221,13 +221,13 @@ void tell_values_without_number(const ConfigFile& config, ConventionReport& repo
   }
 }
 
-struct Size {
+struct ViewSize {
   int height = 0;
   int width = 0;
 };
 
 /// The size in the file only repeats that of the views, which counts.
-void compare_size(const ConfigFile& config, Size size, ConventionReport& report) {
+void compare_size(const ConfigFile& config, ViewSize size, ConventionReport& report) {
   const auto compare = [&](const char* key, int length) {
     const auto stated = config.number(key);
     if (!stated || *stated == length) return;
@@ -252,7 +252,7 @@ void compare_grid(const ConfigFile& config, GridShape grid, ConventionReport& re
 }
 
 /// Unknown if the file has none of its keys; if some are missing or wrong, a warning says so.
-CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, Size size,
+CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, ViewSize size,
                        ConventionReport& report) {
   BenchmarkCamera camera;
   camera.larger_side_px = std::max(size.width, size.height);
@@ -306,8 +306,12 @@ bool arrange_as_seen(const LightField::Samples& samples, ViewFiles& views, Conve
   return true;
 }
 
-Size size_of(const LightField::Samples& samples) {
-  return std::visit([](const auto& stack) { return Size{stack.height(), stack.width()}; }, samples);
+ViewSize size_of(const LightField::Samples& samples) {
+  return std::visit(
+      [](const auto& stack) {
+        return ViewSize{stack.height(), stack.width()};
+      },
+      samples);
 }
 
 bool is_benchmark_folder(const fs::path& folder, const OpenOptions& options) {
@@ -322,7 +326,7 @@ bool is_benchmark_folder(const fs::path& folder, const OpenOptions& options) {
 }
 
 Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
-  FolderAccount account(folder);
+  FileUsage account(folder);
   std::optional<ConfigFile> config;
   if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
   const std::optional<GridShape> given = given_grid(options);
@@ -367,24 +371,24 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   if (config) account.use(folder / kBenchmarkConfig, "parameter files");
   settle_range(samples, options.levels, report);
   progress.step("reading truth");
-  const Size size = size_of(samples);
+  const ViewSize size = size_of(samples);
   if (config) {
     compare_size(*config, size, report);
     compare_grid(*config, views.whole_grid(), report);
     info.camera = read_camera(folder, *config, size, report);
   }
   GroundTruth truth;
-  const BesideViews beside_views{views,
+  const SidecarViews beside_views{views,
                                  views.files.front().parent_path(),
                                  samples,
                                  info.camera,
                                  options.map_views(),
                                  options.needs_truth};
-  const BesideNotes notes{account, report};
+  const SidecarNotes notes{account, report};
   truth.field = read_benchmark_disparity(folder, beside_views, notes, progress.part(0.85, 0.9));
   if (truth.field.empty()) {
     // What other programs call it.
-    FoundBeside beside = read_beside(beside_views, notes, progress.part(0.9, 0.95));
+    SidecarMaps beside = read_sidecar_maps(beside_views, notes, progress.part(0.9, 0.95));
     truth = std::move(beside.truth);
     info.camera = beside.camera;
     scene.scribbles.labels = std::move(beside.label_infos);
@@ -413,14 +417,14 @@ fs::path find_benchmark(const fs::path& path, const OpenOptions& options) {
   return is_one ? folder : fs::path();
 }
 
-constexpr const char* kOptions[] = {"flip", "crop", "grid", "levels"};
+constexpr const char* kBenchmarkOptions[] = {"flip", "crop", "grid", "levels"};
 
 }  // namespace
 
 Reader benchmark_reader() {
   return {.id = "benchmark2016",
           .name = "a scene of the 2016 benchmark",
-          .options = kOptions,
+          .options = kBenchmarkOptions,
           .find = find_benchmark,
           .read = read_benchmark,
           .probe = probe_benchmark};

@@ -198,8 +198,8 @@ ViewFiles files_of(const RenderManifest& manifest, const ViewCrop& crop) {
   return views;
 }
 
-FolderAccount account_of(const RenderManifest& manifest, const ViewCrop& crop, bool needs_truth) {
-  FolderAccount account(manifest.folder);
+FileUsage account_of(const RenderManifest& manifest, const ViewCrop& crop, bool needs_truth) {
+  FileUsage account(manifest.folder);
   account.use(manifest.folder / kRenderManifest, "manifests");
   for (const auto& [part, pattern] : manifest.files) {
     account.add_folder((manifest.folder / pattern).parent_path());
@@ -298,14 +298,14 @@ SceneProbe probe_blender(const fs::path& folder, const OpenOptions&) {
   return probe;
 }
 
-constexpr const char* kOptions[] = {"flip", "crop"};
+constexpr const char* kBlenderOptions[] = {"flip", "crop"};
 
 }  // namespace
 
 Reader blender_reader() {
   return {.id = kReader,
           .name = "a light field rendered by the Blender add-on",
-          .options = kOptions,
+          .options = kBlenderOptions,
           .find = find_blender,
           .read = read_blender,
           .probe = probe_blender};
@@ -316,8 +316,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kFormat = "episcope light field";
-constexpr int kVersion = 1;
-constexpr int kMostViews = 999;  ///< A side.
+constexpr int kManifestVersion = 1;
+constexpr int kMostRenderedViews = 999;  ///< A side.
 
 IoError problem(const fs::path& file, const std::string& what) {
   return {file, what + "; render the folder anew"};
@@ -348,7 +348,8 @@ void require_fields(const fs::path& file, const std::map<std::string, std::strin
 
 void require_sizes(const fs::path& file, const RenderManifest& manifest) {
   const GridShape grid = manifest.grid;
-  const bool is_grid = grid.v > 0 && grid.u > 0 && grid.v <= kMostViews && grid.u <= kMostViews;
+  const bool is_grid =
+      grid.v > 0 && grid.u > 0 && grid.v <= kMostRenderedViews && grid.u <= kMostRenderedViews;
   if (!is_grid || manifest.height < 1 || manifest.width < 1) {
     throw problem(file, fmt::format("the manifest states {}×{} views of {}×{} px", grid.v, grid.u,
                                     manifest.width, manifest.height));
@@ -388,7 +389,7 @@ std::vector<LabelInfo> read_labels(const Json& json) {
 RenderManifest parse(const fs::path& folder, const Json& json) {
   RenderManifest manifest;
   manifest.folder = folder;
-  if (int_of(json.at("version")) > kVersion) {
+  if (int_of(json.at("version")) > kManifestVersion) {
     throw IoError(folder / kRenderManifest,
                   "the manifest was written by a newer add-on; use a newer version of Episcope");
   }

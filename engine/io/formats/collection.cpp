@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Places = std::map<std::string, std::vector<CollectionEntry*>>;
+using EntryPlaces = std::map<std::string, std::vector<CollectionEntry*>>;
 
 std::string place_of(const fs::path& path) {
   std::error_code error;
@@ -39,16 +39,16 @@ std::string place_of(const fs::path& path) {
   return whole.string();
 }
 
-CollectionEntry* only_one(const Places& places, const std::string& place) {
+CollectionEntry* only_one(const EntryPlaces& places, const std::string& place) {
   const auto found = places.find(place);
   return found != places.end() && found->second.size() == 1 ? found->second.front() : nullptr;
 }
 
 /// Entries by what names them.
 struct Index {
-  Places paths;
-  Places folders;
-  Places names;
+  EntryPlaces paths;
+  EntryPlaces folders;
+  EntryPlaces names;
 
   explicit Index(std::vector<CollectionEntry>& entries) {
     for (CollectionEntry& entry : entries) {
@@ -61,7 +61,7 @@ struct Index {
     }
   }
 
-  [[nodiscard]] CollectionEntry* named_source(const ResultBeside& result) const {
+  [[nodiscard]] CollectionEntry* named_source(const ListedResult& result) const {
     if (result.source.empty()) return nullptr;
     const fs::path source = place_of(result.path.parent_path() / result.source);
     if (CollectionEntry* entry = only_one(paths, source.string())) return entry;
@@ -70,7 +70,7 @@ struct Index {
   }
 
   /// The longest name that the result's name begins with, up to a mark.
-  [[nodiscard]] CollectionEntry* namesake(const ResultBeside& result) const {
+  [[nodiscard]] CollectionEntry* namesake(const ListedResult& result) const {
     std::string name = result.path.stem().string();
     while (!name.empty()) {
       if (CollectionEntry* entry = only_one(names, name)) return entry;
@@ -84,9 +84,9 @@ struct Index {
 /// Gives each result to the light field among `entries` that it names as its source; else to the
 /// only one of its folder; else to the only one whose name its own begins with. Others are left
 /// out.
-void add_results(std::vector<CollectionEntry>& entries, const std::vector<ResultBeside>& results) {
+void add_results(std::vector<CollectionEntry>& entries, const std::vector<ListedResult>& results) {
   const Index index(entries);
-  for (const ResultBeside& result : results) {
+  for (const ListedResult& result : results) {
     CollectionEntry* entry = index.named_source(result);
     if (!entry) entry = only_one(index.folders, place_of(result.path.parent_path()));
     if (!entry) entry = index.namesake(result);
@@ -95,7 +95,7 @@ void add_results(std::vector<CollectionEntry>& entries, const std::vector<Result
 }
 
 /// Deeper ones are a mistake; paths end at some length anyway.
-constexpr int kDeepest = 64;
+constexpr int kDeepestFolder = 64;
 
 /// Maps of every view, in a folder inside that of the views, look like views.
 bool are_maps_of(const CollectionEntry& inside, const CollectionEntry& views) {
@@ -104,14 +104,15 @@ bool are_maps_of(const CollectionEntry& inside, const CollectionEntry& views) {
          inside.probe.width == views.probe.width;
 }
 
-class Search {
+class CollectionSearch {
  public:
-  Search(const CollectionOptions& options, const Progress& progress)
+  CollectionSearch(const CollectionOptions& options, const Progress& progress)
       : options_(options), cache_(options.cache_file), progress_(progress) {}
 
   void visit(const fs::path& folder, int depth) {
     progress_.check();
-    if (depth > kDeepest || !seen_.insert(fs::weakly_canonical(folder).string()).second) return;
+    if (depth > kDeepestFolder || !seen_.insert(fs::weakly_canonical(folder).string()).second)
+      return;
     try {
       look_into(folder, depth);
     } catch (const fs::filesystem_error& error) {
@@ -180,7 +181,7 @@ class Search {
   Progress progress_;
   std::set<std::string> seen_;
   std::vector<CollectionEntry> found_;
-  std::vector<ResultBeside> results_;
+  std::vector<ListedResult> results_;
 };
 
 }  // namespace
@@ -198,7 +199,7 @@ std::vector<CollectionEntry> find_light_fields(const fs::path& root,
     return entries;
   }
   progress.step("looking for light fields");
-  Search search(options, progress);
+  CollectionSearch search(options, progress);
   search.visit(root, 0);
   return search.finish();
 }
@@ -215,7 +216,7 @@ std::string key_of_program() {
   return key;
 }
 
-Json json_of(const ResultBeside& result) {
+Json json_of(const ListedResult& result) {
   return {{"path", result.path.string()}, {"method", result.method}, {"source", result.source}};
 }
 
@@ -243,7 +244,7 @@ Json array_json(const std::vector<T>& items) {
   return array;
 }
 
-ResultBeside result_from(const Json& json) {
+ListedResult result_from(const Json& json) {
   return {json.at("path").get<std::string>(), json.at("method").get<std::string>(),
           json.at("source").get<std::string>()};
 }
@@ -415,20 +416,20 @@ namespace {
 
 constexpr std::string_view kImageGrid = "image_grid";
 /// Fewer pictures than the smallest square grid are no light field that went wrong.
-constexpr std::size_t kFewestViews = 4;
-constexpr std::size_t kMostKinds = 16;
+constexpr std::size_t kFewestFailedViews = 4;
+constexpr std::size_t kMostNameKinds = 16;
 
 bool is_array_name(const fs::path& path) {
   constexpr std::array suffixes{".h5", ".hdf5", ".mat", ".npy", ".npz"};
   return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
 }
 
-std::optional<ResultBeside> result_in(const fs::path& path) {
+std::optional<ListedResult> result_in(const fs::path& path) {
   if (!has_hdf5_signature(path)) return std::nullopt;
   try {
     const Hdf5Input file(path);
     if (!file.has("estimate")) return std::nullopt;
-    return ResultBeside{path, file.text("estimate", "method").value_or(""),
+    return ListedResult{path, file.text("estimate", "method").value_or(""),
                         file.text("estimate", "source").value_or("")};
   } catch (const IoError&) {
     return std::nullopt;  // damaged: an entry with a problem
@@ -478,7 +479,7 @@ std::vector<CollectionEntry> image_entries(const FolderListing& listing) {
     if (is_image_name(file.path)) kinds[image_kind(file.path)].push_back(&file);
   }
   std::vector<CollectionEntry> entries;
-  if (kinds.size() > kMostKinds) return entries;
+  if (kinds.size() > kMostNameKinds) return entries;
   for (const auto& [kind, files] : kinds) {
     if (!scan_file(files.front()->path)) continue;
     for (const ListedFile* file : files) {
@@ -491,7 +492,7 @@ std::vector<CollectionEntry> image_entries(const FolderListing& listing) {
 void add_array_entries(const FolderListing& listing, FolderRecord& record) {
   for (const ListedFile& file : listing.files) {
     const bool is_result =
-        std::ranges::find(record.results, file.path, &ResultBeside::path) != record.results.end();
+        std::ranges::find(record.results, file.path, &ListedResult::path) != record.results.end();
     if (is_result || !is_array_name(file.path)) continue;
     auto entry = scan_file(file.path);
     if (!entry) continue;
@@ -550,7 +551,7 @@ void add_image_grid(const FolderListing& listing, CollectionEntry entry, FolderR
   record.is_doubtful = !is_of_folders;
   record.descends = !is_of_folders;
   const bool is_counted =
-      entry.problem.empty() || is_inside || image_count(listing) >= kFewestViews;
+      entry.problem.empty() || is_inside || image_count(listing) >= kFewestFailedViews;
   if (is_counted) record.entries.push_back(std::move(entry));
 }
 

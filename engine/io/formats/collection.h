@@ -14,8 +14,8 @@
 
 namespace episcope::io {
 
-/// A result file (result_file.h) and what it says of itself.
-struct ResultBeside {
+/// Result file (result_file.h) and its method and light field as stored in it.
+struct ListedResult {
   std::filesystem::path path;
   std::string method;
   std::string source;  ///< Its light field, as stored: absolute, or relative to the file's folder.
@@ -27,7 +27,7 @@ struct CollectionEntry {
   std::string name;            ///< For lists (scene_name).
   std::string reader;          ///< Id of its reader (reader.h); empty if that is not known.
   SceneProbe probe;
-  std::vector<ResultBeside> results{};
+  std::vector<ListedResult> results{};
   std::uintmax_t bytes = 0;   ///< Of the file, or of the files of its folder.
   std::int64_t modified = 0;  ///< Seconds since 1970, of the newest of these.
   std::uint64_t fingerprint =
@@ -35,47 +35,46 @@ struct CollectionEntry {
   std::string problem{};  ///< Why it cannot be opened: a sentence; empty = it can.
 };
 
-/// What one folder holds, without what lies in folders inside.
+/// Content of one folder, without its subfolders.
 struct FolderRecord {
   std::vector<CollectionEntry> entries;
-  std::vector<ResultBeside> results;
+  std::vector<ListedResult> results;
   bool descends = true;  ///< Whether folders inside may hold light fields.
-  /// `entries` may be no light field after all (pictures beside scenes): they count only if nothing
-  /// else lies in the folders inside.
+  /// The entries may be no light fields (pictures beside scenes): they count only if subfolders
+  /// hold no other ones.
   bool is_doubtful = false;
 };
 
 struct CollectionOptions {
-  /// File that keeps what headers told (CollectionCache); empty = none.
+  /// File that keeps the content of headers (CollectionCache); empty = none.
   std::filesystem::path cache_file{};
   /// Called for every light field as soon as it is found, with the results known by then.
   std::function<void(const CollectionEntry&)> on_entry{};
 };
 
-/// Every light field in `root` and below, any form, any depth, in the order of their paths; `root`
-/// may be a light field itself, or a file. A scene folder is one light field and is not searched
-/// further; several light-field files in one folder are one each. Hidden folders are left out, and
-/// a folder that several links lead to is searched once. Result files are given to the light field
-/// that they name, that shares their folder, or whose name they have. What cannot be opened is
-/// there with its problem. Reads headers only. Throws IoError if there is no `root`, Cancelled.
+/// Finds every light field in `root` and below, in any format and at any depth, in the order of
+/// their paths. `root` may be a light field itself, or a file. A scene folder is one light field
+/// and is not searched further. Light-field files in one folder are one light field each. Skips
+/// hidden folders, and searches a folder once even if several links lead to it. A result file goes
+/// to the light field that it names, that shares its folder, or whose name it bears. Files that
+/// cannot be opened are listed with their problem. Reads headers only. Throws IoError if there is
+/// no `root`. Throws Cancelled.
 [[nodiscard]] std::vector<CollectionEntry> find_light_fields(const std::filesystem::path& root,
                                                              const CollectionOptions& options,
                                                              const Progress& progress);
 
-/// What folders held when they were last looked at, in a file that may be lost or damaged at any
-/// time: then everything is looked at again. It keeps only the folders of the last listing.
+/// Content of folders at their last scan, in a file that may be lost or damaged at any time: then
+/// everything is scanned again. Keeps only the folders of the last listing.
 class CollectionCache {
  public:
-  /// Reads the file, if there is one that this version wrote with the same readers. An empty path
-  /// keeps nothing.
+  /// Reads the file if this version wrote it with the same readers. An empty path keeps nothing.
   explicit CollectionCache(std::filesystem::path file);
 
-  /// What the folder held when it had this fingerprint; null if that is not
-  /// known.
+  /// Content of the folder when it had this fingerprint; null if unknown.
   [[nodiscard]] const FolderRecord* find(const std::filesystem::path& folder,
                                          std::uint64_t fingerprint) const;
   void keep(const std::filesystem::path& folder, std::uint64_t fingerprint, FolderRecord record);
-  /// Writes what was kept, unless that is what was read. Does nothing where that is not possible.
+  /// Writes the records unless they equal those read. Does nothing where writing fails.
   void save() const;
 
  private:
@@ -99,7 +98,7 @@ struct ListedFile {
   std::int64_t modified_ns = 0;  ///< Since 1970.
 };
 
-/// What lies directly in a folder, hidden things aside, by name.
+/// Visible content of a folder, by name.
 struct FolderListing {
   std::filesystem::path folder;
   std::vector<ListedFile> files;  ///< Regular ones.
@@ -107,18 +106,18 @@ struct FolderListing {
   std::uint64_t fingerprint = 0;  ///< Of names, sizes and times of all this.
 };
 
-/// Throws filesystem_error for a folder that cannot be read.
+/// Lists a folder. Throws filesystem_error if it cannot be read.
 [[nodiscard]] FolderListing list_folder(const std::filesystem::path& folder);
 
-/// The file alone, as if it were all that its folder holds. Throws filesystem_error.
+/// Lists the file as if its folder held nothing else. Throws filesystem_error.
 [[nodiscard]] FolderListing list_file(const std::filesystem::path& file);
 
-/// Which light fields a folder holds, by the table of readers (reader.h): itself, if it is a scene
-/// folder, or those of its files that are light fields each. What cannot be opened is an entry with
-/// a problem. Reads headers only.
+/// Finds the light fields of a folder with the table of readers (reader.h): the folder itself if it
+/// is a scene folder, else each of its files that is a light field. Files that cannot be opened
+/// become entries with a problem. Reads headers only.
 [[nodiscard]] FolderRecord scan_folder(const FolderListing& listing);
 
-/// The light field that a file is by itself; none if it is a part of one, or none at all.
+/// Light field that a file is by itself; none if it is a part of one, or none at all.
 [[nodiscard]] std::optional<CollectionEntry> scan_file(const std::filesystem::path& file);
 
 }  // namespace episcope::io

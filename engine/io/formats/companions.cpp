@@ -20,15 +20,16 @@ struct KnownFile {
 };
 
 constexpr const char* kEdgeWeights = "EDGE_WEIGHTS";
-constexpr const char* kProbabilities = "Probabilities";
+constexpr const char* kProbabilityData = "Probabilities";
 
 constexpr std::array kKnownFiles{
     KnownFile{"edge_weights.h5", CompanionKind::EdgeProbabilities, kEdgeWeights},
     KnownFile{"feature_single_view_probabilities.h5", CompanionKind::ImageProbabilities,
-              kProbabilities},
-    KnownFile{"feature_depth_probabilities.h5", CompanionKind::DepthProbabilities, kProbabilities},
+              kProbabilityData},
+    KnownFile{"feature_depth_probabilities.h5", CompanionKind::DepthProbabilities,
+              kProbabilityData},
     KnownFile{"feature_gt_depth_probabilities.h5", CompanionKind::TrueDepthProbabilities,
-              kProbabilities}};
+              kProbabilityData}};
 
 Hdf5Shape view_shape(const LightField& field) {
   return {static_cast<std::size_t>(field.height()), static_cast<std::size_t>(field.width())};
@@ -154,7 +155,7 @@ void write_label_probabilities(const std::filesystem::path& path, int label_coun
   const std::uintmax_t views = static_cast<std::uintmax_t>(grid.count());
   AtomicFile target(path, views * samples.size() * sizeof(float) + (1 << 16));
   Hdf5Output file(target);
-  file.add_dataset<float>(kProbabilities, shape, "v,h,y,x,label", "probability");
+  file.add_dataset<float>(kProbabilityData, shape, "v,h,y,x,label", "probability");
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
     const ViewIndex stored = grid.view_at(i);
@@ -163,7 +164,7 @@ void write_label_probabilities(const std::filesystem::path& path, int label_coun
     block.start[0] = static_cast<std::size_t>(stored.v);
     block.start[1] = static_cast<std::size_t>(stored.u);
     block.count[0] = block.count[1] = 1;
-    file.write(kProbabilities, block, samples.data());
+    file.write(kProbabilityData, block, samples.data());
     progress.report((i + 1.0) / grid.count());
   }
   file.close();
@@ -187,8 +188,8 @@ ProbabilityFile::ProbabilityFile(const std::filesystem::path& path, const Scene&
   const LightField& field = *scene.light_field;
   state.grid = field.grid();
   state.flip = flip_of(scene.convention);
-  state.shape = state.file.dataset(kProbabilities).shape;
-  require_fit(path, kProbabilities, state.shape, field);
+  state.shape = state.file.dataset(kProbabilityData).shape;
+  require_fit(path, kProbabilityData, state.shape, field);
   state.label_axis = *label_axis(state.shape, field);
 }
 
@@ -219,7 +220,7 @@ Image<float> ProbabilityFile::view(ViewIndex view) const {
   std::size_t total = 1;
   for (const std::size_t count : block.count) total *= count;
   std::vector<float> stored(total);
-  state.file.read(kProbabilities, block, stored.data());
+  state.file.read(kProbabilityData, block, stored.data());
 
   // Strides of y, x and label in the block just read.
   std::vector<std::size_t> strides(block.count.size(), 1);

@@ -118,14 +118,15 @@ fs::path find_excerpt(const fs::path& path, const OpenOptions& options) {
   return is_one ? folder : fs::path();
 }
 
-constexpr const char* kOptions[] = {"flip", "crop", "units", "pattern", "snake", "grid", "levels"};
+constexpr const char* kExcerptOptions[] = {"flip",  "crop", "units", "pattern",
+                                           "snake", "grid", "levels"};
 
 }  // namespace
 
 Reader excerpt_reader() {
   return {.id = "excerpt",
           .name = "an excerpt of the 2013 archive",
-          .options = kOptions,
+          .options = kExcerptOptions,
           .find = find_excerpt,
           .read = read_excerpt,
           .probe = probe_excerpt};

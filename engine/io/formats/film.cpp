@@ -40,7 +40,7 @@ struct Free {
 template <class T>
 using Owned = std::unique_ptr<T, Free>;
 
-[[noreturn]] void refuse(const fs::path& path) {
+[[noreturn]] void refuse_film(const fs::path& path) {
   throw IoError(path,
                 "the film cannot be decoded: it is damaged or in a form that this build of FFmpeg "
                 "does not know; export its pictures as images, in a folder");
@@ -51,7 +51,7 @@ Image<std::uint8_t> picture_of(const fs::path& path, const AVFrame& frame) {
       frame.width, frame.height, static_cast<AVPixelFormat>(frame.format), frame.width,
       frame.height, AV_PIX_FMT_RGB24, SWS_BICUBIC | SWS_FULL_CHR_H_INT | SWS_ACCURATE_RND, nullptr,
       nullptr, nullptr));
-  if (!scaler) refuse(path);
+  if (!scaler) refuse_film(path);
   // Rows of any width may be written beyond their end by vector code.
   const int stride = (3 * frame.width + 63) / 64 * 64;
   std::vector<std::uint8_t> rows(static_cast<std::size_t>(stride) * frame.height + 64);
@@ -104,9 +104,9 @@ void require_plausible_film(const fs::path& path, std::uint64_t pixels) {
 }
 
 /// The container, its first video and the decoder of that.
-class Decoder {
+class FilmDecoder {
  public:
-  explicit Decoder(const fs::path& path) : path_(path) {
+  explicit FilmDecoder(const fs::path& path) : path_(path) {
     av_log_set_level(AV_LOG_QUIET);
     AVDictionary* options = nullptr;
     av_dict_set(&options, "protocol_whitelist", "file", 0);
@@ -115,19 +115,19 @@ class Decoder {
     AVFormatContext* opened = nullptr;
     const int code = avformat_open_input(&opened, path.c_str(), nullptr, &options);
     const Owned<AVDictionary> left(options);
-    if (code < 0) refuse(path);
+    if (code < 0) refuse_film(path);
     file_.reset(opened);
     require_plausible_sizes(path, *opened);
     const std::int64_t most = most_pixels(path);
-    if (!find_streams(*opened, most)) refuse(path);
+    if (!find_streams(*opened, most)) refuse_film(path);
     const AVCodec* codec = nullptr;
     stream_ = av_find_best_stream(opened, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
-    if (stream_ < 0 || codec == nullptr) refuse(path);
+    if (stream_ < 0 || codec == nullptr) refuse_film(path);
     codec_.reset(avcodec_alloc_context3(codec));
     const AVCodecParameters* const parameters = opened->streams[stream_]->codecpar;
-    if (!codec_ || avcodec_parameters_to_context(codec_.get(), parameters) < 0) refuse(path);
+    if (!codec_ || avcodec_parameters_to_context(codec_.get(), parameters) < 0) refuse_film(path);
     codec_->max_pixels = most;
-    if (avcodec_open2(codec_.get(), codec, nullptr) < 0) refuse(path);
+    if (avcodec_open2(codec_.get(), codec, nullptr) < 0) refuse_film(path);
   }
 
   [[nodiscard]] std::string codec_name() const { return avcodec_get_name(codec_->codec_id); }
@@ -142,7 +142,7 @@ class Decoder {
       is_at_end = av_read_frame(file_.get(), packet.get()) < 0;
       const bool is_other = !is_at_end && packet->stream_index != stream_;
       if (!is_other && avcodec_send_packet(codec_.get(), is_at_end ? nullptr : packet.get()) < 0) {
-        refuse(path_);
+        refuse_film(path_);
       }
       av_packet_unref(packet.get());
       while (!is_other && avcodec_receive_frame(codec_.get(), frame.get()) == 0) take(*frame);
@@ -184,7 +184,7 @@ bool is_animated_png(const fs::path& path) {
 
 Film read_film(const fs::path& path, int most, const Progress& progress) {
   require_readable_file(path);
-  Decoder decoder(path);
+  FilmDecoder decoder(path);
   Film film{{}, decoder.codec_name()};
   decoder.decode([&](const AVFrame& frame) {
     progress.check();
@@ -200,7 +200,7 @@ Film read_film(const fs::path& path, int most, const Progress& progress) {
     film.pictures.emplace_back(picture_of(path, frame));
     progress.report((count + 1.0) / most);
   });
-  if (film.pictures.empty()) refuse(path);
+  if (film.pictures.empty()) refuse_film(path);
   return film;
 }
 

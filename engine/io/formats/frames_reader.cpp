@@ -35,7 +35,7 @@ namespace episcope::io {
 namespace {
 
 constexpr int kChannels = 3;
-constexpr int kFewestViews = 4;
+constexpr int kFewestListedPages = 4;
 
 /// Whether pages in the middle of the list differ by colour, not by motion: motion that is too far
 /// to be followed leaves pictures that are not alike.
@@ -58,7 +58,7 @@ bool are_channels(const LightField::Samples& samples, const PageOrder& order, in
 }
 
 template <class T>
-ViewStack<T> joined(const ViewStack<T>& pages, const PageOrder& order) {
+ViewStack<T> joined_channels(const ViewStack<T>& pages, const PageOrder& order) {
   const int views = pages.grid().count() / order.channels;
   ViewStack<T> coloured({1, views}, pages.height(), pages.width(), kChannels, {},
                         allocate_large_zeros);
@@ -81,7 +81,7 @@ std::optional<PageOrder> find_channel_pages(const LightField::Samples& samples) 
         const int pages = stack.grid().count();
         const int views = pages / kChannels;
         const bool may_be = stack.channels() == 1 && pages % kChannels == 0;
-        if (!may_be || views < kFewestViews) return std::nullopt;
+        if (!may_be || views < kFewestListedPages) return std::nullopt;
         for (const PageOrder& order : {PageOrder{kChannels, 1}, PageOrder{kChannels, views}}) {
           if (are_channels(samples, order, views)) return order;
         }
@@ -93,7 +93,7 @@ std::optional<PageOrder> find_channel_pages(const LightField::Samples& samples) 
 /// Puts pictures, grey and 1×N, together to coloured ones: two channels become red and green, of
 /// more than three the first three are kept.
 void join_channel_pages(LightField::Samples& samples, const PageOrder& order) {
-  std::visit([&](auto& stack) { stack = joined(stack, order); }, samples);
+  std::visit([&](auto& stack) { stack = joined_channels(stack, order); }, samples);
 }
 
 namespace fs = std::filesystem;
@@ -237,14 +237,14 @@ SceneProbe probe_frames(const fs::path& path, const OpenOptions& options) {
           .list = count_tiff_pages(path, kMostPictures)};
 }
 
-constexpr const char* kOptions[] = {"flip", "grid", "crop", "levels"};
+constexpr const char* kFrameOptions[] = {"flip", "grid", "crop", "levels"};
 
 }  // namespace
 
 Reader frames_reader() {
   return {.id = "frames",
           .name = "pages of a TIFF file, or a film",
-          .options = kOptions,
+          .options = kFrameOptions,
           .find = find_frames,
           .read = read_light_field,
           .probe = probe_frames};

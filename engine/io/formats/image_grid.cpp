@@ -59,8 +59,8 @@ bool looks_like_views(const fs::path& path, const LightField::Samples& samples) 
 /// Warns where several images that were left out look like views: their names hold no word for
 /// something else (label, depth, …), and those looked at, a few, have size, channels and sample
 /// type of the views.
-void warn_of_left_out(const std::vector<fs::path>& left_out, const LightField::Samples& samples,
-                      ConventionReport& report) {
+void warn_of_ignored_files(const std::vector<fs::path>& left_out,
+                           const LightField::Samples& samples, ConventionReport& report) {
   std::vector<fs::path> strays = left_out;
   std::erase_if(strays, [](const fs::path& path) {
     return names_companions(path.stem().string()) || names_mosaics(path.stem().string());
@@ -102,9 +102,9 @@ Scene read_grid(const fs::path& folder, const OpenOptions& options, const Progre
   return read_image_grid(views_folder(folder), options, progress, extras);
 }
 
-FolderAccount account_of(const fs::path& source, const fs::path& folder, const ViewFiles& views,
-                         const ImageGridExtras& extras) {
-  FolderAccount account(source);
+FileUsage account_of(const fs::path& source, const fs::path& folder, const ViewFiles& views,
+                     const ImageGridExtras& extras) {
+  FileUsage account(source);
   account.add_folder(folder);
   account.use(views.files, "views");
   account.leave_out(views.left_out, kViewsLeftOut);
@@ -126,7 +126,7 @@ std::vector<CameraPosition> positions_of(const PartOfGrid& part,
 
 /// What poses tell of distances: that of cameras side by side, whose views are not shifted.
 void add_camera(const PosedViews& poses, const LightField::Samples& samples, CameraGrid& camera,
-                FolderAccount& account) {
+                FileUsage& account) {
   for (const fs::path& file : poses.files) {
     account.add_folder(file.parent_path());
     account.use(file, "pose files");
@@ -175,14 +175,14 @@ bool is_linear_format(const fs::path& path) {
   return suffix == ".exr" || suffix == ".hdr";
 }
 
-constexpr const char* kOptions[] = {"flip", "crop", "pattern", "snake", "grid", "levels"};
+constexpr const char* kGridOptions[] = {"flip", "crop", "pattern", "snake", "grid", "levels"};
 
 }  // namespace
 
 Reader image_grid_reader() {
   return {.id = "image_grid",
           .name = "a grid of images",
-          .options = kOptions,
+          .options = kGridOptions,
           .find = find_grid,
           .read = read_grid,
           .probe = probe_image_grid};
@@ -225,7 +225,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
     report.warnings.push_back(std::move(usable.warning));
   }
   if (!is_linear || !options.levels.empty()) settle_range(samples, options.levels, report);
-  FolderAccount account = account_of(source, folder, views, extras);
+  FileUsage account = account_of(source, folder, views, extras);
   if (grid.poses.are_used()) add_camera(grid.poses, samples, info.camera, account);
   SceneParts parts;
   if (extras.read_truth) {
@@ -233,9 +233,10 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   } else {
     progress.step("checking the order of views");
     parts.swapped_axes = settle_axes(views, samples, info.positions, options, progress);
-    FoundBeside beside = read_beside({views, folder, samples, info.camera, options.map_views(),
-                                      options.needs_truth, grid.poses.are_used()},
-                                     {account, report}, progress.part(0.9, 1));
+    SidecarMaps beside =
+        read_sidecar_maps({views, folder, samples, info.camera, options.map_views(),
+                           options.needs_truth, grid.poses.are_used()},
+                          {account, report}, progress.part(0.9, 1));
     parts.truth = std::move(beside.truth);
     parts.expected.is_truth_sign_assumed = beside.is_sign_assumed;
     info.camera = beside.camera;
@@ -244,7 +245,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   if (!options.pattern.empty()) {
     grid.left_out = without_other_numbers(std::move(grid.left_out), views.files.front());
   }
-  warn_of_left_out(grid.left_out, samples, report);
+  warn_of_ignored_files(grid.left_out, samples, report);
   parts.samples = std::move(samples);
   parts.info = std::move(info);
   parts.expected.reason = evidence.empty() ? "rows and columns follow from the names" : evidence;
@@ -259,19 +260,19 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
 
 namespace {
 
-using Size = std::pair<int, int>;
+using PixelSize = std::pair<int, int>;
 
 /// Nothing for a file that cannot be decoded.
-std::optional<Size> size_of(const std::filesystem::path& file) {
+std::optional<PixelSize> size_of(const std::filesystem::path& file) {
   try {
     const ImageHeader header = read_image_header(file);
-    return Size{header.height, header.width};
+    return PixelSize{header.height, header.width};
   } catch (const IoError&) {
     return std::nullopt;
   }
 }
 
-/// Whether the centre and two corners are of one size.
+/// Whether the center and two corners are of one size.
 bool look_alike(const ViewFiles& views) {
   const ViewIndex center = views.grid.center();
   const auto size = size_of(views.file(center));
@@ -281,21 +282,21 @@ bool look_alike(const ViewFiles& views) {
 /// The views without those whose headers differ from most of the others. Throws IoError if too few
 /// are left.
 ViewFiles those_alike(const ViewFiles& views) {
-  std::vector<std::optional<Size>> sizes;
+  std::vector<std::optional<PixelSize>> sizes;
   for (const auto& file : views.files) sizes.push_back(size_of(file));
-  const std::optional<Size> usual = majority(sizes);
-  std::vector<OddView> odd;
+  const std::optional<PixelSize> usual = majority(sizes);
+  std::vector<UnusableView> unusable;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    if (!usual || sizes[i] != usual) odd.push_back({static_cast<int>(i), {}});
+    if (!usual || sizes[i] != usual) unusable.push_back({static_cast<int>(i), {}});
   }
-  auto left = without_views(views, odd);
+  auto left = without_views(views, unusable);
   if (left) return std::move(left->views);
   throw IoError(views.files.front().parent_path(),
                 "the views differ in size, or cannot be decoded; all views must match");
 }
 
 /// "disparity of all views" of the largest set of a kind; empty if there is none.
-std::string maps_text(const MapsBeside& maps, MapKind kind, const char* name) {
+std::string maps_text(const FoundMapSets& maps, MapKind kind, const char* name) {
   std::size_t most = 0;
   for (const MapSet& set : maps.sets) {
     if (set.kind == kind) most = std::max(most, set.entries.size());
@@ -325,7 +326,7 @@ SceneProbe probe_image_grid(const std::filesystem::path& folder, const OpenOptio
     probe.list = placed.views.grid.count();
     probe.grid = given_grid(options).value_or(GridShape());
   }
-  const MapsBeside maps = find_maps(placed.views, inside);
+  const FoundMapSets maps = find_maps(placed.views, inside);
   probe.truth = maps_text(maps, MapKind::Disparity, "disparity");
   if (probe.truth.empty()) probe.truth = maps_text(maps, MapKind::Depth, "depth");
   probe.labels = maps_text(maps, MapKind::Labels, "labels");

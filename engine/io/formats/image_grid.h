@@ -13,21 +13,21 @@
 
 namespace episcope::io {
 
-/// Folders of equally sized images on a grid of views, or with such a folder inside
+/// Reader of folders with equally sized images on a grid of views, or with such a folder inside
 /// (`views_folder`).
 [[nodiscard]] Reader image_grid_reader();
 
-/// What is known of an image grid from files beside it.
+/// Facts about an image grid from files beside it.
 struct ImageGridExtras {
   std::string reader = "image_grid";
   std::string format;            ///< For the report; empty = "image grid (pattern)".
   std::filesystem::path source;  ///< What was opened; empty = the folder of images.
   CameraGrid camera;
   std::optional<Interval> disparity_range;
-  /// Reads the disparity of the views as stored; may correct the camera. Empty = no truth.
+  /// Reads the disparity of the views as stored, and may correct the camera. Empty = no truth.
   std::function<DisparityField(const LightField::Samples&, CameraGrid& camera, ConventionReport&)>
       read_truth;
-  /// Files beside the views that are read, and as what ("depth of the centre view").
+  /// Files beside the views that are read, with their use ("depth of the center view").
   std::vector<std::pair<std::filesystem::path, std::string>> files{};
 };
 
@@ -36,13 +36,13 @@ struct ImageGridExtras {
 [[nodiscard]] Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& options,
                                     const Progress& progress, const ImageGridExtras& extras = {});
 
-/// Grid, and size and samples by the header of the centre view. Where the first or the last view
-/// has another size, or one cannot be decoded, what `load_usable_views` will open as far as headers
-/// tell it. Throws IoError.
+/// Returns the grid, and size and sample type from the header of the center view. If the first or
+/// the last view has another size or cannot be decoded, predicts from headers what
+/// `load_usable_views` will open. Throws IoError.
 [[nodiscard]] SceneProbe probe_views(const ViewFiles& views);
 
-/// What names and headers of a folder of images tell, and names of the maps beside them. Throws
-/// IoError, InvalidInput as reading does.
+/// Probes a folder of images by names, headers and names of maps beside them. Throws IoError,
+/// InvalidInput as reading does.
 [[nodiscard]] SceneProbe probe_image_grid(const std::filesystem::path& folder,
                                           const OpenOptions& options);
 

@@ -48,7 +48,7 @@ constexpr double kJump = 1.5;
 /// A period is taken before its multiples, which explain as much.
 constexpr double kAlmost = 0.9;
 /// Of JPEG, in px; with colours of half the size, they are twice as large.
-constexpr int kBlock = 8;
+constexpr int kJpegBlock = 8;
 
 struct Folded {
   double explained = 0;
@@ -84,7 +84,7 @@ bool LensletPeriod::is_likely() const {
 }
 
 bool LensletPeriod::is_likely_in_jpeg() const {
-  return is_likely() && (period_px % kBlock != 0 || shading >= kExplained);
+  return is_likely() && (period_px % kJpegBlock != 0 || shading >= kExplained);
 }
 
 bool LensletPeriod::is_certain() const {
@@ -128,8 +128,8 @@ struct TileCount {
 
 constexpr int kMostTiles = 32;
 constexpr int kSmallestTile = 32;
-constexpr int kLargestShift = 8;
-constexpr int kWindow = 4;
+constexpr int kLargestTileShift = 8;
+constexpr int kStepWindow = 4;
 constexpr int kLineStep = 2;
 constexpr double kCorrelation = 0.3;
 constexpr double kEdge = 1.5;
@@ -137,14 +137,14 @@ constexpr double kEdge = 1.5;
 /// Differences of the means of neighbouring windows of 4 px: what disparity moves by a pixel or two
 /// still correlates.
 Image<float> smooth_changes(const Image<float>& lines) {
-  const int width = std::max(lines.width() - 2 * kWindow + 1, 1);
+  const int width = std::max(lines.width() - 2 * kStepWindow + 1, 1);
   Image<float> changes((lines.height() + kLineStep - 1) / kLineStep, width);
-  if (lines.width() < 2 * kWindow) return changes;
+  if (lines.width() < 2 * kStepWindow) return changes;
   for (int y = 0; y < changes.height(); ++y) {
     const float* line = lines.row(y * kLineStep);
     for (int x = 0; x < width; ++x) {
       float change = 0;
-      for (int i = 0; i < kWindow; ++i) change += line[x + kWindow + i] - line[x + i];
+      for (int i = 0; i < kStepWindow; ++i) change += line[x + kStepWindow + i] - line[x + i];
       changes.at(y, x) = change;
     }
   }
@@ -201,7 +201,7 @@ TileCount find_tile_count(const Image<float>& lines) {
   for (int tiles = 2; tiles <= kMostTiles; ++tiles) {
     const int width = lines.width() / tiles;
     if (lines.width() % tiles != 0 || width < kSmallestTile) continue;
-    for (int shift = -kLargestShift; shift <= kLargestShift; ++shift) {
+    for (int shift = -kLargestTileShift; shift <= kLargestTileShift; ++shift) {
       const double correlation = correlation_at(changes, width + shift);
       if (correlation > best.correlation) best = {tiles, correlation, 0};
     }
@@ -231,7 +231,7 @@ struct Answer {
   std::string evidence;
 };
 
-int percent(double part) {
+int in_percent(double part) {
   return static_cast<int>(std::lround(100 * part));
 }
 
@@ -291,7 +291,7 @@ std::optional<Answer> lenslets_of(const Question& question) {
         {v.period_px, u.period_px},
         fmt::format("{} % and {} % of the changes of brightness along x and y repeat with "
                     "this period",
-                    percent(u.explained), percent(v.explained))};
+                    in_percent(u.explained), in_percent(v.explained))};
   }
   return question.name == MosaicName::Eslf ? eslf_by_size(question) : std::nullopt;
 }

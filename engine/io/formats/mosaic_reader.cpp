@@ -183,7 +183,7 @@ void report_remainder(const AnyImage& picture, const MosaicLayout& layout,
 
 std::vector<FileUse> account_of(const fs::path& path) {
   // Mosaics beside it are light fields of their own.
-  FolderAccount account(is_only_mosaic(path) ? scene_folder(path) : path);
+  FileUsage account(is_only_mosaic(path) ? scene_folder(path) : path);
   account.use(path, "mosaics");
   return account.uses();
 }
@@ -194,12 +194,12 @@ void add_beside(const fs::path& path, const OpenOptions& options, SceneParts& pa
   const bool is_itself_a_map = map_kind(path.stem().string()).has_value();
   if (is_itself_a_map) return;
   const fs::path folder = scene_folder(path);
-  FolderAccount account(is_only_mosaic(path) ? folder : path);
+  FileUsage account(is_only_mosaic(path) ? folder : path);
   account.use(path, "mosaics");
   const ViewFiles views{grid_of(parts.samples), {}};
   const AdjacentMaps own(path);
-  FoundBeside beside =
-      read_beside({.files = views,
+  SidecarMaps beside =
+      read_sidecar_maps({.files = views,
                    .folder = folder,
                    .samples = parts.samples,
                    .camera = parts.info.camera,
@@ -337,15 +337,15 @@ SceneProbe probe_mosaic(const fs::path& path, const OpenOptions& options) {
           .sample_type = header->sample_type};
 }
 
-constexpr const char* kOptions[] = {"flip",    "grid",    "crop",  "mosaic",
-                                    "lenslet", "dataset", "levels"};
+constexpr const char* kMosaicOptions[] = {"flip",    "grid",    "crop",  "mosaic",
+                                          "lenslet", "dataset", "levels"};
 
 }  // namespace
 
 Reader mosaic_reader() {
   return {.id = "mosaic",
           .name = "a mosaic of views",
-          .options = kOptions,
+          .options = kMosaicOptions,
           .find = find_mosaic,
           .read = read_mosaic,
           .probe = probe_mosaic};
@@ -353,7 +353,7 @@ Reader mosaic_reader() {
 
 namespace {
 
-constexpr std::size_t kLongestSide = 1'000'000;  ///< In px.
+constexpr std::size_t kLongestMosaicSide = 1'000'000;  ///< In px.
 
 Mosaic kind_of_name(const std::string& name) {
   std::istringstream words(lower_case(last_name(name)));
@@ -366,8 +366,9 @@ Mosaic kind_of_name(const std::string& name) {
 
 bool can_be_picture(const Hdf5Dataset& dataset) {
   return dataset.shape.size() == 2 && dataset.type != Hdf5Type::Other &&
-         std::ranges::all_of(dataset.shape,
-                             [](std::size_t side) { return side > 1 && side <= kLongestSide; });
+         std::ranges::all_of(dataset.shape, [](std::size_t side) {
+           return side > 1 && side <= kLongestMosaicSide;
+         });
 }
 
 std::size_t area(const Hdf5Dataset& dataset) {
@@ -392,15 +393,16 @@ std::optional<Hdf5Dataset> choose(const Hdf5Input& file, const OpenOptions& opti
 
 /// Only a grid that divides the picture: a number of that name may mean something else.
 GridShape stated_grid(const Hdf5Input& file, const MosaicDataset& dataset) {
-  constexpr double kMostViews = 1000;
+  constexpr double kMostGridSide = 1000;
   const std::size_t height = dataset.shape[dataset.is_transposed ? 1 : 0];
   const std::size_t width = dataset.shape[dataset.is_transposed ? 0 : 1];
   for (const std::string& object : {dataset.name, std::string("/")}) {
     for (const char* name : {"angRes", "ang_res", "grid"}) {
       const std::vector<double> sides = file.numbers(object, name);
       const bool is_grid =
-          (sides.size() == 1 || sides.size() == 2) &&
-          std::ranges::all_of(sides, [](double side) { return side >= 1 && side <= kMostViews; });
+          (sides.size() == 1 || sides.size() == 2) && std::ranges::all_of(sides, [](double side) {
+            return side >= 1 && side <= kMostGridSide;
+          });
       if (!is_grid) continue;
       const GridShape grid{static_cast<int>(sides.front()), static_cast<int>(sides.back())};
       const auto divides = [](int views, std::size_t side) {

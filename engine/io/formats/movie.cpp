@@ -30,6 +30,63 @@ extern "C" {
 namespace episcope::io {
 namespace {
 
+// What a suffix stands for.
+struct MovieForm {
+  const char* suffix;
+  const char* container;
+  const char* encoder;
+  const char* quality;  // options of the encoder, key=value:…
+  const char* filters;  // after scaling
+  bool needs_even_sizes;
+};
+
+constexpr MovieForm kMovieForms[] = {
+    {".mp4", "mp4", "libx264", "crf=18:preset=medium", "format=yuv420p", true},
+    {".webm", "webm", "libvpx-vp9", "crf=24:b=0:row-mt=1:deadline=good:cpu-used=4",
+     "format=yuv420p", true},
+    {".gif", "gif", "gif", "",
+     "split[a][b];[a]palettegen[palette];[b][palette]paletteuse=dither=sierra2_4a", false},
+};
+
+const MovieForm* find_movie_form(const std::filesystem::path& path) {
+  const std::string suffix = suffix_of(path);
+  for (const MovieForm& form : kMovieForms) {
+    if (suffix == form.suffix) return &form;
+  }
+  return nullptr;
+}
+
+const MovieForm& movie_form(const std::filesystem::path& path) {
+  if (const MovieForm* form = find_movie_form(path)) return *form;
+  throw InvalidInput(path.string() + " names no movie; use .mp4, .webm or .gif");
+}
+
+AVRational rate_of(const MovieShape& shape) {
+  return av_d2q(shape.rate, 1000);
+}
+
+std::string filters_of(const MovieForm& form, const MovieShape& shape) {
+  const int step = form.needs_even_sizes ? 2 : 1;
+  const auto rounded = [&](double size) {
+    return std::max(step, step * static_cast<int>(std::lround(size / step)));
+  };
+  const int wanted = shape.width_shown > 0 ? shape.width_shown : shape.width;
+  const int width = rounded(wanted);
+  const int height = rounded(static_cast<double>(shape.height) * wanted / shape.width);
+  return fmt::format("scale={}:{}:flags=lanczos,{}", width, height, form.filters);
+}
+
+bool is_of_disk(int error) {
+  return error == ENOSPC || error == EDQUOT || error == EFBIG || error == EROFS || error == EIO;
+}
+
+/// Whether the suffix of a path is one of the forms that MovieEncoder writes.
+bool is_encoded_form(const std::filesystem::path& path) {
+  return find_movie_form(path) != nullptr;
+}
+
+}  // namespace
+
 /// FFmpeg's filters, encoder and container for one file.
 class MovieEncoder {
  public:
@@ -72,61 +129,6 @@ class MovieEncoder {
   std::unique_ptr<AVFrame, Free> frame_;
   std::unique_ptr<AVPacket, Free> packet_;
 };
-
-// What a suffix stands for.
-struct Form {
-  const char* suffix;
-  const char* container;
-  const char* encoder;
-  const char* quality;  // options of the encoder, key=value:…
-  const char* filters;  // after scaling
-  bool needs_even_sizes;
-};
-
-constexpr Form kForms[] = {
-    {".mp4", "mp4", "libx264", "crf=18:preset=medium", "format=yuv420p", true},
-    {".webm", "webm", "libvpx-vp9", "crf=24:b=0:row-mt=1:deadline=good:cpu-used=4",
-     "format=yuv420p", true},
-    {".gif", "gif", "gif", "",
-     "split[a][b];[a]palettegen[palette];[b][palette]paletteuse=dither=sierra2_4a", false},
-};
-
-const Form* find_form(const std::filesystem::path& path) {
-  const std::string suffix = suffix_of(path);
-  for (const Form& form : kForms) {
-    if (suffix == form.suffix) return &form;
-  }
-  return nullptr;
-}
-
-const Form& form_of(const std::filesystem::path& path) {
-  if (const Form* form = find_form(path)) return *form;
-  throw InvalidInput(path.string() + " names no movie; use .mp4, .webm or .gif");
-}
-
-AVRational rate_of(const MovieShape& shape) {
-  return av_d2q(shape.rate, 1000);
-}
-
-std::string filters_of(const Form& form, const MovieShape& shape) {
-  const int step = form.needs_even_sizes ? 2 : 1;
-  const auto rounded = [&](double size) {
-    return std::max(step, step * static_cast<int>(std::lround(size / step)));
-  };
-  const int wanted = shape.width_shown > 0 ? shape.width_shown : shape.width;
-  const int width = rounded(wanted);
-  const int height = rounded(static_cast<double>(shape.height) * wanted / shape.width);
-  return fmt::format("scale={}:{}:flags=lanczos,{}", width, height, form.filters);
-}
-
-bool is_of_disk(int error) {
-  return error == ENOSPC || error == EDQUOT || error == EFBIG || error == EROFS || error == EIO;
-}
-
-/// Whether the suffix of a path is one of the forms that MovieEncoder writes.
-bool is_encoded_form(const std::filesystem::path& path) {
-  return find_form(path) != nullptr;
-}
 
 void MovieEncoder::Free::operator()(AVFilterGraph* graph) const {
   avfilter_graph_free(&graph);
@@ -190,7 +192,7 @@ void MovieEncoder::make_filters() {
   if (!open_output || !open_input) throw std::bad_alloc();
   *open_output = {av_strdup("in"), source_, 0, nullptr};
   *open_input = {av_strdup("out"), sink_, 0, nullptr};
-  const std::string filters = filters_of(form_of(named_), shape_);
+  const std::string filters = filters_of(movie_form(named_), shape_);
   const int code =
       avfilter_graph_parse_ptr(graph_.get(), filters.c_str(), &open_input, &open_output, nullptr);
   avfilter_inout_free(&open_output);
@@ -201,7 +203,8 @@ void MovieEncoder::make_filters() {
 
 void MovieEncoder::open_container() {
   AVFormatContext* container = nullptr;
-  require(avformat_alloc_output_context2(&container, nullptr, form_of(named_).container, nullptr));
+  require(
+      avformat_alloc_output_context2(&container, nullptr, movie_form(named_).container, nullptr));
   container_.reset(container);
   container->flags |= AVFMT_FLAG_BITEXACT;  // no date and version in the file
   // A folder can be named as if the path were an address.
@@ -210,7 +213,7 @@ void MovieEncoder::open_container() {
 }
 
 void MovieEncoder::open_codec() {
-  const Form& form = form_of(named_);
+  const MovieForm& form = movie_form(named_);
   const AVCodec* const encoder = avcodec_find_encoder_by_name(form.encoder);
   if (!encoder) {
     throw Unavailable(std::string("this build of FFmpeg has no encoder ") + form.encoder +
@@ -281,6 +284,8 @@ void MovieEncoder::finish() {
   require(av_write_trailer(container_.get()));
   require(avio_closep(&container_->pb));
 }
+
+namespace {
 
 constexpr double kSlowest = 0.1, kFastest = 120;
 

@@ -147,10 +147,10 @@ bool are_unrelated_channels(const std::vector<PlaneViews>& planes) {
   return halves.size() > 1;
 }
 
-constexpr std::size_t kGreyAxes = 5;   ///< Of a stack of grey light fields in C order.
-constexpr std::size_t kMostNamed = 8;  ///< Light fields that a sentence names.
-constexpr int kLookedAt_px = 256;      ///< Side of what is compared of a view.
-constexpr int kLongest = 8;            ///< Of sides of grey views in a stack.
+constexpr std::size_t kGreyAxes = 5;         ///< Of a stack of grey light fields in C order.
+constexpr std::size_t kMostNamedFields = 8;  ///< Light fields that a sentence names.
+constexpr int kLookedAt_px = 256;            ///< Side of what is compared of a view.
+constexpr int kLargestAspect = 8;            ///< Of sides of grey views in a stack.
 
 /// One of the arrays along the first axis of a stack.
 class SliceInput : public ArrayInput {
@@ -227,7 +227,7 @@ std::vector<ArrayLayout> grey_layouts(const ArrayEntry& entry) {
   std::vector<ArrayLayout> layouts = possible_layouts(slice_of(entry).shape, entry.order);
   std::erase_if(layouts, [](const ArrayLayout& layout) {
     const auto [less, more] = std::minmax({layout.height(), layout.width()});
-    return layout.axes != "vuyx" || more > kLongest * less;
+    return layout.axes != "vuyx" || more > kLargestAspect * less;
   });
   return layouts;
 }
@@ -402,7 +402,7 @@ std::string MultiFieldFile::text(int index) const {
         index, count_ - 1);
   }
   std::vector<std::string> some = names_;
-  some.resize(std::min(some.size(), kMostNamed));
+  some.resize(std::min(some.size(), kMostNamedFields));
   return fmt::format(
       "The file holds {} light fields ({}{}): {} is opened, --frame 0 to {} or "
       "--dataset opens another.",

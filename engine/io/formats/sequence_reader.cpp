@@ -30,7 +30,7 @@ struct CameraFrames {
   std::vector<std::string> patterns{};  ///< Of the names of each frame: "cam{index}_frame003.png".
 };
 
-constexpr std::size_t kFewestViews = 3;
+constexpr std::size_t kFewestFrameViews = 3;
 
 /// The number that counts frames; nothing if there is none, or several.
 std::optional<std::size_t> frame_field(const NameGroup& group) {
@@ -74,7 +74,7 @@ CameraFrames find_camera_frames(const std::filesystem::path& folder) {
     const IndexFields fields = find_index_fields(frame);
     const bool tells_views =
         fields.form == IndexFields::Form::Grid || fields.form == IndexFields::Form::List;
-    if (frame.images.size() != count || count < kFewestViews || !tells_views) return {};
+    if (frame.images.size() != count || count < kFewestFrameViews || !tells_views) return {};
     found.numbers.push_back(number);
     found.patterns.push_back(pattern_text(frame, fields));
   }
@@ -305,7 +305,7 @@ Reader sequence_reader() {
 
 namespace {
 
-struct Numbered {
+struct NumberedFolder {
   fs::path path;
   std::string before;  ///< Of the number, in the name.
   std::string after;
@@ -313,7 +313,7 @@ struct Numbered {
 };
 
 /// A name with one number; none if it has no number, several, or one of too many digits.
-std::optional<Numbered> numbered(const fs::path& path) {
+std::optional<NumberedFolder> numbered(const fs::path& path) {
   constexpr std::size_t most_digits = 9;
   const std::string name = path.filename().string();
   const auto begin = std::find_if(name.begin(), name.end(), is_digit);
@@ -323,12 +323,12 @@ std::optional<Numbered> numbered(const fs::path& path) {
   if (begin >= stem_end || std::any_of(end, stem_end, is_digit)) return std::nullopt;
   const std::string digits(begin, end);
   if (digits.size() > most_digits) return std::nullopt;
-  return Numbered{path, std::string(name.begin(), begin), std::string(end, name.end()),
-                  std::stol(digits)};
+  return NumberedFolder{path, std::string(name.begin(), begin), std::string(end, name.end()),
+                        std::stol(digits)};
 }
 
 /// The letters around the number.
-std::string word_of(const Numbered& one) {
+std::string word_of(const NumberedFolder& one) {
   std::string letters;
   for (const char c :
        one.before + one.after.substr(0, one.after.size() - suffix_of(one.path).size())) {
@@ -359,7 +359,7 @@ enum class Others { Refused, LeftOut };
 
 /// All that are numbered, if they are of one pattern.
 NumberedFrames frames_among(const std::vector<fs::path>& paths, Others others) {
-  std::vector<Numbered> frames;
+  std::vector<NumberedFolder> frames;
   for (const fs::path& path : paths) {
     auto one = numbered(path);
     if (!one) continue;
@@ -377,10 +377,10 @@ NumberedFrames frames_among(const std::vector<fs::path>& paths, Others others) {
   if (word.empty() ? has_others && others == Others::Refused : !speaks_of_time(word)) {
     return {};
   }
-  std::ranges::sort(frames, {}, &Numbered::number);
-  if (std::ranges::adjacent_find(frames, {}, &Numbered::number) != frames.end()) return {};
+  std::ranges::sort(frames, {}, &NumberedFolder::number);
+  if (std::ranges::adjacent_find(frames, {}, &NumberedFolder::number) != frames.end()) return {};
   NumberedFrames found;
-  for (Numbered& one : frames) {
+  for (NumberedFolder& one : frames) {
     found.paths.push_back(std::move(one.path));
     found.numbers.push_back(one.number);
   }

@@ -259,7 +259,7 @@ class FormerFile {
   bool was_there_ = false;
 };
 
-std::uintmax_t scene_bytes(const Scene& scene) {
+std::uintmax_t archive_bytes(const Scene& scene) {
   const auto of = [](const DisparityField& field) {
     return field.empty() ? 0 : field.disparity.size() * 5;
   };
@@ -297,7 +297,7 @@ void write_archive(const std::filesystem::path& path, const Scene& scene,
   const GroundTruth& truth = *scene.truth;
   const CameraGrid camera = camera_for(scene);
 
-  AtomicFile target(path, scene_bytes(scene) + (is_inside ? label_bytes(scene) : 0));
+  AtomicFile target(path, archive_bytes(scene) + (is_inside ? label_bytes(scene) : 0));
   Hdf5Output file(target);
   write_attributes(file, scene, camera);
   write_light_field(file, *scene.light_field, progress.part(0, 0.6));
@@ -347,7 +347,7 @@ Image<std::uint16_t> to_16_bit(ImageView<const float> view) {
   return image;
 }
 
-void write_view(const fs::path& path, const LightField& field, ViewIndex view) {
+void write_benchmark_view(const fs::path& path, const LightField& field, ViewIndex view) {
   if (field.sample_type() == SampleType::UInt8) {
     write_png(path, field.view<std::uint8_t>(view));
   } else if (field.sample_type() == SampleType::UInt16) {
@@ -357,7 +357,7 @@ void write_view(const fs::path& path, const LightField& field, ViewIndex view) {
   }
 }
 
-void write_disparity_map(const fs::path& path, const DisparityView& map) {
+void write_disparity_pfm(const fs::path& path, const DisparityView& map) {
   Image<float> marked(map.disparity.height, map.disparity.width);
   for (int y = 0; y < marked.height(); ++y) {
     for (int x = 0; x < marked.width(); ++x) {
@@ -404,11 +404,11 @@ void write_truth(const fs::path& folder, const Scene& scene) {
   const LightField& field = *scene.light_field;
   const ViewIndex center = field.center();
   if (truth.field.contains(center)) {
-    write_disparity_map(folder / kCenterDisparity, truth.field.view(center));
+    write_disparity_pfm(folder / kCenterDisparity, truth.field.view(center));
   }
   const bool has_all = truth.has_disparity() && truth.field.disparity.grid() == field.grid();
   for (int i = 0; has_all && i < field.grid().count(); ++i) {
-    write_disparity_map(folder / disparity_file_name(i), truth.field.view(field.grid().view_at(i)));
+    write_disparity_pfm(folder / disparity_file_name(i), truth.field.view(field.grid().view_at(i)));
   }
   if (truth.labels.contains(center) && !truth.labels.empty()) {
     const auto labels = truth.labels.view(center);
@@ -436,7 +436,7 @@ void write_benchmark_folder(const fs::path& folder, const Scene& scene, const Pr
   AtomicFolder target(folder, field.byte_size());
   parallel_for(field.grid().count(), progress.part(0, 0.9), [&](int i) {
     const ViewIndex view = field.grid().view_at(i);
-    write_view(target.temporary() / view_file_name(i), field, view);
+    write_benchmark_view(target.temporary() / view_file_name(i), field, view);
   });
   const std::string config = config_text(field);
   write_atomically(target.temporary() / kBenchmarkConfig,

@@ -21,10 +21,10 @@ namespace episcope::io {
 namespace {
 
 /// What deflate reaches at most.
-constexpr std::size_t kDensest = 1032;
+constexpr std::size_t kDensestDeflated = 1032;
 /// Light fields and maps are far from it, but for small or empty ones.
 constexpr std::size_t kDense = 200;
-constexpr std::size_t kSmall = std::size_t{64} << 20;
+constexpr std::size_t kSmallArray = std::size_t{64} << 20;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ std::string telling_name(const ArrayEntry& entry) {
 
 std::string content_text(const ArrayEntry& entry) {
   if (!entry.other_kind.empty()) return entry.other_kind;
-  return array_shape_text(in_index_order(entry.shape, entry.order));
+  return shape_text(in_index_order(entry.shape, entry.order));
 }
 
 void ArrayFile::join_parts() {
@@ -63,17 +63,18 @@ void require_plausible_size(const std::filesystem::path& path, const ArrayShape&
                             NumberType type, std::uint64_t bytes) {
   const std::size_t count = element_count(shape);
   const std::size_t width = byte_size(type);
-  const std::size_t allowed = bytes * (count / kSmall * width > 0 ? kDense : kDensest) / width;
+  const std::size_t allowed =
+      bytes * (count / kSmallArray * width > 0 ? kDense : kDensestDeflated) / width;
   if (count <= allowed) return;
   throw IoError(path, fmt::format("an array of {} {} samples is claimed by {} bytes, which cannot "
                                   "hold it; the file is damaged or made to harm: choose another",
-                                  array_shape_text(shape), number_name(type), bytes));
+                                  shape_text(shape), number_name(type), bytes));
 }
 
 namespace {
 
-constexpr std::size_t kFewestViews = 3;
-constexpr std::size_t kFewestPixels = 4;
+constexpr std::size_t kFewestJoined = 3;
+constexpr std::size_t kFewestViewPixels = 4;
 
 bool is_channels(std::size_t length) {
   return length == 1 || length == 3 || length == 4;
@@ -92,11 +93,11 @@ bool can_be_view(const ArrayEntry& entry) {
   } else if (shape.size() == 3 && is_channels(shape[0])) {
     shape.erase(shape.begin());
   }
-  return shape.size() == 2 && std::ranges::min(shape) >= kFewestPixels;
+  return shape.size() == 2 && std::ranges::min(shape) >= kFewestViewPixels;
 }
 
 /// What the names of one series have in common, and an array's place in it.
-struct Numbered {
+struct NumberedEntry {
   std::size_t at = 0;  ///< In the list of entries.
   std::vector<long> numbers;
 };
@@ -120,34 +121,35 @@ std::string series_name(const std::string& name, const std::vector<bool>& varies
 }
 
 /// Which numbers differ within a series.
-std::vector<bool> varying(const std::vector<Numbered>& series) {
+std::vector<bool> varying(const std::vector<NumberedEntry>& series) {
   std::vector<bool> varies(series.front().numbers.size());
   for (std::size_t i = 0; i < varies.size(); ++i) {
-    varies[i] = std::ranges::any_of(
-        series, [&](const Numbered& one) { return one.numbers[i] != series.front().numbers[i]; });
+    varies[i] = std::ranges::any_of(series, [&](const NumberedEntry& one) {
+      return one.numbers[i] != series.front().numbers[i];
+    });
   }
   return varies;
 }
 
 /// Only the numbers that differ; sorted by them.
-void sort_by_place(std::vector<Numbered>& series, const std::vector<bool>& varies) {
-  for (Numbered& one : series) {
+void sort_by_place(std::vector<NumberedEntry>& series, const std::vector<bool>& varies) {
+  for (NumberedEntry& one : series) {
     std::vector<long> place;
     for (std::size_t i = 0; i < varies.size(); ++i) {
       if (varies[i]) place.push_back(one.numbers[i]);
     }
     one.numbers = std::move(place);
   }
-  std::ranges::sort(series, {}, &Numbered::numbers);
+  std::ranges::sort(series, {}, &NumberedEntry::numbers);
 }
 
 /// The places of a series with two numbers, where its arrays are by their names; nothing if there
 /// are less than half as many arrays.
 std::optional<GridWithGaps> grid_of(const std::vector<ArrayEntry>& entries,
-                                    const std::vector<Numbered>& series) {
+                                    const std::vector<NumberedEntry>& series) {
   std::vector<long long> rows;
   std::vector<long long> columns;
-  for (const Numbered& one : series) {
+  for (const NumberedEntry& one : series) {
     rows.push_back(one.numbers[0]);
     columns.push_back(one.numbers[1]);
   }
@@ -158,7 +160,7 @@ std::optional<GridWithGaps> grid_of(const std::vector<ArrayEntry>& entries,
   const auto place_in = [](const std::vector<long long>& numbers, long number) {
     return static_cast<std::size_t>(std::ranges::lower_bound(numbers, number) - numbers.begin());
   };
-  for (const Numbered& one : series) {
+  for (const NumberedEntry& one : series) {
     const std::size_t row = place_in(grid.rows, one.numbers[0]);
     const std::size_t column = place_in(grid.columns, one.numbers[1]);
     grid.files[row * grid.columns.size() + column] = entries[one.at].name;
@@ -173,11 +175,11 @@ void add_axes(ArrayEntry& whole, GridShape grid) {
 
 /// The whole of a series, whose places are sorted; nothing if they are not those of views.
 std::optional<ArrayEntry> whole_of(const std::vector<ArrayEntry>& entries,
-                                   const std::vector<Numbered>& series, std::string name) {
+                                   const std::vector<NumberedEntry>& series, std::string name) {
   ArrayEntry whole = entries[series.front().at];
   whole.name = std::move(name);
   whole.stated_axes.clear();
-  for (const Numbered& one : series) whole.parts.push_back(entries[one.at].name);
+  for (const NumberedEntry& one : series) whole.parts.push_back(entries[one.at].name);
   if (series.front().numbers.size() == 1) {
     whole.leading = 'n';
     whole.shape.insert(whole.shape.begin(), series.size());
@@ -212,7 +214,7 @@ void replace(std::vector<ArrayEntry>& entries, std::vector<std::size_t> places, 
 }
 
 void join_views(std::vector<ArrayEntry>& entries) {
-  std::map<std::string, std::vector<Numbered>> all;
+  std::map<std::string, std::vector<NumberedEntry>> all;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (!can_be_view(entries[i])) continue;
     NumberedName name = numbered_name(entries[i].name);
@@ -222,19 +224,19 @@ void join_views(std::vector<ArrayEntry>& entries) {
   for (auto& [text, series] : all) {
     const ArrayEntry& first = entries[series.front().at];
     const bool is_even = std::ranges::all_of(
-        series, [&](const Numbered& one) { return is_same_kind(entries[one.at], first); });
+        series, [&](const NumberedEntry& one) { return is_same_kind(entries[one.at], first); });
     const std::vector<bool> varies = varying(series);
     const auto count = std::ranges::count(varies, true);
-    if (series.size() < kFewestViews || !is_even || count < 1 || count > 2) continue;
+    if (series.size() < kFewestJoined || !is_even || count < 1 || count > 2) continue;
     const std::string name = series_name(first.name, varies);
     sort_by_place(series, varies);
     const bool has_twins =
-        std::ranges::adjacent_find(series, {}, &Numbered::numbers) != series.end();
+        std::ranges::adjacent_find(series, {}, &NumberedEntry::numbers) != series.end();
     if (has_twins) continue;
     auto whole = whole_of(entries, series, name);
     if (!whole) continue;
     std::vector<std::size_t> places;
-    for (const Numbered& one : series) places.push_back(one.at);
+    for (const NumberedEntry& one : series) places.push_back(one.at);
     wholes.emplace_back(std::move(places), std::move(*whole));
   }
   std::set<std::size_t, std::greater<>> gone;
@@ -326,7 +328,7 @@ void join_arrays(std::vector<ArrayEntry>& entries) {
 std::optional<ArrayEntry> joined_cells(const std::string& name,
                                        const std::vector<ArrayEntry>& cells,
                                        const ArrayShape& grid) {
-  if (cells.size() < kFewestViews || cells.size() != element_count(grid)) return std::nullopt;
+  if (cells.size() < kFewestJoined || cells.size() != element_count(grid)) return std::nullopt;
   const bool are_views = std::ranges::all_of(cells, [&](const ArrayEntry& cell) {
     return can_be_view(cell) && is_same_kind(cell, cells.front());
   });

@@ -186,14 +186,14 @@ bool lies_in(const ViewStack<T>& stack, T smallest, T largest) {
 
 /// Integers in the narrowest type that holds them; negative ones stay floats.
 void narrow(LightField::Samples& samples) {
-  constexpr int kOfBytes = std::numeric_limits<std::uint8_t>::max();
-  constexpr int kOfWords = std::numeric_limits<std::uint16_t>::max();
+  constexpr int kMostOfBytes = std::numeric_limits<std::uint8_t>::max();
+  constexpr int kMostOfWords = std::numeric_limits<std::uint16_t>::max();
   if (const auto* floats = std::get_if<ViewStack<float>>(&samples)) {
-    if (!lies_in<float>(*floats, 0, kOfWords)) return;
+    if (!lies_in<float>(*floats, 0, kMostOfWords)) return;
     samples = converted<std::uint16_t>(*floats);
   }
   const auto& words = std::get<ViewStack<std::uint16_t>>(samples);
-  if (lies_in<std::uint16_t>(words, 0, kOfBytes)) samples = converted<std::uint8_t>(words);
+  if (lies_in<std::uint16_t>(words, 0, kMostOfBytes)) samples = converted<std::uint8_t>(words);
 }
 
 }  // namespace

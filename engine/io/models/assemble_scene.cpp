@@ -121,13 +121,13 @@ int count_unknown(const ViewGains& gains) {
   return unknown;
 }
 
-/// Tells `report` how much the brightness of the views differs from that of the centre view
-/// (measure_view_gains). With `options.equalise` takes it out, unless all gains are within
+/// Tells `report` how much the brightness of the views differs from that of the center view
+/// (measure_view_gains). With `options.equalize` takes it out, unless all gains are within
 /// kMeasurableGain; else says that methods even out what is notable, unless
 /// `options.keep_brightness`. Of a single view there is nothing to tell. Throws Cancelled.
-void equalise_views(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
+void equalize_views(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
                     const Progress& progress) {
-  const bool is_wanted = options.equalise;
+  const bool is_wanted = options.equalize;
   if (!is_wanted && is_mapped(parts.samples)) {
     report.gain = "not measured, since that would read the whole file";
     return;
@@ -159,8 +159,8 @@ void equalise_views(SceneParts& parts, const OpenOptions& options, ConventionRep
   report.warnings.push_back(
       "The brightness of the views differs by " + difference_text(gains) +
       (options.keep_brightness
-           ? "; without --no-equalise, methods even it out."
-           : "; methods even it out, --equalise for pictures as well, --no-equalise for none."));
+           ? "; without --no-equalize, methods even it out."
+           : "; methods even it out, --equalize for pictures as well, --no-equalize for none."));
 }
 
 std::string place_text(const LightField::Samples& samples) {
@@ -257,7 +257,7 @@ void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
   scene.convention.files = std::move(parts.files);
   zero_nonfinite_samples(parts.samples, scene.convention);
   keep_what_was_seen(parts, options, scene.convention, progress);
-  equalise_views(parts, options, scene.convention, progress);
+  equalize_views(parts, options, scene.convention, progress);
   std::string& samples_text = scene.convention.samples;
   if (samples_text.empty()) samples_text = stored_samples_text(parts.samples);
   samples_text += place_text(parts.samples);

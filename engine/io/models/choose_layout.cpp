@@ -22,14 +22,14 @@
 namespace episcope::io {
 namespace {
 
-constexpr double kMostPixels = 16e6;  ///< That are looked at, of all views.
+constexpr double kMostPixelsSeen = 16e6;  ///< That are looked at, of all views.
 constexpr int kLargestWindow = 256;
 
 ListLayout look_at(const ArrayInput& array, const ArrayLayout& list) {
   const int count = list.grid().count();
   std::vector<ViewIndex> views;
   for (int i = 0; i < count; ++i) views.push_back({0, i});
-  const int side = std::min(kLargestWindow, static_cast<int>(std::sqrt(kMostPixels / count)));
+  const int side = std::min(kLargestWindow, static_cast<int>(std::sqrt(kMostPixelsSeen / count)));
   const std::vector<Image<float>> windows = array_windows(array, list, views, side);
   return find_list_layout(
       count, [&](int i) { return windows[static_cast<std::size_t>(i)]; }, Progress());
@@ -230,7 +230,7 @@ ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
   }
   const auto layouts = layouts_of(entry);
   if (layouts.size() == 1) return {layouts.front(), "by shape", {}};
-  const std::string shape = array_shape_text(in_index_order(entry.shape, entry.order));
+  const std::string shape = shape_text(in_index_order(entry.shape, entry.order));
   if (layouts.empty()) {
     throw IoError(file.path(),
                   fmt::format("the array {} has the shape {}, which is not that of a light field; "
@@ -281,7 +281,7 @@ void check_layout(const ArrayInput& array, IndexOrder order, ChosenLayout& chose
 
 namespace {
 
-constexpr int kWindow = 256;
+constexpr int kParallaxWindow = 256;
 
 double gone(const AxisEvidence& evidence) {
   return std::max(evidence.gone_along_x(), evidence.gone_along_y());
@@ -295,7 +295,7 @@ Parallax measure_parallax(const ArrayInput& array, const ArrayLayout& layout) {
   std::vector<ViewIndex> views{center};
   if (grid.u > 1) views.push_back({center.v, center.u - 1});
   if (grid.v > 1) views.push_back({center.v - 1, center.u});
-  const std::vector<Image<float>> windows = array_windows(array, layout, views, kWindow);
+  const std::vector<Image<float>> windows = array_windows(array, layout, views, kParallaxWindow);
   const MotionPictures middle(windows.front());
   Parallax parallax;
   for (std::size_t i = 1; i < views.size(); ++i) {

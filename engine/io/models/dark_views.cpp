@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kCellsAcross = 20;
 constexpr int kSmallestCell = 8;
-constexpr int kStep = 2;
+constexpr int kPixelStep = 2;
 constexpr int kGuard = 3;  ///< Cells around one, on each side.
 constexpr float kEmpty = 0.1F;
 constexpr float kDarkest = 0.02F;  ///< About what black is in noisy photographs.
@@ -45,7 +45,7 @@ std::vector<int> looked_at(int height, int cell_rows, BrightnessRows wanted) {
     for (int row = 0; row < cell_rows; ++row)
       rows.push_back((2 * row + 1) * height / (2 * cell_rows));
   } else {
-    for (int y = 0; y < height; y += kStep) rows.push_back(y);
+    for (int y = 0; y < height; y += kPixelStep) rows.push_back(y);
   }
   return rows;
 }
@@ -69,7 +69,7 @@ void measure(ImageView<const T> view, ImageView<const std::uint8_t> valid,
   std::vector<int> counts(cells.size());
   for (const int y : rows) {
     const int row = y * cells.height / view.height;
-    for (int x = 0; x < view.width; x += kStep) {
+    for (int x = 0; x < view.width; x += kPixelStep) {
       const std::size_t cell =
           static_cast<std::size_t>(row) * cells.width + x * cells.width / view.width;
       ++counts[cell];
@@ -274,7 +274,7 @@ std::string crop_text(const ViewCrop& crop, const ViewBrightness& brightness) {
 
 namespace {
 
-/// Between the centres of which two cells a pixel lies, and how far from the first.
+/// Between the centers of which two cells a pixel lies, and how far from the first.
 struct Between {
   int first = 0;
   int second = 0;
@@ -363,7 +363,7 @@ namespace {
 
 constexpr double kBlack = 0.004;       ///< One grey level of 255, with rounding.
 constexpr double kNearlyBlack = 0.02;  ///< In views that were interpolated.
-constexpr double kLongest = 0.3;
+constexpr double kLongestWedge = 0.3;
 constexpr double kSmallest = 0.0005;  ///< Of the area of a view.
 constexpr int kFewestCorners = 3;
 constexpr double kShared = 0.8;
@@ -396,14 +396,14 @@ std::vector<PixelIndex> wedge_at(ImageView<const T> view, Corner corner) {
       pixels.push_back({y, x_at(run++)});
     }
     longest = run;
-    if (run > kLongest * view.width || (run > 0 && j > kLongest * view.height)) return {};
+    if (run > kLongestWedge * view.width || (run > 0 && j > kLongestWedge * view.height)) return {};
   }
   const double area = static_cast<double>(view.height) * view.width;
   if (static_cast<double>(pixels.size()) < kSmallest * area) return {};
   return pixels;
 }
 
-/// Of the centre view; empty where fewer than three corners are black.
+/// Of the center view; empty where fewer than three corners are black.
 template <class T>
 std::vector<PixelIndex> black_wedges(ImageView<const T> center) {
   std::vector<PixelIndex> all;

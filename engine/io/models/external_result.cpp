@@ -108,7 +108,7 @@ DisparityField read_npy_field(const fs::path& path, GridShape grid) {
   if (!(layout.grid() == grid)) {
     throw IoError(path, fmt::format("the array has the shape {}, but the light field has {}×{} "
                                     "views; name the light field that it belongs to",
-                                    array_shape_text(file.header().shape), grid.v, grid.u));
+                                    shape_text(file.header().shape), grid.v, grid.u));
   }
   DisparityField field;
   field.disparity = read_map_stack<float>(file, layout, Progress(1));
@@ -169,7 +169,7 @@ DisparityField read_disparity_map(const fs::path& path, GridShape grid) {
   if (suffix == ".tif" || suffix == ".tiff") {
     return center_field(path, read_float_tiff(path), grid);
   }
-  if (has_hdf5_signature(path) || suffix == ".h5" || suffix == ".hdf5") {
+  if (has_hdf5_signature(path) || has_hdf5_name(path)) {
     return read_hdf5_map(path, grid);
   }
   throw IoError(
@@ -256,7 +256,7 @@ bool is_blank(char c) {
 }
 
 /// Without white space around it.
-std::string trimmed(std::string text) {
+std::string without_blanks(std::string text) {
   while (!text.empty() && is_blank(text.back())) text.pop_back();
   text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_blank));
   return text;
@@ -276,7 +276,7 @@ PfmLines lines_of(const fs::path& path) {
       line.clear();
       std::getline(in, line);
     } while (in && line.starts_with('#'));
-    return trimmed(line);
+    return without_blanks(line);
   };
   PfmLines lines;
   lines.kind = next();
@@ -307,7 +307,7 @@ std::string map_problem(const fs::path& path, const SubmittedScene& scene) {
 }
 
 std::string runtime_problem(const fs::path& path) {
-  const std::optional<double> seconds = parse_number(trimmed(first_line(path)));
+  const std::optional<double> seconds = parse_number(without_blanks(first_line(path)));
   const bool is_time = seconds && std::isfinite(*seconds) && *seconds > 0;
   return is_time ? "" : "has no number of seconds above 0 in its first line";
 }

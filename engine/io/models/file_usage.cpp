@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostKinds = 20;  ///< Of files not used; more are told apart less finely.
+constexpr std::size_t kMostUnusedKinds =
+    20;  ///< Of files not used; more are told apart less finely.
 
 /// A name with # for each of its numbers; those of a suffix such as .h5 are none.
 std::string kind_by_numbers(const std::string& name) {
@@ -71,11 +72,11 @@ void count_one(std::vector<FileUse>& uses, FileUse one) {
 
 }  // namespace
 
-FolderAccount::FolderAccount(const fs::path& folder) {
+FileUsage::FileUsage(const fs::path& folder) {
   add_folder(folder);
 }
 
-void FolderAccount::add_folder(const fs::path& folder) {
+void FileUsage::add_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) return;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -84,16 +85,16 @@ void FolderAccount::add_folder(const fs::path& folder) {
   }
 }
 
-void FolderAccount::use(const fs::path& file, const std::string& kind) {
+void FileUsage::use(const fs::path& file, const std::string& kind) {
   files_[key_of(file)] = true;
   count_one(used_, {kind, 1, file.filename().string(), true});
 }
 
-void FolderAccount::use(const std::vector<fs::path>& files, const std::string& kind) {
+void FileUsage::use(const std::vector<fs::path>& files, const std::string& kind) {
   for (const fs::path& file : files) use(file, kind);
 }
 
-void FolderAccount::leave_out(const std::vector<fs::path>& files, const std::string& kind) {
+void FileUsage::leave_out(const std::vector<fs::path>& files, const std::string& kind) {
   for (const fs::path& file : files) {
     bool& is_noted = files_[key_of(file)];
     if (!is_noted) count_one(left_out_, {kind, 1, file.filename().string(), false});
@@ -101,7 +102,7 @@ void FolderAccount::leave_out(const std::vector<fs::path>& files, const std::str
   }
 }
 
-std::vector<FileUse> FolderAccount::uses() const {
+std::vector<FileUse> FileUsage::uses() const {
   std::vector<std::string> unused;
   for (const auto& [path, is_noted] : files_) {
     if (!is_noted) unused.push_back(path.filename().string());
@@ -110,7 +111,7 @@ std::vector<FileUse> FolderAccount::uses() const {
   all.insert(all.end(), left_out_.begin(), left_out_.end());
   for (const auto& kind_of : {kind_by_numbers, kind_by_suffix, kind_of_others}) {
     const std::vector<FileUse> kinds = count_unused(unused, kind_of);
-    if (kinds.size() > kMostKinds) continue;
+    if (kinds.size() > kMostUnusedKinds) continue;
     all.insert(all.end(), kinds.begin(), kinds.end());
     break;
   }

@@ -11,20 +11,20 @@
 
 namespace episcope::io {
 
-/// The dataset of true labels.
+/// Dataset of the true labels.
 inline constexpr const char* kTrueLabels = "GT_LABELS";
 
-/// Names and colours of labels, stored in attributes of a dataset that other readers ignore:
-/// `label_ids`, `label_names` (one per line), `label_colors` (R, G, B each). None if there are no
-/// such attributes or they do not fit together.
+/// Reads names and colors of labels from attributes of a dataset, which other readers ignore:
+/// `label_ids`, `label_names` (one per line), `label_colors` (R, G, B each). Empty if the
+/// attributes are missing or inconsistent.
 [[nodiscard]] std::vector<LabelInfo> read_label_list(const Hdf5Input& file,
                                                      const std::string& dataset);
 
-/// Throws IoError.
+/// Writes the attributes that `read_label_list` reads. Throws IoError.
 void add_label_list(Hdf5Output& file, const std::string& dataset,
                     const std::vector<LabelInfo>& labels);
 
-/// Makes room for 0 as "none"; the largest number stays.
+/// Raises a label by one, to make room for 0 = "none". The largest integer stays.
 inline void raise_label(std::int32_t& label) {
   if (label < std::numeric_limits<std::int32_t>::max()) ++label;
 }

@@ -10,11 +10,11 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
 #include <algorithm>
 #include <compare>
 #include <cstdlib>
 #include <numeric>
-#include <unistd.h>
 #include <utility>
 
 namespace episcope::io {
@@ -23,17 +23,17 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What all views have in common. Any of them may be grey: programs that save pictures as small as
-/// they can store those without colour so.
-struct Form {
+/// they can store those without color so.
+struct ViewForm {
   int height = 0;
   int width = 0;
   std::size_t type = 0;
 
-  friend auto operator<=>(const Form&, const Form&) = default;
+  friend auto operator<=>(const ViewForm&, const ViewForm&) = default;
 };
 
 struct Outcome {
-  std::optional<Form> form{};  ///< Nothing if the view could not be decoded.
+  std::optional<ViewForm> form{};  ///< Nothing if the view could not be decoded.
   bool is_grey = false;
   std::string text{};  ///< What it is, or why it could not be decoded.
 };
@@ -41,7 +41,7 @@ struct Outcome {
 Outcome outcome_of(const AnyImage& image) {
   return std::visit(
       [&](const auto& one) {
-        return Outcome{Form{one.height(), one.width(), image.index()}, one.channels() == 1,
+        return Outcome{ViewForm{one.height(), one.width(), image.index()}, one.channels() == 1,
                        describe_image(image)};
       },
       image);
@@ -76,7 +76,7 @@ struct Loaded {
   LightField::Samples samples;
   std::vector<Outcome> outcomes;
 
-  /// Whether all are of one form, and none has colour that the one with the others lacks.
+  /// Whether all are of one form, and none has color that the one with the others lacks.
   [[nodiscard]] bool is_whole() const {
     const bool is_grey = std::visit([](const auto& all) { return all.channels() == 1; }, samples);
     return std::ranges::all_of(outcomes, [&](const Outcome& each) {
@@ -86,9 +86,9 @@ struct Loaded {
 };
 
 /// Decodes views, and notes what becomes of each.
-class Decoder {
+class ViewDecoder {
  public:
-  explicit Decoder(const ViewFiles& views) : views_(views), outcomes_(views.files.size()) {}
+  explicit ViewDecoder(const ViewFiles& views) : views_(views), outcomes_(views.files.size()) {}
 
   /// An empty image if it cannot be decoded.
   AnyImage decode(int place) {
@@ -122,7 +122,7 @@ class Decoder {
 Loaded load_around(const ViewFiles& views, const std::vector<int>& references,
                    const OnCenterView& on_center, const Progress& progress) {
   progress.check();
-  Decoder decoder(views);
+  ViewDecoder decoder(views);
   const auto first = decoder.first_of(references);
   return std::visit(
       [&]<class T>(const Image<T>& image) -> Loaded {
@@ -139,7 +139,7 @@ Loaded load_around(const ViewFiles& views, const std::vector<int>& references,
       first.second);
 }
 
-/// Places of views, those next to the centre first.
+/// Places of views, those next to the center first.
 std::vector<int> from_center(GridShape grid) {
   std::vector<int> places(static_cast<std::size_t>(grid.count()));
   std::iota(places.begin(), places.end(), 0);
@@ -152,40 +152,41 @@ std::vector<int> from_center(GridShape grid) {
 }
 
 /// The form of most views that could be decoded.
-std::optional<Form> usual_form(const std::vector<Outcome>& outcomes) {
-  std::vector<std::optional<Form>> forms;
+std::optional<ViewForm> usual_form(const std::vector<Outcome>& outcomes) {
+  std::vector<std::optional<ViewForm>> forms;
   for (const Outcome& each : outcomes) forms.push_back(each.form);
   return majority(forms);
 }
 
 /// Views that are not like most, or else not like the first that could be decoded.
-std::vector<OddView> odd_views(const ViewFiles& views, const std::vector<Outcome>& outcomes) {
+std::vector<UnusableView> unusable_views(const ViewFiles& views,
+                                         const std::vector<Outcome>& outcomes) {
   const auto form = usual_form(outcomes);
   const auto one = std::ranges::find_if(
       outcomes, [&](const Outcome& each) { return each.form && (!form || each.form == form); });
   const fs::path& usual = views.files[static_cast<std::size_t>(one - outcomes.begin())];
-  std::vector<OddView> odd;
+  std::vector<UnusableView> unusable;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& each = outcomes[i];
     if (each.form == one->form) continue;
     const std::string why = fmt::format("this view has {}, but {} has {}", each.text,
                                         usual.filename().string(), one->text);
-    odd.push_back({static_cast<int>(i), each.form ? why : each.text, !each.form});
+    unusable.push_back({static_cast<int>(i), each.form ? why : each.text, !each.form});
   }
-  return odd;
+  return unusable;
 }
 
-[[noreturn]] void refuse(const ViewFiles& views, const std::vector<OddView>& odd) {
-  if (odd.empty()) {
+[[noreturn]] void refuse(const ViewFiles& views, const std::vector<UnusableView>& unusable) {
+  if (unusable.empty()) {
     throw IoError(views.files.front().parent_path(),
                   "some views are grey and others have colour; all views must match");
   }
-  const OddView& first = odd.front();
+  const UnusableView& first = unusable.front();
   throw IoError(views.files[static_cast<std::size_t>(first.place)],
                 first.is_damaged ? first.why : first.why + "; all views must match");
 }
 
-/// Of a part of views that were decoded, the places from its centre on, those of colour first.
+/// Of a part of views that were decoded, the places from its center on, those of color first.
 std::vector<int> references_in(const UsableViews& usable, GridShape all,
                                const std::vector<Outcome>& outcomes) {
   std::vector<int> places = from_center(usable.views.grid);
@@ -203,11 +204,11 @@ UsableViews load_usable_views(const ViewFiles& views, const OnCenterView& on_cen
                               const Progress& progress) {
   Loaded loaded = load_around(views, from_center(views.grid), on_center, progress);
   if (loaded.is_whole()) return {std::move(loaded.samples), views};
-  const std::vector<OddView> odd = odd_views(views, loaded.outcomes);
+  const std::vector<UnusableView> unusable = unusable_views(views, loaded.outcomes);
   UsableViews usable{{}, views};
-  if (!odd.empty()) {
-    auto left = usual_form(loaded.outcomes) ? without_views(views, odd) : std::nullopt;
-    if (!left) refuse(views, odd);
+  if (!unusable.empty()) {
+    auto left = usual_form(loaded.outcomes) ? without_views(views, unusable) : std::nullopt;
+    if (!left) refuse(views, unusable);
     usable.views = std::move(left->views);
     usable.kept = left->kept;
     usable.warning = std::move(left->warning);
@@ -215,7 +216,7 @@ UsableViews load_usable_views(const ViewFiles& views, const OnCenterView& on_cen
   loaded.samples = {};
   loaded = load_around(usable.views, references_in(usable, views.grid, loaded.outcomes), on_center,
                        progress);
-  if (!loaded.is_whole()) refuse(usable.views, odd_views(usable.views, loaded.outcomes));
+  if (!loaded.is_whole()) refuse(usable.views, unusable_views(usable.views, loaded.outcomes));
   usable.samples = std::move(loaded.samples);
   return usable;
 }
@@ -223,7 +224,7 @@ UsableViews load_usable_views(const ViewFiles& views, const OnCenterView& on_cen
 LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_center,
                                const Progress& progress) {
   Loaded loaded = load_around(views, from_center(views.grid), on_center, progress);
-  if (!loaded.is_whole()) refuse(views, odd_views(views, loaded.outcomes));
+  if (!loaded.is_whole()) refuse(views, unusable_views(views, loaded.outcomes));
   return std::move(loaded.samples);
 }
 

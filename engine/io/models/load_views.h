@@ -15,15 +15,16 @@
 
 namespace episcope::io {
 
-/// Called with an 8-bit RGB picture of the centre view before the others are read.
+/// Called with an 8-bit RGB picture of the center view before the others are read.
 using OnCenterView = std::function<void(const Image<std::uint8_t>& center_rgb)>;
 
-/// Decodes the views in parallel, upright, the centre first. Throws IoError that names the file if
-/// one cannot be decoded or differs in size, channels or depth from the centre view; Cancelled.
+/// Decodes the views in parallel, upright, the center first. Throws IoError that names the file if
+/// one cannot be decoded or differs from the center view in size, channels or depth. Throws
+/// Cancelled.
 [[nodiscard]] LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_center,
                                              const Progress& progress);
 
-/// Samples of those views of a grid that can be used together.
+/// Samples of the views of a grid that can be used together.
 struct UsableViews {
   LightField::Samples samples;
   ViewFiles views;                   ///< All, or the part of them that `samples` holds.
@@ -31,13 +32,13 @@ struct UsableViews {
   std::string warning{};             ///< What could not be used and why, and what is left.
 };
 
-/// The same for folders in which some files are damaged, or of another size or depth than most:
-/// these are as good as missing, and the largest part without them is kept (`without_views`).
-/// Throws IoError about the first of them if there is no such part; Cancelled.
+/// Loads views of which some may be damaged or differ from most in size or depth. These count as
+/// missing, and the largest part without them is kept (`without_views`). Throws IoError about the
+/// first of them if there is no such part. Throws Cancelled.
 [[nodiscard]] UsableViews load_usable_views(const ViewFiles& views, const OnCenterView& on_center,
                                             const Progress& progress);
 
-/// 8-bit RGB of one view, for the first look at a scene.
+/// Converts one view to 8-bit RGB, for the first look at a scene.
 template <class T>
 [[nodiscard]] Image<std::uint8_t> preview_rgb(ImageView<const T> view) {
   Image<std::uint8_t> rgb(view.height, view.width, 3);
@@ -56,9 +57,8 @@ template <class T>
   return rgb;
 }
 
-/// Refuses views that fit neither into the memory of the machine nor, unpacked, into its scratch
-/// folder. The system would not refuse them at once: it would end the program later. Throws IoError
-/// for `path`.
+/// Throws IoError for `path` if views fit neither into memory nor, unpacked, into the scratch
+/// folder. The system would accept them at first and end the program later.
 void require_view_memory(const std::filesystem::path& path, double bytes);
 
 }  // namespace episcope::io

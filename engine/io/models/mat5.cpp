@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kHeader = 128;
+constexpr std::uint64_t kMat5Header = 128;
 constexpr std::uint64_t kTag = 8;
 constexpr std::uint32_t kMatrix = 14;
 constexpr std::uint32_t kCompressed = 15;
@@ -149,7 +149,7 @@ void require_sound_elements(const fs::path& path) {
   const bool is_little = read(126, 1) == "I";
   const Elements elements(path, is_little, read);
   const std::uint64_t size = fs::file_size(path);
-  for (std::uint64_t place = kHeader; place < size;) {
+  for (std::uint64_t place = kMat5Header; place < size;) {
     const Element element = elements.at(place, size);
     if (element.type == kMatrix) elements.check(element.begin, element.end, 0);
     if (element.type == kCompressed) check_compressed(path, is_little, element);
@@ -157,14 +157,9 @@ void require_sound_elements(const fs::path& path) {
   }
 }
 
-constexpr std::size_t kMostAxes = 32;
+constexpr std::size_t kMostMat5Axes = 32;
 constexpr std::size_t kMostVariables = 10000;
-constexpr int kDeepest = 3;  ///< Of structs in structs.
-
-struct CloseVariable {
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using Variable = std::unique_ptr<matvar_t, CloseVariable>;
+constexpr int kDeepestStruct = 3;  ///< Of structs in structs.
 
 std::optional<NumberType> number_type(const matvar_t& variable) {
   switch (variable.class_type) {
@@ -221,6 +216,11 @@ ArrayShape stored_shape(const matvar_t& variable) {
 
 /// The open file and what its header says of the variables.
 class Mat5File::Content {
+  struct CloseVariable {
+    void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+  };
+  using Variable = std::unique_ptr<matvar_t, CloseVariable>;
+
  public:
   explicit Content(const fs::path& path)
       : path_(path), file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY)) {
@@ -306,7 +306,8 @@ ArrayEntry describe(const fs::path& path, const std::string& name, const matvar_
     entry.other_kind = kind_name(variable);
     return entry;
   }
-  if (variable.rank < 0 || static_cast<std::size_t>(variable.rank) > kMostAxes || !variable.dims) {
+  if (variable.rank < 0 || static_cast<std::size_t>(variable.rank) > kMostMat5Axes ||
+      !variable.dims) {
     throw damaged_mat5(path);
   }
   entry.type = *type;
@@ -341,7 +342,7 @@ void Mat5File::add_variable(const std::string& name, matvar_t& variable, int dep
   if (variable.class_type == MAT_C_CELL && add_cells(name, variable)) return;
   add(describe(path(), name, variable));
   content_->name(name, &variable);
-  if (variable.class_type != MAT_C_STRUCT || !variable.data || depth == kDeepest) return;
+  if (variable.class_type != MAT_C_STRUCT || !variable.data || depth == kDeepestStruct) return;
   const unsigned fields = Mat_VarGetNumberOfFields(&variable);
   char* const* names = Mat_VarGetStructFieldnames(&variable);
   for (unsigned i = 0; names && i < fields; ++i) {

@@ -88,9 +88,9 @@ Schema<OpenOptions> open_schema() {
             {"Levels",
              "Values of black and white samples as stored: 0,1023 for 10 bits in 16, -1,1 for "
              "normalised floats; empty = detected"})
-      .toggle("equalise", &O::equalise,
-              {"Equalise", "Bring all views to the brightness of the centre view"})
-      .toggle("no-equalise", &O::keep_brightness,
+      .toggle("equalize", &O::equalize,
+              {"Equalize", "Bring all views to the brightness of the centre view"})
+      .toggle("no-equalize", &O::keep_brightness,
               {"Keep differences of brightness",
                "Have methods take differences of brightness between views as they are, which they "
                "otherwise even out where these are measured"});
@@ -109,14 +109,14 @@ ParameterSet given_options(const OpenOptions& options) {
 
 namespace {
 
-constexpr int kMostViews = 1000000;
+constexpr int kMostGivenViews = 1000000;
 
 /// A whole number from 1 on that begins at `at`, which moves behind it; 0 if there is none.
 int take_count(const std::string& text, std::size_t& at) {
   int value = 0;
   const char* begin = text.data() + at;
   const auto [stop, error] = std::from_chars(begin, text.data() + text.size(), value);
-  if (error != std::errc() || value < 1 || value > kMostViews) return 0;
+  if (error != std::errc() || value < 1 || value > kMostGivenViews) return 0;
   at += static_cast<std::size_t>(stop - begin);
   return value;
 }
@@ -137,7 +137,7 @@ GridShape parse_grid(const std::string& text) {
     grid.u = take_count(text, at);
     break;
   }
-  if (grid.v < 1 || grid.u < 1 || at != text.size() || grid.v > kMostViews / grid.u) {
+  if (grid.v < 1 || grid.u < 1 || at != text.size() || grid.v > kMostGivenViews / grid.u) {
     throw InvalidInput("'" + text +
                        "' is no grid of views; give rows x columns, as in 9x9, or 1x49 for a scan "
                        "along a line");

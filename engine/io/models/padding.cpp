@@ -11,14 +11,14 @@
 namespace episcope::io {
 namespace {
 
-struct Place {
+struct PaddedPlace {
   int y = 0;
   int x = 0;
   const char* text = "";
 };
 
 /// Whether all of a map outside the place is invalid or of the value in the last corner.
-bool is_padding(const DisparityView& map, const Place& place, int height, int width) {
+bool is_padding(const DisparityView& map, const PaddedPlace& place, int height, int width) {
   const ImageView<const float>& values = map.disparity;
   std::optional<float> padding;
   for (int y = 0; y < values.height; ++y) {
@@ -34,7 +34,7 @@ bool is_padding(const DisparityView& map, const Place& place, int height, int wi
 }
 
 template <class T>
-ViewStack<T> cut(const ViewStack<T>& stack, const Place& place, int height, int width) {
+ViewStack<T> cut(const ViewStack<T>& stack, const PaddedPlace& place, int height, int width) {
   if (stack.empty()) return {};
   ViewStack<T> part(stack.grid(), height, width, 1, stack.first());
   for (int i = 0; i < stack.grid().count(); ++i) {
@@ -160,9 +160,9 @@ std::string remove_padding(DisparityField& field, int height, int width) {
   const int high = field.disparity.height();
   const int wide = field.disparity.width();
   if (high < height || wide < width || (high == height && wide == width)) return {};
-  const Place places[] = {{(high - height) / 2, (wide - width) / 2, "on all sides"},
-                          {0, 0, "on the right and below"}};
-  const auto fits = [&](const Place& place) {
+  const PaddedPlace places[] = {{(high - height) / 2, (wide - width) / 2, "on all sides"},
+                                {0, 0, "on the right and below"}};
+  const auto fits = [&](const PaddedPlace& place) {
     for (int i = 0; i < field.disparity.grid().count(); ++i) {
       const DisparityView map = field.view(field.disparity.view_at(i));
       if (!is_padding(map, place, height, width)) return false;
@@ -173,7 +173,7 @@ std::string remove_padding(DisparityField& field, int height, int width) {
   const bool is_one = places[0].y == places[1].y && places[0].x == places[1].x;
   const auto different = std::span(places).subspan(is_one ? 1 : 0);
   if (std::ranges::count_if(different, fits) != 1) return {};
-  const Place place = *std::ranges::find_if(different, fits);
+  const PaddedPlace place = *std::ranges::find_if(different, fits);
   field.valid = cut(field.valid, place, height, width);
   field.disparity = cut(field.disparity, place, height, width);
   return fmt::format("The maps of {}×{} px are padded {} with a constant; {}×{} px are used.", wide,

@@ -10,20 +10,20 @@ namespace episcope::io {
 namespace {
 
 constexpr std::size_t kFewestCameras = 3;
-constexpr double kMostPlaces = 10;  ///< Of a grid with gaps, for each camera.
+constexpr double kMostPosePlaces = 10;  ///< Of a grid with gaps, for each camera.
 constexpr double kMostSteps = 1e4;
 constexpr double kOneLine_spans = 0.02;  ///< Of the larger extent: then it is a single row.
 
 /// A camera seen by the first one: to the right, below, ahead of it.
-struct Place {
+struct PlanePlace {
   double x = 0;
   double y = 0;
   double z = 0;
 };
 
-std::vector<Place> places_of(const std::vector<CameraPose>& poses) {
+std::vector<PlanePlace> places_of(const std::vector<CameraPose>& poses) {
   const CameraPose& first = poses.front();
-  std::vector<Place> places;
+  std::vector<PlanePlace> places;
   for (const CameraPose& pose : poses) {
     const Direction from_first{pose.center[0] - first.center[0], pose.center[1] - first.center[1],
                                pose.center[2] - first.center[2]};
@@ -52,9 +52,9 @@ struct Steps {
   double off = 0;  ///< The largest deviation.
 };
 
-Steps steps_along(const std::vector<Place>& places, double Place::*axis, double gap) {
+Steps steps_along(const std::vector<PlanePlace>& places, double PlanePlace::*axis, double gap) {
   std::vector<double> sorted;
-  for (const Place& place : places) sorted.push_back(place.*axis);
+  for (const PlanePlace& place : places) sorted.push_back(place.*axis);
   std::ranges::sort(sorted);
   Steps steps;
   steps.first = sorted.front();
@@ -70,7 +70,7 @@ Steps steps_along(const std::vector<Place>& places, double Place::*axis, double 
     steps.count = 1 + static_cast<int>(std::lround(std::min(extent / *middle, kMostSteps)));
     steps.step = extent / (steps.count - 1);
   }
-  for (const Place& place : places) {
+  for (const PlanePlace& place : places) {
     const double from_first = place.*axis - steps.first;
     const int number = steps.step > 0 ? static_cast<int>(std::lround(from_first / steps.step)) : 0;
     steps.numbers.push_back(number);
@@ -79,16 +79,16 @@ Steps steps_along(const std::vector<Place>& places, double Place::*axis, double 
   return steps;
 }
 
-double extent(const std::vector<Place>& places, double Place::*axis) {
+double extent(const std::vector<PlanePlace>& places, double PlanePlace::*axis) {
   const auto [least, most] = std::ranges::minmax_element(places, {}, axis);
   return (*most).*axis - (*least).*axis;
 }
 
 /// The step of a full grid of so many cameras follows from its extents: rows and columns with
 /// about equal steps. Of a grid with gaps the step is smaller.
-double likely_step(const std::vector<Place>& places) {
-  const double width = extent(places, &Place::x);
-  const double height = extent(places, &Place::y);
+double likely_step(const std::vector<PlanePlace>& places) {
+  const double width = extent(places, &PlanePlace::x);
+  const double height = extent(places, &PlanePlace::y);
   const double longer = std::max(width, height);
   const double shorter = std::min(width, height);
   const auto count = static_cast<double>(places.size());
@@ -109,7 +109,7 @@ std::string problem_of(const PoseGrid& grid, const Steps& columns, const Steps& 
         depth / grid.step);
   }
   const double places = static_cast<double>(rows.count) * columns.count;
-  if (places > kMostPlaces * static_cast<double>(count)) {
+  if (places > kMostPosePlaces * static_cast<double>(count)) {
     return fmt::format("{} cameras do not fill a grid of equal steps, which would have {}×{}",
                        count, grid.grid.v, grid.grid.u);
   }
@@ -126,7 +126,7 @@ std::string problem_of(const PoseGrid& grid, const Steps& columns, const Steps& 
 
 /// The cameras in their places; says so if two stand in one.
 std::string fill(PoseGrid& grid, const Steps& columns, const Steps& rows,
-                 const std::vector<Place>& places) {
+                 const std::vector<PlanePlace>& places) {
   grid.order.assign(static_cast<std::size_t>(grid.grid.count()), kNoCamera);
   grid.positions.resize(grid.order.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -154,17 +154,17 @@ PoseGrid find_pose_grid(const std::vector<CameraPose>& poses) {
     return {.problem = fmt::format("the cameras are turned against each other by up to {:.3g}°",
                                    turn_deg)};
   }
-  const std::vector<Place> places = places_of(poses);
+  const std::vector<PlanePlace> places = places_of(poses);
   const double gap = likely_step(places) / 4;
   if (!(gap > 0)) return {.problem = "all cameras stand in one place"};
-  const Steps columns = steps_along(places, &Place::x, gap);
-  const Steps rows = steps_along(places, &Place::y, gap);
+  const Steps columns = steps_along(places, &PlanePlace::x, gap);
+  const Steps rows = steps_along(places, &PlanePlace::y, gap);
   grid.grid = {rows.count, columns.count};
   grid.step = columns.step > 0 && rows.step > 0 ? (columns.step + rows.step) / 2
                                                 : std::max(columns.step, rows.step);
   if (!(grid.step > 0))
     return {.problem = "the cameras do not stand in rows and columns of equal steps"};
-  const double depth = extent(places, &Place::z);
+  const double depth = extent(places, &PlanePlace::z);
   grid.problem = problem_of(grid, columns, rows, depth, poses.size());
   if (grid.problem.empty()) grid.problem = fill(grid, columns, rows, places);
   grid.focal_widths = poses.front().focal_widths;

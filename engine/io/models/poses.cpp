@@ -119,7 +119,7 @@ std::vector<CameraPose> read_binary_colmap_poses(const fs::path& path) {
 
 namespace {
 
-std::vector<std::string> words_of(const std::string& line) {
+std::vector<std::string> pose_words(const std::string& line) {
   std::istringstream in(line);
   std::vector<std::string> words;
   for (std::string word; in >> word;) words.push_back(word);
@@ -143,7 +143,7 @@ std::map<std::string, double> text_focal_widths(const fs::path& path) {
   std::map<std::string, double> focals;
   std::ifstream in(path);
   for (std::string line; std::getline(in, line);) {
-    const std::vector<std::string> words = words_of(line);
+    const std::vector<std::string> words = pose_words(line);
     if (words.size() < 5 || words[0].starts_with('#')) continue;
     const auto width = parse_number(words[2]);
     const auto focal = parse_number(words[4]);
@@ -167,7 +167,7 @@ std::vector<CameraPose> read_colmap_poses(const fs::path& path) {
     ++number;
     if (line.starts_with('#')) continue;
     if (std::exchange(is_of_points, !is_of_points)) continue;
-    const std::vector<std::string> words = words_of(line);
+    const std::vector<std::string> words = pose_words(line);
     if (words.size() < 10) refuse(path, number);
     std::array<double, 7> numbers{};
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -192,7 +192,7 @@ std::vector<CameraPose> read_llff_poses(const std::filesystem::path& path) {
   if (!is_sound) {
     throw IoError(path, fmt::format("the array has the shape {}, but poses are N×17 in C order; "
                                     "export them again or remove the file",
-                                    array_shape_text(file.header().shape)));
+                                    shape_text(file.header().shape)));
   }
   std::vector<float> all(shape[0] * kNumbers);
   file.read(ArrayShape(2, 0), shape, all.data());
@@ -269,10 +269,10 @@ struct PoseForm {
   const char* cameras = nullptr;  ///< A file beside it that is read, too.
 };
 
-constexpr PoseForm kForms[] = {{"transforms.json", read_nerf_poses},
-                               {"poses_bounds.npy", read_llff_poses},
-                               {"images.txt", read_colmap_poses, "cameras.txt"},
-                               {"images.bin", read_binary_colmap_poses, "cameras.bin"}};
+constexpr PoseForm kPoseForms[] = {{"transforms.json", read_nerf_poses},
+                                   {"poses_bounds.npy", read_llff_poses},
+                                   {"images.txt", read_colmap_poses, "cameras.txt"},
+                                   {"images.bin", read_binary_colmap_poses, "cameras.bin"}};
 
 constexpr std::array kParts{"train", "val", "test"};  ///< Of data sets for learning.
 
@@ -371,7 +371,7 @@ std::vector<FoundPoses> find_poses(const fs::path& folder, const fs::path& scene
                                    const std::vector<fs::path>& images) {
   for (const fs::path& base : {folder, scene}) {
     for (const char* inside : {"", "sparse/0", "sparse", "colmap"}) {
-      for (const PoseForm& form : kForms) {
+      for (const PoseForm& form : kPoseForms) {
         if (is_file(base / inside / form.name)) return {read_form(base / inside, form, images)};
       }
     }

@@ -18,14 +18,14 @@
 
 namespace episcope::io {
 
-/// A file is sound, but holds labels, maps or other things and no light field.
+/// Thrown for a sound file that holds labels, maps or other data, but no light field.
 class NoLightField : public IoError {
  public:
   using IoError::IoError;
 };
 
-/// What the headers of a light field tell of it, before anything is decoded. Values that they do
-/// not tell are 0 or empty.
+/// Content of a light field according to its headers, before anything is decoded. Unknown values
+/// are 0 or empty.
 struct SceneProbe {
   GridShape grid{};
   int height = 0;
@@ -38,66 +38,65 @@ struct SceneProbe {
   int frames = 0;        ///< Of a sequence of light fields; 0 = a single one.
 };
 
-/// A form of light fields that can be opened: one row of the table, one pair of files.
+/// Format of light fields that can be opened: one row of the table, one unit in `formats`.
 struct Reader {
   const char* id;    ///< Stored with results: "archive".
   const char* name;  ///< As in a sentence: "a light field of the 2013 archive".
-  /// Keys of the reading options (`open_schema`) that mean something to it, besides the focus
-  /// plane and what `assemble` does for all readers.
+  /// Keys of the reading options (`open_schema`) that the format uses, besides the focus plane and
+  /// the options that `assemble` handles.
   std::span<const char* const> options;
-  /// The file or folder that would be read for `path`, which may be it, beside it or around it;
-  /// empty if the form is another. Throws IoError for a damaged file.
+  /// Returns the file or folder to read for `path`: `path` itself, or something beside or around
+  /// it. Empty for another format. Throws IoError for a damaged file.
   std::filesystem::path (*find)(const std::filesystem::path& path, const OpenOptions& options);
   /// Reads what `find` found. Throws IoError, InvalidInput for a bad option, Cancelled.
   Scene (*read)(const std::filesystem::path& found, const OpenOptions& options,
                 const Progress& progress);
-  /// What the headers of what `find` found tell, within milliseconds; null = nothing but the form
-  /// is known without reading. Throws NoLightField, IoError for what cannot be read, as far as
-  /// headers show it.
+  /// Reads the headers of what `find` found, within milliseconds. Null = headers tell nothing but
+  /// the format. Throws NoLightField, and IoError for files that headers show to be unreadable.
   SceneProbe (*probe)(const std::filesystem::path& found, const OpenOptions& options) = nullptr;
 
-  /// Whether the option means something to it; false for the focus plane.
+  /// Whether the option has an effect on this format; false for the focus plane.
   [[nodiscard]] bool has_option(std::string_view key) const;
 };
 
-/// Every reader, in the order in which they are asked: the first that recognises a path reads it.
-/// Readers that ask others (mosaics, sequences) stand below the table, which is in open.cpp.
+/// All readers, in the order of precedence. The table is in open.cpp; readers that ask others are
+/// below it.
 [[nodiscard]] std::span<const Reader> readers();
 
-/// The reader of `path`, and what it reads. `reader` is null if there is none.
+/// Reader of a path, and the file or folder to read. `reader` is null if there is none.
 struct FoundReader {
   const Reader* reader = nullptr;
   std::filesystem::path path;
 };
-/// Throws IoError if there is no such path, or for a damaged file.
+/// Finds the first reader that recognizes `path`. Throws IoError if there is no such path, and for
+/// a damaged file.
 [[nodiscard]] FoundReader find_reader(const std::filesystem::path& path,
                                       const OpenOptions& options);
 
-/// The reader with this id; null for an unknown one.
+/// Finds the reader with this id; null for an unknown one.
 [[nodiscard]] const Reader* reader_named(const std::string& id);
 
-/// Whether a file or folder can be reached; of a link that leads to itself, false.
+/// Whether a file or folder exists; false for a link that leads to itself.
 [[nodiscard]] inline bool is_there(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::exists(path, error);
 }
 
-/// The folder of a scene of images, if `path` is one, one of its images or its parameters.cfg; else
-/// empty.
+/// Folder of a scene of images if `path` is the folder, one of its images or its parameters.cfg;
+/// else empty.
 [[nodiscard]] inline std::filesystem::path scene_folder(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return path;
   if (path.filename() != "parameters.cfg" && !is_image_name(path)) return {};
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
-/// Whether names of an image grid are given: then no other form of a folder is meant.
+/// Whether the options describe names of an image grid, which excludes other formats of a folder.
 [[nodiscard]] inline bool wants_image_grid(const OpenOptions& options) {
   return !options.pattern.empty() || options.snake;
 }
 
-/// Short name of a scene for lists and titles: the folder's name for a folder and for lf.h5, else
-/// the file's name without suffix; a folder of views called "lf" goes by the folder that it lies
-/// in.
+/// Short name of a scene for lists and titles: the name of its folder for a folder and for lf.h5,
+/// else the name of the file without suffix. A folder called "lf" takes the name of its parent.
 [[nodiscard]] inline std::string scene_name(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::path whole = std::filesystem::absolute(path, error).lexically_normal();

@@ -78,8 +78,8 @@ void require_fitting(const fs::path& path, const Scribbles& scribbles, const Fie
   }
 }
 
-std::uintmax_t file_bytes(const Scribbles& scribbles, const FieldShape& shape,
-                          const fs::path& former) {
+std::uintmax_t scribble_bytes(const Scribbles& scribbles, const FieldShape& shape,
+                              const fs::path& former) {
   std::error_code error;
   const std::uintmax_t kept = fs::file_size(former, error);
   const int views = scribbles.views.size() > 1 ? shape.grid.count() : 1;
@@ -135,7 +135,7 @@ void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Sce
   const Scribbles moved =
       is_as_stored ? Scribbles() : put_back(scribbles, former.get(), scene, progress);
   const Scribbles& stored = is_as_stored ? scribbles : moved;
-  AtomicFile target(path, file_bytes(stored, shape, path));
+  AtomicFile target(path, scribble_bytes(stored, shape, path));
   Hdf5Output file(target);
   const std::string owner = owner_name(scene);
   if (former) {

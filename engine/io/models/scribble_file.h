@@ -16,73 +16,72 @@ namespace episcope::io {
 /// If a focus plane is baked into the scene (shear.h), files keep the views as stored: reading
 /// moves scribbles to the plane, writing moves them back.
 
-/// Reads the scribbles of `scene` from a file in archive form (labels.h5), in canonical order: the
-/// file is assumed to store views in the order of the light field's own files. Names and colours
-/// are those in the file; files of other programs have none. Throws IoError if the file has no
-/// SCRIBBLES or they do not fit the light field; Cancelled.
+/// Reads the scribbles of `scene` from a file in archive form (labels.h5), in canonical order.
+/// Assumes that the file orders views as the files of the light field do. Takes names and colors
+/// from the file, which only this program writes. Throws IoError if the file has no SCRIBBLES or
+/// they do not fit the light field. Throws Cancelled.
 [[nodiscard]] Scribbles read_scribbles(const std::filesystem::path& path, const Scene& scene,
                                        const Progress& progress);
 
-/// Writes scribbles in archive form, with names and colours in attributes that other readers
-/// ignore. Everything else in the file is preserved, in particular GT_LABELS, and, with a focus
-/// plane, its scribbles outside the moved views. Atomic. Throws IoError, also if the file is not an
+/// Writes scribbles in archive form, with names and colors in attributes that other readers ignore.
+/// Preserves everything else in the file, in particular GT_LABELS. With a focus plane, also
+/// preserves scribbles outside the moved views. Atomic. Throws IoError, also if the file is not an
 /// HDF5 file, holds a light field or belongs to another one, or if a view of `scribbles` does not
-/// fit; Cancelled.
+/// fit. Throws Cancelled.
 void write_scribbles(const std::filesystem::path& path, const Scribbles& scribbles,
                      const Scene& scene, const Progress& progress);
 
-/// The dataset SCRIBBLES of an archive file, with label ids in canonical form.
+/// Dataset SCRIBBLES of an archive file, with label ids in canonical form.
 struct StoredScribbles {
   Scribbles scribbles;  ///< Views in the stored order.
   /// 0 is a label among the true labels of the file, which are to be raised by one.
   bool raises_labels = false;
 };
 
-/// Reads SCRIBBLES, which must exist. Unpainted pixels become 0: those with the value of the
-/// attribute `unpainted`, where this program has written it, else those of 0, −1 or 255. Where −1
-/// or 255 prevails and 0 is a label (`has_label_zero` says that there is one), ids are raised by
-/// one. Names and colours come from the attributes that `add_scribbles` writes. Throws IoError,
-/// Cancelled.
+/// Reads SCRIBBLES, which must exist. Unpainted pixels become 0: pixels with the value of the
+/// attribute `unpainted`, which this program writes, else pixels of 0, −1 or 255. Ids are raised by
+/// one if −1 or 255 prevails and 0 is a label (`has_label_zero`). Takes names and colors from the
+/// attributes that `add_scribbles` writes. Throws IoError, Cancelled.
 [[nodiscard]] StoredScribbles read_scribble_dataset(const Hdf5Input& file, const FieldShape& shape,
                                                     bool has_label_zero, const Progress& progress);
 
 /// Brings views into canonical order.
 void put_in_order(Scribbles& scribbles, GridShape grid, ViewFlip flip);
 
-/// Where scribbles are written and how the file orders views.
+/// Shape of the file to write scribbles to, and its order of views.
 struct ScribblePlace {
   FieldShape shape;
   ViewFlip flip;               ///< From the canonical order to that of the file.
   bool raises_labels = false;  ///< As StoredScribbles.
 };
 
-/// Adds SCRIBBLES as int32: `[y][x]` and the attribute `scribble_view` for one painted view, as in
-/// the archive, `[v][h][y][x]` for several. Names and colours go to attributes of the dataset that
-/// other readers ignore: `label_ids`, `label_names` (one per line), `label_colors` (R, G, B each),
-/// `unpainted` (0). Throws IoError, Cancelled.
+/// Adds SCRIBBLES as int32: `[y][x]` with the attribute `scribble_view` for one painted view, as in
+/// the archive, `[v][h][y][x]` for several. Names and colors go to attributes that other readers
+/// ignore: `label_ids`, `label_names` (one per line), `label_colors` (R, G, B each), `unpainted`
+/// (0). Throws IoError, Cancelled.
 void add_scribbles(Hdf5Output& file, const Scribbles& scribbles, const ScribblePlace& place,
                    const Progress& progress);
 
-/// Writes two PNG for each painted view into an existing folder: `scribbles_<v>_<u>.png` holds the
-/// ids (8-bit grey, 16-bit if one is above 255; 0 = unpainted), `scribbles_<v>_<u>_preview.png` the
-/// colours of the labels on a transparent ground. Views are numbered in canonical order, two digits
-/// each. Returns the files written. Each is atomic. Throws IoError.
+/// Writes two PNG for each painted view into an existing folder. `scribbles_<v>_<u>.png` holds the
+/// ids (8-bit grey, 16-bit for ids above 255; 0 = unpainted). `scribbles_<v>_<u>_preview.png` holds
+/// the colors of the labels on a transparent ground. Views are numbered in canonical order, two
+/// digits each. Returns the files written, each of them atomic. Throws IoError.
 std::vector<std::filesystem::path> write_scribble_pictures(const std::filesystem::path& folder,
                                                            const Scribbles& scribbles);
 
-/// Whether this is a folder or a picture, which `read_scribble_pictures` reads, by its name.
+/// Whether this is a folder or has the name of a picture, which `read_scribble_pictures` reads.
 [[nodiscard]] bool holds_scribble_pictures(const std::filesystem::path& path);
 
-/// Reads the ids of every `scribbles_<v>_<u>.png` in a folder; or those of one picture, which is of
-/// the centre view unless its name says another. Throws IoError, also if there is none, or if one
-/// lies outside `grid` or has another size than `height` × `width`.
+/// Reads the ids of every `scribbles_<v>_<u>.png` in a folder, or of one picture. A picture belongs
+/// to the center view unless its name says another. Throws IoError, also if there is no picture, or
+/// if one lies outside `grid` or is not `height` × `width`.
 [[nodiscard]] Scribbles read_scribble_pictures(const std::filesystem::path& path, GridShape grid,
                                                int height, int width);
 
-/// Reads the true labels (dataset GT_LABELS) of a file in archive form, `[v][u][y][x]` in canonical
-/// order: the file is assumed to store views and labels as the light field's own files do. Views
-/// that the file lacks are not covered. A focus plane baked into the scene (shear.h) is applied.
-/// Throws IoError if the file has no GT_LABELS or they do not fit the light field; Cancelled.
+/// Reads the true labels (GT_LABELS) of a file in archive form, `[v][u][y][x]` in canonical order.
+/// Assumes that the file stores views and labels as the files of the light field do. Omits views
+/// that the file lacks. Applies the focus plane of the scene (shear.h). Throws IoError if the file
+/// has no GT_LABELS or they do not fit the light field. Throws Cancelled.
 [[nodiscard]] ViewStack<std::int32_t> read_true_labels(const std::filesystem::path& path,
                                                        const Scene& scene,
                                                        const Progress& progress);

@@ -17,14 +17,14 @@ namespace episcope::io {
 namespace {
 
 constexpr const char* kLabels = "LABELS";
-constexpr const char* kProbabilities = "Probabilities";
-constexpr int kLongestSide = 1 << 15;  ///< In views or px: the number of views is an int.
+constexpr const char* kProbabilityDataset = "Probabilities";
+constexpr int kLongestSegmentSide = 1 << 15;  ///< In views or px: the number of views is an int.
 
 std::size_t label_count(const StoredSegmentation& labeling) {
   return labeling.infos.size();
 }
 
-std::uintmax_t file_bytes(const StoredSegmentation& labeling, bool with_probabilities) {
+std::uintmax_t segmentation_bytes(const StoredSegmentation& labeling, bool with_probabilities) {
   const std::uintmax_t bytes = labeling.labels.size() * sizeof(std::int32_t) + (1 << 16);
   if (!with_probabilities) return bytes;
   return bytes + labeling.labels.size() * label_count(labeling) * sizeof(float);
@@ -46,13 +46,13 @@ void write_probabilities(Hdf5Output& file, const StoredSegmentation& labeling,
   const GridShape grid = labels.grid();
   Hdf5Shape shape = map_shape(grid, labels.height(), labels.width());
   shape.push_back(label_count(labeling));
-  file.add_dataset<float>(kProbabilities, shape, std::string(map_axes(grid)) + ",label", "");
+  file.add_dataset<float>(kProbabilityDataset, shape, std::string(map_axes(grid)) + ",label", "");
   Image<float> samples(labels.height(), labels.width(), static_cast<int>(label_count(labeling)));
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
     const ViewIndex place = grid.view_at(i);
     fill_samples(probabilities({labels.first().v + place.v, labels.first().u + place.u}), samples);
-    file.write(kProbabilities, block_of(shape, place, grid.count() > 1), samples.data());
+    file.write(kProbabilityDataset, block_of(shape, place, grid.count() > 1), samples.data());
     progress.report((i + 1.0) / grid.count());
   }
 }
@@ -75,7 +75,7 @@ void write_segmentation(const std::filesystem::path& path, const StoredSegmentat
     throw InvalidInput("a segmentation without labels cannot be written");
   }
   progress.check();
-  AtomicFile target(path, file_bytes(labeling, static_cast<bool>(probabilities)));
+  AtomicFile target(path, segmentation_bytes(labeling, static_cast<bool>(probabilities)));
   Hdf5Output file(target);
   write_stack(file, kLabels, labeling.labels, "", progress.part(0, 0.2));
   add_label_list(file, kLabels, labeling.infos);
@@ -106,17 +106,17 @@ struct SegmentationFile::State {
 
   void require_sides() const {
     const bool is_sound = std::ranges::all_of(
-        shape, [](std::size_t side) { return side > 0 && side <= kLongestSide; });
+        shape, [](std::size_t side) { return side > 0 && side <= kLongestSegmentSide; });
     if (is_sound) return;
     throw IoError(file.path(), "the dataset LABELS has the shape " + shape_text(shape) +
-                                   ", but sides of 1 to " + std::to_string(kLongestSide) +
+                                   ", but sides of 1 to " + std::to_string(kLongestSegmentSide) +
                                    " are expected; write it again");
   }
   void read_first() {
     const std::vector<double> stated = file.numbers(kLabels, "first_view");
     if (stated.size() != 2) return;
     first = {whole_int(stated[0]).value_or(-1), whole_int(stated[1]).value_or(-1)};
-    constexpr int last = kLongestSide;
+    constexpr int last = kLongestSegmentSide;
     if (first.v >= 0 && first.v <= last && first.u >= 0 && first.u <= last) return;
     throw IoError(file.path(), "the attribute first_view of LABELS names no view; write it again");
   }
@@ -158,10 +158,10 @@ const std::vector<LabelInfo>& SegmentationFile::infos() const {
 
 bool SegmentationFile::has_probabilities() const {
   const State& state = *state_;
-  if (!state.file.has(kProbabilities)) return false;
+  if (!state.file.has(kProbabilityDataset)) return false;
   Hdf5Shape expected = state.shape;
   expected.push_back(state.infos.size());
-  return state.file.dataset(kProbabilities).shape == expected;
+  return state.file.dataset(kProbabilityDataset).shape == expected;
 }
 
 Image<std::int32_t> SegmentationFile::labels(ViewIndex view) const {
@@ -177,7 +177,7 @@ Image<float> SegmentationFile::probabilities(ViewIndex view) const {
   Hdf5Shape shape = state.shape;
   shape.push_back(state.infos.size());
   Image<float> samples(state.height(), state.width(), static_cast<int>(state.infos.size()));
-  state.file.read(kProbabilities, block_of(shape, state.place(view), state.has_views()),
+  state.file.read(kProbabilityDataset, block_of(shape, state.place(view), state.has_views()),
                   samples.data());
   return samples;
 }

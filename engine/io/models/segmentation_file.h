@@ -18,17 +18,18 @@
 
 namespace episcope::io {
 
-/// Probabilities of one view, `[y][label][x]`, 0 … 255 for 0 … 1.
+/// Returns the probabilities of one view, `[y][label][x]`, 0 … 255 for 0 … 1.
 using ViewProbabilities = std::function<VolumeView<const std::uint8_t>(ViewIndex)>;
 
-/// As files hold them: `[y][x][label]` in [0, 1], into an image of that size.
+/// Converts probabilities to the form of files, `[y][x][label]` in [0, 1], in an image of that
+/// size.
 void fill_samples(VolumeView<const std::uint8_t> probabilities, Image<float>& samples);
 
-/// The reverse. What `fill_samples` wrote comes back bit by bit; other values are bounded to [0, 1]
-/// and rounded, and what is no number becomes 0.
+/// Inverse of `fill_samples`, whose output comes back bit by bit. Other values are clamped to [0,
+/// 1] and rounded; NaN becomes 0.
 [[nodiscard]] Volume<std::uint8_t> bytes_of(const Image<float>& samples);
 
-/// The content of a segmentation file except its probabilities.
+/// Content of a segmentation file except its probabilities.
 struct StoredSegmentation {
   ViewStack<std::int32_t> labels;
   std::vector<LabelInfo> infos;  ///< By id; those of the layers of probabilities above all.
@@ -38,12 +39,11 @@ struct StoredSegmentation {
   double seconds = 0;
 };
 
-/// Writes a segmentation in canonical order of views: `LABELS` int32 [v][u][y][x],
-/// or [y][x] with the attribute `view` for a single one, with names and colours as SCRIBBLES has
-/// them; if `probabilities` is set, `Probabilities` float [v][u][y][x][label] (or [y][x][label]) as
-/// the archive names it, labels as in StoredSegmentation::infos; attributes of the root:
-/// `parameters`, `source`, `seconds`, `version`, `reader`, `reading`. Atomic. Throws IoError,
-/// Cancelled.
+/// Writes a segmentation in canonical order of views. `LABELS` is int32 [v][u][y][x], or [y][x]
+/// with the attribute `view` for a single view; it has names and colors as SCRIBBLES. If
+/// `probabilities` is set, `Probabilities` is float [v][u][y][x][label] (or [y][x][label]), with
+/// the labels of StoredSegmentation::infos. Attributes of the root: `parameters`, `source`,
+/// `seconds`, `version`, `reader`, `reading`. Atomic. Throws IoError, Cancelled.
 void write_segmentation(const std::filesystem::path& path, const StoredSegmentation& labeling,
                         const ViewProbabilities& probabilities, const Progress& progress);
 
@@ -61,12 +61,12 @@ class SegmentationFile {
   [[nodiscard]] bool has_probabilities() const;
   /// Labels of a view, `[y][x]`. Precondition: `contains(view)`. Throws IoError.
   [[nodiscard]] Image<std::int32_t> labels(ViewIndex view) const;
-  /// `[y][x][label]`, labels in the order of `infos`. Precondition: `has_probabilities` and
-  /// `contains(view)`. Throws IoError.
+  /// Probabilities of a view, `[y][x][label]`, labels in the order of `infos`. Precondition:
+  /// `has_probabilities` and `contains(view)`. Throws IoError.
   [[nodiscard]] Image<float> probabilities(ViewIndex view) const;
-  /// Light field that it belongs to, as its file says; empty if it does not.
+  /// Light field that the segmentation belongs to, as stored; may be empty.
   [[nodiscard]] std::string source() const;
-  /// How that was read; unknown for files of former versions.
+  /// Reading of that light field; unknown for files of former versions.
   [[nodiscard]] Reading reading() const;
 
  private:
@@ -74,8 +74,8 @@ class SegmentationFile {
   std::unique_ptr<State> state_;
 };
 
-/// Whether the file is one that `write_segmentation` wrote: it holds LABELS and neither samples nor
-/// what a user painted. Throws IoError if it is an HDF5 file and damaged.
+/// Whether `write_segmentation` wrote the file: it holds LABELS, but neither samples nor scribbles.
+/// Throws IoError for a damaged HDF5 file.
 [[nodiscard]] bool is_segmentation_file(const std::filesystem::path& path);
 
 }  // namespace episcope::io

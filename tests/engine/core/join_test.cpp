@@ -2,6 +2,7 @@
 #include "engine/core/text.h"
 #include "tests/test_main.h"
 
+#include <set>
 #include <vector>
 
 namespace episcope::in_join_test {
@@ -26,6 +27,15 @@ class JoinTest : public QObject {
 
     QCOMPARE(joined(std::vector<int>{9, 9, 512}, "×", text), std::string("9×9×512"));
     QCOMPARE(joined(std::vector<Item>{{"a"}, {"b"}}, "|", &Item::name), std::string("a|b"));
+  }
+
+  void takenName_getsTheFirstFreeNumber() {
+    const std::set<std::string> taken{"a", "a 2"};
+    const auto is_taken = [&](const std::string& name) { return taken.contains(name); };
+
+    QCOMPARE(unique_name("b", " ", is_taken), std::string("b"));
+    QCOMPARE(unique_name("a", " ", is_taken), std::string("a 3"));
+    QCOMPARE(unique_name("a", "-", is_taken), std::string("a-2"));
   }
 };
 

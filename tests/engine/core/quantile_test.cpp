@@ -14,6 +14,7 @@ class QuantileTest : public QObject {
   void share_choosesByRank_data();
   void share_choosesByRank();
   void values_areKept();
+  void median_isTheUpperOfTwo();
 };
 
 void QuantileTest::share_choosesByRank_data() {
@@ -47,6 +48,12 @@ void QuantileTest::values_areKept() {
 
   std::sort(values.begin(), values.end());
   QCOMPARE(values, (std::vector<float>{1, 2, 3, 4, 5}));
+}
+
+void QuantileTest::median_isTheUpperOfTwo() {
+  QCOMPARE(median({4, 1, 3, 2}), 3.0);
+  QCOMPARE(median({5, 1, 3}), 3.0);
+  QCOMPARE(median({}), 0.0);
 }
 
 }  // namespace episcope::in_quantile_test

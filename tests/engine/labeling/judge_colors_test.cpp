@@ -58,7 +58,7 @@ struct Bar {
     const RayLabelingInput input{nullptr, knows_disparity ? &disparity : nullptr, nullptr,
                                  light_field.get()};
     // Nothing is smoothed: the labels of the left view are too wide.
-    judge_colors(input, kLeft, {.smoothness = 0.01}, Progress(), probabilities);
+    reweight_by_color(input, kLeft, {.smoothness = 0.01}, Progress(), probabilities);
   }
   [[nodiscard]] std::uint8_t of_bar(ViewIndex view, int x) const {
     return probabilities.view(view).view().at(kHeight / 2, 1, x);

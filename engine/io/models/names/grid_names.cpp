@@ -134,7 +134,7 @@ std::vector<fs::path> left_out_of(const std::vector<fs::path>& images, const Vie
 }
 
 /// A view as grey values of any range, reduced to about 512 px.
-Image<float> grey_view(const fs::path& path, int orientation) {
+Image<float> gray_view(const fs::path& path, int orientation) {
   constexpr int kSide = 512;
   return std::visit(
       [](const auto& image) {
@@ -193,7 +193,7 @@ void arrange(PlacedViews& placed, const ListLayout& layout) {
 Image<float> usual_view(const ViewFiles& list) {
   const auto view = [&](std::size_t place) -> std::optional<Image<float>> {
     try {
-      return grey_view(list.files[place], list.orientation);
+      return gray_view(list.files[place], list.orientation);
     } catch (const IoError&) {
       return std::nullopt;
     }
@@ -206,7 +206,7 @@ Image<float> usual_view(const ViewFiles& list) {
   if (first && is_same(middle, *first)) return *first;
   const auto last = view(list.files.size() - 1);
   if (first && (is_same(last, *first) || !middle)) return *first;
-  return middle ? *middle : grey_view(list.files.front(), list.orientation);
+  return middle ? *middle : gray_view(list.files.front(), list.orientation);
 }
 
 /// What the images of a list tell about their places. Those that cannot be used are blank, which
@@ -216,7 +216,7 @@ ListLayout look_for_layout(const ViewFiles& list, const Progress& progress) {
   const auto view = [&](int index) {
     const Image<float> blank(usual.height(), usual.width());
     try {
-      Image<float> grey = grey_view(list.files[static_cast<std::size_t>(index)], list.orientation);
+      Image<float> grey = gray_view(list.files[static_cast<std::size_t>(index)], list.orientation);
       const bool fits = grey.height() == usual.height() && grey.width() == usual.width();
       return fits ? grey : blank;
     } catch (const IoError&) {

@@ -15,23 +15,23 @@ namespace episcope::io {
 struct PosedViews {
   std::vector<std::filesystem::path> files{};  ///< Of the poses; empty = there are none.
   PlacedViews placed{};
-  double step = 0;          ///< Of neighbouring cameras, in units of the scene.
+  double step = 0;          ///< Of neighboring cameras, in units of the scene.
   double focal_widths = 0;  ///< Focal length in widths of a view; 0 = not stated.
   std::string evidence{};   ///< For the report: "9×9 by transforms.json: cameras in steps of …".
   std::string problem{};    ///< Why the poses are not used, as a clause; empty if they are.
 
   [[nodiscard]] bool are_used() const { return !files.empty() && problem.empty(); }
-  /// "transforms.json": what the files of the poses are called.
+  /// Name of the files of poses: "transforms.json".
   [[nodiscard]] std::string name() const;
 };
 
-/// Whether a folder has no images but in the folders inside that its files of poses speak of.
+/// Whether all images of a folder lie in subfolders that its files of poses name.
 [[nodiscard]] bool has_parts_with_poses(const std::filesystem::path& folder);
 
-/// Throws IoError that says why the poses are not those of a light field.
+/// Throws IoError that says why the poses form no light field.
 [[noreturn]] void refuse_poses(const std::filesystem::path& folder, const PosedViews& poses);
 
-/// A folder of images understood as a grid of views.
+/// Folder of images understood as a grid of views.
 struct NamedGrid {
   PlacedViews placed;
   std::string pattern;                          ///< As in ViewNames.
@@ -39,18 +39,17 @@ struct NamedGrid {
   PosedViews poses{};                           ///< What poses say, without the views themselves.
 };
 
-/// Finds the place of every view by the poses of their cameras, if a file states them and they form
-/// a light field; else from its name: by the option `pattern` if it is given, else by what the names
-/// have in common (view_names.h), or by the folders that they are in (view_folders.h). With the
-/// option `snake` every second row is turned round. A list of views is not yet a grid. Throws IoError that says which view is missing, which pattern
-/// was tried and how many files matched; InvalidInput for a wrong pattern.
+/// Places every view: by the poses of their cameras if a file states them and they form a light
+/// field; else by name. The option `pattern` decides on names, else their common form
+/// (view_names.h), or their folders (view_folders.h). The option `snake` turns every second row. A
+/// list of views is not yet a grid. Throws IoError that says which view is missing, which pattern
+/// was tried and how many files matched. Throws InvalidInput for a wrong pattern.
 [[nodiscard]] NamedGrid name_grid(const std::filesystem::path& folder, const OpenOptions& options);
 
-/// Gives the views the rows and columns that they have in the end: those of the option `grid` for a
-/// list, or else those that the images themselves tell (list_layout.h). Returns a sentence about
-/// what was found, empty if the names tell all. Throws Undecided if the images of a list tell
-/// nothing, IoError if there are not as many views as the option says, or if poses say that they
-/// are none, InvalidInput for a wrong option, Cancelled.
+/// Gives the views their final rows and columns: the option `grid` decides for a list, else the
+/// images (list_layout.h). Returns a sentence about the finding, empty if the names suffice. Throws
+/// Undecided if the images of a list tell nothing, IoError if the number of views contradicts the
+/// option or the poses form no light field, InvalidInput for a wrong option, Cancelled.
 std::string settle_grid(const std::filesystem::path& folder, NamedGrid& named,
                         const OpenOptions& options, const Progress& progress);
 

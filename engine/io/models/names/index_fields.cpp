@@ -17,7 +17,7 @@
 namespace episcope::io {
 namespace {
 
-using Form = IndexFields::Form;
+using FieldForm = IndexFields::Form;
 
 constexpr std::size_t kMostFields = 8;  ///< That vary; names with more tell nothing.
 constexpr double kMostlyThere = 0.5;    ///< Part of a grid that names must fill to be one.
@@ -108,7 +108,7 @@ bool tells_names_apart(const Field& a, const Field& b) {
 }
 
 /// Two indices that may be row and column.
-struct Pair {
+struct NumberPair {
   std::size_t first = 0;
   std::size_t second = 0;
   WordOrder words = WordOrder::Unknown;
@@ -131,7 +131,7 @@ class Finder {
 
   IndexFields find() const {
     IndexFields found = find_indices();
-    if (found.form == Form::None) {
+    if (found.form == FieldForm::None) {
       if (const auto grid = signed_grid()) return *grid;
       if (const auto grid = position_grid()) return *grid;
     }
@@ -142,18 +142,18 @@ class Finder {
  private:
   IndexFields find_indices() const {
     if (varying_.empty()) return {};
-    if (varying_.size() > kMostFields) return {.form = Form::Unclear};
+    if (varying_.size() > kMostFields) return {.form = FieldForm::Unclear};
     if (varying_.size() == 1) return line_or_list(varying_.front());
-    const std::vector<Pair> pairs = ranked_pairs();
+    const std::vector<NumberPair> pairs = ranked_pairs();
     const bool is_grid = !pairs.empty() && (pairs[0].is_full || pairs[0].filled >= kMostlyThere);
-    if (is_grid && is_ambiguous(pairs)) return {.form = Form::Unclear};
+    if (is_grid && is_ambiguous(pairs)) return {.form = FieldForm::Unclear};
     if (is_grid) return as_grid(pairs.front());
-    if (const auto running = running_index()) return {.form = Form::List, .index = running};
+    if (const auto running = running_index()) return {.form = FieldForm::List, .index = running};
     if (varying_.size() == 2 && may_be_index(varying_[0]) && may_be_index(varying_[1])) {
       const auto [a, b] = std::pair(varying_[0], varying_[1]);
       return as_grid({a, b, words_.order_of(a, b)});
     }
-    return {.form = Form::Unclear};
+    return {.form = FieldForm::Unclear};
   }
 
   /// Of rows or columns.
@@ -161,17 +161,17 @@ class Finder {
     return !fields_[number].run.is_scattered() && !words_.is_other_count(number);
   }
 
-  static IndexFields as_grid(const Pair& pair) {
+  static IndexFields as_grid(const NumberPair& pair) {
     const bool is_swapped = pair.words == WordOrder::ColumnFirst;
-    return {.form = pair.is_full ? Form::Grid : Form::Gaps,
+    return {.form = pair.is_full ? FieldForm::Grid : FieldForm::Gaps,
             .row = is_swapped ? pair.second : pair.first,
             .column = is_swapped ? pair.first : pair.second,
             .is_told_by_words = pair.words != WordOrder::Unknown};
   }
 
   /// Every pair that could be row and column, the best first.
-  std::vector<Pair> ranked_pairs() const {
-    std::vector<Pair> pairs;
+  std::vector<NumberPair> ranked_pairs() const {
+    std::vector<NumberPair> pairs;
     for (std::size_t i = 0; i < varying_.size(); ++i) {
       for (std::size_t j = i + 1; j < varying_.size(); ++j) {
         const Field& a = fields_[varying_[i]];
@@ -179,7 +179,7 @@ class Finder {
         const bool may_fit = a.run.values.size() * b.run.values.size() >= count_ &&
                              may_be_index(varying_[i]) && may_be_index(varying_[j]);
         if (!may_fit || !tells_names_apart(a, b)) continue;
-        Pair pair{varying_[i], varying_[j], words_.order_of(varying_[i], varying_[j])};
+        NumberPair pair{varying_[i], varying_[j], words_.order_of(varying_[i], varying_[j])};
         pair.filled = static_cast<double>(count_) /
                       (static_cast<double>(a.run.length()) * static_cast<double>(b.run.length()));
         pair.is_full = static_cast<long long>(count_) == a.run.length() * b.run.length();
@@ -188,16 +188,16 @@ class Finder {
         pairs.push_back(pair);
       }
     }
-    std::ranges::stable_sort(pairs, std::ranges::greater{}, &Pair::rank);
+    std::ranges::stable_sort(pairs, std::ranges::greater{}, &NumberPair::rank);
     return pairs;
   }
 
   /// Whether another pair has as much to say for itself as the first and says something else.
-  bool is_ambiguous(const std::vector<Pair>& pairs) const {
-    const Pair& best = pairs.front();
+  bool is_ambiguous(const std::vector<NumberPair>& pairs) const {
+    const NumberPair& best = pairs.front();
     const Field& a = fields_[best.first];
     const Field& b = fields_[best.second];
-    return std::any_of(pairs.begin() + 1, pairs.end(), [&](const Pair& other) {
+    return std::any_of(pairs.begin() + 1, pairs.end(), [&](const NumberPair& other) {
       if (other.rank != best.rank) return false;
       const Field& c = fields_[other.first];
       const Field& d = fields_[other.second];
@@ -219,7 +219,7 @@ class Finder {
     if (!is_full || !tells_names_apart(a, b)) return std::nullopt;
     IndexFields found =
         as_grid({.first = axes[0], .second = axes[1], .words = words_.order_of(axes[0], axes[1])});
-    found.form = Form::Grid;
+    found.form = FieldForm::Grid;
     return found;
   }
 
@@ -235,7 +235,7 @@ class Finder {
     const auto found =
         full_grid([](const Field& field) { return field.has_even_steps || field.has_signed_run; });
     if (!found) return std::nullopt;
-    return IndexFields{.form = Form::Grid,
+    return IndexFields{.form = FieldForm::Grid,
                        .y = found->row,
                        .x = found->column,
                        .is_told_by_words = found->is_told_by_words};
@@ -255,14 +255,14 @@ class Finder {
 
   /// A single row, a single column, or a list.
   IndexFields line_or_list(std::size_t index) const {
-    IndexFields found{.form = Form::List, .index = index};
+    IndexFields found{.form = FieldForm::List, .index = index};
     if (fields_[index].run.values.size() != count_) return found;
     if (index > 0 && is_constant_index(index - 1, index, index - 1)) {
-      found = {.form = Form::Grid, .row = index - 1, .column = index};
+      found = {.form = FieldForm::Grid, .row = index - 1, .column = index};
     } else if (index + 1 < fields_.size() && is_constant_index(index + 1, index, index)) {
-      found = {.form = Form::Grid, .row = index, .column = index + 1};
+      found = {.form = FieldForm::Grid, .row = index, .column = index + 1};
     }
-    if (found.form == Form::List) return found;
+    if (found.form == FieldForm::List) return found;
     const WordOrder words = words_.order_of(*found.row, *found.column);
     found.is_told_by_words = words != WordOrder::Unknown;
     if (words == WordOrder::ColumnFirst) std::swap(found.row, found.column);
@@ -457,7 +457,7 @@ bool are_rows(const Rows& rows) {
          });
 }
 
-NameGroup joined(const Rows& rows, std::size_t place) {
+NameGroup joined_rows(const Rows& rows, std::size_t place) {
   NameGroup whole{rows.begin()->second->skeleton, {}};
   whole.skeleton[place] = kNumberMark;
   const auto number =
@@ -490,7 +490,7 @@ void join_lettered_rows(std::vector<NameGroup>& groups) {
   const auto found = std::ranges::find_if(
       candidates, [](const auto& candidate) { return are_rows(candidate.second); });
   if (found == candidates.end()) return;
-  NameGroup whole = joined(found->second, found->first.place);
+  NameGroup whole = joined_rows(found->second, found->first.place);
   if (find_index_fields(whole).form != IndexFields::Form::Grid) return;
   const std::string rest = found->first.rest;
   std::erase_if(groups, [&, place = found->first.place](NameGroup& group) {

@@ -135,8 +135,8 @@ struct WordPair {
   const char* row;
   const char* column;
 };
-constexpr std::array kPairs{WordPair{"r", "c"}, WordPair{"y", "x"}, WordPair{"v", "u"},
-                            WordPair{"t", "s"}};
+constexpr std::array kWordPairs{WordPair{"r", "c"}, WordPair{"y", "x"}, WordPair{"v", "u"},
+                                WordPair{"t", "s"}};
 
 template <std::size_t N>
 bool is_one_of(const std::array<const char*, N>& words, std::string_view word) {
@@ -152,7 +152,8 @@ bool is_column(const std::string& word) {
 }
 
 bool is_role(const std::string& word) {
-  return is_row(word) || is_column(word) || std::ranges::any_of(kPairs, [&](const WordPair& pair) {
+  return is_row(word) || is_column(word) ||
+         std::ranges::any_of(kWordPairs, [&](const WordPair& pair) {
            return word == pair.row || word == pair.column;
          });
 }
@@ -162,7 +163,7 @@ WordOrder order_of_words(const std::string& first, const std::string& second) {
     return is_column(first) || is_row(second) ? WordOrder::Unknown : WordOrder::RowFirst;
   }
   if (is_column(first) || is_row(second)) return WordOrder::ColumnFirst;
-  for (const auto& [row, column] : kPairs) {
+  for (const auto& [row, column] : kWordPairs) {
     if (first == row && second == column) return WordOrder::RowFirst;
     if (first == column && second == row) return WordOrder::ColumnFirst;
   }

@@ -18,20 +18,19 @@ struct NameNumber {
   bool may_be_dash = false;  ///< but a letter does: "view-3".
   bool has_plus = false;     ///< A "+" stands there.
 
-  /// What it would be as an index: whole, of at most 18 digits.
+  /// Value as an index: whole, of at most 18 digits.
   [[nodiscard]] std::optional<long long> count() const;
-  /// The same with its sign.
+  /// Value as an index with its sign.
   [[nodiscard]] std::optional<long long> signed_count() const;
-  /// What it would be as a position: with its sign.
+  /// Value as a position, with its sign.
   [[nodiscard]] double position() const { return has_minus && value != 0 ? -value : value; }
 };
 
-/// Stands in a skeleton for each number, since no name can hold it.
+/// Mark for each number in a skeleton, which no name can hold.
 inline constexpr char kNumberMark = '/';
 
-/// The name of an image, without its folder: "out_03_-1.5.png" has the skeleton "out_/_/.png" and
-/// the numbers 3 and −1.5. Digits of the suffix are no numbers, and its letters count as lower
-/// case.
+/// Name of an image, without its folder: "out_03_-1.5.png" has the skeleton "out_/_/.png" and the
+/// numbers 3 and −1.5. Digits of the suffix are no numbers, and its letters count as lower case.
 struct NameParts {
   std::string skeleton;
   std::vector<NameNumber> numbers;
@@ -50,11 +49,11 @@ struct NameGroup {
   std::vector<NumberedImage> images;
 };
 
-/// All images by skeleton, the largest group first. Names without numbers form groups too.
+/// Groups images by skeleton, the largest group first. Names without numbers form groups too.
 [[nodiscard]] std::vector<NameGroup> group_by_name(
     const std::vector<std::filesystem::path>& images);
 
-/// What the words beside two numbers of a name say of them.
+/// Order of two numbers according to the words beside them.
 enum class WordOrder { Unknown, RowFirst, ColumnFirst };
 
 /// Words of a group's names, in lower case.
@@ -62,15 +61,15 @@ class NameWords {
  public:
   explicit NameWords(const std::string& skeleton);
 
-  /// By the words before both numbers, or those that follow both: row and col(umn), r and c, y
-  /// and x, v and u, t and s, in either order; row or col(umn) alone tells too. The letter alone
-  /// does not, because it may stand for anything.
+  /// Order according to the words before both numbers, or after both: row and col(umn), r and c, y
+  /// and x, v and u, t and s, in either order. The word row or col(umn) alone suffices; a single
+  /// letter does not, because it may stand for anything.
   [[nodiscard]] WordOrder order_of(std::size_t first, std::size_t second) const;
 
-  /// Whether a word says that a number counts something else: frames, times, exposures.
+  /// Whether a word says that a number counts frames, times or exposures.
   [[nodiscard]] bool is_other_count(std::size_t number) const;
 
-  /// Whether nothing but a separator stands before a number.
+  /// Whether only a separator precedes a number.
   [[nodiscard]] bool is_free(std::size_t number) const { return free_[number]; }
 
  private:
@@ -79,11 +78,11 @@ class NameWords {
   std::vector<bool> free_;
 };
 
-/// Whether names hold a word for what belongs to views and is none itself: label, mask, depth,
-/// disparity, normal, thumbnail, …
+/// Whether names hold a word for data beside views: label, mask, depth, disparity, normal,
+/// thumbnail, …
 [[nodiscard]] bool names_companions(const std::string& skeleton);
 
-/// Whether names hold a word for one image that is a light field of its own: eslf, macpi.
+/// Whether names hold a word for one image that is a light field: eslf, macpi.
 [[nodiscard]] bool names_mosaics(const std::string& skeleton);
 
 }  // namespace episcope::io

@@ -75,7 +75,7 @@ void require_fields(const std::string& text, std::vector<NameField> fields) {
 }
 
 template <class T>
-std::optional<T> number_of(std::string_view text) {
+std::optional<T> parsed(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   T value{};
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -86,7 +86,7 @@ std::optional<T> number_of(std::string_view text) {
 /// Whether the text of a field is a number as it must be, which is then stored.
 bool store(NameField field, std::string_view text, NamedView& view) {
   const auto is_stored = [&]<class T>(std::optional<T>& value) {
-    value = number_of<T>(text);
+    value = parsed<T>(text);
     return value.has_value();
   };
   switch (field) {
@@ -313,7 +313,7 @@ class GroupNames {
     const auto field = field_named(name);
     if (!field) {
       refuse_regex(text_, "has an unknown group '" + std::string(name) +
-                        "'; there are row, col, index, y and x");
+                              "'; there are row, col, index, y and x");
     }
     groups_.fields.emplace_back(++count_, *field);
     groups_.expression += '(';
@@ -336,9 +336,10 @@ std::regex compile_regex(const std::string& expression, const std::string& as_gi
       case std::regex_constants::error_brack:
         refuse_regex(as_given, "lacks a ] or a [");
       case std::regex_constants::error_paren:
-        refuse_regex(as_given,
-               "lacks a ) or a (, repeats nothing with *, + or ?, or has a kind of group that is "
-               "not known");
+        refuse_regex(
+            as_given,
+            "lacks a ) or a (, repeats nothing with *, + or ?, or has a kind of group that is "
+            "not known");
       case std::regex_constants::error_brace:
       case std::regex_constants::error_badbrace:
         refuse_regex(as_given, "has a wrong {…}; a count such as {1,3} is expected");

@@ -8,7 +8,7 @@
 
 namespace episcope::io {
 
-/// What the name of an image says of its place.
+/// Place of an image according to its name.
 struct NamedView {
   std::filesystem::path path;
   std::optional<long long> row{};
@@ -18,21 +18,19 @@ struct NamedView {
   std::optional<double> x{};
 };
 
-/// A user's pattern for the names of views: the whole name with its suffix, with {row} and {col},
-/// one of them, or {index}, for whole numbers; maybe {y} and {x} for positions of cameras, which
-/// may stand alone; `*` for anything and `?` for one character. Upper and lower case of letters are
-/// not told apart. Or `re:` and a regular expression (ECMAScript) for the whole name, with named
-/// groups: `re:(?<row>\d+)of(?<col>\d+).*`.
+/// Pattern for the names of views, as users write it. It matches the whole name with its suffix and
+/// ignores case. Fields: {row} and {col}, one of them, or {index}, for whole numbers; {y} and {x}
+/// for positions of cameras, also alone; `*` for anything and `?` for one character. Or `re:` and a
+/// regular expression (ECMAScript) with named groups: `re:(?<row>\d+)of(?<col>\d+).*`.
 class NamePattern {
  public:
   class Matcher;
 
-  /// Throws InvalidInput, with a sentence that says what is wrong, also if it is longer than 250
-  /// bytes.
+  /// Throws InvalidInput with a sentence about the mistake, also for more than 250 bytes.
   explicit NamePattern(const std::string& text);
 
-  /// What the name of a view says; nothing if it does not match, or if a field is no number. In
-  /// polynomial time, whatever the pattern.
+  /// Reads the fields of a name; nothing if it does not match, or if a field is no number. Takes
+  /// polynomial time for any pattern.
   [[nodiscard]] std::optional<NamedView> match(const std::filesystem::path& path) const;
 
  private:

@@ -32,9 +32,9 @@ auto merit_of(const PartOfGrid& part) {
 
 /// The largest part with one step and one first place, of which others are multiples of the step
 /// away.
-class Search {
+class PartSearch {
  public:
-  Search(const std::vector<bool>& is_filled, PartOfGrid& best)
+  PartSearch(const std::vector<bool>& is_filled, PartOfGrid& best)
       : is_filled_(is_filled), best_(best) {}
 
   void look(int step, ViewIndex offset) {
@@ -91,7 +91,7 @@ std::optional<ViewIndex> PartOfGrid::in_part(ViewIndex view) const {
 
 PartOfGrid largest_filled_part(const std::vector<bool>& is_filled, GridShape whole) {
   PartOfGrid best{whole, {0, 0}, 1, {0, 0}};
-  Search search(is_filled, best);
+  PartSearch search(is_filled, best);
   for (int step = 1; step <= std::max(whole.v, whole.u); ++step) {
     if (steps_in(whole.v, step) * steps_in(whole.u, step) < best.grid.count()) break;
     for (int v = 0; v < std::min(step, whole.v); ++v) {
@@ -141,7 +141,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFewestViews = 3;
+constexpr int kFewestOpenedViews = 3;
 constexpr std::size_t kSmallestShare = 4;  ///< One of so many views that are there.
 
 bool is_there(const GridWithGaps& views, ViewIndex view) {
@@ -211,7 +211,8 @@ std::optional<PartOfGrid> part_to_open(const GridWithGaps& views) {
   const PartOfGrid part = largest_filled_part(is_filled, views.shape());
   const auto count = static_cast<std::size_t>(part.grid.count());
   const std::size_t there = views.files.size() - views.missing();
-  const bool is_worth_it = part.grid.count() >= kFewestViews && count * kSmallestShare >= there;
+  const bool is_worth_it =
+      part.grid.count() >= kFewestOpenedViews && count * kSmallestShare >= there;
   return is_worth_it ? std::optional(part) : std::nullopt;
 }
 
@@ -253,7 +254,7 @@ std::string part_text(const GridWithGaps& views, const PartOfGrid& part) {
 
 namespace {
 
-constexpr std::size_t kMostNamed = 3;  ///< Reasons, and views of each.
+constexpr std::size_t kMostNamedReasons = 3;  ///< Reasons, and views of each.
 
 /// A part of a part of a grid, as a part of that grid.
 PartOfGrid part_of(const std::optional<PartOfGrid>& outer, const PartOfGrid& inner) {
@@ -270,9 +271,9 @@ std::string name_in(const ViewFiles& views, const std::filesystem::path& file) {
 }
 
 /// One sentence for all views of which the same is to be said, for a few such reasons.
-std::string odd_text(const ViewFiles& views, const std::vector<OddView>& odd) {
+std::string unusable_text(const ViewFiles& views, const std::vector<UnusableView>& unusable) {
   std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
-  for (const OddView& each : odd) {
+  for (const UnusableView& each : unusable) {
     auto found =
         std::ranges::find(reasons, each.why, [](const auto& reason) { return reason.first; });
     if (found == reasons.end()) found = reasons.insert(found, {each.why, {}});
@@ -280,36 +281,38 @@ std::string odd_text(const ViewFiles& views, const std::vector<OddView>& odd) {
   }
   std::string text;
   std::size_t explained = 0;
-  for (std::size_t i = 0; i < std::min(reasons.size(), kMostNamed); ++i) {
+  for (std::size_t i = 0; i < std::min(reasons.size(), kMostNamedReasons); ++i) {
     const auto& [why, names] = reasons[i];
-    const std::size_t named = std::min(names.size(), kMostNamed);
+    const std::size_t named = std::min(names.size(), kMostNamedReasons);
     text += joined(std::span(names).first(named), ", ");
     if (names.size() > named) text += fmt::format(" and {} others", names.size() - named);
     text += fmt::format(" cannot be used: {}. ", why);
     explained += names.size();
   }
-  if (odd.size() > explained)
-    text += fmt::format("Nor can {} other views. ", odd.size() - explained);
+  if (unusable.size() > explained)
+    text += fmt::format("Nor can {} other views. ", unusable.size() - explained);
   return text;
 }
 
 }  // namespace
 
-std::optional<PartWithout> without_views(const ViewFiles& views, const std::vector<OddView>& odd) {
+std::optional<PartWithout> without_views(const ViewFiles& views,
+                                         const std::vector<UnusableView>& unusable) {
   GridWithGaps left{.rows = {}, .columns = {}, .files = views.files, .numbering = "from 0"};
   for (int v = 0; v < views.grid.v; ++v) left.rows.push_back(views.in_whole({v, 0}).v);
   for (int u = 0; u < views.grid.u; ++u) left.columns.push_back(views.in_whole({0, u}).u);
-  for (const OddView& each : odd) left.files[static_cast<std::size_t>(each.place)].clear();
+  for (const UnusableView& each : unusable)
+    left.files[static_cast<std::size_t>(each.place)].clear();
   const auto part = part_to_open(left);
   if (!part) return std::nullopt;
   PartWithout found{files_of_part(left, *part), *part,
-                    odd_text(views, odd) + part_text(left, *part)};
+                    unusable_text(views, unusable) + part_text(left, *part)};
   ViewFiles& kept = found.views;
   kept.part = part_of(views.part, *part);
   kept.orientation = views.orientation;
   kept.left_out.insert(kept.left_out.end(), views.left_out.begin(), views.left_out.end());
   kept.unusable = views.unusable;
-  for (const OddView& each : odd) {
+  for (const UnusableView& each : unusable) {
     kept.unusable.push_back(views.files[static_cast<std::size_t>(each.place)]);
   }
   return found;

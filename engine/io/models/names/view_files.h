@@ -12,22 +12,22 @@
 
 namespace episcope::io {
 
-/// Views in equal steps out of a grid, the same steps along rows and columns.
+/// Views in equal steps out of a grid, with one step along rows and columns.
 struct PartOfGrid {
   GridShape whole;
   ViewIndex first;  ///< In the whole grid.
   int step = 1;
   GridShape grid;
 
-  /// The place in the whole grid of a view of the part.
+  /// Place of a view of the part in the whole grid.
   [[nodiscard]] ViewIndex in_whole(ViewIndex view) const;
-  /// The place in the part of a view of the whole grid; nothing if the part leaves it out.
+  /// Place of a view of the whole grid in the part; nothing if the part omits it.
   [[nodiscard]] std::optional<ViewIndex> in_part(ViewIndex view) const;
 };
 
-/// The largest part of which every place is filled (`is_filled`, row by row). Of several as large
-/// the squarest, of these the densest, then the widest, then the one nearest to the centre of the
-/// whole grid. O(V·U²).
+/// Finds the largest part whose places are all filled (`is_filled`, row by row). Of several parts
+/// of one size it prefers the squarest, then the densest, the widest, and the one nearest to the
+/// center of the whole grid. O(V·U²).
 [[nodiscard]] PartOfGrid largest_filled_part(const std::vector<bool>& is_filled, GridShape whole);
 
 /// Image files of the views of a grid, row by row from view (0, 0) on.
@@ -43,19 +43,19 @@ struct ViewFiles {
   [[nodiscard]] const std::filesystem::path& file(ViewIndex view) const {
     return files[static_cast<std::size_t>(view.v) * grid.u + view.u];
   }
-  /// With the views that are missing or left out.
+  /// Grid with the views that are missing or left out.
   [[nodiscard]] GridShape whole_grid() const { return part ? part->whole : grid; }
-  /// The place in the whole grid of a view, and where the centre of that grid is; nothing if it is
-  /// missing or left out.
+  /// Place of a view in the whole grid.
   [[nodiscard]] ViewIndex in_whole(ViewIndex view) const {
     return part ? part->in_whole(view) : view;
   }
+  /// Place of the center of the whole grid; nothing if that view is missing or left out.
   [[nodiscard]] std::optional<ViewIndex> whole_center() const {
     return part ? part->in_part(part->whole.center()) : std::optional(grid.center());
   }
 };
 
-/// The different values of an index, ascending, as a run in equal steps with or without gaps.
+/// Distinct values of an index, ascending, in equal steps with or without gaps.
 struct NumberRun {
   std::vector<long long> values;
   long long step = 1;  ///< The greatest one on which all values lie.
@@ -66,17 +66,17 @@ struct NumberRun {
   /// Number of steps from the first value to the last, gaps included.
   [[nodiscard]] long long length() const { return (values.back() - values.front()) / step + 1; }
   [[nodiscard]] bool has_gaps() const { return length() != static_cast<long long>(values.size()); }
-  /// Whether more is missing than there is: then it is no index.
+  /// Whether more values are missing than present: then it is no index.
   [[nodiscard]] bool is_scattered() const {
     return length() > 2 * static_cast<long long>(values.size());
   }
-  /// The values with those that are missing between them, if it is an index.
+  /// All values from the first to the last, missing ones included.
   [[nodiscard]] std::vector<long long> filled() const;
-  /// 0 … n−1 or 1 … n.
+  /// Whether the values are 0 … n−1 or 1 … n.
   [[nodiscard]] bool is_plain() const {
     return !has_gaps() && step == 1 && (values.front() == 0 || values.front() == 1);
   }
-  /// The place of a value, from 0; nothing if it is none of them.
+  /// Place of a value, from 0; nothing if it is not among them.
   [[nodiscard]] std::optional<std::size_t> place_of(long long value) const;
   /// "0 … 8", "0, 2 … 16", "2, 5, 6".
   [[nodiscard]] std::string text() const;
@@ -95,26 +95,26 @@ struct GridWithGaps {
 
 /// "view 3,5 is missing", "12 views are missing: 0,1 0,2 …".
 [[nodiscard]] std::string missing_text(const GridWithGaps& views);
-/// The same for a list without rows and columns: "view 37 is missing".
+/// Text about a list without rows and columns: "view 37 is missing".
 [[nodiscard]] std::string missing_text(const std::vector<std::string>& first, std::size_t count);
 inline constexpr std::size_t kMostNamedViews = 5;  ///< Missing views that these texts name.
 
-/// The part without a gap that is opened (`largest_filled_part`); nothing if that would be less
-/// than three views or a quarter of those that are there.
+/// Part without a gap to open (`largest_filled_part`); nothing if it has fewer than three views or
+/// less than a quarter of the views present.
 [[nodiscard]] std::optional<PartOfGrid> part_to_open(const GridWithGaps& views);
 
-/// The views of a part, and those that it leaves out.
+/// Views of a part, with the views that it omits.
 [[nodiscard]] ViewFiles files_of_part(const GridWithGaps& views, const PartOfGrid& part);
 
-/// Sentences about what is missing, which part is opened, and what is left out.
+/// Sentences about missing views, the part that is opened, and the views left out.
 [[nodiscard]] std::string part_text(const GridWithGaps& views, const PartOfGrid& part);
 
-/// What these views are called in the account of a folder.
+/// Kinds of these views in the usage of a folder.
 inline constexpr const char* kViewsLeftOut = "views outside of the part that is opened";
 inline constexpr const char* kUnusableViews = "unusable views";
 
-/// A view that cannot be used with the others.
-struct OddView {
+/// View that cannot be used with the others.
+struct UnusableView {
   int place = 0;    ///< Among the files of the views.
   std::string why;  ///< "the image cannot be decoded: …", "this view has 8×8 px, …".
   bool is_damaged = false;
@@ -136,16 +136,16 @@ template <class T>
   return std::nullopt;
 }
 
-/// What is left of views without some of them.
+/// Part of a grid that remains without some views.
 struct PartWithout {
   ViewFiles views;
   PartOfGrid kept;      ///< Of the grid of all.
   std::string warning;  ///< Which were left out and why, and which part is left.
 };
 
-/// Views that cannot be used are as good as missing: the largest part of the grid without them, in
-/// equal steps (`part_to_open`). Nothing if that is too small.
+/// Removes unusable views, which count as missing: returns the largest part of the grid without
+/// them, in equal steps (`part_to_open`). Nothing if that is too small.
 [[nodiscard]] std::optional<PartWithout> without_views(const ViewFiles& views,
-                                                       const std::vector<OddView>& odd);
+                                                       const std::vector<UnusableView>& unusable);
 
 }  // namespace episcope::io

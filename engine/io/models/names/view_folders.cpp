@@ -47,8 +47,8 @@ bool speaks_of_views(const std::string& name) {
   });
 }
 
-/// Pictures by what the names of their folders would be if these were files.
-using Pictures = std::map<fs::path, fs::path>;
+/// FolderPictures by what the names of their folders would be if these were files.
+using FolderPictures = std::map<fs::path, fs::path>;
 
 /// Nothing if there are too many to be views.
 std::vector<fs::path> folders_in(const fs::path& folder) {
@@ -57,8 +57,8 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
 }
 
 /// Nothing if they are not alike.
-Pictures only_pictures(const fs::path& folder) {
-  Pictures pictures;
+FolderPictures only_pictures(const fs::path& folder) {
+  FolderPictures pictures;
   for (const fs::path& inside : folders_in(folder)) {
     const fs::path picture = picture_in(inside);
     const bool is_alike =
@@ -70,8 +70,8 @@ Pictures only_pictures(const fs::path& folder) {
 }
 
 /// Those of one name.
-Pictures pictures_called(const fs::path& folder, const fs::path& name) {
-  Pictures pictures;
+FolderPictures pictures_called(const fs::path& folder, const fs::path& name) {
+  FolderPictures pictures;
   std::error_code error;
   for (const fs::path& inside : folders_in(folder)) {
     if (!fs::is_regular_file(inside / name, error)) continue;
@@ -80,7 +80,7 @@ Pictures pictures_called(const fs::path& folder, const fs::path& name) {
   return pictures;
 }
 
-std::vector<fs::path> as_files(const Pictures& pictures) {
+std::vector<fs::path> as_files(const FolderPictures& pictures) {
   std::vector<fs::path> files;
   files.reserve(pictures.size());
   for (const auto& [file, picture] : pictures) files.push_back(file);
@@ -88,7 +88,7 @@ std::vector<fs::path> as_files(const Pictures& pictures) {
 }
 
 /// "cam_{index}.png" becomes "cam_{index}/0001.png".
-void name_pictures(ViewNames& names, const Pictures& pictures) {
+void name_pictures(ViewNames& names, const FolderPictures& pictures) {
   const fs::path name = pictures.begin()->second.filename();
   names.pattern.resize(names.pattern.size() - name.extension().string().size());
   names.pattern += '/';
@@ -96,7 +96,7 @@ void name_pictures(ViewNames& names, const Pictures& pictures) {
   for (NamedView& view : names.views) view.path = pictures.at(view.path);
 }
 
-std::optional<ViewNames> names_of_folders(const fs::path& folder, const Pictures& pictures) {
+std::optional<ViewNames> names_of_folders(const fs::path& folder, const FolderPictures& pictures) {
   if (pictures.size() < kFewestFolders) return std::nullopt;
   try {
     ViewNames names = find_view_names(folder, as_files(pictures));
@@ -121,7 +121,7 @@ std::optional<ViewNames> find_view_folders(const fs::path& folder, const std::st
     return std::nullopt;
   }
   const fs::path name = pattern.substr(slash + 1);
-  const Pictures pictures = pictures_called(folder, name);
+  const FolderPictures pictures = pictures_called(folder, name);
   ViewNames names =
       match_view_names(as_files(pictures), pattern.substr(0, slash) + name.extension().string());
   if (names.views.empty()) return std::nullopt;
@@ -139,7 +139,7 @@ constexpr std::size_t kFewestOfSquare = 9;
 
 /// Images, or folders, in the order of the number in which their names differ, which is the
 /// `varying`-th.
-struct Numbered {
+struct CountedFolder {
   std::vector<fs::path> paths;
   std::vector<double> numbers;
   std::string skeleton;
@@ -147,7 +147,7 @@ struct Numbered {
 };
 
 /// Nothing if the names are not of one form, or differ in no number or in several.
-std::optional<Numbered> by_number(const std::vector<fs::path>& paths) {
+std::optional<CountedFolder> by_number(const std::vector<fs::path>& paths) {
   std::vector<NameGroup> groups = group_by_name(paths);
   if (groups.size() != 1 || paths.size() < 2) return std::nullopt;
   std::vector<NumberedImage>& images = groups.front().images;
@@ -165,7 +165,7 @@ std::optional<Numbered> by_number(const std::vector<fs::path>& paths) {
   std::ranges::sort(images, {}, number);
   const bool has_twins = std::ranges::adjacent_find(images, {}, number) != images.end();
   if (has_twins) return std::nullopt;
-  Numbered found{{}, {}, groups.front().skeleton, varying.front()};
+  CountedFolder found{{}, {}, groups.front().skeleton, varying.front()};
   for (const NumberedImage& image : images) {
     found.paths.push_back(image.path);
     found.numbers.push_back(number(image));
@@ -174,7 +174,7 @@ std::optional<Numbered> by_number(const std::vector<fs::path>& paths) {
 }
 
 /// The skeleton with `field` for the number that differs, and * for others.
-std::string pattern_of(const Numbered& numbered, const char* field) {
+std::string pattern_of(const CountedFolder& numbered, const char* field) {
   std::string text;
   std::size_t number = 0;
   for (const char c : numbered.skeleton) {
@@ -200,12 +200,12 @@ bool is_one_of(const std::string& word, const std::array<std::string_view, N>& w
 }
 
 /// By their numbers, or by letters instead; then there are no numbers.
-std::optional<Numbered> folders_of_rows(const fs::path& folder) {
+std::optional<CountedFolder> folders_of_rows(const fs::path& folder) {
   const std::vector<fs::path> folders = list_folders(folder);
   if (auto numbered = by_number(folders)) return numbered;
   const auto lettered = by_letter(folders);
   if (!lettered) return std::nullopt;
-  return Numbered{*lettered, {}, std::string(1, kNumberMark)};
+  return CountedFolder{*lettered, {}, std::string(1, kNumberMark)};
 }
 
 /// Of folders whose names are mere numbers.

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostPlaces = 250'000;  ///< Of a grid with gaps.
+constexpr std::size_t kMostGridPlaces = 250'000;  ///< Of a grid with gaps.
 
 std::string tried(const ViewNames& names) {
   return fmt::format("pattern {} matches {} of {} images", names.pattern, names.views.size(),
@@ -163,7 +163,7 @@ PlacedViews place_on_grid(const fs::path& folder, const ViewNames& names) {
                      expected_values(axes.columns, names.is_chosen)};
   if (names.is_turned) views.numbering = "as in the names, with every second row turned round";
   const std::size_t places = views.rows.size() * views.columns.size();
-  if (places > std::max(kMostPlaces, sorted.size())) {
+  if (places > std::max(kMostGridPlaces, sorted.size())) {
     throw IoError(folder, fmt::format("{} of {} places of a grid of {}×{} have no view ({}); {}",
                                       places - sorted.size(), places, views.rows.size(),
                                       views.columns.size(), tried(names), kPatternAdvice));
@@ -251,7 +251,7 @@ ViewNames with_turned_rows(ViewNames names) {
 
 namespace {
 
-using Form = IndexFields::Form;
+using GroupForm = IndexFields::Form;
 
 /// A full grid is taken rather than a list of up to so many times its views.
 constexpr std::size_t kGridsWorth = 4;
@@ -267,8 +267,8 @@ std::vector<Candidate> candidates_of(const std::vector<NameGroup>& groups) {
   for (const NameGroup& group : groups) {
     if (group.images.size() < 2 || names_mosaics(group.skeleton)) continue;
     Candidate candidate{&group, find_index_fields(group)};
-    if (candidate.fields.form == Form::None) continue;
-    const std::size_t worth = candidate.fields.form == Form::Grid ? kGridsWorth : 1;
+    if (candidate.fields.form == GroupForm::None) continue;
+    const std::size_t worth = candidate.fields.form == GroupForm::Grid ? kGridsWorth : 1;
     candidate.rank = {!names_companions(group.skeleton), worth * group.images.size()};
     candidates.push_back(std::move(candidate));
   }
@@ -371,7 +371,7 @@ ViewNames find_view_names(const fs::path& folder, const std::vector<fs::path>& i
   const std::vector<Candidate> candidates = candidates_of(groups);
   if (candidates.empty()) refuse(folder, groups, images.size());
   const Candidate& best = best_of(folder, candidates);
-  if (best.fields.form == Form::Unclear) {
+  if (best.fields.form == GroupForm::Unclear) {
     throw IoError(folder,
                   fmt::format("several numbers vary in the names of {} images, such as {}, "
                               "and it is not clear which are row and column; {}",

@@ -12,7 +12,7 @@
 
 namespace episcope::io {
 
-/// The images whose names follow one pattern. Of all of them the same is known.
+/// Images whose names follow one pattern and have the same fields.
 struct ViewNames {
   std::string pattern;  ///< "out_{row}_{col}_*.png", "{index}.png", …
   std::vector<NamedView> views{};
@@ -21,7 +21,7 @@ struct ViewNames {
   bool is_turned = false;  ///< `with_turned_rows`.
 };
 
-/// What is missing from a list of views.
+/// Gaps in a list of views.
 struct ListGaps {
   std::vector<int> places{};  ///< Where in the whole list each view is, from 0.
   int length = 0;             ///< Of the whole list.
@@ -37,33 +37,32 @@ struct PlacedViews {
   std::vector<std::string> warnings;      ///< A sentence each: numbers in steps of two, …
 };
 
-/// Puts views into the places that their names give: rows and columns in the order of their
-/// numbers, whatever these are, or of their positions where names have nothing else. Names with a
-/// row or a column only are a single column or row. Of a grid with gaps the largest part without is
-/// taken (`part_to_open`), with a warning.
-/// Throws IoError that names views that are missing if there is no such part, or two views of one
-/// place; `folder` is for messages.
+/// Places views by their names: by the order of their row and column numbers, whatever these are,
+/// or by positions if names have nothing else. Names with only a row or only a column form a single
+/// column or row. Of a grid with gaps the largest part without is taken (`part_to_open`), with a
+/// warning. Throws IoError that names missing views if there is no such part, or two views of one
+/// place. `folder` is for messages.
 [[nodiscard]] PlacedViews place_views(const std::filesystem::path& folder, const ViewNames& names);
 
-/// Names of a grid in snake order as if each row went the same way: the columns of every second row
-/// are counted from the other end. Names of a list stay as they are.
+/// Turns a grid in snake order: counts the columns of every second row from the other end. Names of
+/// a list stay as they are.
 [[nodiscard]] ViewNames with_turned_rows(ViewNames names);
 
-/// How to say what the names of views mean, for the ends of messages.
+/// End of messages: how to state the meaning of names.
 inline constexpr const char* kPatternAdvice =
     "name the numbers by --pattern, as in --pattern 'view_{row}_{col}.png'";
 
 /// Finds the views among the images of a folder by their names alone. Names that differ in numbers
-/// only form a group (name_parts.h); the views are the group that forms the largest grid
-/// (index_fields.h). Groups named like what belongs to views (label, depth, …) come last; of groups
-/// equal in this, the one of the largest images, then of colour, then of names without words, then
-/// of a format without loss. Throws IoError that names the option `pattern` if there is none, or if
-/// two have equal right.
+/// only form a group (name_parts.h); the views are the group with the largest grid
+/// (index_fields.h). Groups named like companions of views (label, depth, …) come last. Ties go to
+/// the group of the largest images, then of color, then of names without words, then of a lossless
+/// format. Throws IoError that names the option `pattern` if there is no group, or if two are
+/// equal.
 [[nodiscard]] ViewNames find_view_names(const std::filesystem::path& folder,
                                         const std::vector<std::filesystem::path>& images);
 
-/// The images whose names match a user's pattern (NamePattern); maybe none. Throws InvalidInput for
-/// a wrong pattern.
+/// Finds the images whose names match a user's pattern (NamePattern); maybe none. Throws
+/// InvalidInput for a wrong pattern.
 [[nodiscard]] ViewNames match_view_names(const std::vector<std::filesystem::path>& images,
                                          const std::string& pattern);
 

@@ -22,14 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of which one may be a light field of its own.
-bool is_array_name(const fs::path& path) {
+bool may_hold_light_field(const fs::path& path) {
   constexpr std::array<std::string_view, 5> suffixes{".h5", ".hdf5", ".mat", ".npy", ".npz"};
   return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end() &&
          !map_kind(path.stem().string());
 }
 
 /// Of another form of light fields, which has a reader of its own.
-bool is_other_form(const fs::path& folder) {
+bool has_own_reader(const fs::path& folder) {
   std::error_code error;
   return fs::exists(folder / "parameters.cfg", error) ||
          fs::exists(folder / "light_field.json", error);
@@ -63,7 +63,7 @@ fs::path viewpoints_folder(const fs::path& folder) {
 
 fs::path only_grid_inside(const fs::path& folder) {
   std::error_code error;
-  if (!fs::is_directory(folder, error) || count_images(folder) > 0 || is_other_form(folder)) {
+  if (!fs::is_directory(folder, error) || count_images(folder) > 0 || has_own_reader(folder)) {
     return {};
   }
   fs::path found;
@@ -71,7 +71,7 @@ fs::path only_grid_inside(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with('.')) continue;
     if (!entry.is_directory(error)) {
-      if (is_array_name(entry.path())) return {};
+      if (may_hold_light_field(entry.path())) return {};
       continue;
     }
     const bool is_beside = is_map_folder(name) || names_companions(lower_case(name));
@@ -79,7 +79,7 @@ fs::path only_grid_inside(const fs::path& folder) {
     if (!found.empty()) return {};
     found = entry.path();
   }
-  return !found.empty() && !is_other_form(found) && holds_grid(found) ? found : fs::path();
+  return !found.empty() && !has_own_reader(found) && holds_grid(found) ? found : fs::path();
 }
 
 fs::path named_views_folder(const fs::path& folder) {

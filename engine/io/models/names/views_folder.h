@@ -10,25 +10,25 @@
 
 namespace episcope::io {
 
-/// The folder inside `folder` whose images are a grid of views by their names, whatever it is
-/// called, if `folder` holds no images and no files of arrays itself, and no other folder inside
-/// holds images but for maps (`is_map_folder`). Empty if there is none. Throws filesystem_error.
+/// Finds the one folder inside `folder` whose images form a grid of views by their names, whatever
+/// it is called. `folder` must hold no images and no files of arrays, and no other folder inside
+/// may hold images, except maps (`is_map_folder`). Empty if there is none. Throws filesystem_error.
 [[nodiscard]] std::filesystem::path only_grid_inside(const std::filesystem::path& folder);
 
-/// The folder of views inside that is named lf, views, images, rectified or viewpoints…; else the
-/// folder itself.
+/// Finds the folder of views inside that is named lf, views, images, rectified or viewpoints…; else
+/// returns the folder itself.
 [[nodiscard]] std::filesystem::path named_views_folder(const std::filesystem::path& folder);
 
-/// The folder of views that a scene's folder has inside, named as above, or the only one with a
-/// grid (`only_grid_inside`); else the folder itself.
+/// Finds the folder of views inside the folder of a scene: named as above, or the only one with a
+/// grid (`only_grid_inside`). Else returns the folder itself.
 [[nodiscard]] std::filesystem::path views_folder(const std::filesystem::path& folder);
 
-/// The names of the folders in `source` beside that of the views that hold several pictures, but
-/// for maps; by name.
+/// Names of folders in `source`, other than the folder of views, that hold several pictures but no
+/// maps; by name.
 [[nodiscard]] std::vector<std::string> other_picture_folders(const std::filesystem::path& source,
                                                              const std::filesystem::path& views);
 
-/// What a pattern makes of one image.
+/// Match of a pattern with one image.
 struct NamePreview {
   std::string name;
   bool is_match = false;
@@ -38,7 +38,7 @@ struct NamePreview {
   std::optional<ViewIndex> view{};  ///< and where that is in the grid, if there is one.
 };
 
-/// What a pattern makes of a folder.
+/// Match of a pattern with a folder.
 struct PatternPreview {
   static constexpr std::size_t kMostNames = 500;
 
@@ -52,10 +52,10 @@ struct PatternPreview {
   std::vector<std::string> warnings{};  ///< A sentence each: what is missing and left out, ….
 };
 
-/// What `pattern` (name_pattern.h), or if it is empty the one that is detected, makes of the images
-/// of a folder of views, or of a scene's folder with such a folder inside. `snake` as the option.
-/// Looks at names only, and throws nothing for a pattern that is wrong or does not fit. Throws
-/// IoError if the folder cannot be read.
+/// Applies `pattern` (name_pattern.h), or the detected one if it is empty, to the images of a
+/// folder of views, or of a scene's folder with such a folder inside. `snake` as the option.
+/// Examines names only, and reports a wrong or unfitting pattern as `problem`. Throws IoError if
+/// the folder cannot be read.
 [[nodiscard]] PatternPreview preview_pattern(const std::filesystem::path& folder,
                                              const std::string& pattern, bool snake);
 

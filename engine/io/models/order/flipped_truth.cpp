@@ -13,7 +13,7 @@ namespace {
 
 /// Share of the error as stored, and of that without warping, below which a turned map is right:
 /// the right map is near the least error that there is, so none can be so much better than it.
-constexpr double kFarBetter = 0.6;
+constexpr double kFarBetterTurn = 0.6;
 /// Share of the error without warping below which a map is right beyond doubt.
 constexpr double kEvident = 0.2;
 
@@ -83,7 +83,7 @@ std::string put_truth_upright(const LightField::Samples& samples, DisparityField
   const WarpErrors stored = warp_errors(samples, at, field.view(at));
   const double without = stored.unwarped();
   if (stored.best() < kEvident * without) return {};
-  double least = kFarBetter * std::min(stored.best(), without);
+  double least = kFarBetterTurn * std::min(stored.best(), without);
   std::optional<MapTurn> undone;
   for (const MapTurn& turn : possible_turns(field.disparity.height(), field.disparity.width())) {
     const DisparityField candidate{turned(field.disparity, turn, {1, 1}, at),

@@ -9,7 +9,7 @@
 
 namespace episcope::io {
 
-/// How a program may have written maps, if not by rows from top to bottom.
+/// Order of pixels in which a program may have written maps, other than by rows from top to bottom.
 struct MapTurn {
   bool is_transposed = false;
   bool flips_y = false;
@@ -17,23 +17,22 @@ struct MapTurn {
   const char* text = "";  ///< Such as "rows from bottom to top".
 };
 
-/// All of maps of this size: rows and columns are exchanged of square ones only.
+/// All turns of maps of this size. Rows and columns are exchanged in square maps only.
 [[nodiscard]] std::vector<MapTurn> possible_turns(int height, int width);
 
-/// The maps as they are if they were written so.
+/// Undoes the turn in all maps.
 [[nodiscard]] DisparityField turned_back(const DisparityField& field, const MapTurn& turn);
-/// The same of one map, as a field of one view, (0, 0).
+/// Undoes the turn of one map; returns a field of the single view (0, 0).
 [[nodiscard]] DisparityField turned_back(const DisparityView& map, const MapTurn& turn);
 
-/// What a warning says of `MapTurn::text`, or of what `put_truth_upright` returned.
+/// Warning about `MapTurn::text`, or about the result of `put_truth_upright`.
 [[nodiscard]] std::string turned_back_text(const std::string& turn);
 
-/// Truth that was written with its rows from bottom to top (a PFM file by a program that forgets
-/// that PFM does so), mirrored, or of square views with rows and columns exchanged (an array by
-/// MATLAB), hardly explains the views. Where one of these explains the centre view, or the only
-/// one, far better (error after warping below 0.6 of that as stored and of that without warping),
-/// puts all maps right and returns what it undid, such as "rows from bottom to top"; empty if it
-/// left them as they are.
+/// Corrects truth with rows from bottom to top (PFM of a program that forgets its order), mirrored
+/// truth, and square truth with rows and columns exchanged (an array by MATLAB). Such truth hardly
+/// explains the views. A turn is undone in all maps if it explains the center view, or the only
+/// one, far better: its error after warping is below 0.6 of the error as stored and of the error
+/// without warping. Returns what it undid, such as "rows from bottom to top"; empty if nothing.
 [[nodiscard]] std::string put_truth_upright(const LightField::Samples& samples,
                                             DisparityField& field);
 

@@ -18,12 +18,12 @@ namespace {
 
 constexpr int kArea = 512;
 constexpr int kRadius = 2;
-constexpr double kStep = 0.5;
-constexpr double kLargestShift = 24;
+constexpr double kMatchStep = 0.5;
+constexpr double kLargestLineShift = 24;
 constexpr double kLargestRange = 48;  ///< In px of what is looked at: smaller views tell as much.
 constexpr int kCoarseSide = 128;      ///< Of views in which motion of any size is looked for,
 constexpr double kCoarseRange = 24;   ///< and so far,
-constexpr float kFarBetter = 0.5F;    ///< beyond the usual with so much of the error within.
+constexpr float kFarBetterBeyond = 0.5F;  ///< beyond the usual with so much of the error within.
 constexpr double kLeastBrightness = 0.6;  ///< Of a view, as a share of the middle one's.
 
 double mean_of(const Image<float>& picture) {
@@ -32,7 +32,7 @@ double mean_of(const Image<float>& picture) {
   return sum / static_cast<double>(std::max<std::size_t>(picture.size(), 1));
 }
 
-/// Loads views of one axis through the centre of the grid, brought to the brightness of the middle
+/// Loads views of one axis through the center of the grid, brought to the brightness of the middle
 /// one: else the darker of two surfaces would seem to be seen in a vignetted view.
 class Axis {
  public:
@@ -180,7 +180,7 @@ class Costs {
   std::array<Image<float>, 2> sides_;
 };
 
-struct Search {
+struct ShiftSearch {
   double first = 0;
   double last = 0;
   /// Beyond it, either way, points must match far better than within.
@@ -195,7 +195,7 @@ void lower(const Image<float>& values, Image<float>& least) {
                  [](float a, float b) { return std::min(a, b); });
 }
 
-Image<float> best_shifts(const LineOfViews& views, Search search, const Progress& progress) {
+Image<float> best_shifts(const LineOfViews& views, ShiftSearch search, const Progress& progress) {
   const int height = views.middle.height();
   const int width = views.middle.width();
   Image<float> best(height, width, 1, std::numeric_limits<float>::max());
@@ -205,10 +205,10 @@ Image<float> best_shifts(const LineOfViews& views, Search search, const Progress
   Image<float> sum(height, width);
   Image<float> shift(height, width);
   Costs costs(views);
-  const int steps = static_cast<int>(std::round((search.last - search.first) / kStep));
+  const int steps = static_cast<int>(std::round((search.last - search.first) / kMatchStep));
   for (int i = 0; i <= steps; ++i) {
     progress.check();
-    const double tried = search.first + i * kStep;
+    const double tried = search.first + i * kMatchStep;
     const Image<float>& cost = costs.at(tried);
     if (looks_far && std::abs(tried) <= search.usual) lower(cost, usual);
     for (std::size_t k = 0; k < cost.size(); ++k) {
@@ -224,7 +224,7 @@ Image<float> best_shifts(const LineOfViews& views, Search search, const Progress
     const float mean = sum.data()[k] / static_cast<float>(steps + 1);
     const bool is_inside = shift.data()[k] > search.first && shift.data()[k] < search.last;
     const bool is_usual = !looks_far || std::abs(shift.data()[k]) <= search.usual ||
-                          best.data()[k] < kFarBetter * usual.data()[k];
+                          best.data()[k] < kFarBetterBeyond * usual.data()[k];
     const bool is_distinct = is_inside && is_usual && best.data()[k] < 0.6F * mean;
     if (!is_distinct) shift.data()[k] = std::numeric_limits<float>::quiet_NaN();
   }
@@ -232,7 +232,7 @@ Image<float> best_shifts(const LineOfViews& views, Search search, const Progress
 }
 
 /// The middle 96 % of the shifts and a bit more; empty if there are hardly any.
-Search range_of(const Image<float>& shifts) {
+ShiftSearch range_of(const Image<float>& shifts) {
   std::vector<float> found;
   for (const float shift : shifts) {
     if (std::isfinite(shift)) found.push_back(shift);
@@ -259,7 +259,7 @@ double largest_motion(const LightField::Samples& samples, bool is_v, double usua
                       const Progress& progress) {
   const Axis axis(samples, is_v, kCoarseSide);
   if (axis.reach() < 1) return 0;
-  const Search coarse{-kCoarseRange, kCoarseRange, usual_px / axis.pixels()};
+  const ShiftSearch coarse{-kCoarseRange, kCoarseRange, usual_px / axis.pixels()};
   return axis.pixels() * range_of(best_shifts(next_views(axis), coarse, progress)).most();
 }
 
@@ -275,11 +275,11 @@ LineMatches match_line(const LightField::Samples& samples, bool is_v, int side,
   const double range = std::max(usual, motion / axis.pixels());
   if (range > kLargestRange) return {};
   found.shift = best_shifts(views, {-range, range}, progress);
-  const Search first = range_of(found.shift);
+  const ShiftSearch first = range_of(found.shift);
   if (first.is_empty()) return {};
 
   const int far =
-      axis.farthest_bright(std::clamp(static_cast<int>(kLargestShift / first.most()), 1, 8));
+      axis.farthest_bright(std::clamp(static_cast<int>(kLargestLineShift / first.most()), 1, 8));
   if (far == 1) return found;
   const int near = (far + 1) / 2;
   if (near > 1) views.near = {axis.view(-near), axis.view(near)};
@@ -292,10 +292,10 @@ LineMatches match_line(const LightField::Samples& samples, bool is_v, int side,
 
 namespace {
 
-constexpr int kStride = 4;
+constexpr int kSlopeStride = 4;
 constexpr int kSlopeRadius = 3;
-constexpr int kSquare = 8;
-constexpr double kSignificant = 3.3;  ///< Standard deviations of correlations by chance.
+constexpr int kSlopeSquare = 8;
+constexpr double kSignificantSlopes = 3.3;  ///< Standard deviations of correlations by chance.
 constexpr double kMostSlope = 64;
 
 /// Three views in a row along one axis, the middle one common to both axes; views of the vertical
@@ -365,21 +365,22 @@ struct Match {
 };
 
 std::vector<double> match(const Triple& views, double range, const Progress& progress) {
-  const int rows = (views.middle.height() - 2 * kSlopeRadius) / kStride;
-  const int columns = (views.middle.width() - 2 * kSlopeRadius) / kStride;
+  const int rows = (views.middle.height() - 2 * kSlopeRadius) / kSlopeStride;
+  const int columns = (views.middle.width() - 2 * kSlopeRadius) / kSlopeStride;
   std::vector<Match> matches(static_cast<std::size_t>(std::max(rows, 0)) * std::max(columns, 0));
-  const int steps = static_cast<int>(std::round(range / kStep));
+  const int steps = static_cast<int>(std::round(range / kMatchStep));
   for (int i = -steps; i <= steps; ++i) {
     progress.check();
-    const Image<float> cost = differences(views, i * kStep);
+    const Image<float> cost = differences(views, i * kMatchStep);
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < columns; ++c) {
         Match& point = matches[static_cast<std::size_t>(r) * columns + c];
-        const float sum = window_sum(cost, kSlopeRadius + r * kStride, kSlopeRadius + c * kStride);
+        const float sum =
+            window_sum(cost, kSlopeRadius + r * kSlopeStride, kSlopeRadius + c * kSlopeStride);
         point.sum += sum;
         if (sum < point.best) {
           point.best = sum;
-          point.disparity = i * kStep;
+          point.disparity = i * kMatchStep;
         }
       }
     }
@@ -388,14 +389,14 @@ std::vector<double> match(const Triple& views, double range, const Progress& pro
   for (const Match& point : matches) {
     const double mean = point.sum / (2 * steps + 1);
     const bool is_textured = mean > 4.0F * (2 * kSlopeRadius + 1) * (2 * kSlopeRadius + 1);
-    const bool is_inside = std::abs(point.disparity) < range - kStep;
+    const bool is_inside = std::abs(point.disparity) < range - kMatchStep;
     const bool is_distinct = is_textured && is_inside && point.best < 0.4 * mean;
     found.push_back(is_distinct ? point.disparity : std::numeric_limits<double>::quiet_NaN());
   }
   return found;
 }
 
-struct Sums {
+struct SlopeSums {
   double n = 0, h = 0, v = 0, hh = 0, vv = 0, hv = 0;
 
   void add(double a, double b) {
@@ -410,7 +411,7 @@ struct Sums {
     if (n < 2) return {};
     const double var_h = hh / n - h / n * h / n;
     const double var_v = vv / n - v / n * v / n;
-    const bool has_depth = std::min(var_h, var_v) > 0.25 * kStep * kStep;
+    const bool has_depth = std::min(var_h, var_v) > 0.25 * kMatchStep * kMatchStep;
     const double top = has_depth ? hv / n - h / n * v / n : hv / n;
     const double bottom = has_depth ? var_h * var_v : hh / n * vv / n;
     return {bottom > 0 ? top / std::sqrt(bottom) : 0, static_cast<int>(n), 0};
@@ -423,9 +424,9 @@ SlopeCorrelation correlate(const LightField::Samples& samples, ViewIndex center,
     return match(load_triple(samples, center, step, is_v), range, progress);
   });
   const PixelRect part = part_of(samples);
-  const int columns = (part.x1 - part.x0 - 2 * kSlopeRadius) / kStride;
-  const int rows = (part.y1 - part.y0 - 2 * kSlopeRadius) / kStride;
-  Sums sums;
+  const int columns = (part.x1 - part.x0 - 2 * kSlopeRadius) / kSlopeStride;
+  const int rows = (part.y1 - part.y0 - 2 * kSlopeRadius) / kSlopeStride;
+  SlopeSums sums;
   std::set<std::pair<int, int>> squares;
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
@@ -433,7 +434,7 @@ SlopeCorrelation correlate(const LightField::Samples& samples, ViewIndex center,
       const double b = along_v[static_cast<std::size_t>(c) * rows + r];
       if (!std::isfinite(a) || !std::isfinite(b)) continue;
       sums.add(a, b);
-      squares.insert({r * kStride / kSquare, c * kStride / kSquare});
+      squares.insert({r * kSlopeStride / kSlopeSquare, c * kSlopeStride / kSlopeSquare});
     }
   }
   SlopeCorrelation found = sums.correlation();
@@ -441,7 +442,7 @@ SlopeCorrelation correlate(const LightField::Samples& samples, ViewIndex center,
   return found;
 }
 
-/// In px between neighbouring views.
+/// In px between neighboring views.
 double search_range(const LightField::Samples& samples, const Progress& progress) {
   const int smaller = std::visit(
       [](const auto& stack) { return std::min(stack.width(), stack.height()); }, samples);
@@ -461,7 +462,7 @@ bool is_better(const SlopeCorrelation& next, const SlopeCorrelation& found) {
 
 bool SlopeCorrelation::is_decided() const {
   return points >= 30 && std::abs(value) > 0.2 &&
-         std::abs(value) * std::sqrt(squares) > kSignificant;
+         std::abs(value) * std::sqrt(squares) > kSignificantSlopes;
 }
 
 SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples,

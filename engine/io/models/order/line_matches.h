@@ -12,8 +12,8 @@
 
 namespace episcope::io {
 
-/// `look(false)` along u and `look(true)` along v, at the same time where there are threads for it.
-/// Reports no progress of its own. Throws what `look` throws.
+/// Calls `look(false)` for u and `look(true)` for v, in parallel where threads are free. Reports no
+/// progress of its own. Throws what `look` throws.
 template <class Look>
 requires std::invocable<const Look&, bool>
 [[nodiscard]] auto along_both_axes(const Progress& progress, const Look& look) {
@@ -23,8 +23,8 @@ requires std::invocable<const Look&, bool>
   return found;
 }
 
-/// Five views on a line, the middle one and two on either side, as grey levels; of the vertical
-/// axis transposed, so that all motion is along x.
+/// Grey levels of five views on a line: the middle one and two on either side. Views of the
+/// vertical axis are transposed, so that all motion is along x.
 struct LineOfViews {
   Image<float> middle;
   std::array<Image<float>, 2> near;  ///< One step before and one after the middle,
@@ -33,44 +33,44 @@ struct LineOfViews {
   double near_share = 1;  ///< Distance of the near views as a part of that of the far ones.
 };
 
-/// The motion of points of the middle view, in px between it and the far view after it, positive
-/// = to the left; NaN where texture is missing or the match is not distinct.
+/// Motion of points of the middle view to the far view after it, in px, positive = to the left. NaN
+/// where texture is missing or the match is not distinct.
 struct LineMatches {
   LineOfViews views;
   Image<float> shift;
 };
 
-/// How far points move between neighbouring views along an axis, at most, in px; hardly any move
-/// farther. Found in views of at most 128 px, where up to 24 px are looked for; motion of more than
-/// `usual_px` counts where views then agree twice as well.
-/// 0 if the axis has fewer than three views or the views have no texture. Throws Cancelled.
+/// Largest motion of points between neighboring views along an axis, in px; a few may move farther.
+/// Searches up to 24 px in views of at most 128 px. Motion above `usual_px` counts only if views
+/// then agree twice as well. 0 if the axis has fewer than three views or the views have no texture.
+/// Throws Cancelled.
 [[nodiscard]] double largest_motion(const LightField::Samples& samples, bool is_v, double usual_px,
                                     const Progress& progress);
 
-/// Matches windows of 5×5 px against the views before and those after, whichever fit better, so
-/// that what is hidden on one side is matched on the other. Shifts are multiples of 0.5 px. Views
-/// are reduced to at most `side` px (by whole factors), and their middle of 512×512 px is looked
-/// at. Empty if the axis has fewer than three views, the views have no texture, or points move by
-/// more than 48 px of the reduced views. Throws Cancelled.
+/// Matches windows of 5×5 px with the views before and the views after, and keeps the better side:
+/// points hidden on one side are matched on the other. Shifts are multiples of 0.5 px. Views are
+/// reduced to at most `side` px (by whole factors); only their middle of 512×512 px is matched.
+/// Empty if the axis has fewer than three views, the views have no texture, or points move by more
+/// than 48 px of the reduced views. Throws Cancelled.
 [[nodiscard]] LineMatches match_line(const LightField::Samples& samples, bool is_v, int side,
                                      const Progress& progress);
 
-/// How the slopes of horizontal and vertical EPIs correlate, point by point.
+/// Correlation of the slopes of horizontal and vertical EPIs, point by point.
 struct SlopeCorrelation {
   double value = 0;  ///< In [−1, 1]; negative: exactly one view axis is reversed.
   int points = 0;    ///< Textured points at which both slopes were found,
   int squares = 0;   ///< and squares of 8×8 px that have any: windows of points nearer to each
                      ///< other overlap.
 
-  /// Whether so many squares do not correlate so by chance.
+  /// Whether chance would hardly make so many squares correlate.
   [[nodiscard]] bool is_decided() const;
 };
 
-/// Matches small windows of the view at the centre of the grid against its neighbours along u and
-/// along v and correlates the two disparities. Where the scene has hardly any depth the correlation
-/// about zero takes the place of the one about the means. Linear in the image area and in the
-/// search range: a 48th of the width, or as far as points move, but not beyond 64 px; at most
-/// 512×512 px in the middle of the view are looked at. Throws Cancelled.
+/// Matches small windows of the center view with its neighbors along u and along v and correlates
+/// the two disparities: about zero if the scene has hardly any depth, else about their means. Uses
+/// at most 512×512 px in the middle of the view. Searches a 48th of the smaller side, or the
+/// distance that points move, at most 64 px. Linear in the image area and in the search range.
+/// Throws Cancelled.
 [[nodiscard]] SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples,
                                                     const Progress& progress);
 

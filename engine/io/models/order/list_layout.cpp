@@ -63,7 +63,7 @@ struct Group {
   }
 };
 
-/// Isotonic regression by joining neighbours that violate the order; returns what is left.
+/// Isotonic regression by joining neighbors that violate the order; returns what is left.
 double spread_about_rising_curve(const std::vector<Group>& groups) {
   std::vector<Group> curve;
   for (const Group& group : groups) {
@@ -136,13 +136,13 @@ constexpr double kWorstFit = 0.35;
 constexpr double kWorstLine = 0.2;  ///< A grid with gaps resembles a line more than another grid.
 constexpr double kGoodFit = 0.1;
 /// Views of less contrast, against the median, hold nothing.
-constexpr double kLeastContrast = 0.1;
+constexpr double kLeastViewContrast = 0.1;
 /// Pairs that are less alike than this share of the range tell no distance any more.
 constexpr double kSaturation = 0.6;
 constexpr double kNegligible = 0.005;
-constexpr int kFarthest = 32;
+constexpr int kFarthestInList = 32;
 
-/// The views of a long list that tell its arrangements apart: neighbours of the middle one, in the
+/// The views of a long list that tell its arrangements apart: neighbors of the middle one, in the
 /// list and in every arrangement.
 std::set<int> telling_views(int count) {
   std::set<int> chosen;
@@ -163,9 +163,9 @@ std::set<int> telling_views(int count) {
 }
 
 /// Views of the list that hold something, by index.
-using Pictures = std::map<int, MotionPictures>;
+using ListPictures = std::map<int, MotionPictures>;
 
-Pictures load(int count, const GreyViewOfList& view, const Progress& progress) {
+ListPictures load(int count, const GreyViewOfList& view, const Progress& progress) {
   std::vector<int> wanted;
   if (count <= kShortList) {
     for (int i = 0; i < count; ++i) wanted.push_back(i);
@@ -181,8 +181,8 @@ Pictures load(int count, const GreyViewOfList& view, const Progress& progress) {
   std::vector<double> contrasts;
   for (const MotionPictures& one : loaded) contrasts.push_back(one.contrast);
   std::ranges::sort(contrasts);
-  const double least = kLeastContrast * contrasts[contrasts.size() / 2];
-  Pictures pictures;
+  const double least = kLeastViewContrast * contrasts[contrasts.size() / 2];
+  ListPictures pictures;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (loaded[i].contrast > least) pictures.emplace(wanted[i], std::move(loaded[i]));
   }
@@ -190,7 +190,7 @@ Pictures load(int count, const GreyViewOfList& view, const Progress& progress) {
 }
 
 /// Roots of 1 − correlation, which grow about linearly as long as views are alike.
-Unlikeness unlikeness(const Pictures& pictures, std::size_t scale, const Progress& progress) {
+Unlikeness unlikeness(const ListPictures& pictures, std::size_t scale, const Progress& progress) {
   Unlikeness found;
   for (auto one = pictures.begin(); one != pictures.end(); ++one) {
     for (auto other = std::next(one); other != pictures.end(); ++other) {
@@ -262,7 +262,7 @@ void add_unfilled(int count, const Unlikeness& pairs, std::vector<Fit>& found) {
 }
 
 /// All arrangements, the best first, at the scale at which the best one stands out most.
-std::vector<Fit> fits(int count, const Pictures& pictures, const Progress& progress) {
+std::vector<Fit> fits(int count, const ListPictures& pictures, const Progress& progress) {
   std::vector<Fit> clearest;
   Unlikeness clearest_pairs;
   for (std::size_t scale = 0; scale < MotionPictures::kScales; ++scale) {
@@ -279,8 +279,9 @@ std::vector<Fit> fits(int count, const Pictures& pictures, const Progress& progr
 }
 
 /// Pairs of views in a row (or column) of the arrangement, `step` apart; a few, spread over all.
-std::vector<std::array<int, 2>> neighbours(const Pictures& pictures, const Arrangement& arrangement,
-                                           bool is_along_row, int step) {
+std::vector<std::array<int, 2>> neighbours(const ListPictures& pictures,
+                                           const Arrangement& arrangement, bool is_along_row,
+                                           int step) {
   std::vector<std::array<int, 2>> all;
   for (auto one = pictures.begin(); one != pictures.end(); ++one) {
     const Arrangement::Place p = arrangement.place(one->first);
@@ -299,9 +300,10 @@ std::vector<std::array<int, 2>> neighbours(const Pictures& pictures, const Arran
 
 /// The motion between views along rows or columns of the arrangement, at the distance at which it
 /// is clearest.
-AxisEvidence motion(const Pictures& pictures, const Arrangement& arrangement, bool is_along_row) {
+AxisEvidence motion(const ListPictures& pictures, const Arrangement& arrangement,
+                    bool is_along_row) {
   AxisEvidence clearest;
-  for (int step = 1; step <= kFarthest; step *= 2) {
+  for (int step = 1; step <= kFarthestInList; step *= 2) {
     AxisEvidence evidence;
     for (const auto& [i, j] : neighbours(pictures, arrangement, is_along_row, step)) {
       evidence.add(pictures.at(i), pictures.at(j));
@@ -311,13 +313,13 @@ AxisEvidence motion(const Pictures& pictures, const Arrangement& arrangement, bo
   return clearest;
 }
 
-std::string percent(double share) {
+std::string percent_text(double share) {
   return fixed_text(100 * share, 0) + " %";
 }
 
 std::string motion_text(const char* which, const AxisEvidence& evidence) {
   return fmt::format("{} {} of the difference is motion along x and {} along y", which,
-                     percent(evidence.gone_along_x()), percent(evidence.gone_along_y()));
+                     percent_text(evidence.gone_along_x()), percent_text(evidence.gone_along_y()));
 }
 
 ListLayout layout_of(int count, const Arrangement& one, bool is_along_x) {
@@ -331,7 +333,7 @@ ListLayout layout_of(int count, const Arrangement& one, bool is_along_x) {
 }
 
 /// The arrangement with the image axes along which it runs; not decided if these contradict it.
-ListLayout with_axes(int count, const Arrangement& one, const Pictures& pictures) {
+ListLayout with_axes(int count, const Arrangement& one, const ListPictures& pictures) {
   const AxisEvidence in_rows = motion(pictures, one, true);
   ListLayout layout = layout_of(count, one, !in_rows.is_y());
   if (one.period == count) {
@@ -353,12 +355,12 @@ std::string fit_text(int count, const Fit& fit) {
   std::string name = rows == 1 ? "a line" : fmt::format("{} lines of {}", rows, period);
   if (fit.arrangement.snake) name += " in snake order";
   if (missing > 0) name += fmt::format(", {} of them missing", missing);
-  return fmt::format("{}: {} unexplained", name, percent(fit.unexplained));
+  return fmt::format("{}: {} unexplained", name, percent_text(fit.unexplained));
 }
 
 /// The only one of the best fits that motion along the image axes does not contradict. `unknown`
 /// is the answer without a decision, with the fits as its evidence.
-ListLayout chosen(const std::vector<Fit>& found, const Pictures& pictures, ListLayout unknown,
+ListLayout chosen(const std::vector<Fit>& found, const ListPictures& pictures, ListLayout unknown,
                   const Progress& progress) {
   const int count = unknown.grid.count();
   const std::string compared = unknown.evidence;
@@ -413,7 +415,7 @@ std::string layout_text(const ListLayout& layout) {
 
 ListLayout find_list_layout(int count, const GreyViewOfList& view, const Progress& progress) {
   if (count < 2) throw InvalidInput("a list of views needs two views at least");
-  const Pictures pictures = load(count, view, progress);
+  const ListPictures pictures = load(count, view, progress);
   ListLayout unknown;
   unknown.grid = {1, count};
   if (pictures.size() < 2) {

@@ -12,17 +12,17 @@
 
 namespace episcope::io {
 
-/// The order of views that a format suggests before it is checked.
+/// Order of views that a format suggests, before it is checked.
 struct ExpectedOrder {
   ViewFlip flip;
   std::string reason;  ///< "raw files of the archive store h reversed", …
-  /// Rows and columns are beyond doubt: motion along the other axis is reported, not corrected.
+  /// Rows and columns are certain: motion along the other axis is reported, not corrected.
   bool are_axes_known = false;
-  /// Nothing tells near from far in the truth: negated, it would fit the opposite order as well.
+  /// The sign of the truth is only assumed: negated, it would fit the opposite order as well.
   bool is_truth_sign_assumed = false;
 };
 
-/// A disparity map as stored, by which neighbouring views can be warped.
+/// Disparity map as stored, by which neighboring views can be warped.
 struct OrderEvidence {
   ViewIndex at;
   DisparityView disparity;
@@ -38,21 +38,21 @@ struct OrderFinding {
   std::vector<std::string> warnings;
 };
 
-/// Determines which view axes to reverse: by warping with the truth if there is any, which does
-/// not tell near from far where its sign is assumed. Else the sign of the correlation of EPI slopes
-/// tells whether the axes agree, and occlusion whether near and far do; what remains open is as
-/// expected. A `choice` other than Auto takes precedence, but is checked, and a contradiction is
-/// reported in the warnings. Nothing is reversed yet. Throws Cancelled.
+/// Determines which view axes to reverse. Truth decides if there is any: neighbors are warped by
+/// it. It tells near from far only if its sign is known. Without truth, the sign of the correlation
+/// of EPI slopes tells whether the axes agree, and occlusion whether near and far do. What remains
+/// open is as expected. A `choice` other than Auto takes precedence but is checked; a contradiction
+/// becomes a warning. Nothing is reversed yet. Throws Cancelled.
 [[nodiscard]] OrderFinding find_order(const LightField::Samples& samples,
                                       const std::vector<OrderEvidence>& truth,
                                       const ExpectedOrder& expected, Flip choice,
                                       const Progress& progress);
 
-/// The choice that reverses these axes.
+/// Choice that reverses these axes.
 [[nodiscard]] Flip flip_choice(ViewFlip flip);
 
-/// Brings stored views and truth into canonical order, as `find_order` determines it with the
-/// disparity of the truth, and adds to `report`. Throws Cancelled.
+/// Brings stored views and truth into canonical order as `find_order` determines it from the
+/// disparity of the truth. Continues `report`. Throws Cancelled.
 void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
                   Flip choice, ConventionReport& report, const Progress& progress);
 

@@ -39,13 +39,13 @@ struct OcclusionByAxis {
   OcclusionVotes v;
 };
 
-constexpr int kSquare = 16;
+constexpr int kVoteSquare = 16;
 constexpr float kLeastApart = 2;  ///< Shifts that differ by less are of one surface.
 constexpr float kClearly = 0.6;
 /// Windows that differ by less than this many times the usual error may differ by noise.
-constexpr float kAboveNoise = 2.5;
-constexpr float kLeastContrast = 0.5;
-constexpr double kSignificant = 3.3;  ///< Standard deviations of votes by chance.
+constexpr float kWindowAboveNoise = 2.5;
+constexpr float kLeastWindowContrast = 0.5;
+constexpr double kSignificantVotes = 3.3;  ///< Standard deviations of votes by chance.
 /// Systematic errors, such as edges found beside their place, must be clearly fewer.
 constexpr double kMajority = 0.35;
 
@@ -86,7 +86,7 @@ class Windows {
     if (errors.empty()) return;
     const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
     std::ranges::nth_element(errors, middle);
-    contrast_ = kLeastContrast + kAboveNoise * *middle;
+    contrast_ = kLeastWindowContrast + kWindowAboveNoise * *middle;
   }
   [[nodiscard]] float contrast() const { return contrast_; }
 
@@ -120,7 +120,7 @@ class Windows {
   const Image<float>& middle_;
   const Image<float>& target_;
   const Image<float>& opposite_;
-  float contrast_ = kLeastContrast;
+  float contrast_ = kLeastWindowContrast;
 };
 
 /// +1 if the point with the larger shift hides the other one, −1 if it is hidden, 0 if that cannot
@@ -146,12 +146,12 @@ int winner(const Windows& windows, int y, const Arrivals& two, float side) {
 class Tally {
  public:
   Tally(int height, int width)
-      : columns_(width / kSquare + 1),
-        balance_(static_cast<std::size_t>(columns_) * (height / kSquare + 1)) {}
+      : columns_(width / kVoteSquare + 1),
+        balance_(static_cast<std::size_t>(columns_) * (height / kVoteSquare + 1)) {}
 
   void add(int y, int x, int vote) {
     (vote > 0 ? votes_.forward : votes_.reversed) += 1;
-    balance_[static_cast<std::size_t>(y / kSquare) * columns_ + x / kSquare] += vote;
+    balance_[static_cast<std::size_t>(y / kVoteSquare) * columns_ + x / kVoteSquare] += vote;
   }
   [[nodiscard]] OcclusionVotes votes() const {
     OcclusionVotes all = votes_;
@@ -208,10 +208,11 @@ bool OcclusionVotes::is_decided() const {
   const double sum = forward_squares + reversed_squares;
   const double difference = std::abs(forward_squares - reversed_squares);
   const bool is_agreed = (forward > reversed) == (forward_squares > reversed_squares);
-  return is_agreed && difference > kSignificant * std::sqrt(sum) && difference > kMajority * sum;
+  return is_agreed && difference > kSignificantVotes * std::sqrt(sum) &&
+         difference > kMajority * sum;
 }
 
-/// Two points of the view at the centre of the grid whose disparities lead them to the same place
+/// Two points of the view at the center of the grid whose disparities lead them to the same place
 /// of another view, and which in the opposite view are seen side by side, each with its own motion:
 /// the one that is seen in that place is the nearer one. If it has the larger disparity, the axis
 /// has the canonical direction. Looks at five views of each axis, reduced to at most `side` px, of
@@ -223,8 +224,8 @@ OcclusionByAxis count_occlusions(const LightField::Samples& samples, int side,
   return {u, v};
 }
 
-constexpr int kLargestSide = 1024;
-constexpr int kSmallestSide = 256;
+constexpr int kLargestVoteSide = 1024;
+constexpr int kSmallestVoteSide = 256;
 
 std::string counted(const OcclusionVotes& votes) {
   return fmt::format("{} points to {}, in {} squares of the view to {}",
@@ -278,7 +279,7 @@ SignFinding check_sign(const LightField::Samples& samples, ViewFlip flip, bool a
     return found;
   }
   OcclusionVotes most;
-  for (int side = std::min(larger, kLargestSide); side >= std::min(kSmallestSide, larger);
+  for (int side = std::min(larger, kLargestVoteSide); side >= std::min(kSmallestVoteSide, larger);
        side = (side + 1) / 2) {
     progress.check();
     const OcclusionByAxis votes = count_occlusions(samples, side, progress);
@@ -286,7 +287,7 @@ SignFinding check_sign(const LightField::Samples& samples, ViewFlip flip, bool a
     if (found.is_decided) return found;
     const OcclusionVotes sum = votes_for(votes, flip);
     if (sum.forward + sum.reversed > most.forward + most.reversed) most = sum;
-    if (side <= kSmallestSide) break;
+    if (side <= kSmallestVoteSide) break;
   }
   found.evidence =
       fmt::format("no depth edges with clear occlusion: {} points for this order, {} against",

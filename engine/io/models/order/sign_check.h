@@ -9,16 +9,16 @@
 
 namespace episcope::io {
 
-/// What occlusion says of the directions of the view axes.
+/// Directions of the view axes according to occlusion.
 struct SignFinding {
   ViewFlip flip;            ///< The order that was asked about, or what occlusion makes of it.
   bool is_decided = false;  ///< Whether near and far are told apart.
   std::string evidence;     ///< With numbers: what was counted, and for which order.
 };
 
-/// Asks which axes are reversed, at several resolutions until that is clear. `flip` is the order
-/// that is known or expected so far; with `are_axes_related`, whether one axis is reversed against
-/// the other is certain, and the axes are judged together; else each axis by itself. Throws
+/// Determines which axes are reversed from occlusion, at several resolutions until it is clear.
+/// `flip` is the order that is known or expected so far. With `are_axes_related` it is certain
+/// whether the axes agree, and they are judged together; else each axis by itself. Throws
 /// Cancelled.
 [[nodiscard]] SignFinding check_sign(const LightField::Samples& samples, ViewFlip flip,
                                      bool are_axes_related, const Progress& progress);

@@ -21,7 +21,7 @@
 namespace episcope::io {
 namespace {
 
-constexpr int kBlock = 12;
+constexpr int kMatchedBlock = 12;
 
 /// Blocks side by side that no shift moves out of the picture.
 struct Blocks {
@@ -30,8 +30,8 @@ struct Blocks {
   int margin = 0;
 
   Blocks(const Image<float>& picture, int range)
-      : rows(std::max(picture.height() - 2 * range, 0) / kBlock),
-        columns(std::max(picture.width() - 2 * range, 0) / kBlock),
+      : rows(std::max(picture.height() - 2 * range, 0) / kMatchedBlock),
+        columns(std::max(picture.width() - 2 * range, 0) / kMatchedBlock),
         margin(range) {}
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(rows) * columns; }
 };
@@ -45,7 +45,7 @@ std::vector<float> left_over(const Image<float>& one, const Image<float>& other,
     float squares = 0, products = 0, gradients = 0;
   };
   std::vector<Sums> sums(blocks.count());
-  for (int y = 0; y < blocks.rows * kBlock; ++y) {
+  for (int y = 0; y < blocks.rows * kMatchedBlock; ++y) {
     const int at = y + blocks.margin + shift.y;
     const float* a = one.row(y + blocks.margin) + blocks.margin;
     const float* b = other.row(at) + blocks.margin + shift.x;
@@ -53,14 +53,14 @@ std::vector<float> left_over(const Image<float>& one, const Image<float>& other,
     const float* last = is_x ? b - 1 : other.row(at - 1) + blocks.margin + shift.x;
     for (int k = 0; k < blocks.columns; ++k) {
       Sums row;
-      for (int x = k * kBlock; x < (k + 1) * kBlock; ++x) {
+      for (int x = k * kMatchedBlock; x < (k + 1) * kMatchedBlock; ++x) {
         const float difference = a[x] - b[x];
         const float gradient = 0.5F * (next[x] - last[x]);
         row.squares += difference * difference;
         row.products += difference * gradient;
         row.gradients += gradient * gradient;
       }
-      Sums& block = sums[static_cast<std::size_t>(y / kBlock) * blocks.columns + k];
+      Sums& block = sums[static_cast<std::size_t>(y / kMatchedBlock) * blocks.columns + k];
       block.squares += row.squares;
       block.products += row.products;
       block.gradients += row.gradients;
@@ -72,7 +72,7 @@ std::vector<float> left_over(const Image<float>& one, const Image<float>& other,
     const float more =
         block.gradients > 0 ? std::clamp(block.products / block.gradients, -1.0F, 1.0F) : 0.0F;
     const float rest = block.squares - 2 * more * block.products + more * more * block.gradients;
-    left[i] = std::sqrt(std::max(rest, 0.0F) / (kBlock * kBlock));
+    left[i] = std::sqrt(std::max(rest, 0.0F) / (kMatchedBlock * kMatchedBlock));
   }
   return left;
 }
@@ -80,15 +80,15 @@ std::vector<float> left_over(const Image<float>& one, const Image<float>& other,
 std::vector<float> unmoved_difference(const Image<float>& one, const Image<float>& other,
                                       const Blocks& blocks) {
   std::vector<float> sums(blocks.count());
-  for (int y = 0; y < blocks.rows * kBlock; ++y) {
-    for (int x = 0; x < blocks.columns * kBlock; ++x) {
+  for (int y = 0; y < blocks.rows * kMatchedBlock; ++y) {
+    for (int x = 0; x < blocks.columns * kMatchedBlock; ++x) {
       const float difference = one.at(y + blocks.margin, x + blocks.margin) -
                                other.at(y + blocks.margin, x + blocks.margin);
-      sums[static_cast<std::size_t>(y / kBlock) * blocks.columns + x / kBlock] +=
+      sums[static_cast<std::size_t>(y / kMatchedBlock) * blocks.columns + x / kMatchedBlock] +=
           difference * difference;
     }
   }
-  for (float& sum : sums) sum = std::sqrt(sum / (kBlock * kBlock));
+  for (float& sum : sums) sum = std::sqrt(sum / (kMatchedBlock * kMatchedBlock));
   return sums;
 }
 
@@ -159,7 +159,7 @@ bool AxisEvidence::is_y() const {
 
 namespace {
 
-constexpr int kFarthest = 8;
+constexpr int kFarthestNeighbour = 8;
 /// Swapping axes against what names or files say takes more than looking at them.
 constexpr double kWithoutDoubt = 8;
 
@@ -171,7 +171,7 @@ AxisEvidence evidence_along(const LightField::Samples& samples, bool is_v,
   AxisEvidence clearest;
   if ((is_v ? grid.v : grid.u) < 2) return clearest;
   const MotionPictures middle = picture(center);
-  for (int step = 1; step <= kFarthest; step *= 2) {
+  for (int step = 1; step <= kFarthestNeighbour; step *= 2) {
     progress.check();
     AxisEvidence evidence;
     for (const int offset : {-step, step}) {
@@ -267,9 +267,9 @@ void swap_view_axes(std::vector<CameraPosition>& positions, GridShape stored) {
 namespace {
 
 constexpr int kSide = 512;
-constexpr int kSquare = 16;
+constexpr int kMotionSquare = 16;
 constexpr int kRange = 8;
-constexpr int kFewestSquares = 12;
+constexpr int kFewestMotionSquares = 12;
 constexpr double kEnough_px = 1;   ///< Motion along the line that tells.
 constexpr double kBothWays = 0.1;  ///< Of the texture of a square across its main direction.
 constexpr double kLeast_px = 0.25;
@@ -288,8 +288,8 @@ struct Normal {
 Normal normal_of(const Image<float>& a, const Image<float>& b, int top, int left, int shift) {
   Normal sums;
   double x = 0, y = 0, d = 0;
-  for (int row = top; row < top + kSquare; ++row) {
-    for (int column = left; column < left + kSquare; ++column) {
+  for (int row = top; row < top + kMotionSquare; ++row) {
+    for (int column = left; column < left + kMotionSquare; ++column) {
       const int at = column + shift;
       const double gx = 0.5 * (b.at(row, at + 1) - b.at(row, at - 1));
       const double gy = 0.5 * (b.at(row + 1, at) - b.at(row - 1, at));
@@ -305,7 +305,7 @@ Normal normal_of(const Image<float>& a, const Image<float>& b, int top, int left
       sums.dd += difference * difference;
     }
   }
-  constexpr double kCount = kSquare * kSquare;
+  constexpr double kCount = kMotionSquare * kMotionSquare;
   return {sums.xx - x * x / kCount, sums.xy - x * y / kCount, sums.yy - y * y / kCount,
           sums.xd - x * d / kCount, sums.yd - y * d / kCount, sums.dd - d * d / kCount};
 }
@@ -341,8 +341,8 @@ LineMotion motion_between(const Image<float>& a, const Image<float>& b, int step
   std::vector<float> along;
   std::vector<float> across;
   constexpr int kMargin = kRange + 1;
-  for (int y = 1; y + kSquare < a.height(); y += kSquare) {
-    for (int x = kMargin; x + kSquare + kMargin <= a.width(); x += kSquare) {
+  for (int y = 1; y + kMotionSquare < a.height(); y += kMotionSquare) {
+    for (int x = kMargin; x + kMotionSquare + kMargin <= a.width(); x += kMotionSquare) {
       const auto motion = motion_of(a, b, y, x);
       if (!motion) continue;
       along.push_back(static_cast<float>(std::abs(motion->x)));
@@ -350,7 +350,7 @@ LineMotion motion_between(const Image<float>& a, const Image<float>& b, int step
     }
   }
   const auto squares = static_cast<int>(along.size());
-  if (squares < kFewestSquares) return {0, 0, step, squares};
+  if (squares < kFewestMotionSquares) return {0, 0, step, squares};
   return {quantile(along, 0.5), quantile(across, 0.5), step, squares};
 }
 
@@ -373,7 +373,7 @@ LineMotion measure_line_motion(const LightField::Samples& samples, const Progres
   const int center = count / 2;
   const Image<float> middle = picture_of(samples, center);
   LineMotion motion;
-  for (int step = 1; step <= kFarthest && step <= center; step *= 2) {
+  for (int step = 1; step <= kFarthestNeighbour && step <= center; step *= 2) {
     progress.check();
     motion = motion_between(middle, picture_of(samples, center - step), step);
     if (motion.along > kEnough_px || motion.across > kEnough_px) break;

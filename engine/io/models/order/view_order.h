@@ -12,14 +12,14 @@
 
 namespace episcope::io {
 
-/// Which view axes of a file are opposite to the canonical order.
+/// View axes of a file that run against the canonical order.
 struct ViewFlip {
   bool u = false;
   bool v = false;
   friend bool operator==(const ViewFlip&, const ViewFlip&) = default;
 };
 
-/// The flip that was undone while reading.
+/// Flip that was undone while reading.
 [[nodiscard]] inline ViewFlip flip_of(const ConventionReport& report) {
   return {report.reversed_u, report.reversed_v};
 }
@@ -72,19 +72,19 @@ inline void reverse_views(DisparityField& field, GridShape grid, ViewFlip flip) 
 /// Reverses positions, row by row on the grid, along with their views.
 void reverse_positions(std::vector<CameraPosition>& positions, GridShape grid, ViewFlip flip);
 
-/// "camera right = smaller X, camera down = larger Y": how positions in canonical order change from
-/// view to view. Empty if there are none, or if they do not change.
+/// Describes how positions change from view to view in canonical order: "camera right = smaller X,
+/// camera down = larger Y". Empty if there are none, or if they do not change.
 [[nodiscard]] std::string position_directions(const std::vector<CameraPosition>& positions,
                                               GridShape grid);
 
-/// The views around the centre of a grid, so that the centre stays the centre.
+/// Views around the center of a grid, such that the center stays the center.
 [[nodiscard]] inline ViewCrop central_crop(GridShape stored, GridShape kept) {
   const ViewIndex center = stored.center();
   const ViewIndex inner = kept.center();
   return {stored, {center.v - inner.v, center.u - inner.u}, kept};
 }
 
-/// Reads the option `crop`, rows x columns: "9x9". Throws InvalidInput for other texts, and for
+/// Parses the option `crop`, rows x columns: "9x9". Throws InvalidInput for other texts and for
 /// more views than there are.
 [[nodiscard]] ViewCrop parse_crop(const std::string& text, GridShape stored);
 
@@ -113,14 +113,14 @@ template <class T>
   return kept;
 }
 
-/// Parts of a ground truth likewise; regions belong to the centre view, which stays.
+/// Crops a ground truth. Regions belong to the center view, which stays.
 void crop_truth(GroundTruth& truth, const ViewCrop& crop);
 
-/// What is painted on views that were kept, with their places among them.
+/// Keeps the scribbles of the kept views, with their new places.
 [[nodiscard]] Scribbles cropped(Scribbles scribbles, const ViewCrop& crop);
 
-/// The inverse: places among the views stored. Views that were left out keep what is painted on
-/// them in `before`.
+/// Inverse of `cropped`: returns scribbles at their stored places. Views outside the crop keep
+/// their scribbles in `before`.
 [[nodiscard]] Scribbles uncropped(Scribbles scribbles, Scribbles before, const ViewCrop& crop);
 
 }  // namespace episcope::io

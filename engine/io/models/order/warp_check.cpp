@@ -31,14 +31,14 @@ class PairGain {
 
 constexpr float kDark = 4;
 constexpr float kNearlyEven = 0.02F;
-constexpr std::size_t kFewest = 50;
+constexpr std::size_t kFewestRatios = 50;
 
 void PairGain::add(float here, float there) {
   if (std::min(here, there) > kDark) ratios_.push_back(here / there);
 }
 
 float PairGain::value() {
-  if (ratios_.size() < kFewest) return 1;
+  if (ratios_.size() < kFewestRatios) return 1;
   const float gain = quantile(ratios_, 0.5);
   return std::abs(gain - 1) > kNearlyEven ? gain : 1;
 }
@@ -56,9 +56,9 @@ float sample(const Image<float>& image, double y, double x) {
 }
 
 /// The value that counts as white: of 16-bit samples what as many bits hold as the view at the
-/// centre uses, since cameras give 10, 12 or 14 of them.
+/// center uses, since cameras give 10, 12 or 14 of them.
 template <class T>
-float white_of(const ViewStack<T>& stack) {
+float white_level(const ViewStack<T>& stack) {
   if constexpr (std::is_same_v<T, float>) return 1;
   if constexpr (std::is_same_v<T, std::uint8_t>) return 255;
   constexpr std::size_t kStride = 7;
@@ -109,7 +109,7 @@ void for_moved(const ViewPair& pair, const DisparityView& disparity, int stride,
   }
 }
 
-/// Adds the errors against the neighbour, of which brightness is evened out.
+/// Adds the errors against the neighbor, of which brightness is evened out.
 void add_neighbour(const ViewPair& pair, const DisparityView& disparity, AxisErrors& sums) {
   constexpr int kGainStride = 3;
   PairGain forward, reversed, unwarped;
@@ -215,7 +215,7 @@ Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view,
   return std::visit(
       [&]<class T>(const ViewStack<T>& stack) {
         const auto image = stack.view(view);
-        const float scale = 255.0F / white_of(stack) / static_cast<float>(image.channels);
+        const float scale = 255.0F / white_level(stack) / static_cast<float>(image.channels);
         Image<float> grey(part.y1 - part.y0, part.x1 - part.x0);
         for (int y = 0; y < grey.height(); ++y) {
           const T* const row = image.row(part.y0 + y) + part.x0 * image.channels;
@@ -234,16 +234,16 @@ WarpErrors warp_errors(const LightField::Samples& samples, ViewIndex at,
 
 namespace {
 
-constexpr int kSquare = 16;
-constexpr int kFewestSquares = 8;
+constexpr int kConstantSquare = 16;
+constexpr int kFewestConstantSquares = 8;
 /// Standard deviations of chance. The constant is the best of many, which leaves less to it.
-constexpr double kSignificant = 2.7;
+constexpr double kSignificantConstant = 2.7;
 constexpr int kSteps = 24;              ///< Constants tried to either side of 0.
 constexpr double kDiffers = 0.25;       ///< px between the map and the constant, or less in maps
 constexpr double kPartOfRange = 0.125;  ///< of which that is more than this part of the range;
 constexpr double kLeastRange = 0.05;    ///< those of less px are constants.
-constexpr float kLargestError = 40;     ///< Grey levels; what is hidden counts no more.
-constexpr double kMostPoints = 10000;
+constexpr float kLargestConstantError = 40;  ///< Grey levels; what is hidden counts no more.
+constexpr double kMostConstantPoints = 10000;
 
 struct Point {
   int y = 0;
@@ -254,7 +254,7 @@ struct Point {
 std::vector<Point> points_of(const DisparityView& map) {
   const ImageView<const float>& values = map.disparity;
   const double area = static_cast<double>(values.height) * values.width;
-  const int stride = std::max(1, static_cast<int>(std::sqrt(area / kMostPoints)));
+  const int stride = std::max(1, static_cast<int>(std::sqrt(area / kMostConstantPoints)));
   std::vector<Point> points;
   for (int y = 0; y < values.height; y += stride) {
     for (int x = 0; x < values.width; x += stride) {
@@ -265,8 +265,8 @@ std::vector<Point> points_of(const DisparityView& map) {
   return points;
 }
 
-/// The view and one next to it; `shift`: of disparity 1 in the neighbour, to lower coordinates.
-struct Pair {
+/// The view and one next to it; `shift`: of disparity 1 in the neighbor, to lower coordinates.
+struct WarpedPair {
   const Image<float>& here;
   Image<float> there;
   bool is_u;
@@ -288,7 +288,7 @@ struct Pair {
   [[nodiscard]] float error(const Point& point, double disparity) const {
     const float grey = moved(point, disparity);
     if (grey < 0) return -1;
-    return std::min(kLargestError, std::abs(here.at(point.y, point.x) - gain * grey));
+    return std::min(kLargestConstantError, std::abs(here.at(point.y, point.x) - gain * grey));
   }
   void even_out(const std::vector<Point>& points) {
     PairGain brightness;
@@ -304,10 +304,10 @@ Image<float> picture_of(const LightField::Samples& samples, ViewIndex view) {
   return smoothed(grey_levels(samples, view));
 }
 
-std::vector<Pair> pairs_of(const LightField::Samples& samples, ViewIndex at,
-                           const Image<float>& here, const WarpErrors& errors, bool is_u) {
+std::vector<WarpedPair> pairs_of(const LightField::Samples& samples, ViewIndex at,
+                                 const Image<float>& here, const WarpErrors& errors, bool is_u) {
   const bool is_reversed = (is_u ? errors.u : errors.v).says_reversed();
-  std::vector<Pair> pairs;
+  std::vector<WarpedPair> pairs;
   for (const int step : {-1, 1}) {
     const ViewIndex next = is_u ? ViewIndex{at.v, at.u + step} : ViewIndex{at.v + step, at.u};
     if (!grid_of(samples).contains(next)) continue;
@@ -316,14 +316,14 @@ std::vector<Pair> pairs_of(const LightField::Samples& samples, ViewIndex at,
   return pairs;
 }
 
-double best_constant(const std::vector<Pair>& pairs, const std::vector<Point>& points) {
+double best_constant(const std::vector<WarpedPair>& pairs, const std::vector<Point>& points) {
   double reach = 0;
   for (const Point& point : points) reach = std::max(reach, std::abs(point.disparity));
   std::pair<double, double> least{HUGE_VAL, 0};
   for (int step = -kSteps; step <= kSteps; ++step) {
     const double constant = reach * step / kSteps;
     double sum = 0, inside = 0;
-    for (const Pair& pair : pairs) {
+    for (const WarpedPair& pair : pairs) {
       for (const Point& point : points) {
         const float error = pair.error(point, constant);
         if (error < 0) continue;
@@ -358,14 +358,14 @@ struct Constant {
   double differs = 0;
 };
 
-void add_pair(const Pair& pair, const std::vector<Point>& points, const Constant& constant,
+void add_pair(const WarpedPair& pair, const std::vector<Point>& points, const Constant& constant,
               Squares& squares) {
   for (const Point& point : points) {
     if (std::abs(point.disparity - constant.disparity) < constant.differs) continue;
     const float by_map = pair.error(point, point.disparity);
     const float by_constant = pair.error(point, constant.disparity);
     if (by_map < 0 || by_constant < 0) continue;
-    Sum& sum = squares[{point.y / kSquare, point.x / kSquare}];
+    Sum& sum = squares[{point.y / kConstantSquare, point.x / kConstantSquare}];
     sum.better += by_constant - by_map;
     ++sum.points;
   }
@@ -379,7 +379,7 @@ ConstantComparison compared(const Squares& squares) {
     square += better * better;
   }
   const auto count = static_cast<double>(squares.size());
-  if (count < kFewestSquares) return {static_cast<int>(count), 0};
+  if (count < kFewestConstantSquares) return {static_cast<int>(count), 0};
   const double mean = sum / count;
   const double variance = std::max(square / count - mean * mean, 1e-9);
   return {static_cast<int>(count), mean / std::sqrt(variance / count)};
@@ -388,11 +388,11 @@ ConstantComparison compared(const Squares& squares) {
 }  // namespace
 
 bool ConstantComparison::is_told() const {
-  return squares >= kFewestSquares;
+  return squares >= kFewestConstantSquares;
 }
 
 bool ConstantComparison::is_better() const {
-  return is_told() && score > kSignificant;
+  return is_told() && score > kSignificantConstant;
 }
 
 ConstantComparison compare_with_constant(const LightField::Samples& samples, ViewIndex at,
@@ -404,10 +404,10 @@ ConstantComparison compare_with_constant(const LightField::Samples& samples, Vie
   const Image<float> here = picture_of(samples, at);
   Squares squares;
   for (const bool is_u : {true, false}) {
-    std::vector<Pair> pairs = pairs_of(samples, at, here, errors, is_u);
-    for (Pair& pair : pairs) pair.even_out(points);
+    std::vector<WarpedPair> pairs = pairs_of(samples, at, here, errors, is_u);
+    for (WarpedPair& pair : pairs) pair.even_out(points);
     const double constant = best_constant(pairs, points);
-    for (const Pair& pair : pairs) add_pair(pair, points, {constant, differs}, squares);
+    for (const WarpedPair& pair : pairs) add_pair(pair, points, {constant, differs}, squares);
   }
   return compared(squares);
 }

@@ -7,7 +7,7 @@
 
 namespace episcope::io {
 
-/// Mean absolute differences in grey levels (0…255) between a view and its neighbours along one
+/// Mean absolute differences in grey levels (0 … 255) between a view and its neighbors along one
 /// view axis, warped onto it by a disparity map.
 struct AxisErrors {
   double forward = 0;    ///< If the axis has the canonical direction,
@@ -17,8 +17,8 @@ struct AxisErrors {
 
   /// Whether the two differ by more than noise does: 3 % and 0.02 grey levels.
   [[nodiscard]] bool is_decided() const;
-  /// Whether warping hardly explains the views: better than the other order or than no warping by
-  /// less than 10 %, or worse than no warping where the order is undecided.
+  /// Whether warping hardly explains the views: it improves on the other order or on no warping by
+  /// less than 10 %, or is worse than no warping while the order is undecided.
   [[nodiscard]] bool is_poor() const;
   [[nodiscard]] bool says_reversed() const { return reversed < forward; }
 };
@@ -29,38 +29,39 @@ struct WarpErrors {
 
   /// Mean error of the better order of each axis.
   [[nodiscard]] double best() const;
-  /// And without warping.
+  /// Mean error without warping.
   [[nodiscard]] double unwarped() const;
 };
 
-/// A view as grey values in 0…255, of 16-bit samples by as many bits as are used; a sample that is
-/// not finite takes the value to its left.
+/// Converts a view to grey levels in 0 … 255. 16-bit samples are scaled by the number of bits in
+/// use. A sample that is not finite takes the value to its left.
 [[nodiscard]] Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view);
-/// The same of a part of the view, which lies within it.
+/// Converts a part of the view, which must lie within it.
 [[nodiscard]] Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view,
                                        const PixelRect& part);
 
-/// Warps the up to four neighbours of `at` onto it. Only pixels with a valid disparity whose
-/// targets lie inside the image for both orders count, so that both are judged on the same pixels.
-/// Neighbours that are brighter or darker by more than 2 % are evened out.
+/// Warps up to four neighbors of `at` onto it. Only pixels count that have a valid disparity and
+/// targets inside the image for both orders, so that both are judged by the same pixels. Brightness
+/// that differs by more than 2 % is evened out.
 [[nodiscard]] WarpErrors warp_errors(const LightField::Samples& samples, ViewIndex at,
                                      const DisparityView& disparity);
 
-/// How much better a map explains the views next to its own than one disparity for all would.
+/// How much better a map explains the neighbors of its view than a constant disparity does.
 struct ConstantComparison {
   int squares = 0;   ///< Of 16×16 px in which the map differs from that disparity.
   double score = 0;  ///< By how many standard deviations of chance the map is better there.
 
   /// Whether the map can be told from a constant.
   [[nodiscard]] bool is_told() const;
-  /// And whether it is better by more than chance.
+  /// Whether the map is told from a constant and better by more than chance.
   [[nodiscard]] bool is_better() const;
 };
 
-/// Warps the up to four neighbours of `at`, evened out in brightness, with the map, in the order of
-/// each axis that `errors` says, and with the constant disparity that explains that axis best,
-/// within the range of the map to either side of 0. A map that is wrong, but of the right mean, may
-/// explain views better than no warping, but hardly better than that. Looks at some 10,000 pixels.
+/// Warps up to four neighbors of `at`, evened out in brightness: with the map, in the order of each
+/// axis that `errors` says, and with the constant disparity that explains that axis best. The
+/// constant lies within the range of the map on either side of 0. A wrong map of the right mean may
+/// explain views better than no warping, but hardly better than the constant. Samples about 10,000
+/// pixels.
 [[nodiscard]] ConstantComparison compare_with_constant(const LightField::Samples& samples,
                                                        ViewIndex at, const DisparityView& disparity,
                                                        const WarpErrors& errors);

@@ -18,9 +18,9 @@ namespace episcope::io {
 namespace {
 
 /// A map that explains views this well needs no comparison with other units.
-constexpr double kPlain = 0.5;
+constexpr double kPlainUnit = 0.5;
 /// Another unit must leave at most this share of the error.
-constexpr double kClearlyBetter = 0.85;
+constexpr double kClearlyBetterUnit = 0.85;
 
 struct ScaledMap {
   Image<float> disparity;
@@ -38,7 +38,7 @@ ScaledMap scaled(const DisparityView& map, double factor) {
   return result;
 }
 
-/// The view and its four neighbours with rows and columns exchanged; the corners stay unset.
+/// The view and its four neighbors with rows and columns exchanged; the corners stay unset.
 LightField::Samples transposed_cross(const LightField::Samples& samples, ViewIndex at) {
   return std::visit(
       [&]<class T>(const ViewStack<T>& stack) -> LightField::Samples {
@@ -93,10 +93,10 @@ Explanation explain_views(const LightField::Samples& samples, ViewIndex at,
   const ScaledMap disparity = scaled(map, factor);
   Explanation best = explanation_of(warp_errors(samples, at, disparity.view()));
   const GridShape grid = grid_of(samples);
-  if (best.error <= kPlain * best.unwarped || !has_four_neighbours(grid, at)) return best;
+  if (best.error <= kPlainUnit * best.unwarped || !has_four_neighbours(grid, at)) return best;
   Explanation exchanged =
       explanation_of(warp_errors(transposed_cross(samples, at), {1, 1}, disparity.view()));
-  if (exchanged.error >= kClearlyBetter * best.error) return best;
+  if (exchanged.error >= kClearlyBetterUnit * best.error) return best;
   exchanged.is_transposed = true;
   return exchanged;
 }
@@ -105,10 +105,10 @@ SettledUnit settle_unit(const LightField::Samples& samples, ViewIndex at, const 
                         const std::vector<MapUnit>& units) {
   const Explanation first = explain_views(samples, at, map, units.front().factor);
   SettledUnit best{units.front(), first, first};
-  if (first.error <= kPlain * first.unwarped) return best;
+  if (first.error <= kPlainUnit * first.unwarped) return best;
   for (std::size_t i = 1; i < units.size(); ++i) {
     const Explanation other = explain_views(samples, at, map, units[i].factor);
-    const bool is_better = other.error < kClearlyBetter * first.error && other.is_good() &&
+    const bool is_better = other.error < kClearlyBetterUnit * first.error && other.is_good() &&
                            other.error < best.explanation.error;
     if (is_better) best = {units[i], other, first};
   }
@@ -117,18 +117,18 @@ SettledUnit settle_unit(const LightField::Samples& samples, ViewIndex at, const 
 
 namespace {
 
-constexpr int kFarthest = 4;     ///< View steps.
-constexpr float kContrast = 15;  ///< Grey levels between the two pixels of a pair, or in weak
+constexpr int kFarthestOccluded = 4;  ///< View steps.
+constexpr float kContrast = 15;       ///< Grey levels between the two pixels of a pair, or in weak
                                  ///< views so many times the usual error, and no less than this;
-constexpr float kAboveNoise = 2.5;
-constexpr float kLeastContrast = 2;
-constexpr double kGap = 1.5;     ///< px between their places if both moved on.
-constexpr int kErrorStride = 7;  ///< Of the pixels that tell the usual error.
-constexpr int kFewestPoints = 50;
+constexpr float kPairAboveNoise = 2.5;
+constexpr float kLeastPairContrast = 2;
+constexpr double kPlaceGap = 1.5;  ///< px between their places if both moved on.
+constexpr int kErrorStride = 7;    ///< Of the pixels that tell the usual error.
+constexpr int kFewestPairs = 50;
 constexpr double kDistinct = 0.85;  ///< Of the larger error, at most.
 /// Standard deviations of chance, of which pairs of the same edge, seen side by side and from four
 /// sides, make one out of two.
-constexpr double kSignificant = 6.6;
+constexpr double kSignificantPairs = 6.6;
 
 /// Two pixels that fall on the same one of another view.
 struct HiddenPair {
@@ -183,20 +183,21 @@ void compare_pairs(const Line& line, double sign, Compared& compared) {
     if (cell.least == cell.most) continue;
     const auto least = static_cast<std::size_t>(cell.least);
     const auto most = static_cast<std::size_t>(cell.most);
-    if (std::abs(line.shift[most] - line.shift[least]) < kGap) continue;
+    if (std::abs(line.shift[most] - line.shift[least]) < kPlaceGap) continue;
     compared.pairs.push_back(
         {std::abs(line.here[most] - line.here[least]), error(cell.most), error(cell.least)});
   }
 }
 
-struct Pair {
+struct ComparedPair {
   const Image<float>& here;
   const Image<float>& there;
   bool is_along_x;
   double pixels;  ///< Shift of disparity 1.
 };
 
-void compare_views(const Pair& pair, const DisparityView& map, double factor, Compared& compared) {
+void compare_views(const ComparedPair& pair, const DisparityView& map, double factor,
+                   Compared& compared) {
   const int lines = pair.is_along_x ? pair.here.height() : pair.here.width();
   const int length = pair.is_along_x ? pair.here.width() : pair.here.height();
   Line line;
@@ -218,8 +219,8 @@ void compare_views(const Pair& pair, const DisparityView& map, double factor, Co
 }
 
 /// By the pairs of at least this contrast.
-NearSide side_of(const std::vector<HiddenPair>& pairs, float contrast) {
-  NearSide side;
+OcclusionOrder side_of(const std::vector<HiddenPair>& pairs, float contrast) {
+  OcclusionOrder side;
   double squares = 0;
   for (const HiddenPair& pair : pairs) {
     if (pair.contrast < contrast) continue;
@@ -239,19 +240,20 @@ NearSide side_of(const std::vector<HiddenPair>& pairs, float contrast) {
 /// Above noise, but not above what is enough in any view.
 float weak_contrast(std::vector<float> errors) {
   if (errors.empty()) return kContrast;
-  return std::clamp(kAboveNoise * quantile(errors, 0.5), kLeastContrast, kContrast);
+  return std::clamp(kPairAboveNoise * quantile(errors, 0.5), kLeastPairContrast, kContrast);
 }
 
 }  // namespace
 
-bool NearSide::is_decided() const {
-  return points >= kFewestPoints &&
+bool OcclusionOrder::is_decided() const {
+  return points >= kFewestPairs &&
          std::min(larger, smaller) < kDistinct * std::max(larger, smaller) &&
-         std::abs(larger - smaller) > kSignificant * doubt;
+         std::abs(larger - smaller) > kSignificantPairs * doubt;
 }
 
-NearSide find_near_side(const LightField::Samples& samples, ViewIndex at, const DisparityView& map,
-                        double factor, const Explanation& explanation) {
+OcclusionOrder find_occlusion_order(const LightField::Samples& samples, ViewIndex at,
+                                    const DisparityView& map, double factor,
+                                    const Explanation& explanation) {
   const GridShape grid = grid_of(samples);
   const Image<float> here = grey_levels(samples, at);
   Compared compared;
@@ -263,18 +265,18 @@ NearSide find_near_side(const LightField::Samples& samples, ViewIndex at, const 
       const auto neighbour = [&](int n) {
         return is_u ? ViewIndex{at.v, at.u + direction * n} : ViewIndex{at.v + direction * n, at.u};
       };
-      while (steps < kFarthest && grid.contains(neighbour(steps + 1))) ++steps;
+      while (steps < kFarthestOccluded && grid.contains(neighbour(steps + 1))) ++steps;
       if (steps == 0) continue;
       const Image<float> there = grey_levels(samples, neighbour(steps));
       const double pixels = (is_reversed ? -1.0 : 1.0) * direction * steps;
       compare_views({here, there, is_along_x, pixels}, map, factor, compared);
     }
   }
-  const NearSide plain = side_of(compared.pairs, kContrast);
+  const OcclusionOrder plain = side_of(compared.pairs, kContrast);
   return plain.is_decided() ? plain : side_of(compared.pairs, weak_contrast(compared.errors));
 }
 
-std::string hiding_text(const NearSide& side) {
+std::string hiding_text(const OcclusionOrder& side) {
   return fmt::format(
       "hide others in other views (grey error {:.2f}, the hidden ones {:.2f}, {} pairs)",
       std::min(side.larger, side.smaller), std::max(side.larger, side.smaller), side.points);
@@ -299,7 +301,7 @@ std::optional<TruthSign> sign_by_views(const LightField::Samples& samples,
 
 }  // namespace
 
-TruthSign find_truth_sign(const LightField::Samples& samples, const NearSide& side,
+TruthSign find_truth_sign(const LightField::Samples& samples, const OcclusionOrder& side,
                           const Explanation& explanation) {
   if (side.is_decided()) {
     return {!side.larger_is_nearer(), true,
@@ -317,7 +319,7 @@ TruthSign find_truth_sign(const LightField::Samples& samples, const NearSide& si
 namespace {
 
 constexpr double kExact = 0.01;  ///< px
-constexpr int kPairs = 200;
+constexpr int kTriedLines = 200;
 constexpr std::size_t kSome = 2000;  ///< Points by which a pair is judged.
 
 struct DepthPoint {
@@ -353,7 +355,8 @@ DepthLine least_squares(const std::vector<DepthPoint>& points, const DepthLine& 
 }
 
 std::ptrdiff_t count_exact(const std::vector<DepthPoint>& points, const DepthLine& line) {
-  return std::ranges::count_if(points, [&](const DepthPoint& p) { return line.residual(p) < kExact; });
+  return std::ranges::count_if(points,
+                               [&](const DepthPoint& p) { return line.residual(p) < kExact; });
 }
 
 /// Of lines through pairs of points, the one that explains most points.
@@ -364,7 +367,7 @@ DepthLine best_line(const std::vector<DepthPoint>& points) {
   std::mt19937 random(1);
   DepthLine best;
   std::ptrdiff_t most = 0;
-  for (int pair = 0; pair < kPairs; ++pair) {
+  for (int pair = 0; pair < kTriedLines; ++pair) {
     const DepthPoint& p = some[random() % some.size()];
     const DepthPoint& q = some[random() % some.size()];
     const double run = p.inverse - q.inverse;

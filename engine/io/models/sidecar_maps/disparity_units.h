@@ -11,16 +11,16 @@
 
 namespace episcope::io {
 
-/// What numbers of a disparity map may mean: times `factor` they are px per view step.
+/// Meaning of the numbers of a disparity map: times `factor` they are px per view step.
 struct MapUnit {
   double factor = 1;
   std::string text;  ///< "px per view step", "px over the 8 steps of the whole baseline", …
 };
 
-/// Units in use, the most common first, for maps of these views.
+/// Units in use for maps of these views, the most common first.
 [[nodiscard]] std::vector<MapUnit> common_units(GridShape grid, int width);
 
-/// How well a map explains the views next to its own.
+/// How well a map explains the neighbors of its view.
 struct Explanation {
   double error = 0;  ///< Mean grey error (0 … 255) after warping, each axis in its better order,
   double unwarped = 0;         ///< and without warping.
@@ -31,12 +31,12 @@ struct Explanation {
   [[nodiscard]] bool is_good() const { return error < 0.9 * unwarped; }
 };
 
-/// Warps the neighbours of view `at` with the map times `factor`, in the stored order of views and
-/// in the exchanged one. Linear in the pixels.
+/// Warps the neighbors of view `at` with the map times `factor`, in the stored order of views and
+/// with rows and columns exchanged. Linear in the pixels.
 [[nodiscard]] Explanation explain_views(const LightField::Samples& samples, ViewIndex at,
                                         const DisparityView& map, double factor);
 
-/// The unit that explains the views; the first one unless another explains them clearly better.
+/// Unit that explains the views: the first one unless another explains them clearly better.
 struct SettledUnit {
   MapUnit unit;
   Explanation explanation;
@@ -46,9 +46,9 @@ struct SettledUnit {
 [[nodiscard]] SettledUnit settle_unit(const LightField::Samples& samples, ViewIndex at,
                                       const DisparityView& map, const std::vector<MapUnit>& units);
 
-/// Which values of a disparity map hide the others: where two pixels of a view fall on the same
-/// pixel of another view, that one shows the nearer of them.
-struct NearSide {
+/// Whether larger or smaller values of a disparity map occlude the others. Where two pixels of a
+/// view fall on the same pixel of another view, that view shows the nearer one.
+struct OcclusionOrder {
   double larger = 0;   ///< Mean grey error (0 … 255) of the pixels of larger disparity,
   double smaller = 0;  ///< and of those of smaller disparity.
   int points = 0;      ///< Pairs that were compared.
@@ -59,16 +59,15 @@ struct NearSide {
 };
 
 /// Moves view `at` by the map times `factor` into views up to four steps away, in the order of
-/// views that `explanation` found, and compares pairs of clearly different grey: first by 15
-/// levels, where that decides nothing by more than noise. The order alone does not tell near from
-/// far: reversing it together with the signs moves every pixel to the same place. Linear in the
-/// pixels.
-[[nodiscard]] NearSide find_near_side(const LightField::Samples& samples, ViewIndex at,
-                                      const DisparityView& map, double factor,
-                                      const Explanation& explanation);
+/// views that `explanation` found. Compares pairs of clearly different grey: first by 15 levels; if
+/// that decides nothing, by more than noise. The order of views alone does not tell near from far:
+/// reversing it together with the signs moves every pixel to the same place. Linear in the pixels.
+[[nodiscard]] OcclusionOrder find_occlusion_order(const LightField::Samples& samples, ViewIndex at,
+                                                  const DisparityView& map, double factor,
+                                                  const Explanation& explanation);
 
 /// What the nearer values do, for reports: "hide others in other views (…)".
-[[nodiscard]] std::string hiding_text(const NearSide& side);
+[[nodiscard]] std::string hiding_text(const OcclusionOrder& side);
 
 /// Whether larger values of a disparity map are nearer.
 struct TruthSign {
@@ -77,29 +76,30 @@ struct TruthSign {
   std::string evidence;     ///< For reports; empty if values are assumed to be as they should.
 };
 
-/// What `side` says; else what hides what in the views (`check_sign`), in the order that
-/// `explanation` found for them. Where that is not decided either, values are negated if only that
-/// puts the views into the order in which they are stored, since maps of the other sign are more
-/// common than views that run backwards along every axis.
-[[nodiscard]] TruthSign find_truth_sign(const LightField::Samples& samples, const NearSide& side,
-                                        const Explanation& explanation);
+/// Determines the sign of a map: by `side`, else by occlusion in the views (`check_sign`), in the
+/// order that `explanation` found for them. If that is undecided too, values are negated only if
+/// this puts the views into their stored order: maps of the other sign are more common than views
+/// that run backwards along every axis.
+[[nodiscard]] TruthSign find_truth_sign(const LightField::Samples& samples,
+                                        const OcclusionOrder& side, const Explanation& explanation);
 
-/// The camera that turns a depth map into a disparity map: d = a/Z − b.
+/// Camera that turns a depth map into a disparity map: d = a/Z − b.
 struct DepthFit {
   double a = 0;            ///< B·f: px · unit of depth. Negative if disparity grows with depth.
   double b = 0;            ///< Δx: px.
   double exact_share = 0;  ///< Of the pixels, that agree within 0.01 px.
   std::size_t pixels = 0;
 
-  /// Whether the two maps state the same. Depth far away may be cut off (a sky), so that not all
+  /// Whether the two maps state the same geometry. Far depth may be cut off (a sky), so not all
   /// pixels need to agree.
   [[nodiscard]] bool is_exact() const { return pixels >= 100 && exact_share > 0.9 && a != 0; }
-  /// With B = a and f = 1. Precondition: `a` > 0.
+  /// Camera with B = a and f = 1. Precondition: `a` > 0.
   [[nodiscard]] CameraGrid camera() const;
 };
 
-/// Least squares over pixels that are valid in both maps of the same size and agree with the best
-/// of the lines through pairs of them (RANSAC, seeded). `factor` is applied to the disparity.
+/// Fits the camera by least squares over pixels that are valid in both maps and agree with the best
+/// line through a pair of them (RANSAC, seeded). `factor` is applied to the disparity.
+/// Precondition: maps of one size.
 [[nodiscard]] DepthFit fit_depth(const DisparityView& disparity, double factor,
                                  const DisparityView& depth);
 

@@ -264,14 +264,14 @@ void match(const std::vector<fs::path>& files, const ViewKeys& views, MapSet& se
 }
 
 /// A folder to look at, and what its own name says about its files.
-struct Place {
+struct MapPlace {
   fs::path folder;
   std::optional<MapKind> kind;
   std::string prefix = {};  ///< Of patterns: "disparity/".
 };
 
-std::vector<Place> places_of(const fs::path& folder) {
-  std::vector<Place> places{{folder, std::nullopt}};
+std::vector<MapPlace> map_places(const fs::path& folder) {
+  std::vector<MapPlace> places{{folder, std::nullopt}};
   const auto add_inside = [&](const fs::path& outer) {
     for (const fs::path& inner : map_folders_in(outer)) {
       if (fs::equivalent(inner, folder)) continue;
@@ -344,13 +344,13 @@ fs::path MapSet::file_of(int view) const {
   return found == entries.end() ? fs::path() : found->file;
 }
 
-MapsBeside find_maps(const ViewFiles& views, const fs::path& folder, const IsOwnFile& is_own) {
+FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder, const IsOwnFile& is_own) {
   std::set<fs::path> taken(views.files.begin(), views.files.end());
   taken.insert(views.left_out.begin(), views.left_out.end());
   const ViewKeys keys = keys_of_views(views);
-  MapsBeside found;
+  FoundMapSets found;
   found.sets = maps_with_views(views, folder);
-  for (const Place& place : places_of(folder)) {
+  for (const MapPlace& place : map_places(folder)) {
     std::map<std::pair<MapKind, std::string>, std::vector<fs::path>> groups;
     for (const fs::path& file : list_files(place.folder)) {
       if (taken.contains(file) || (is_own && !is_own(file))) continue;

@@ -11,9 +11,9 @@
 
 namespace episcope::io {
 
-/// Files of one kind, one folder and one form of names, and the views that they belong to.
+/// Files of one kind, folder and name pattern, and the views that they belong to.
 struct MapSet {
-  /// A file, and the number of its view, row by row.
+  /// File, and the number of its view, row by row.
   struct Entry {
     int view = 0;
     std::filesystem::path file;
@@ -21,36 +21,36 @@ struct MapSet {
   MapKind kind = MapKind::Disparity;
   std::string pattern;  ///< "#_#_depth.npy".
   std::vector<Entry> entries;
-  /// Files of such names that belong to no view.
+  /// Files with such names that belong to no view.
   std::vector<std::filesystem::path> strays;
   std::vector<std::filesystem::path> of_left_out{};  ///< Of views that are not in the part opened.
   bool is_named_labels = false;  ///< Disparity whose files are named like labels.
 
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
-  /// The file of this view; empty if there is none.
+  /// File of this view; empty if there is none.
   [[nodiscard]] std::filesystem::path file_of(int view) const;
 };
 
-struct MapsBeside {
+struct FoundMapSets {
   std::vector<MapSet> sets;
-  /// Folders that were looked at besides that of the views, and that hold maps.
+  /// Other folders that were searched and hold maps.
   std::vector<std::filesystem::path> folders;
 };
 
-/// Name of the file beside views in which the Cambridge set for view interpolation states
-/// `base_x`, the distance of neighbouring cameras; disparity is stored for a distance of 1.
+/// File beside views in which the Cambridge set for view interpolation states `base_x`, the
+/// distance of neighboring cameras. Its disparity refers to a distance of 1.
 inline constexpr const char* kBaselineFile = "param.txt";
 
 /// Whether a file may belong to the views, where several light fields share a folder.
 using IsOwnFile = std::function<bool(const std::filesystem::path& file)>;
 
-/// Finds maps by their names (`map_kind`), without opening a file: in the folder of the views, in
-/// folders inside it (`is_map_folder`), and around it if it is called lf, views or the like or if
-/// it has a `kBaselineFile`; and with each view, where each has a folder of its own. Numbers of
-/// names are those of the views, or count them row by row; they may begin at another number. A
-/// single map without such numbers belongs to the centre view, of a part of a grid to that of the
-/// whole. Files that are not `is_own` are as if they were not there. Linear in the files.
-[[nodiscard]] MapsBeside find_maps(const ViewFiles& views, const std::filesystem::path& folder,
-                                   const IsOwnFile& is_own = {});
+/// Finds maps by their names (`map_kind`), without opening a file. Searches the folder of the views
+/// and folders inside it (`is_map_folder`). Searches around it if it is called lf, views or the
+/// like or has a `kBaselineFile`. Searches beside each view if each has a folder of its own.
+/// Numbers in names match the numbers of the views, or count the views row by row from any number.
+/// A single map without such numbers belongs to the center view of the whole grid. Ignores files
+/// that are not `is_own`. Linear in the files.
+[[nodiscard]] FoundMapSets find_maps(const ViewFiles& views, const std::filesystem::path& folder,
+                                     const IsOwnFile& is_own = {});
 
 }  // namespace episcope::io

@@ -37,7 +37,192 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestSide = 65536;  ///< In px.
+using Kinds = std::initializer_list<MapKind>;
+
+std::unique_ptr<const ArrayFile> open_archive(const fs::path& path) {
+  if (suffix_of(path) == ".mat") return open_matlab_file(path);
+  return std::make_unique<const NumpyFile>(path);
+}
+
+/// The axes of an array as maps of all views or of one; empty if it is neither.
+std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, GridShape grid) {
+  if (!entry.other_kind.empty()) return std::nullopt;
+  const std::size_t rank = entry.shape.size();
+  if (rank != 2 && rank != 4) return std::nullopt;
+  const std::string axes = rank == 2 ? "yx" : "vuyx";
+  const ArrayLayout layout{entry.shape, in_index_order(axes, entry.order)};
+  const bool is_single = layout.has_one_view();
+  const bool has_pixels = layout.height() > 1 && layout.width() > 1;
+  if (!has_pixels || !(is_single || layout.grid() == grid)) return std::nullopt;
+  return layout;
+}
+
+struct FoundMap {
+  ArrayEntry entry;
+  ArrayLayout layout;
+};
+
+/// The first one whose name is of these kinds.
+const FoundMap* named_map(const std::vector<FoundMap>& maps, Kinds kinds) {
+  const auto named = std::ranges::find_if(maps, [&](const FoundMap& map) {
+    const auto kind = map_kind(last_name(map.entry.name));
+    return kind && std::ranges::find(kinds, *kind) != kinds.end();
+  });
+  return named == maps.end() ? nullptr : &*named;
+}
+
+/// `others` are the kinds to look for where no name is of `kinds`.
+FoundMap find_archived_map(const ArrayFile& file, GridShape grid, Kinds kinds, Kinds others) {
+  std::vector<FoundMap> maps;
+  for (const ArrayEntry& entry : file.entries()) {
+    if (auto layout = map_layout(entry, grid)) maps.push_back({entry, std::move(*layout)});
+  }
+  if (const FoundMap* named = named_map(maps, kinds)) return *named;
+  if (const FoundMap* named = named_map(maps, others)) return *named;
+  if (maps.size() == 1) return maps.front();
+  const std::string held = joined(file.entries(), ", ", [](const ArrayEntry& entry) {
+    return entry.name + " (" + content_text(entry) + ")";
+  });
+  throw IoError(file.path(),
+                fmt::format("the file holds {}: {} of one view or of {}×{} views; store the map "
+                            "alone or name it after what it is",
+                            held.empty() ? "no array" : held,
+                            maps.empty() ? "no map" : "several maps", grid.v, grid.u));
+}
+
+template <class T>
+ViewStack<T> read_archived(const fs::path& path, GridShape grid, Kinds kinds, Kinds others = {}) {
+  const std::unique_ptr<const ArrayFile> file = open_archive(path);
+  const FoundMap map = find_archived_map(*file, grid, kinds, others);
+  return read_map_stack<T>(*file->open(map.entry), map.layout, Progress());
+}
+
+/// Likewise, labels.
+ViewStack<std::int32_t> read_archived_labels(const fs::path& path, GridShape grid) {
+  return read_archived<std::int32_t>(path, grid, {MapKind::Labels});
+}
+
+constexpr std::size_t kFewestNumbers = 8;              ///< In a row of a map.
+constexpr std::size_t kLongestLine = 1 << 20;          ///< In bytes.
+constexpr std::uintmax_t kLargestTextMap = 400000000;  ///< In bytes.
+
+bool is_between(char c) {
+  return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r';
+}
+
+/// The numbers of a line; nothing if there is anything else in it.
+std::optional<std::vector<float>> numbers_in(const std::string& line) {
+  std::vector<float> numbers;
+  const char* at = line.data();
+  const char* const line_end = at + line.size();
+  while (true) {
+    while (at != line_end && is_between(*at)) ++at;
+    if (at == line_end) return numbers;
+    float number = 0;
+    const char* begin = *at == '+' ? at + 1 : at;
+    const auto [end, error] = std::from_chars(begin, line_end, number);
+    if (error != std::errc() || (end != line_end && !is_between(*end))) return std::nullopt;
+    numbers.push_back(number);
+    at = end;
+  }
+}
+
+bool is_comment(const std::string& line) {
+  const auto first = line.find_first_not_of(" \t\r");
+  return first == std::string::npos || line[first] == '#' || line[first] == '%';
+}
+
+/// False at the end. Throws IoError for a line that is too long.
+bool next_line(const fs::path& path, std::ifstream& in, std::string& line) {
+  while (std::getline(in, line)) {
+    if (line.size() > kLongestLine) {
+      throw IoError(path,
+                    "a line of this text is longer than a row of numbers can be; choose "
+                    "another file");
+    }
+    if (!is_comment(line)) return true;
+  }
+  return false;
+}
+
+/// A row of pixels in each line, its numbers separated by blanks, commas or semicolons; empty lines
+/// and those that begin with # or % are left out; nan and inf are numbers. Throws IoError for
+/// lines of different lengths, for anything else, and for more than 400 MB.
+Image<float> read_text_map(const fs::path& path) {
+  require_readable_file(path);
+  if (fs::file_size(path) > kLargestTextMap) {
+    throw IoError(path, "this text is larger than 400 MB; save the map as .npy");
+  }
+  std::ifstream in(path);
+  std::vector<float> values;
+  std::string line;
+  int height = 0;
+  std::size_t width = 0;
+  while (next_line(path, in, line)) {
+    const auto numbers = numbers_in(line);
+    if (!numbers) {
+      throw IoError(path, fmt::format("row {} of this matrix holds something else than numbers; "
+                                      "export it again",
+                                      height + 1));
+    }
+    if (height > 0 && numbers->size() != width) {
+      throw IoError(path, fmt::format("row {} of this matrix has {} numbers, but the first has {}; "
+                                      "export it again",
+                                      height + 1, numbers->size(), width));
+    }
+    width = numbers->size();
+    values.insert(values.end(), numbers->begin(), numbers->end());
+    ++height;
+  }
+  if (height == 0) throw IoError(path, "this text holds no numbers; choose another file");
+  Image<float> map(height, static_cast<int>(width));
+  std::copy(values.begin(), values.end(), map.begin());
+  return map;
+}
+
+}  // namespace
+
+bool is_archive_of_maps(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".npz" || suffix == ".mat";
+}
+
+ViewStack<float> read_archived_values(const fs::path& path, GridShape grid) {
+  return read_archived<float>(path, grid, {MapKind::Disparity, MapKind::Depth}, {MapKind::Labels});
+}
+
+bool holds_archived_fractions(const fs::path& path, GridShape grid) {
+  const std::unique_ptr<const ArrayFile> file = open_archive(path);
+  const FoundMap map = find_archived_map(*file, grid, {MapKind::Labels}, {});
+  return is_float(map.entry.type) &&
+         has_fractions(read_map_stack<float>(*file->open(map.entry), map.layout, Progress()));
+}
+
+bool has_text_suffix(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".txt" || suffix == ".csv" || suffix == ".dat";
+}
+
+bool is_text_map(const fs::path& path) {
+  if (!has_text_suffix(path)) return false;
+  std::ifstream in(path);
+  std::string begin(kLongestLine, '\0');
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(in.gcount()));
+  for (std::size_t at = 0; at < begin.size();) {
+    const std::size_t end = std::min(begin.find('\n', at), begin.size());
+    const std::string line = begin.substr(at, end - at);
+    at = end + 1;
+    if (is_comment(line)) continue;
+    const auto numbers = numbers_in(line);
+    return numbers && numbers->size() >= kFewestNumbers;
+  }
+  return false;
+}
+
+namespace {
+
+constexpr std::size_t kLongestMapSide = 65536;  ///< In px.
 
 template <std::size_t N>
 bool has_suffix(const fs::path& path, const std::array<std::string_view, N>& suffixes) {
@@ -62,7 +247,7 @@ ViewStack<T> read_grid(const NpyFile& file, GridShape grid) {
     throw IoError(file.path(),
                   fmt::format("the array has the shape {}, but maps of {}×{} views are expected in "
                               "C order; save it again or remove it",
-                              array_shape_text(file.header().shape), grid.v, grid.u));
+                              shape_text(file.header().shape), grid.v, grid.u));
   }
   ViewStack<T> stack(grid, static_cast<int>(shape[2]), static_cast<int>(shape[3]));
   file.read(ArrayShape(4, 0), shape, stack.data());
@@ -98,7 +283,7 @@ DisparityField read_exr_values(const fs::path& path) {
   return marked(std::move(values));
 }
 
-/// Whether a picture holds levels of grey, or colours, and no floats.
+/// Whether a picture holds levels of grey, or colors, and no floats.
 bool holds_levels(const fs::path& path) {
   if (!is_image_name(path)) return false;
   if (!can_hold_values(path)) return true;
@@ -106,7 +291,7 @@ bool holds_levels(const fs::path& path) {
   return header && header->sample_type != SampleType::Float32;
 }
 
-/// Levels of grey as numbers. Throws IoError for colours, which are no numbers.
+/// Levels of grey as numbers. Throws IoError for colors, which are no numbers.
 DisparityField read_picture_values(const fs::path& path) {
   return std::visit(
       [&](const auto& image) {
@@ -158,11 +343,11 @@ StoredLabels read_hdf5_labels(const fs::path& path, GridShape grid) {
   }
   // That the file can hold as many is known: Hdf5Input looks at every dataset.
   const bool is_sound = std::ranges::all_of(
-      labels.shape, [](std::size_t length) { return length > 0 && length <= kLongestSide; });
+      labels.shape, [](std::size_t length) { return length > 0 && length <= kLongestMapSide; });
   if (!is_sound) {
     throw IoError(path, fmt::format("the dataset {} claims the shape {}, but sides of 1 to {} are "
                                     "expected; copy it again or remove it",
-                                    labels.name, shape_text(labels.shape), kLongestSide));
+                                    labels.name, shape_text(labels.shape), kLongestMapSide));
   }
   StoredLabels stored{ViewStack<std::int32_t>(is_grid ? grid : GridShape{1, 1},
                                               static_cast<int>(labels.shape[rank - 2]),
@@ -179,7 +364,7 @@ std::int32_t packed_level(float value, const fs::path& path) {
 }
 
 template <class T>
-StoredLabels labels_of(const Image<T>& image, const fs::path& path) {
+StoredLabels picture_labels(const Image<T>& image, const fs::path& path) {
   StoredLabels labels{ViewStack<std::int32_t>({1, 1}, image.height(), image.width())};
   const T* in = image.data();
   const std::size_t count = labels.numbers.size();
@@ -232,7 +417,7 @@ DisparityField read_values(const fs::path& path, GridShape grid) {
   if (!(field.disparity.grid() == GridShape{1, 1}) || field.disparity.first() == ViewIndex{}) {
     return field;
   }
-  // Of the centre view; here all single maps are at (0, 0).
+  // Of the center view; here all single maps are at (0, 0).
   const ViewStack<float>& map = field.disparity;
   DisparityField moved{ViewStack<float>({1, 1}, map.height(), map.width()), {}};
   std::copy_n(map.data(), map.size(), moved.disparity.data());
@@ -247,7 +432,8 @@ StoredLabels read_stored_labels(const fs::path& path, GridShape grid) {
   if (suffix_of(path) == ".npy") return read_npy_label_maps(path, grid);
   if (is_archive_of_maps(path)) return {read_archived_labels(path, grid)};
   if (is_hdf5(path)) return read_hdf5_labels(path, grid);
-  return std::visit([&](const auto& image) { return labels_of(image, path); }, decode_image(path));
+  return std::visit([&](const auto& image) { return picture_labels(image, path); },
+                    decode_image(path));
 }
 
 OwnFile own_file(const fs::path& path) {
@@ -270,191 +456,6 @@ Image<std::uint8_t> read_mask(const fs::path& path) {
   std::transform(numbers.data(), numbers.data() + numbers.size(), mask.begin(),
                  [](std::int32_t value) { return static_cast<std::uint8_t>(value != 0); });
   return mask;
-}
-
-namespace {
-
-using Kinds = std::initializer_list<MapKind>;
-
-std::unique_ptr<const ArrayFile> open_archive(const fs::path& path) {
-  if (suffix_of(path) == ".mat") return open_matlab_file(path);
-  return std::make_unique<const NumpyFile>(path);
-}
-
-/// The axes of an array as maps of all views or of one; empty if it is neither.
-std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, GridShape grid) {
-  if (!entry.other_kind.empty()) return std::nullopt;
-  const std::size_t rank = entry.shape.size();
-  if (rank != 2 && rank != 4) return std::nullopt;
-  const std::string axes = rank == 2 ? "yx" : "vuyx";
-  const ArrayLayout layout{entry.shape, in_index_order(axes, entry.order)};
-  const bool is_single = layout.has_one_view();
-  const bool has_pixels = layout.height() > 1 && layout.width() > 1;
-  if (!has_pixels || !(is_single || layout.grid() == grid)) return std::nullopt;
-  return layout;
-}
-
-struct FoundMap {
-  ArrayEntry entry;
-  ArrayLayout layout;
-};
-
-/// The first one whose name is of these kinds.
-const FoundMap* named_map(const std::vector<FoundMap>& maps, Kinds kinds) {
-  const auto named = std::ranges::find_if(maps, [&](const FoundMap& map) {
-    const auto kind = map_kind(last_name(map.entry.name));
-    return kind && std::ranges::find(kinds, *kind) != kinds.end();
-  });
-  return named == maps.end() ? nullptr : &*named;
-}
-
-/// `others` are the kinds to look for where no name is of `kinds`.
-FoundMap find_map(const ArrayFile& file, GridShape grid, Kinds kinds, Kinds others) {
-  std::vector<FoundMap> maps;
-  for (const ArrayEntry& entry : file.entries()) {
-    if (auto layout = map_layout(entry, grid)) maps.push_back({entry, std::move(*layout)});
-  }
-  if (const FoundMap* named = named_map(maps, kinds)) return *named;
-  if (const FoundMap* named = named_map(maps, others)) return *named;
-  if (maps.size() == 1) return maps.front();
-  const std::string held = joined(file.entries(), ", ", [](const ArrayEntry& entry) {
-    return entry.name + " (" + content_text(entry) + ")";
-  });
-  throw IoError(file.path(),
-                fmt::format("the file holds {}: {} of one view or of {}×{} views; store the map "
-                            "alone or name it after what it is",
-                            held.empty() ? "no array" : held,
-                            maps.empty() ? "no map" : "several maps", grid.v, grid.u));
-}
-
-template <class T>
-ViewStack<T> read_archived(const fs::path& path, GridShape grid, Kinds kinds, Kinds others = {}) {
-  const std::unique_ptr<const ArrayFile> file = open_archive(path);
-  const FoundMap map = find_map(*file, grid, kinds, others);
-  return read_map_stack<T>(*file->open(map.entry), map.layout, Progress());
-}
-
-}  // namespace
-
-bool is_archive_of_maps(const fs::path& path) {
-  const std::string suffix = suffix_of(path);
-  return suffix == ".npz" || suffix == ".mat";
-}
-
-ViewStack<float> read_archived_values(const fs::path& path, GridShape grid) {
-  return read_archived<float>(path, grid, {MapKind::Disparity, MapKind::Depth}, {MapKind::Labels});
-}
-
-bool holds_archived_fractions(const fs::path& path, GridShape grid) {
-  const std::unique_ptr<const ArrayFile> file = open_archive(path);
-  const FoundMap map = find_map(*file, grid, {MapKind::Labels}, {});
-  return is_float(map.entry.type) &&
-         has_fractions(read_map_stack<float>(*file->open(map.entry), map.layout, Progress()));
-}
-
-ViewStack<std::int32_t> read_archived_labels(const fs::path& path, GridShape grid) {
-  return read_archived<std::int32_t>(path, grid, {MapKind::Labels});
-}
-
-namespace {
-
-constexpr std::size_t kFewestNumbers = 8;       ///< In a row of a map.
-constexpr std::size_t kLongestLine = 1 << 20;   ///< In bytes.
-constexpr std::uintmax_t kLargest = 400000000;  ///< In bytes.
-
-bool is_between(char c) {
-  return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r';
-}
-
-/// The numbers of a line; nothing if there is anything else in it.
-std::optional<std::vector<float>> numbers_in(const std::string& line) {
-  std::vector<float> numbers;
-  const char* at = line.data();
-  const char* const line_end = at + line.size();
-  while (true) {
-    while (at != line_end && is_between(*at)) ++at;
-    if (at == line_end) return numbers;
-    float number = 0;
-    const char* begin = *at == '+' ? at + 1 : at;
-    const auto [end, error] = std::from_chars(begin, line_end, number);
-    if (error != std::errc() || (end != line_end && !is_between(*end))) return std::nullopt;
-    numbers.push_back(number);
-    at = end;
-  }
-}
-
-bool is_comment(const std::string& line) {
-  const auto first = line.find_first_not_of(" \t\r");
-  return first == std::string::npos || line[first] == '#' || line[first] == '%';
-}
-
-/// False at the end. Throws IoError for a line that is too long.
-bool next_line(const fs::path& path, std::ifstream& in, std::string& line) {
-  while (std::getline(in, line)) {
-    if (line.size() > kLongestLine) {
-      throw IoError(path,
-                    "a line of this text is longer than a row of numbers can be; choose "
-                    "another file");
-    }
-    if (!is_comment(line)) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
-bool has_text_suffix(const fs::path& path) {
-  const std::string suffix = suffix_of(path);
-  return suffix == ".txt" || suffix == ".csv" || suffix == ".dat";
-}
-
-bool is_text_map(const fs::path& path) {
-  if (!has_text_suffix(path)) return false;
-  std::ifstream in(path);
-  std::string begin(kLongestLine, '\0');
-  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(in.gcount()));
-  for (std::size_t at = 0; at < begin.size();) {
-    const std::size_t end = std::min(begin.find('\n', at), begin.size());
-    const std::string line = begin.substr(at, end - at);
-    at = end + 1;
-    if (is_comment(line)) continue;
-    const auto numbers = numbers_in(line);
-    return numbers && numbers->size() >= kFewestNumbers;
-  }
-  return false;
-}
-
-Image<float> read_text_map(const fs::path& path) {
-  require_readable_file(path);
-  if (fs::file_size(path) > kLargest) {
-    throw IoError(path, "this text is larger than 400 MB; save the map as .npy");
-  }
-  std::ifstream in(path);
-  std::vector<float> values;
-  std::string line;
-  int height = 0;
-  std::size_t width = 0;
-  while (next_line(path, in, line)) {
-    const auto numbers = numbers_in(line);
-    if (!numbers) {
-      throw IoError(path, fmt::format("row {} of this matrix holds something else than numbers; "
-                                      "export it again",
-                                      height + 1));
-    }
-    if (height > 0 && numbers->size() != width) {
-      throw IoError(path, fmt::format("row {} of this matrix has {} numbers, but the first has {}; "
-                                      "export it again",
-                                      height + 1, numbers->size(), width));
-    }
-    width = numbers->size();
-    values.insert(values.end(), numbers->begin(), numbers->end());
-    ++height;
-  }
-  if (height == 0) throw IoError(path, "this text holds no numbers; choose another file");
-  Image<float> map(height, static_cast<int>(width));
-  std::copy(values.begin(), values.end(), map.begin());
-  return map;
 }
 
 namespace {

@@ -11,12 +11,12 @@
 namespace episcope::io {
 namespace {
 
-bool is_upper(char c) {
+bool is_capital(char c) {
   return c >= 'A' && c <= 'Z';
 }
 
 /// Words in lower case: runs of letters, parted also where a capital follows a small letter.
-std::vector<std::string> words_of(const std::string& name) {
+std::vector<std::string> name_words(const std::string& name) {
   std::vector<std::string> words;
   bool is_inside = false;
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -25,7 +25,7 @@ std::vector<std::string> words_of(const std::string& name) {
       continue;
     }
     const bool is_hump =
-        i > 0 && is_upper(name[i]) && is_letter(name[i - 1]) && !is_upper(name[i - 1]);
+        i > 0 && is_capital(name[i]) && is_letter(name[i - 1]) && !is_capital(name[i - 1]);
     if (!is_inside || is_hump) words.emplace_back();
     words.back() += lower_case(name[i]);
     is_inside = true;
@@ -71,7 +71,7 @@ const char* kind_text(MapKind kind) {
 }
 
 std::optional<MapKind> map_kind(const std::string& name) {
-  const std::vector<std::string> words = words_of(name);
+  const std::vector<std::string> words = name_words(name);
   if (has_one_of(words, kResultWords)) return std::nullopt;
   if (!region_name(name).empty()) return MapKind::Region;
   if (has_one_of(words, kInvalidWords)) return MapKind::Invalid;
@@ -89,7 +89,7 @@ std::string region_name(const std::string& name) {
   if (!name.starts_with(prefix)) return {};
   std::string region = name.substr(prefix.size());
   if (region.ends_with(suffix)) region.resize(region.size() - suffix.size());
-  const std::vector<std::string> words = words_of(region);
+  const std::vector<std::string> words = name_words(region);
   const bool is_of_a_map = words.empty() || has_one_of(words, kMapOwners) ||
                            has_one_of(words, kLabelWords) || has_one_of(words, kValidWords) ||
                            has_one_of(words, kInvalidWords) || has_one_of(words, kDisparityWords) ||
@@ -98,7 +98,7 @@ std::string region_name(const std::string& name) {
 }
 
 bool is_map_folder(const std::string& name) {
-  return map_kind(name).has_value() || has_one_of(words_of(name), kTruthWords);
+  return map_kind(name).has_value() || has_one_of(name_words(name), kTruthWords);
 }
 
 NumberedName numbered_name(const std::string& name) {

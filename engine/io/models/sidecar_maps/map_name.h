@@ -8,25 +8,25 @@
 
 namespace episcope::io {
 
-/// What a map beside views may hold.
+/// Content of a map beside views.
 enum class MapKind { Disparity, Depth, Labels, Valid, Invalid, Region };
 /// A plural: "disparity maps", "depth maps", "label maps", "masks of valid pixels", …
 [[nodiscard]] const char* kind_text(MapKind kind);
 
-/// What the words of a name say that the file, or the files of the folder, hold: "1_1_Disparity",
-/// "gtDepth_05", "label", "valid_mask"; empty for names without such a word, and for those of
+/// Content according to the words in the name of a file or of its folder: "1_1_Disparity",
+/// "gtDepth_05", "label", "valid_mask". Empty for names without such a word and for names of
 /// results ("disparity_local").
 [[nodiscard]] std::optional<MapKind> map_kind(const std::string& name);
 
 /// "planes" for mask_planes and mask_planes_lowres, as the 2016 benchmark calls a region of the
-/// centre view; empty for other names.
+/// center view. Empty for other names.
 [[nodiscard]] std::string region_name(const std::string& name);
 
 /// Whether a folder of this name may hold maps of any kind: "gt", "ground_truth", "depth".
 [[nodiscard]] bool is_map_folder(const std::string& name);
 
-/// A name with # for each of its numbers, in lower case, and these numbers: "lf_#_#", {3, 12}. Of
-/// runs of more than nine digits the last nine count.
+/// Name with # for each of its numbers, in lower case, and these numbers: "lf_#_#", {3, 12}. Only
+/// the last nine digits of longer runs count.
 struct NumberedName {
   std::string text;
   std::vector<long> numbers;

@@ -30,15 +30,15 @@ fs::path first_file(const MapSet& set) {
 
 }  // namespace
 
-int BesideViews::height() const {
+int SidecarViews::height() const {
   return std::visit([](const auto& stack) { return stack.height(); }, samples);
 }
 
-int BesideViews::width() const {
+int SidecarViews::width() const {
   return std::visit([](const auto& stack) { return stack.width(); }, samples);
 }
 
-void SetOutcome::tell(const std::string& kind, const BesideNotes& notes) const {
+void SetOutcome::tell(const std::string& kind, const SidecarNotes& notes) const {
   notes.account.use(read, kind);
   if (!note.empty() && !read.empty()) notes.report.warnings.push_back(note);
   if (failed.empty()) return;
@@ -47,14 +47,14 @@ void SetOutcome::tell(const std::string& kind, const BesideNotes& notes) const {
                                               read.size() + failed.size(), kind, first_error));
 }
 
-void require_view_size(const fs::path& path, int height, int width, const BesideViews& views) {
+void require_view_size(const fs::path& path, int height, int width, const SidecarViews& views) {
   if (height == views.height() && width == views.width()) return;
   throw IoError(path, fmt::format("this map has {}×{} px, but the views have {}×{} px; remove or "
                                   "replace it",
                                   width, height, views.width(), views.height()));
 }
 
-std::vector<MapSet::Entry> entries_to_read(const MapSet& set, const BesideViews& views) {
+std::vector<MapSet::Entry> entries_to_read(const MapSet& set, const SidecarViews& views) {
   if (views.map_views == MapViews::All || set.entries.size() < 2) return set.entries;
   const auto center = std::ranges::find(set.entries, views.center(), &MapSet::Entry::view);
   return {center == set.entries.end() ? set.entries.front() : *center};
@@ -82,12 +82,12 @@ RankedSets rank_sets(const std::vector<MapSet>& sets, MapKind kind,
 namespace {
 
 /// Where the maps of a set go: views of the whole grid, or the only one.
-struct Place {
+struct SetPlace {
   GridShape grid;
   ViewIndex first;
 };
 
-Place place_of(const std::vector<MapSet::Entry>& entries, GridShape grid) {
+SetPlace place_of(const std::vector<MapSet::Entry>& entries, GridShape grid) {
   if (entries.size() != 1) return {grid, {}};
   return {{1, 1}, grid.view_at(entries.front().view)};
 }
@@ -113,7 +113,7 @@ SetOutcome try_all(const std::vector<MapSet::Entry>& entries, const Progress& pr
   return outcome;
 }
 
-/// Files that are not read because the centre view suffices count as read.
+/// Files that are not read because the center view suffices count as read.
 void add_unread(const MapSet& set, std::size_t tried, SetOutcome& outcome) {
   if (tried == set.entries.size() || outcome.read.empty()) return;
   outcome.read = set.files();
@@ -121,7 +121,7 @@ void add_unread(const MapSet& set, std::size_t tried, SetOutcome& outcome) {
 
 template <class T>
 void require_one_map(const std::filesystem::path& file, const ViewStack<T>& stack,
-                     const BesideViews& views) {
+                     const SidecarViews& views) {
   require_view_size(file, stack.height(), stack.width(), views);
   if (stack.grid() == GridShape{1, 1}) return;
   throw IoError(file, "this file holds maps of several views, but its name is that of one view");
@@ -129,7 +129,7 @@ void require_one_map(const std::filesystem::path& file, const ViewStack<T>& stac
 
 /// Brings maps of several times, or a part of, the size of the views to that size; else cuts off a
 /// padding, and puts maps that lack a border into the middle, where that is evident.
-ResampledMaps fit_into_views(DisparityField& maps, const BesideViews& views) {
+ResampledMaps fit_into_views(DisparityField& maps, const SidecarViews& views) {
   ResampledMaps resampled = resample_to(maps, views.height(), views.width());
   if (resampled.scale != 1) return resampled;
   const ViewStack<float>& map = maps.disparity;
@@ -139,13 +139,13 @@ ResampledMaps fit_into_views(DisparityField& maps, const BesideViews& views) {
   return {1, remove_padding(maps, views.height(), views.width())};
 }
 
-bool holds_all_views(GridShape stored, const BesideViews& views) {
+bool holds_all_views(GridShape stored, const SidecarViews& views) {
   return stored == views.files.whole_grid() && stored.count() > 1;
 }
 
 /// The maps of the views that are opened, where others are missing.
 template <class T>
-ViewStack<T> opened_part(ViewStack<T> all, const BesideViews& views) {
+ViewStack<T> opened_part(ViewStack<T> all, const SidecarViews& views) {
   if (!views.files.part) return all;
   ViewStack<T> part(views.grid(), all.height(), all.width(), 1);
   for (int i = 0; i < views.grid().count(); ++i) {
@@ -155,9 +155,9 @@ ViewStack<T> opened_part(ViewStack<T> all, const BesideViews& views) {
   return part;
 }
 
-/// Of maps of the whole grid those wanted: that of the centre view alone, where no others are.
+/// Of maps of the whole grid those wanted: that of the center view alone, where no others are.
 template <class T>
-ViewStack<T> wanted_part(ViewStack<T> whole, const BesideViews& views) {
+ViewStack<T> wanted_part(ViewStack<T> whole, const SidecarViews& views) {
   ViewStack<T> all = opened_part(std::move(whole), views);
   if (views.map_views == MapViews::All) return all;
   const ViewIndex center = views.grid().center();
@@ -167,7 +167,7 @@ ViewStack<T> wanted_part(ViewStack<T> whole, const BesideViews& views) {
 }
 
 /// A file that holds maps of all views; empty if it holds another number.
-std::optional<DisparityField> read_whole(const MapSet& set, const BesideViews& views,
+std::optional<DisparityField> read_whole(const MapSet& set, const SidecarViews& views,
                                          ResampledMaps& fitted) {
   DisparityField all = read_values(set.entries.front().file, views.files.whole_grid());
   fitted = fit_into_views(all, views);
@@ -189,7 +189,7 @@ void tidy_valid(DisparityField& field) {
   if (is_whole) field.valid = {};
 }
 
-DisparityField read_value_set(const MapSet& set, const BesideViews& views, SetOutcome& outcome,
+DisparityField read_value_set(const MapSet& set, const SidecarViews& views, SetOutcome& outcome,
                               const Progress& progress) {
   const std::vector<MapSet::Entry> entries = entries_to_read(set, views);
   DisparityField field;
@@ -204,7 +204,7 @@ DisparityField read_value_set(const MapSet& set, const BesideViews& views, SetOu
       return field;
     }
   }
-  const Place place = place_of(entries, views.grid());
+  const SetPlace place = place_of(entries, views.grid());
   field = {ViewStack<float>(place.grid, views.height(), views.width(), 1, place.first),
            ViewStack<std::uint8_t>(place.grid, views.height(), views.width(), 1, place.first)};
   std::fill_n(field.disparity.data(), field.disparity.size(), 0.0F);
@@ -230,7 +230,7 @@ DisparityField read_value_set(const MapSet& set, const BesideViews& views, SetOu
   return field;
 }
 
-LabelMaps read_label_set(const MapSet& set, const BesideViews& views, SetOutcome& outcome,
+LabelMaps read_label_set(const MapSet& set, const SidecarViews& views, SetOutcome& outcome,
                          const Progress& progress) {
   const std::vector<MapSet::Entry> entries = entries_to_read(set, views);
   LabelMaps maps;
@@ -243,7 +243,7 @@ LabelMaps read_label_set(const MapSet& set, const BesideViews& views, SetOutcome
     });
     if (!maps.numbers.empty() || outcome.read.empty()) return maps;
   }
-  const Place place = place_of(entries, views.grid());
+  const SetPlace place = place_of(entries, views.grid());
   maps.numbers = ViewStack<std::int32_t>(place.grid, views.height(), views.width(), 1, place.first);
   std::fill_n(maps.numbers.data(), maps.numbers.size(), kNoMap);
   std::atomic<bool> has_colors = false;
@@ -259,7 +259,7 @@ LabelMaps read_label_set(const MapSet& set, const BesideViews& views, SetOutcome
   add_unread(set, entries.size(), outcome);
   if (outcome.read.empty()) return {};
   maps.are_colors = has_colors;
-  // Among pictures in colours, one that happens to be grey has levels of grey for colours.
+  // Among pictures in colors, one that happens to be grey has levels of grey for colors.
   for (const MapSet::Entry& entry : entries) {
     if (!maps.are_colors || are_levels[static_cast<std::size_t>(entry.view)] == 0) continue;
     std::int32_t* numbers = maps.numbers.view(views.grid().view_at(entry.view)).data;

@@ -18,7 +18,7 @@
 namespace episcope::io {
 
 /// Views, as stored, beside which maps lie.
-struct BesideViews {
+struct SidecarViews {
   const ViewFiles& files;
   std::filesystem::path folder;  ///< Of the views.
   const LightField::Samples& samples;
@@ -31,19 +31,19 @@ struct BesideViews {
   [[nodiscard]] GridShape grid() const { return files.grid; }
   [[nodiscard]] int height() const;
   [[nodiscard]] int width() const;
-  [[nodiscard]] int center() const {  ///< Number of the centre view.
+  [[nodiscard]] int center() const {  ///< Number of the center view.
     const ViewIndex center = grid().center();
     return center.v * grid().u + center.u;
   }
 };
 
-/// Where readers of maps tell what they found.
-struct BesideNotes {
-  FolderAccount& account;
+/// Records of the readers of maps.
+struct SidecarNotes {
+  FileUsage& account;
   ConventionReport& report;
 };
 
-/// What reading the files of a set came to.
+/// Result of reading the files of a set.
 struct SetOutcome {
   std::vector<std::filesystem::path> read;
   std::vector<std::filesystem::path> failed;
@@ -56,20 +56,20 @@ struct SetOutcome {
     map_scale = fitted.scale;
   }
 
-  /// Adds to the account, and a warning if files failed or were fitted.
-  void tell(const std::string& kind, const BesideNotes& notes) const;
+  /// Records the files and adds a warning if files failed or were resampled.
+  void tell(const std::string& kind, const SidecarNotes& notes) const;
 };
 
 /// Throws IoError unless a map has the size of the views.
 void require_view_size(const std::filesystem::path& path, int height, int width,
-                       const BesideViews& views);
+                       const SidecarViews& views);
 
-/// The entries to read: all, or that of the centre view alone, or of the first.
+/// The entries to read: all, or that of the center view alone, or of the first.
 [[nodiscard]] std::vector<MapSet::Entry> entries_to_read(const MapSet& set,
-                                                         const BesideViews& views);
+                                                         const SidecarViews& views);
 
-/// Sets of one kind that `can_hold` the wanted data, those of most views first, then arrays before
-/// images, and before text; the others go to `unfit`.
+/// Sets of one kind. `fit` holds those that `can_hold` the wanted data: sets of most views first,
+/// then arrays before images, and images before text. `unfit` holds the others.
 struct RankedSets {
   std::vector<const MapSet*> fit;
   std::vector<const MapSet*> unfit;
@@ -77,21 +77,24 @@ struct RankedSets {
 [[nodiscard]] RankedSets rank_sets(const std::vector<MapSet>& sets, MapKind kind,
                                    bool (*can_hold)(const std::filesystem::path&));
 
-/// Values of a set as stored, of all views of the grid or of the only one that the set holds; in
-/// views without a map no pixel is valid. Empty if no file could be read. Throws Cancelled.
-[[nodiscard]] DisparityField read_value_set(const MapSet& set, const BesideViews& views,
+/// Reads the stored values of a set, of all views or of the only one that the set holds. Pixels of
+/// views without a map are invalid. Empty if no file could be read. Throws Cancelled.
+[[nodiscard]] DisparityField read_value_set(const MapSet& set, const SidecarViews& views,
                                             SetOutcome& outcome, const Progress& progress);
 
-/// Labels of a set as stored, likewise; `kNoMap` in views without a map.
+/// Label of pixels in views without a map.
 inline constexpr std::int32_t kNoMap = std::numeric_limits<std::int32_t>::min();
+/// Stored labels; `kNoMap` in views without a map.
 struct LabelMaps {
-  ViewStack<std::int32_t> numbers;  ///< Labels, or colours as 0xRRGGBB.
+  ViewStack<std::int32_t> numbers;  ///< Labels, or colors as 0xRRGGBB.
   bool are_colors = false;
 };
-[[nodiscard]] LabelMaps read_label_set(const MapSet& set, const BesideViews& views,
+/// Reads the stored labels of a set, of all views or of the only one that the set holds. Throws
+/// Cancelled.
+[[nodiscard]] LabelMaps read_label_set(const MapSet& set, const SidecarViews& views,
                                        SetOutcome& outcome, const Progress& progress);
 
-/// Marks values that are not finite as invalid and drops a mask in which all is valid.
+/// Marks values that are not finite as invalid and drops a mask without invalid pixels.
 void tidy_valid(DisparityField& field);
 
 }  // namespace episcope::io

@@ -13,13 +13,13 @@
 namespace episcope::io {
 namespace {
 
-constexpr std::size_t kFewestPoints = 200;
+constexpr std::size_t kFewestFitPoints = 200;
 constexpr std::size_t kSearchPoints = 3000;  ///< Of which the search takes so many.
 constexpr double kSearchStep = 0.5;          ///< px of the pictures that are searched,
 constexpr int kSearchReach = 16;             ///< and steps to either side.
 constexpr double kSidesPerReach = 12;        ///< The width, in units of the largest shift.
-constexpr double kLargestError = 40;         ///< Grey levels; what is hidden counts no more.
-constexpr std::size_t kParts = 8;
+constexpr double kLargestShiftError = 40;    ///< Grey levels; what is hidden counts no more.
+constexpr std::size_t kValueParts = 8;
 constexpr double kKnown = 0.03;               ///< px: a part whose d is known so well is judged.
 constexpr double kLargestDeviation = 0.05;    ///< px,
 constexpr double kLargestShare = 0.01;        ///< and of the range of d.
@@ -49,7 +49,7 @@ struct Looking {
   bool is_exchanged = false;
 };
 
-Image<float> picture_of(const LightField::Samples& samples, ViewIndex view, int reduction) {
+Image<float> reduced_view(const LightField::Samples& samples, ViewIndex view, int reduction) {
   const Image<float> grey = grey_levels(samples, view);
   return smoothed(reduction > 1 ? reduced_by(grey, reduction) : grey);
 }
@@ -62,7 +62,7 @@ std::vector<Neighbour> neighbours(const LightField::Samples& samples, ViewIndex 
     for (const int step : {-looking.steps, looking.steps}) {
       const ViewIndex view{at.v + (is_u ? 0 : step), at.u + (is_u ? step : 0)};
       if (!grid.contains(view)) continue;
-      found.push_back({picture_of(samples, view, looking.reduction), is_u != looking.is_exchanged,
+      found.push_back({reduced_view(samples, view, looking.reduction), is_u != looking.is_exchanged,
                        static_cast<double>(step)});
     }
   }
@@ -98,7 +98,7 @@ struct Here {
 
 Here here_of(const LightField::Samples& samples, ViewIndex at, std::vector<ValuePoint> points,
              int reduction) {
-  Here here{picture_of(samples, at, reduction), std::move(points)};
+  Here here{reduced_view(samples, at, reduction), std::move(points)};
   for (ValuePoint& point : here.points) {
     point.y = std::min(point.y / reduction, here.picture.height() - 1);
     point.x = std::min(point.x / reduction, here.picture.width() - 1);
@@ -126,7 +126,7 @@ class ErrorTable {
           const double moved =
               sample_moved(other, points_[i], kSearchStep * (s - kSearchReach)).value;
           errors[i * kShifts + static_cast<std::size_t>(s)] +=
-              static_cast<float>(std::min(kLargestError, std::abs(grey - moved)));
+              static_cast<float>(std::min(kLargestShiftError, std::abs(grey - moved)));
         }
       }
     }
@@ -156,7 +156,7 @@ class ErrorTable {
   std::array<std::vector<float>, 2> errors_;
 };
 
-struct Found {
+struct FoundShift {
   Ramp ramp;
   std::array<bool, 2> is_reversed{};  ///< Along x, along y.
   double share = 1;                   ///< Of the error that the best disparity for all leaves.
@@ -164,7 +164,7 @@ struct Found {
 };
 
 /// The best ramp in whole steps.
-Found search(const Here& here, const std::vector<Neighbour>& others) {
+FoundShift search(const Here& here, const std::vector<Neighbour>& others) {
   const ErrorTable table(here, others);
   double least = std::numeric_limits<double>::infinity();
   double constant = least;
@@ -265,8 +265,8 @@ double largest_deviation(const Here& here, const std::vector<Neighbour>& others,
   for (const ValuePoint& point : here.points) values.push_back(point.value);
   std::ranges::sort(values);
   std::vector<double> bounds;
-  for (std::size_t part = 1; part < kParts; ++part) {
-    bounds.push_back(values[part * values.size() / kParts]);
+  for (std::size_t part = 1; part < kValueParts; ++part) {
+    bounds.push_back(values[part * values.size() / kValueParts]);
   }
   bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
   struct Sums {
@@ -315,7 +315,7 @@ std::vector<ValuePoint> some_of(const std::vector<ValuePoint>& points) {
   return some;
 }
 
-void turn(std::vector<Neighbour>& others, const Found& found) {
+void turn(std::vector<Neighbour>& others, const FoundShift& found) {
   for (Neighbour& other : others) {
     if (found.is_reversed[other.is_along_x ? 0 : 1]) other.pixels = -other.pixels;
   }
@@ -323,17 +323,17 @@ void turn(std::vector<Neighbour>& others, const Found& found) {
 
 /// In pictures as they are, and reduced so far that larger shifts are found, too; refined. Nothing
 /// if it is hardly better than one disparity for all.
-std::optional<Found> search_scales(const LightField::Samples& samples, ViewIndex at,
-                                   const std::vector<ValuePoint>& points) {
+std::optional<FoundShift> search_scales(const LightField::Samples& samples, ViewIndex at,
+                                        const std::vector<ValuePoint>& points) {
   const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
   const double reach = kSearchStep * kSearchReach;
   const int largest = std::max(1, static_cast<int>(std::lround(width / kSidesPerReach / reach)));
-  Found best;
+  FoundShift best;
   for (int reduction = 1; reduction <= largest; reduction *= 2) {
     const Here here = here_of(samples, at, some_of(points), reduction);
     for (const bool is_exchanged : {false, true}) {
       const Looking looking{1, reduction, is_exchanged};
-      Found found = search(here, neighbours(samples, at, looking));
+      FoundShift found = search(here, neighbours(samples, at, looking));
       if (found.share >= best.share) continue;
       found.looking = looking;
       best = found;
@@ -354,7 +354,7 @@ std::optional<Found> search_scales(const LightField::Samples& samples, ViewIndex
 
 std::optional<ShiftFit> fit_shift(const LightField::Samples& samples, ViewIndex at,
                                   const std::vector<ValuePoint>& values) {
-  if (values.size() < kFewestPoints) return std::nullopt;
+  if (values.size() < kFewestFitPoints) return std::nullopt;
   std::vector<ValuePoint> points = values;
   const Span span = bring_to_one(points);
   if (!(span.high > span.low)) return std::nullopt;

@@ -8,14 +8,14 @@
 
 namespace episcope::io {
 
-/// A pixel of a view, and a number on which its disparity depends in an unknown way.
+/// Pixel of a view, and a number on which its disparity depends in an unknown way.
 struct ValuePoint {
   int y = 0;
   int x = 0;
   double value = 0;
 };
 
-/// d = `slope` · value + `offset` in px per view step, as the views themselves say.
+/// Relation fitted to the views: d = `slope` · value + `offset` in px per view step.
 struct ShiftFit {
   double slope = 0;
   double offset = 0;
@@ -25,12 +25,13 @@ struct ShiftFit {
       0;  ///< Of eight parts of the values, the largest error of their mean d, in px.
 };
 
-/// Moves the pixels by d into the views next to `at`, whichever way their rows and columns run, and
-/// finds slope and offset with the least grey error: first among shifts of up to a twelfth of the
-/// width, then by Gauss-Newton steps, also into views two and four steps away. The slope comes out
-/// positive. Nothing if the values do not explain the motion: if it is hardly better than one
-/// disparity for all, if a part of the values moves otherwise by more than 0.05 px and a hundredth
-/// of the range of d, or if less than three different ones can be told apart. Linear in the points.
+/// Finds the slope and offset of least grey error: moves the pixels by d into the neighbors of
+/// `at`, whichever way rows and columns of views run. Searches shifts of up to a twelfth of the
+/// width, then takes Gauss-Newton steps, also with views two and four steps away. The slope comes
+/// out positive. Returns nothing if the values do not explain the motion: if a constant disparity
+/// does nearly as well, if a part of the values moves otherwise by more than 0.05 px and a
+/// hundredth of the range of d, or if fewer than three different values can be told apart. Linear
+/// in the points.
 [[nodiscard]] std::optional<ShiftFit> fit_shift(const LightField::Samples& samples, ViewIndex at,
                                                 const std::vector<ValuePoint>& points);
 

@@ -28,22 +28,22 @@ bool is_picture(const MapSet& set) {
 }
 
 /// As in UrbanLF: 5_5.png, and 5_5_label.npy or label.npy.
-bool has_urban_name(const MapSet& set, const BesideViews& views) {
+bool has_urban_name(const MapSet& set, const SidecarViews& views) {
   if (views.files.files.empty()) return false;  // all in one picture
   const std::string view = numbered_name(views.files.files.front().stem().string()).text;
   const std::string labels = fs::path(set.pattern).stem().string();
   return view == "#_#" && (labels == "#_#_label" || labels == "label");
 }
 
-bool has_urban_size(const BesideViews& views) {
+bool has_urban_size(const SidecarViews& views) {
   const bool is_real = views.width() == 623 && views.height() == 432;
   const bool is_rendered = views.width() == 640 && views.height() == 480;
   return is_real || is_rendered;
 }
 
-/// Colours of one view that `labels` holds too: of the centre view, if it is among them.
+/// Colors of one view that `labels` holds too: of the center view, if it is among them.
 ViewStack<std::int32_t> colors_from(const MapSet& pictures, const ViewStack<std::int32_t>& labels,
-                                    const BesideViews& views) {
+                                    const SidecarViews& views) {
   const GridShape grid = views.grid();
   MapSet::Entry entry = pictures.entries.front();
   const fs::path center = pictures.file_of(views.center());
@@ -56,17 +56,17 @@ ViewStack<std::int32_t> colors_from(const MapSet& pictures, const ViewStack<std:
   return colors.are_colors ? std::move(colors.numbers) : ViewStack<std::int32_t>();
 }
 
-struct Found {
+struct FoundLabels {
   LabelMaps maps;
   const MapSet* set = nullptr;
   SetOutcome outcome;
 };
 
 /// The first set of which a file can be read.
-Found read_first(const std::vector<const MapSet*>& sets, const BesideViews& views,
-                 const BesideNotes& notes, const Progress& progress) {
+FoundLabels read_first_labels(const std::vector<const MapSet*>& sets, const SidecarViews& views,
+                              const SidecarNotes& notes, const Progress& progress) {
   for (const MapSet* set : sets) {
-    Found found;
+    FoundLabels found;
     found.maps = read_label_set(*set, views, found.outcome, progress);
     if (!found.maps.numbers.empty()) {
       found.set = set;
@@ -78,8 +78,8 @@ Found read_first(const std::vector<const MapSet*>& sets, const BesideViews& view
 }
 
 /// What numbers mean, also by pictures of the same labels.
-LabelMeaning name_with_pictures(Found& found, const std::vector<const MapSet*>& sets,
-                                const BesideViews& views, const BesideNotes& notes) {
+LabelMeaning name_with_pictures(FoundLabels& found, const std::vector<const MapSet*>& sets,
+                                const SidecarViews& views, const SidecarNotes& notes) {
   LabelHints hints{has_urban_name(*found.set, views), has_urban_size(views), {}};
   const MapSet* twin = nullptr;
   for (const MapSet* set : sets) {
@@ -102,11 +102,11 @@ void note_raise(const LabelMeaning& meaning, ConventionReport& report) {
 
 }  // namespace
 
-LabelsBeside read_labels_beside(const std::vector<MapSet>& sets, const BesideViews& views,
-                                const BesideNotes& notes, const Progress& progress) {
+SidecarLabels read_sidecar_labels(const std::vector<MapSet>& sets, const SidecarViews& views,
+                                  const SidecarNotes& notes, const Progress& progress) {
   RankedSets ranked = rank_sets(sets, MapKind::Labels, can_hold_labels);
   for (std::size_t tries = ranked.fit.size(); tries > 0; --tries) {
-    Found found = read_first(ranked.fit, views, notes, progress);
+    FoundLabels found = read_first_labels(ranked.fit, views, notes, progress);
     if (found.set == nullptr) return {};
     LabelMeaning meaning;
     if (found.maps.are_colors) {
@@ -171,7 +171,7 @@ std::vector<LabelInfo> urban_infos() {
   return {urban_classes().begin(), urban_classes().end()};
 }
 
-/// The colour that most pixels of each label have.
+/// The color that most pixels of each label have.
 std::map<std::int32_t, std::int32_t> colors_of(const ViewStack<std::int32_t>& labels,
                                                const ViewStack<std::int32_t>& colors) {
   std::map<std::int32_t, std::int32_t> found;
@@ -188,7 +188,7 @@ std::map<std::int32_t, std::int32_t> colors_of(const ViewStack<std::int32_t>& la
   return found;
 }
 
-/// What to add to stored ids to get the classes of UrbanLF, by their colours.
+/// What to add to stored ids to get the classes of UrbanLF, by their colors.
 std::optional<int> urban_offset(const std::map<std::int32_t, std::int32_t>& colors) {
   std::optional<int> offset;
   for (const auto& [id, color] : colors) {
@@ -333,8 +333,8 @@ bool holds_fractions(const fs::path& path, GridShape grid) {
 
 }  // namespace
 
-void settle_fractional_labels(std::vector<MapSet>& sets, const BesideViews& views,
-                              const BesideNotes& notes) {
+void settle_fractional_labels(std::vector<MapSet>& sets, const SidecarViews& views,
+                              const SidecarNotes& notes) {
   const bool has_disparity = std::ranges::any_of(sets, [](const MapSet& set) {
     return set.kind == MapKind::Disparity && can_hold_values(set.entries.front().file);
   });

@@ -16,54 +16,55 @@
 namespace episcope::io {
 
 /// Labels found beside views, ids from 1 on, 0 = none, in the stored order of views.
-struct LabelsBeside {
+struct SidecarLabels {
   ViewStack<std::int32_t> labels;  ///< Of all views or of one; empty = none.
-  std::vector<LabelInfo> infos;    ///< Names and colours, as far as they are known.
+  std::vector<LabelInfo> infos;    ///< Names and colors, as far as they are known.
 };
 
-/// Reads labels from arrays, images of integers or pictures of a colour for each label. Where both
-/// numbers and a picture are there, numbers count, and the picture tells colours and whether ids
-/// begin at 0. A raise is noted in the report. Throws Cancelled.
-[[nodiscard]] LabelsBeside read_labels_beside(const std::vector<MapSet>& sets,
-                                              const BesideViews& views, const BesideNotes& notes,
-                                              const Progress& progress);
+/// Reads labels from arrays, images of integers, or pictures with a color for each label. If there
+/// are both numbers and a picture, the numbers count, and the picture tells colors and whether ids
+/// begin at 0. Reports if ids were raised. Throws Cancelled.
+[[nodiscard]] SidecarLabels read_sidecar_labels(const std::vector<MapSet>& sets,
+                                                const SidecarViews& views,
+                                                const SidecarNotes& notes,
+                                                const Progress& progress);
 
 /// Labels as the engine has them: ids from 1 on, 0 = none.
 struct LabelMeaning {
-  std::vector<LabelInfo> infos;     ///< Names and colours, as far as they are known, by id.
+  std::vector<LabelInfo> infos;     ///< Names and colors, as far as they are known, by id.
   bool raised = false;              ///< Stored ids began at 0 and were raised by one.
-  std::string kind = "label maps";  ///< Or "UrbanLF label maps", "coloured label maps".
+  std::string kind = "label maps";  ///< Or "UrbanLF label maps", "colored label maps".
 };
 
-/// What else is known of stored labels.
+/// Other facts about stored labels.
 struct LabelHints {
   bool is_urban_name = false;  ///< Files are called as in UrbanLF,
   bool is_urban_size = false;  ///< and the views have the size of one of its parts.
-  /// The same labels of one view as colours 0xRRGGBB; empty = none.
+  /// Labels of one view as colors 0xRRGGBB; empty = none.
   ViewStack<std::int32_t> colors;
 };
 
-/// Replaces colours by ids: those of UrbanLF if all of them are colours of its classes; else one id
-/// for each colour, by its value, black = none. Empty if there are more than 256 colours, which no
-/// picture of labels has. Linear in the pixels.
+/// Replaces colors by ids: ids of UrbanLF if all are colors of its classes; else one id for each
+/// color, by its value, black = none. Empty for more than 256 colors, which no picture of labels
+/// has. Linear in the pixels.
 [[nodiscard]] std::optional<LabelMeaning> name_colors(ViewStack<std::int32_t>& labels);
 
-/// Brings stored numbers into the engine's form: −1 (or another negative number) and 255 beside
-/// smaller labels are none. They are raised by one where 0 is a label: colours say so, or another
-/// number marks what has none, or an UrbanLF scene has labels 0 … 13 and not 1 … 14.
+/// Brings stored numbers into the form of the engine. Negative numbers, and 255 beside smaller
+/// labels, are none. Ids are raised by one if 0 is a label: if colors say so, if another number
+/// marks unlabeled pixels, or if an UrbanLF scene has labels 0 … 13 and not 1 … 14.
 [[nodiscard]] LabelMeaning name_numbers(ViewStack<std::int32_t>& labels, const LabelHints& hints);
 
-/// The 14 classes of UrbanLF with their names and colours, ids from 1 on. Source: Sheng et al. 2022
+/// The 14 classes of UrbanLF with their names and colors, ids from 1 on. Source: Sheng et al. 2022
 /// (UrbanLF), table of classes.
 [[nodiscard]] std::span<const LabelInfo> urban_classes();
 
-/// The class of this colour; 0 if there is none. Black is the class "others".
+/// Class of this color; 0 if there is none. Black is the class "others".
 [[nodiscard]] int urban_class_of(Rgb color);
 
-/// Files of `.npy`, `.npz`, `.mat` and HDF5 that are named like labels and hold floats with
-/// fractions hold disparity, as EPINET names it: their sets become sets of disparity, or are left
-/// out where there is disparity under its own name. One file of each set is looked at.
-void settle_fractional_labels(std::vector<MapSet>& sets, const BesideViews& views,
-                              const BesideNotes& notes);
+/// Treats label files with fractional floats (`.npy`, `.npz`, `.mat`, HDF5) as disparity, as EPINET
+/// names it. Their sets become sets of disparity, or are left out if there is disparity under its
+/// own name. Examines one file of each set.
+void settle_fractional_labels(std::vector<MapSet>& sets, const SidecarViews& views,
+                              const SidecarNotes& notes);
 
 }  // namespace episcope::io

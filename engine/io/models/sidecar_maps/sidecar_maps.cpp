@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongest = 1 << 16;
+constexpr std::size_t kLongestParameters = 1 << 16;
 
 /// The number after a name, with anything but digits and letters between: "base_x = 0.05".
 std::optional<double> number_after(const std::string& text, std::string_view name) {
@@ -41,11 +41,11 @@ std::optional<double> number_after(const std::string& text, std::string_view nam
 
 }  // namespace
 
-std::optional<MapUnit> stated_unit(const fs::path& folder, FolderAccount& account) {
+std::optional<MapUnit> stated_unit(const fs::path& folder, FileUsage& account) {
   const fs::path path = folder / kBaselineFile;
   std::ifstream in(path, std::ios::binary);
   if (!in) return std::nullopt;
-  std::string text(kLongest, '\0');
+  std::string text(kLongestParameters, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
   const std::optional<double> baseline = number_after(text, "base_x");
@@ -71,7 +71,7 @@ struct StoredMaps {
 };
 
 StoredMaps read_first(const std::vector<const MapSet*>& sets, const std::string& kind,
-                      const BesideViews& views, const BesideNotes& notes,
+                      const SidecarViews& views, const SidecarNotes& notes,
                       const Progress& progress) {
   StoredMaps found;
   for (const MapSet* set : sets) {
@@ -108,8 +108,8 @@ std::string fit_text(const DepthFit& fit) {
 }
 
 /// Depth beside it tells the sign of disparity where no pixel hides another.
-TruthSign sign_of(const LightField::Samples& samples, const NearSide& side, const DepthFit& fit,
-                  const Explanation& explanation) {
+TruthSign sign_of(const LightField::Samples& samples, const OcclusionOrder& side,
+                  const DepthFit& fit, const Explanation& explanation) {
   if (!side.is_decided() && fit.is_exact()) return {fit.a < 0, true, {}};
   return find_truth_sign(samples, side, explanation);
 }
@@ -130,7 +130,7 @@ std::string name_of(const MapSet& set) {
 }
 
 /// Depth maps of the view by which the disparity is judged.
-StoredMaps read_one_depth(const RankedSets& sets, const BesideViews& views, ViewIndex at) {
+StoredMaps read_one_depth(const RankedSets& sets, const SidecarViews& views, ViewIndex at) {
   for (const MapSet* set : sets.fit) {
     const int view = at.v * views.grid().u + at.u;
     MapSet one{set->kind, set->pattern, {{view, set->file_of(view)}}, {}};
@@ -143,7 +143,7 @@ StoredMaps read_one_depth(const RankedSets& sets, const BesideViews& views, View
 }
 
 void tell_depth(const RankedSets& sets, const MapSet* used, const DepthFit& fit,
-                const BesideNotes& notes) {
+                const SidecarNotes& notes) {
   for (const MapSet* set : sets.fit) {
     if (set == used && fit.is_exact()) {
       notes.account.use(set->files(), "depth maps");
@@ -155,7 +155,7 @@ void tell_depth(const RankedSets& sets, const MapSet* used, const DepthFit& fit,
 
 /// Values of maps of another size may count their own pixels, or those of the views: first that
 /// which explains the views better.
-void add_unit_of_size(const StoredMaps& maps, const BesideViews& views,
+void add_unit_of_size(const StoredMaps& maps, const SidecarViews& views,
                       std::vector<MapUnit>& units) {
   if (maps.scale == 1) return;
   const MapUnit own{1 / maps.scale, fmt::format("px of the map as stored, {:.4g} of which are one "
@@ -171,14 +171,14 @@ void add_unit_of_size(const StoredMaps& maps, const BesideViews& views,
 
 /// Disparity found beside views, in px per view step, positive = nearer, in the stored order of
 /// views.
-struct DisparityBeside {
+struct SidecarDisparity {
   DisparityField field;          ///< Empty if there is none that can be used.
   CameraGrid camera;             ///< That of the views, or what disparity and depth say together.
   bool is_sign_assumed = false;  ///< Nothing tells near from far.
 };
 
-DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const BesideViews& views,
-                               const BesideNotes& notes) {
+SidecarDisparity from_disparity(StoredMaps maps, const RankedSets& depths,
+                                const SidecarViews& views, const SidecarNotes& notes) {
   const ViewIndex at = maps.at(views.grid());
   std::vector<MapUnit> units = common_units(views.grid(), views.width());
   if (const auto stated = stated_unit(views.folder, notes.account)) {
@@ -186,11 +186,12 @@ DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const 
   }
   add_unit_of_size(maps, views, units);
   const SettledUnit settled =
-      settle_values(views.samples, units, {maps.field, name_of(*maps.set)}, notes.report);
+      infer_units(views.samples, units, {maps.field, name_of(*maps.set)}, notes.report);
   const double factor = settled.unit.factor;
-  NearSide side;
+  OcclusionOrder side;
   if (settled.explanation.is_good()) {
-    side = find_near_side(views.samples, at, maps.field.view(at), factor, settled.explanation);
+    side =
+        find_occlusion_order(views.samples, at, maps.field.view(at), factor, settled.explanation);
   }
   const StoredMaps depth = read_one_depth(depths, views, at);
   const DepthFit fit = fit_of(depth, maps, at, factor);
@@ -205,7 +206,7 @@ DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const 
   report.units_check = warp_text(settled);
   if (!told.evidence.empty()) append(report.units_check, told.evidence);
   if (fit.is_exact()) append(report.units_check, fit_text(fit));
-  DisparityBeside found{std::move(maps.field), views.camera, !told.is_known};
+  SidecarDisparity found{std::move(maps.field), views.camera, !told.is_known};
   if (fit.is_exact() && sign * fit.a > 0 && !views.camera.is_known()) {
     found.camera = DepthFit{sign * fit.a, sign * fit.b, fit.exact_share, fit.pixels}.camera();
     append(report.units_check, "the camera follows from disparity and depth");
@@ -223,8 +224,8 @@ struct UnknownSets {
 
 /// Takes the first set whose numbers the views explain, unless there is disparity already; the
 /// others are left out.
-void add_unknown(const UnknownSets& unknown, const BesideViews& views, const BesideNotes& notes,
-                 DisparityBeside& found) {
+void add_unknown(const UnknownSets& unknown, const SidecarViews& views, const SidecarNotes& notes,
+                 SidecarDisparity& found) {
   for (const MapSet* set : unknown.sets) {
     if (set->entries.empty()) continue;
     SetOutcome outcome;
@@ -233,7 +234,7 @@ void add_unknown(const UnknownSets& unknown, const BesideViews& views, const Bes
     std::optional<FittedMeaning> meaning;
     if (!field.empty()) {
       const NamedValues values{field, set->pattern};
-      meaning = settle_unknown_values(views.samples, unknown.forms, values, notes.report);
+      meaning = infer_unknown_units(views.samples, unknown.forms, values, notes.report);
     }
     if (!meaning) {
       notes.account.leave_out(set->files(), unknown.left_out);
@@ -253,9 +254,9 @@ ViewStack<float> disparity_of(ViewStack<float> depth, const CameraGrid& camera) 
   return depth;
 }
 
-/// Whether depth of the centre view, by the camera as it is, explains the views; also where there
+/// Whether depth of the center view, by the camera as it is, explains the views; also where there
 /// is none.
-bool camera_explains(const RankedSets& depths, const BesideViews& views) {
+bool camera_explains(const RankedSets& depths, const SidecarViews& views) {
   const ViewIndex at = views.grid().center();
   StoredMaps depth = read_one_depth(depths, views, at);
   if (depth.field.empty()) return true;
@@ -264,8 +265,8 @@ bool camera_explains(const RankedSets& depths, const BesideViews& views) {
   return explain_views(views.samples, at, depth.field.view(at), 1).is_good();
 }
 
-DisparityBeside from_depth(const RankedSets& sets, const BesideViews& views,
-                           const BesideNotes& notes, const Progress& progress) {
+SidecarDisparity from_depth(const RankedSets& sets, const SidecarViews& views,
+                            const SidecarNotes& notes, const Progress& progress) {
   StoredMaps maps = read_first(sets.fit, kind_text(MapKind::Depth), views, notes, progress);
   if (maps.field.empty()) return {{}, views.camera};
   maps.field.disparity = disparity_of(std::move(maps.field.disparity), views.camera);
@@ -279,16 +280,16 @@ DisparityBeside from_depth(const RankedSets& sets, const BesideViews& views,
 }
 
 /// Reads disparity maps, else depth maps where the camera is known. Unit and sign are checked: by
-/// warping views next to the centre (`settle_unit`), by what hides what (`find_near_side`), and by
-/// depth maps; what was found, with the numbers, goes to `units` and `units_check` of the report.
-/// Maps that are damaged or do not fit are left out with a warning. Throws Cancelled.
-DisparityBeside read_disparity_beside(const std::vector<MapSet>& sets, const BesideViews& views,
-                                      const BesideNotes& notes, const Progress& progress) {
+/// warping views next to the center (`settle_unit`), by what hides what (`find_occlusion_order`),
+/// and by depth maps; what was found, with the numbers, goes to `units` and `units_check` of the
+/// report. Maps that are damaged or do not fit are left out with a warning. Throws Cancelled.
+SidecarDisparity read_sidecar_disparity(const std::vector<MapSet>& sets, const SidecarViews& views,
+                                        const SidecarNotes& notes, const Progress& progress) {
   const RankedSets disparities = rank_sets(sets, MapKind::Disparity, can_hold_values);
   const RankedSets depths = rank_sets(sets, MapKind::Depth, can_hold_values);
   const bool has_camera =
       views.camera.is_known() && (!views.is_shift_unknown || camera_explains(depths, views));
-  DisparityBeside found{{}, views.camera};
+  SidecarDisparity found{{}, views.camera};
   StoredMaps maps =
       read_first(disparities.fit, kind_text(MapKind::Disparity), views, notes, progress);
   const bool has_disparity = !maps.field.empty();
@@ -314,7 +315,7 @@ DisparityBeside read_disparity_beside(const std::vector<MapSet>& sets, const Bes
   return found;
 }
 
-Image<std::uint8_t> read_fitting_mask(const fs::path& path, const BesideViews& views) {
+Image<std::uint8_t> read_fitting_mask(const fs::path& path, const SidecarViews& views) {
   Image<std::uint8_t> mask = read_mask(path);
   require_view_size(path, mask.height(), mask.width(), views);
   return mask;
@@ -339,7 +340,7 @@ bool apply(const Image<std::uint8_t>& mask, bool marks_valid, ImageView<std::uin
   return is_left;
 }
 
-void read_validity(const MapSet& set, const BesideViews& views, const BesideNotes& notes,
+void read_validity(const MapSet& set, const SidecarViews& views, const SidecarNotes& notes,
                    DisparityField& field) {
   SetOutcome outcome;
   const bool marks_valid = set.kind == MapKind::Valid;
@@ -365,7 +366,7 @@ void read_validity(const MapSet& set, const BesideViews& views, const BesideNote
   outcome.tell(kind_text(set.kind), notes);
 }
 
-void read_region(const MapSet& set, const BesideViews& views, const BesideNotes& notes,
+void read_region(const MapSet& set, const SidecarViews& views, const SidecarNotes& notes,
                  GroundTruth& truth) {
   SetOutcome outcome;
   const fs::path& path = set.entries.front().file;
@@ -381,10 +382,10 @@ void read_region(const MapSet& set, const BesideViews& views, const BesideNotes&
 }
 
 /// Reads masks beside views: of valid and of invalid pixels, which go to the validity of `truth`'s
-/// disparity, and regions of the centre view (`region_name`). Masks of views without disparity and
+/// disparity, and regions of the center view (`region_name`). Masks of views without disparity and
 /// such that leave nothing valid are left out. Throws Cancelled.
-void read_masks_beside(const std::vector<MapSet>& sets, const BesideViews& views,
-                       const BesideNotes& notes, GroundTruth& truth) {
+void read_sidecar_masks(const std::vector<MapSet>& sets, const SidecarViews& views,
+                        const SidecarNotes& notes, GroundTruth& truth) {
   for (const MapSet& set : sets) {
     if (set.entries.empty() || !can_hold_labels(set.entries.front().file)) continue;
     if (set.kind == MapKind::Valid || set.kind == MapKind::Invalid) {
@@ -397,7 +398,7 @@ void read_masks_beside(const std::vector<MapSet>& sets, const BesideViews& views
 }
 
 /// Removes what is no truth, or belongs to no view, from the sets.
-void set_aside(std::vector<MapSet>& sets, const BesideNotes& notes) {
+void set_aside(std::vector<MapSet>& sets, const SidecarNotes& notes) {
   for (MapSet& set : sets) {
     notes.account.leave_out(set.strays, std::string(kind_text(set.kind)) + " of no view");
     notes.account.leave_out(set.of_left_out,
@@ -416,24 +417,25 @@ void set_aside(std::vector<MapSet>& sets, const BesideNotes& notes) {
 
 }  // namespace
 
-FoundBeside read_beside(const BesideViews& views, const BesideNotes& notes,
-                        const Progress& progress) {
-  MapsBeside maps = find_maps(views.files, views.folder, views.is_own);
-  FoundBeside found{{}, {}, views.camera};
+SidecarMaps read_sidecar_maps(const SidecarViews& views, const SidecarNotes& notes,
+                              const Progress& progress) {
+  FoundMapSets maps = find_maps(views.files, views.folder, views.is_own);
+  SidecarMaps found{{}, {}, views.camera};
   if (maps.sets.empty()) return found;
   progress.step("reading truth");
   for (const fs::path& folder : maps.folders) notes.account.add_folder(folder);
   set_aside(maps.sets, notes);
   settle_fractional_labels(maps.sets, views, notes);
-  DisparityBeside disparity = read_disparity_beside(maps.sets, views, notes, progress.part(0, 0.6));
+  SidecarDisparity disparity =
+      read_sidecar_disparity(maps.sets, views, notes, progress.part(0, 0.6));
   found.truth.field = std::move(disparity.field);
   found.camera = disparity.camera;
   found.is_sign_assumed = disparity.is_sign_assumed;
   if (!views.needs_truth) return found;
-  LabelsBeside labels = read_labels_beside(maps.sets, views, notes, progress.part(0.6, 0.9));
+  SidecarLabels labels = read_sidecar_labels(maps.sets, views, notes, progress.part(0.6, 0.9));
   found.truth.labels = std::move(labels.labels);
   found.label_infos = std::move(labels.infos);
-  read_masks_beside(maps.sets, views, notes, found.truth);
+  read_sidecar_masks(maps.sets, views, notes, found.truth);
   return found;
 }
 

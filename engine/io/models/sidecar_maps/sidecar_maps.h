@@ -13,22 +13,21 @@
 namespace episcope::io {
 
 /// Truth that lies beside views, in their stored order.
-struct FoundBeside {
+struct SidecarMaps {
   GroundTruth truth;
-  std::vector<LabelInfo> label_infos;  ///< Names and colours of its labels, as far as known.
+  std::vector<LabelInfo> label_infos;  ///< Names and colors of its labels, as far as known.
   CameraGrid camera;                   ///< As given, or what disparity and depth say together.
   bool is_sign_assumed = false;        ///< Nothing tells near from far in the disparity.
 };
 
-/// Finds (`find_maps`) and reads disparity, depth, labels and masks beside views. Every file that
-/// was looked at goes to the account, used or left out, with the reason; units and how they were
-/// checked go to the report. What is damaged or does not fit is left out with a warning: views
-/// open without it. Throws Cancelled.
-[[nodiscard]] FoundBeside read_beside(const BesideViews& views, const BesideNotes& notes,
-                                      const Progress& progress);
+/// Finds (`find_maps`) and reads disparity, depth, labels and masks beside views. Records every
+/// file as used or left out, with the reason. Reports units and how they were checked. Omits
+/// damaged and unfitting files with a warning: views open without them. Throws Cancelled.
+[[nodiscard]] SidecarMaps read_sidecar_maps(const SidecarViews& views, const SidecarNotes& notes,
+                                            const Progress& progress);
 
-/// The unit that this file states, which is then noted in the account; empty without one.
+/// Unit according to `kBaselineFile`, which is recorded as used; empty without such a file.
 [[nodiscard]] std::optional<MapUnit> stated_unit(const std::filesystem::path& folder,
-                                                 FolderAccount& account);
+                                                 FileUsage& account);
 
 }  // namespace episcope::io

@@ -74,7 +74,7 @@ class ArchiveRunTest : public QObject {
     const fs::path scene = write_scene("promising", promising);
     Interval searched{9, -9};
     Estimator method = with_short_search("st_ch_l", "labels", 16);
-    method.run = [&searched, run = method.run](const auto&... arguments) {
+    method.estimate = [&searched, run = method.estimate](const auto&... arguments) {
       Estimate estimate = run(arguments...);
       searched = {std::min(searched.min, estimate.range.min),
                   std::max(searched.max, estimate.range.max)};

@@ -137,10 +137,11 @@ class PlanTest : public QObject {
   void failedRuns_areTriedAgain_andThenCollected() {
     options_.inputs = {"edge"};
     bool fails = true;
-    options_.methods[0].run = [&fails, run = options_.methods[0].run](const auto&... arguments) {
-      if (fails) throw InvalidInput("out of order");
-      return run(arguments...);
-    };
+    options_.methods[0].estimate =
+        [&fails, estimate = options_.methods[0].estimate](const auto&... arguments) {
+          if (fails) throw InvalidInput("out of order");
+          return estimate(arguments...);
+        };
     const BenchmarkPlan plan = installed(1000);
 
     const TaskReport first = run_task(plan, 0, options_, load(), Progress());
@@ -190,7 +191,7 @@ class PlanTest : public QObject {
   void collecting_computesNothing() {
     const BenchmarkPlan plan = installed(1000);
     for (Estimator& method : options_.methods) {
-      method.run = [](const auto&...) -> Estimate { throw InvalidInput("was run"); };
+      method.estimate = [](const auto&...) -> Estimate { throw InvalidInput("was run"); };
     }
 
     const BenchmarkReport report = collect_plan(plan, options_, load(), Progress());

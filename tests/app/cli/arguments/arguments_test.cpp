@@ -76,6 +76,19 @@ class ArgumentsTest : public QObject {
              QString("there is no value of --option 'cudo'; did you mean 'cuda'?"));
   }
 
+  void britishSpelling_isUnderstood() {
+    int column = 0;
+    bool is_normalized = false;
+    Arguments parser("verb", {"", ""});
+    parser.option("--color", column, integer_value("N", 0, 9), "");
+    parser.flag("--normalize", is_normalized, "");
+
+    QVERIFY(parser.parse({"--colour=3", "--normalise"}));
+
+    QCOMPARE(column, 3);
+    QVERIFY(is_normalized);
+  }
+
   void flags_standForValuesAndExcludeEachOther() {
     Format format = Format::Text;
     const auto parse = [&format](const std::vector<std::string>& arguments) {

@@ -223,7 +223,7 @@ expect("no such task" 1 ERR "has 2 tasks, from 0 on, but no task 2" ARGS benchma
 expect("no number" 2 ERR "--point" ARGS benchmark -o changed --point x)
 expect("two ways at once" 2 ERR "exclude each other" ARGS benchmark -o changed --point 0 --collect)
 expect("neither INPUT nor plan" 2 ERR "INPUT is required" ARGS benchmark -o changed)
-expect("methods of a plan" 2 ERR "all is taken from the plan"
+expect("methods of a plan" 2 ERR "the plan says what to run"
        ARGS benchmark -o changed --methods epi_l --collect)
 expect("bundles of nothing" 2 ERR "--task-seconds has no effect"
        ARGS benchmark edge -o changed --task-seconds 3)

@@ -44,7 +44,7 @@ json_near("${out}" 0.6999 0.7001 parameters inner_scale)
 json_is("${out}" "${result}" output)
 json_near("${out}" -4 0 range 0)
 expect_file("${result}" ${hdf5})
-expect("estimate of the centre" 0 OUT "center.h5: epi_l of the centre view"
+expect("estimate of the centre" 0 OUT "center.h5: epi_l of the center view"
        ARGS estimate epi_l "${lf}" -o center.h5 --views=center)
 expect("estimate smoothly" 0 ARGS estimate epi_s "${lf}" -o smooth.h5 --quiet)
 expect("evaluate two methods" 0 OUT "^file,[^\n]+\n[^\n]*epi_l,[^\n]+\n[^\n]*epi_s,[^\n]+\n$"

@@ -4,7 +4,7 @@ file(MAKE_DIRECTORY "${WORK}/scenes/boxes" "${WORK}/scenes/dots")
 expect("make boxes" 0 ARGS synthesize objects -o scenes/boxes/lf.h5 --views 3x3 --size 64x48)
 expect("make dots" 0 ARGS synthesize bars -o scenes/dots/lf.h5 --views 3x3 --size 64x48)
 
-expect("submit all" 0 OUT "ours/disp_maps/boxes.pfm: st_ch_l of the centre view.*ours/disp_maps/dots.pfm"
+expect("submit all" 0 OUT "ours/disp_maps/boxes.pfm: st_ch_l of the center view.*ours/disp_maps/dots.pfm"
        ERR "also wants backgammon, pyramids.*episcope-cli validate ours"
        ARGS estimate st_ch_l scenes -o ours --submission)
 expect_files(ours disp_maps runtimes)

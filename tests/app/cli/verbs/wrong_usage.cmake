@@ -66,3 +66,5 @@ expect("no value" 2 ERR "show: --range needs a value; see" ARGS show lf.h5 -o x.
 expect("two too many" 2 ERR "info: too many arguments: extra more; see" ARGS info lf.h5 extra more)
 expect("one too many" 2 ERR "info: too many arguments: extra; see" ARGS info lf.h5 extra)
 expect("help of a method" 0 OUT "Parameters of epi_l.*--range" ARGS estimate epi_l --help)
+
+expect("British spelling" 0 ARGS info lf.h5 --no-equalise)

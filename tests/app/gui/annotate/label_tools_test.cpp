@@ -115,10 +115,10 @@ void LabelToolsTest::undoOfALockedLabel_isDoneAndSaid() {
   f.key(Qt::Key_V, Qt::ShiftModifier);
   f.trigger("annotate.undo");
   QCOMPARE(f.labelAt({60, 40}), 0);
-  QVERIFY2(f.message().startsWith("Undo changed what is locked"), qPrintable(f.message()));
+  QVERIFY2(f.message().startsWith("Undo changed locked labels"), qPrintable(f.message()));
   f.trigger("annotate.redo");
   QCOMPARE(f.labelAt({60, 40}), 1);
-  QVERIFY2(f.message().startsWith("Redo changed what is locked"), qPrintable(f.message()));
+  QVERIFY2(f.message().startsWith("Redo changed locked labels"), qPrintable(f.message()));
 
   f.key(Qt::Key_V, Qt::ShiftModifier);
   f.key(Qt::Key_Escape);

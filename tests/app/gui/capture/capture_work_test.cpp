@@ -235,7 +235,7 @@ class CaptureWorkTest : public QObject {
     f.trigger("file.quit");
     QTRY_VERIFY(f.window.findChild<QMessageBox*>("unsaved_results"));
     auto* question = f.window.findChild<QMessageBox*>("unsaved_results");
-    QVERIFY2(question->text().contains("Pairs of points"), qPrintable(question->text()));
+    QVERIFY2(question->text().contains("pairs of points"), qPrintable(question->text()));
     question->button(QMessageBox::Discard)->click();
     QTRY_VERIFY(!f.window.isVisible());
   }

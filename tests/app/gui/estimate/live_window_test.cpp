@@ -47,7 +47,7 @@ class Trying : public WindowFixture {
   /// Whether what is looked at is the full map of what was asked for last.
   [[nodiscard]] bool isThere() {
     const EstimateEntry* tried = session().live();
-    return tried && live().viewer_area() == LiveStage::Idle && live().map() &&
+    return tried && live().stage() == LiveStage::Idle && live().map() &&
            !live().map()->is_coarse && tried->estimate == live().map()->estimate;
   }
   void wait() { QTRY_VERIFY_WITH_TIMEOUT(isThere(), kScenePatience); }
@@ -198,7 +198,7 @@ void LiveWindowTest::wrongUse_isSaid() {
   f.openScene("slant", options);
   f.method().setCurrentMethod("epi_two_layer");
   f.toggle();
-  QTRY_VERIFY_WITH_TIMEOUT(f.live().viewer_area() == LiveStage::Failed, kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.live().stage() == LiveStage::Failed, kPatience);
   QVERIFY2(f.status().startsWith("Live: ") && f.status().size() > 10, qPrintable(f.status()));
   QVERIFY(!f.session().live());
   f.method().setCurrentMethod("epi_l");
@@ -219,7 +219,7 @@ void LiveWindowTest::closedScene_whileRunning_leavesNothing() {
   f.method().setCurrentMethod("st_av_g");
   f.toggle();
   f.session().close();
-  QTRY_VERIFY_WITH_TIMEOUT(f.live().viewer_area() == LiveStage::Idle && !f.live().map(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.live().stage() == LiveStage::Idle && !f.live().map(), kPatience);
   QVERIFY(!f.session().live());
   QVERIFY(f.button().isChecked());
 }

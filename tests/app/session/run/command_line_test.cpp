@@ -134,8 +134,8 @@ void CommandLineTest::readingOptions_readBack() {
                            {"frame", 3},
                            {Reading::kFocus, -0.1},
                            {"levels", std::string("0,1023")},
-                           {"equalise", true},
-                           {"no-equalise", true}};
+                           {"equalize", true},
+                           {"no-equalize", true}};
   QCOMPARE(given.size(), schema.descriptions().size());
 
   const QString text = QString::fromStdString(reading_options_text(given)).remove('\'');

@@ -182,7 +182,7 @@ void add_methods(const std::string& parameter = "") {
                         std::ranges::any_of(estimator.parameters, [&](const auto& description) {
                           return description.key == parameter;
                         });
-    if (!estimator.in_blocks || !has_it) continue;
+    if (!estimator.can_run_in_blocks() || !has_it) continue;
     QTest::newRow(estimator.info.id.c_str()) << estimator.info.id.c_str();
   }
 }
@@ -234,7 +234,7 @@ class RunBlocksTest : public QObject {
 void RunBlocksTest::localMethodsAndMethodsByViews_runInBlocks() {
   for (const char* id : {"epi_l", "epi_s", "st_av_l", "st_ch_l", "st_av_s", "st_ch_s", "plane_pm",
                          "epi_two_layer", "epi_c"}) {
-    QVERIFY2(find_estimator(id).in_blocks, id);
+    QVERIFY2(find_estimator(id).can_run_in_blocks(), id);
   }
 }
 

@@ -174,7 +174,7 @@ class MappedArchiveTest : public QObject, private ArchiveFolder {
     io::write_archive(path("lf.h5"), plane_scene(), Progress(1));
     set_memory_budget(kSmallBudget);
 
-    QVERIFY(kind_of(open(path("lf.h5"), {.equalise = true})) != LargeKind::File);
+    QVERIFY(kind_of(open(path("lf.h5"), {.equalize = true})) != LargeKind::File);
   }
 
   void compressedLightField_isUnpackedToDisk() {

@@ -2,8 +2,8 @@
 #include "engine/io/models/sidecar_maps/find_maps.h"
 #include "tests/test_main.h"
 
-#include <QTemporaryDir>
 #include <fmt/format.h>
+#include <QTemporaryDir>
 
 #include <fstream>
 
@@ -36,7 +36,7 @@ class FindMapsTest : public QObject {
     }
     return files;
   }
-  static const io::MapSet* set_of(const io::MapsBeside& maps, const std::string& pattern) {
+  static const io::MapSet* set_of(const io::FoundMapSets& maps, const std::string& pattern) {
     for (const io::MapSet& set : maps.sets) {
       if (set.pattern == pattern) return &set;
     }
@@ -81,7 +81,7 @@ class FindMapsTest : public QObject {
     const io::ViewFiles maps = views(grid, map.toStdString(), base);
     for (const fs::path& file : maps.files) touch(fs::relative(file, path()).string());
 
-    const io::MapsBeside found = io::find_maps(views(grid, view.toStdString()), path());
+    const io::FoundMapSets found = io::find_maps(views(grid, view.toStdString()), path());
 
     QCOMPARE(found.sets.size(), std::size_t{1});
     QCOMPARE(QString::fromStdString(found.sets.front().pattern), pattern);
@@ -105,7 +105,7 @@ class FindMapsTest : public QObject {
     QFETCH(int, view);
     touch(file.toStdString());
 
-    const io::MapsBeside found = io::find_maps(views({5, 5}, "{}_{}.png"), path());
+    const io::FoundMapSets found = io::find_maps(views({5, 5}, "{}_{}.png"), path());
 
     QCOMPARE(found.sets.size(), std::size_t{1});
     QCOMPARE(found.sets.front().entries.size(), std::size_t{1});
@@ -118,7 +118,7 @@ class FindMapsTest : public QObject {
       touch(name);
     }
 
-    const io::MapsBeside found = io::find_maps(views(grid, "{}_{}.png"), path());
+    const io::FoundMapSets found = io::find_maps(views(grid, "{}_{}.png"), path());
 
     QCOMPARE(found.sets.size(), std::size_t{1});
     QCOMPARE(found.sets.front().entries.size(), std::size_t{3});
@@ -130,7 +130,7 @@ class FindMapsTest : public QObject {
   void mapsOfNoView_areStrays() {
     for (int i = 1; i <= 6; ++i) touch(fmt::format("7_{}_disparity.npy", i));
 
-    const io::MapsBeside found = io::find_maps(views({2, 2}, "{}_{}.png"), path());
+    const io::FoundMapSets found = io::find_maps(views({2, 2}, "{}_{}.png"), path());
 
     QCOMPARE(found.sets.size(), std::size_t{1});
     QVERIFY(found.sets.front().entries.empty());
@@ -144,7 +144,7 @@ class FindMapsTest : public QObject {
     }
     touch("notes.txt");
 
-    const io::MapsBeside found = io::find_maps(views(grid, "{}_{}.png"), path());
+    const io::FoundMapSets found = io::find_maps(views(grid, "{}_{}.png"), path());
 
     QCOMPARE(found.sets.size(), std::size_t{3});
     QVERIFY(set_of(found, "#_#_label.png") != nullptr);
@@ -165,7 +165,7 @@ class FindMapsTest : public QObject {
     touch("labels/1_2.png");
     const io::ViewFiles files = views({1, 2}, "lf/{}_{}.png");
 
-    const io::MapsBeside found = io::find_maps(files, path("lf"));
+    const io::FoundMapSets found = io::find_maps(files, path("lf"));
 
     QCOMPARE(found.sets.size(), std::size_t{2});
     QCOMPARE(found.folders.size(), std::size_t{2});

@@ -106,7 +106,8 @@ class MapMeaningTest : public QObject {
     const LightField::Samples views = exchange ? exchanged(scene) : samples(scene);
     const io::Explanation explanation = io::explain_views(views, center, {map.view(), {}}, 1);
 
-    const io::NearSide side = io::find_near_side(views, center, {map.view(), {}}, 1, explanation);
+    const io::OcclusionOrder side =
+        io::find_occlusion_order(views, center, {map.view(), {}}, 1, explanation);
 
     QVERIFY(side.is_decided());
     QCOMPARE(side.larger_is_nearer(), sign > 0);
@@ -122,8 +123,8 @@ class MapMeaningTest : public QObject {
     const io::Explanation explanation =
         io::explain_views(samples(scene), center, {map.view(), {}}, 1);
 
-    const io::NearSide side =
-        io::find_near_side(samples(scene), center, {map.view(), {}}, 1, explanation);
+    const io::OcclusionOrder side =
+        io::find_occlusion_order(samples(scene), center, {map.view(), {}}, 1, explanation);
 
     QVERIFY(side.is_decided());
     QVERIFY(!side.larger_is_nearer());
@@ -134,7 +135,8 @@ class MapMeaningTest : public QObject {
     const ViewIndex center = scene.views.grid().center();
     const Image<float> map(scene.views.height(), scene.views.width(), 1, LayeredScene::kFar);
 
-    const io::NearSide side = io::find_near_side(samples(scene), center, {map.view(), {}}, 1, {});
+    const io::OcclusionOrder side =
+        io::find_occlusion_order(samples(scene), center, {map.view(), {}}, 1, {});
 
     QVERIFY(!side.is_decided());
   }

@@ -131,7 +131,7 @@ void ImageAccountTest::manyKinds_areToldApartLessFinely() {
     std::ofstream(path(std::string(1, c) + ".csv")) << "x";
   }
 
-  const std::vector<FileUse> uses = io::FolderAccount(path()).uses();
+  const std::vector<FileUse> uses = io::FileUsage(path()).uses();
 
   QCOMPARE(uses.size(), std::size_t{2});
   QCOMPARE(uses[1].kind, std::string("*.txt"));

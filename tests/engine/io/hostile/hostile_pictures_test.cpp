@@ -40,7 +40,7 @@ class HostilePicturesTest : public QObject {
     const bool is_float = suffix == "hdr";
     const cv::Mat picture(64, 70, is_float ? CV_32FC3 : CV_8UC3, cv::Scalar(1, 0.5, 0.2));
     QVERIFY(cv::imwrite(path, picture));
-    QCOMPARE(io::claimed_pixels(path), std::optional<std::uint64_t>(64 * 70));
+    QCOMPARE(io::declared_pixels(path), std::optional<std::uint64_t>(64 * 70));
     QCOMPARE(std::visit([](const auto& image) { return image.width(); }, io::decode_image(path)),
              70);
   }

@@ -39,7 +39,7 @@ Scene opened(ViewStack<std::uint8_t> views, const io::OpenOptions& options,
 
 bool warns(const Scene& scene) {
   return std::ranges::any_of(scene.convention.warnings, [](const std::string& warning) {
-    return warning.find("--equalise") != std::string::npos;
+    return warning.find("--equalize") != std::string::npos;
   });
 }
 
@@ -75,18 +75,18 @@ class EqualiseTest : public QObject {
 
     const Scene read = opened(uneven_views(plane), {.keep_brightness = true});
 
-    QVERIFY(read.light_field->info().reading.find("no-equalise") != nullptr);
+    QVERIFY(read.light_field->info().reading.find("no-equalize") != nullptr);
     QVERIFY2(read.convention.gain.starts_with("differs"), read.convention.gain.c_str());
   }
 
   void unevenViews_areEvenedOutOnRequest() {
     const Scene plane = plane_scene({.height = 96, .width = 96});
 
-    const Scene read = opened(uneven_views(plane), {.equalise = true});
+    const Scene read = opened(uneven_views(plane), {.equalize = true});
 
     QVERIFY2(!warns(read), describe(read.convention).c_str());
     QVERIFY2(read.convention.gain.starts_with("evened out"), read.convention.gain.c_str());
-    QVERIFY(read.light_field->info().reading.find("equalise") != nullptr);
+    QVERIFY(read.light_field->info().reading.find("equalize") != nullptr);
     for (int i = 0; i < 25; ++i) {
       const ViewIndex view = read.light_field->grid().view_at(i);
       const double ratio =
@@ -98,7 +98,7 @@ class EqualiseTest : public QObject {
   void evenViews_stayAsTheyAre() {
     const Scene plane = plane_scene({.height = 96, .width = 96});
 
-    const Scene read = opened(bytes_of(plane).clone(), {.equalise = true});
+    const Scene read = opened(bytes_of(plane).clone(), {.equalize = true});
 
     QVERIFY2(!warns(read), describe(read.convention).c_str());
     QVERIFY(has_same_samples(plane, read));

@@ -116,8 +116,8 @@ void OpenOptionsTest::readers_nameOptionsThatThereAre() {
     QVERIFY2(reader.has_option("flip"), reader.id);
     QVERIFY2(!reader.has_option("snak"), reader.id);
     QVERIFY2(!reader.has_option(Reading::kFocus), reader.id);  // that of all
-    QVERIFY2(reader.has_option("equalise"), reader.id);
-    QVERIFY2(reader.has_option("no-equalise"), reader.id);
+    QVERIFY2(reader.has_option("equalize"), reader.id);
+    QVERIFY2(reader.has_option("no-equalize"), reader.id);
     for (const ParameterDescription& option : schema.descriptions()) {
       if (reader.has_option(option.key)) named.insert(option.key);
     }

@@ -216,9 +216,9 @@ void StrokeDistanceTest::strokes_areCarriedAlongRays_andHiddenOnesAreNot() {
   scribbles.views[0].labels.at(0, 5) = 9;
   const std::vector<std::int32_t> ids{7, 9};
 
-  const auto own = carried_strokes(scribbles, ids, &field, {0, 0}, 1, 8);
-  const auto carried = carried_strokes(scribbles, ids, &field, {0, 1}, 1, 8);
-  const auto without = carried_strokes(scribbles, ids, nullptr, {0, 1}, 1, 8);
+  const auto own = propagated_strokes(scribbles, ids, &field, {0, 0}, 1, 8);
+  const auto carried = propagated_strokes(scribbles, ids, &field, {0, 1}, 1, 8);
+  const auto without = propagated_strokes(scribbles, ids, nullptr, {0, 1}, 1, 8);
 
   QCOMPARE(own.at(0, 3), 1);
   QCOMPARE(own.at(0, 5), 2);

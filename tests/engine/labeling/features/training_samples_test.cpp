@@ -55,13 +55,13 @@ class TrainingSamplesTest : public QObject {
 
   void withoutDisparity_placeIsOccasional() {
     QCOMPARE(names_of_occasional({}),
-             (std::vector<std::string>{"column in the centre view", "row in the centre view"}));
+             (std::vector<std::string>{"column in the center view", "row in the center view"}));
   }
 
   // Strokes lie in the middle of things: that a jump is near says little about what is beside it.
   void withDisparity_slopeIsOccasionalAsWell() {
     QCOMPARE(names_of_occasional({true}),
-             (std::vector<std::string>{"column in the centre view", "row in the centre view",
+             (std::vector<std::string>{"column in the center view", "row in the center view",
                                        "disparity, slope along x", "disparity, slope along y"}));
   }
 };

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/files/session_recovery.h"
+#include "app/session/workspace.h"
+#include "tests/app/gui/files/working.h"
+#include "tests/window_test_main.h"
+#include "widgets/controls/message_bar.h"
+
+#include <QDir>
+#include <QProcess>
+#include <QPushButton>
+
+#include <csignal>
+#include <memory>
+#include <random>
+
+// What was open when the program was killed comes back, all of it.
+
+namespace episcope::in_session_recovery_test {
+
+namespace {
+
+constexpr const char* kScenes[] = {"edge", "slant", "fronto"};
+
+/// What the program told last before it was killed.
+struct Told {
+  std::size_t made = 0;  ///< Results.
+  std::size_t kept = 0;  ///< Those in files by then.
+  std::size_t strokes = 0;
+};
+
+Told told_in(const QByteArray& output) {
+  const QList<QByteArray> lines = output.left(output.lastIndexOf('\n') + 1).trimmed().split('\n');
+  const QList<QByteArray> words = lines.last().split(' ');
+  if (words.size() != 3) return {};
+  return {words[0].toULongLong(), words[1].toULongLong(), words[2].toULongLong()};
+}
+
+// Lets the real window work for a while and kills it.
+Told work_and_kill(const WindowFixture& f, const QString& state, unsigned seed) {
+  QStringList arguments{state, QString::number(seed)};
+  for (const char* id : kScenes) arguments << f.writeScene(id, WindowFixture::smallOptions());
+  QProcess program;
+  program.start(WORKING_PROGRAM, arguments);
+  QByteArray output;
+  while (!output.contains('\n') && program.waitForReadyRead(kScenePatience)) {
+    output += program.readAllStandardOutput();
+  }
+  std::mt19937 random(seed);
+  QTest::qWait(static_cast<int>(random() % 2500));
+  ::kill(static_cast<pid_t>(program.processId()), SIGKILL);
+  program.waitForFinished();
+  return told_in(output + program.readAllStandardOutput());
+}
+
+class Recovering : public Working {
+ public:
+  explicit Recovering(const QString& state) {
+    window.bench().document.setJournalFolder((state + "/journals").toStdString());
+    autosave().setRoot((state + "/sessions").toStdString());
+  }
+  MessageBar* bar() { return window.findChild<MessageBar*>("sessionRecoveryBar"); }
+  // Takes what is offered; false if nothing is.
+  bool recover() {
+    window.bench().frame.start();
+    if (!QTest::qWaitFor([this] { return bar()->isVisible(); }, 2000)) return false;
+    bar()->findChild<QPushButton*>("message.action")->click();
+    return QTest::qWaitFor(
+        [this] { return session().scene() && window.bench().document.document(); }, kScenePatience);
+  }
+  std::size_t strokeCount() {
+    std::size_t count = 0;
+    for (const OpenScene* each : session().scenes()) {
+      show(each->id);
+      count += document().history().applied_count();
+      if (each->estimates.empty()) continue;
+      for (const EstimateEntry& entry : each->estimates) {
+        if (!entry.estimate) return 0;  // told, but not there
+      }
+    }
+    return count;
+  }
+};
+
+}  // namespace
+
+class SessionRecoveryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void killedSession_losesNothingThatWasKept();
+  void recoveredSession_isKeptAgain();
+  void discardedSession_isGone();
+  void leftWindow_leavesNothingBehind();
+  void runningSession_isNotOffered();
+};
+
+// A result is in a file some milliseconds after it is there. EPISCOPE_KILLS sets how often.
+void SessionRecoveryTest::killedSession_losesNothingThatWasKept() {
+  const int kills = std::max(3, qEnvironmentVariableIntValue("EPISCOPE_KILLS"));
+  std::size_t made = 0, strokes = 0, lost_results = 0, lost_strokes = 0;
+  for (int i = 0; i < kills; ++i) {
+    const QTemporaryDir state;
+    Recovering f(state.path());
+    const Told told = work_and_kill(f, state.path(), static_cast<unsigned>(i + 1));
+    made += told.made;
+    strokes += told.strokes;
+
+    QVERIFY(f.recover());
+
+    QCOMPARE(f.session().scenes().size(), std::size(kScenes));
+    const std::size_t results = f.resultCount();
+    // A label that is made with the first stroke is a step of its own.
+    const std::size_t steps = f.strokeCount();
+    // Results are written in the background: on a busy disk the newest are still on their way.
+    QVERIFY2(results >= told.kept,
+             qPrintable(
+                 QString("%1 of %2 results, %3 kept").arg(results).arg(told.made).arg(told.kept)));
+    QVERIFY2(steps >= told.strokes,
+             qPrintable(QString("%1 of %2 strokes").arg(steps).arg(told.strokes)));
+    if (results < told.made) lost_results += told.made - results;
+    if (steps < told.strokes) lost_strokes += told.strokes - steps;
+    f.window.bench().document.discardAll();
+  }
+  qInfo("%d kills: %zu of %zu results lost, %zu of %zu strokes", kills, lost_results, made,
+        lost_strokes, strokes);
+}
+
+void SessionRecoveryTest::recoveredSession_isKeptAgain() {
+  const QTemporaryDir state;
+  WindowFixture files;
+  const Told told = work_and_kill(files, state.path(), 7);
+  auto second = std::make_unique<Recovering>(state.path());
+  QVERIFY(second->recover());
+  const std::size_t results = second->resultCount();
+  second->estimate();
+  QTRY_VERIFY(second->autosave().isIdle());
+  QTRY_VERIFY(!second->session().estimates().back().kept.empty());
+  second.reset();  // nobody decided about it
+
+  Recovering third(state.path());
+  QVERIFY(third.recover());
+
+  QCOMPARE(third.resultCount(), results + 1);
+  QVERIFY(third.strokeCount() >= told.strokes);
+  third.window.bench().document.discardAll();
+}
+
+void SessionRecoveryTest::discardedSession_isGone() {
+  const QTemporaryDir state;
+  Recovering f(state.path());
+  (void)work_and_kill(f, state.path(), 3);
+  f.window.bench().frame.start();
+  QTRY_VERIFY(f.bar()->isVisible());
+
+  f.bar()->findChild<QPushButton*>("message.other")->click();
+
+  QVERIFY(orphaned_workspaces((state.path() + "/sessions").toStdString()).empty());
+}
+
+void SessionRecoveryTest::leftWindow_leavesNothingBehind() {
+  const QTemporaryDir state;
+  {
+    Recovering f(state.path());
+    f.openSmall("edge");
+    f.estimate();
+    QTRY_VERIFY(!f.session().estimates()[0].kept.empty());
+    f.trigger("file.quit");
+    QTRY_VERIFY(!f.window.isVisible());
+  }
+
+  QVERIFY(QDir(state.path() + "/sessions").isEmpty());
+}
+
+void SessionRecoveryTest::runningSession_isNotOffered() {
+  const QTemporaryDir state;
+  Recovering f(state.path());
+  f.openSmall("edge");
+  f.estimate();
+  QTRY_VERIFY(f.autosave().isIdle());
+
+  QVERIFY(orphaned_workspaces((state.path() + "/sessions").toStdString()).empty());
+}
+
+}  // namespace episcope::in_session_recovery_test
+
+EPISCOPE_WINDOW_TEST(session_recovery_test, SessionRecoveryTest)
+#include "session_recovery_test.moc"

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/shell/appearance.h"
+#include "tests/app/gui/window_fixture.h"
+#include "tests/window_test_main.h"
+#include "widgets/controls/labels.h"
+#include "widgets/panels/metric_table.h"
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QClipboard>
+#include <QComboBox>
+#include <QKeySequence>
+#include <QLabel>
+#include <QLocale>
+#include <QMenu>
+#include <QMenuBar>
+#include <QSet>
+
+#include <clocale>
+#include <cstdlib>
+
+namespace episcope::in_language_test {
+namespace {
+
+QString menu_file() {
+  return QCoreApplication::translate("episcope::Menu", "File");
+}
+
+// Keys that two entries of a menu share.
+QStringList shared_mnemonics(const QMenu& menu) {
+  QStringList shared;
+  QSet<QChar> used;
+  for (const QAction* action : menu.actions()) {
+    QString text = action->text();
+    const qsizetype place = text.remove("&&").indexOf('&');
+    if (place < 0 || place + 1 >= text.size()) continue;
+    const QChar key = text[place + 1].toLower();
+    if (used.contains(key)) shared << action->text();
+    used.insert(key);
+  }
+  return shared;
+}
+
+bool wraps_or_elides(const QWidget& widget) {
+  const auto* label = qobject_cast<const QLabel*>(&widget);
+  return qobject_cast<const ElidedLabel*>(&widget) || (label && label->wordWrap());
+}
+
+// Visible labels and buttons that are narrower than their text.
+QStringList cut_texts(const QWidget& window) {
+  QStringList cut;
+  for (const auto* widget : window.findChildren<QWidget*>()) {
+    const auto* button = qobject_cast<const QAbstractButton*>(widget);
+    const auto* label = qobject_cast<const QLabel*>(widget);
+    const QString text = button ? button->text() : label ? label->text() : QString();
+    if (text.isEmpty() || !widget->isVisible() || wraps_or_elides(*widget)) continue;
+    const int needed = widget->minimumSizeHint().width();
+    if (widget->width() < needed) {
+      cut << QString("%1 “%2”: %3 < %4 px")
+                 .arg(widget->objectName(), text)
+                 .arg(widget->width())
+                 .arg(needed);
+    }
+  }
+  return cut;
+}
+
+// The keys of a CSV table and, for each cell, whether it is a number; words are in the language of
+// the window.
+QStringList kinds_of_cells(const QString& csv) {
+  const QStringList lines = csv.trimmed().split('\n');
+  QStringList kinds{lines.front()};
+  for (const QString& cell : lines.mid(1).join(',').split(',')) {
+    bool is_number = false;
+    cell.toDouble(&is_number);
+    kinds << (is_number ? "number" : "text");
+  }
+  return kinds;
+}
+
+// What a user takes out of the window after a run.
+QStringList copied_from_a_window() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  f.trigger("estimate.copy_command");
+  const QString command = QGuiApplication::clipboard()->text();
+  const auto* table = f.window.findChild<MetricTable*>();
+  const auto is_scored = [&] { return kinds_of_cells(table->toCsv()).count("number") > 10; };
+  (void)QTest::qWaitFor(is_scored, 60000);  // in the background
+  return QStringList{command.section(' ', 0, 2), command.section("--", 1)} +
+         kinds_of_cells(table->toCsv());
+}
+
+}  // namespace
+
+class LanguageTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    if (!languages().contains("de")) QSKIP("built without lrelease: the window is in English");
+    QVERIFY(apply_language("en"));
+  }
+  void cleanup() { apply_language("en"); }
+  void languageOfTheDesktop_isTheFirstThatIsThere_data();
+  void languageOfTheDesktop_isTheFirstThatIsThere();
+  void appliedLanguage_translatesTheWindowAndQt();
+  void unknownLanguage_changesNothing();
+  void english_hasPlurals();
+  void keys_areReadAndWrittenInEveryLanguage();
+  void numbersOfTheCLibrary_keepThePoint();
+  void whatIsCopied_isTheSameInEveryLanguage();
+  void choice_isRemembered();
+  void mnemonics_areUniqueInAMenu();
+  void noText_isCut_data();
+  void noText_isCut();
+};
+
+void LanguageTest::languageOfTheDesktop_isTheFirstThatIsThere_data() {
+  QTest::addColumn<QStringList>("wanted");
+  QTest::addColumn<QString>("language");
+  QTest::newRow("country") << QStringList{"de-AT", "de"} << "de";
+  QTest::newRow("as POSIX writes it") << QStringList{"de_DE.UTF-8"} << "de";
+  QTest::newRow("second choice") << QStringList{"fr-FR", "de-CH"} << "de";
+  QTest::newRow("English first") << QStringList{"en-GB", "de-DE"} << "en";
+  QTest::newRow("none is there") << QStringList{"fr", "it"} << "en";
+  QTest::newRow("C") << QStringList{"C", "de"} << "en";
+  QTest::newRow("nothing") << QStringList{} << "en";
+}
+
+void LanguageTest::languageOfTheDesktop_isTheFirstThatIsThere() {
+  QFETCH(QStringList, wanted);
+  QFETCH(QString, language);
+
+  QCOMPARE(language_for(wanted, {"de", "en"}), language);
+}
+
+void LanguageTest::appliedLanguage_translatesTheWindowAndQt() {
+  QVERIFY(apply_language("de"));
+
+  QCOMPARE(menu_file(), QString("Datei"));
+  QCOMPARE(QCoreApplication::translate("episcope::Schema", "Disparity range"),
+           QString("Disparitätsbereich"));
+  QCOMPARE(QCoreApplication::translate("QPlatformTheme", "Cancel"), QString("Abbrechen"));
+  QCOMPARE(QLocale().language(), QLocale::German);
+
+  QVERIFY(apply_language("en"));
+  QCOMPARE(menu_file(), QString("File"));
+  QCOMPARE(QCoreApplication::translate("QPlatformTheme", "Cancel"), QString("Cancel"));
+}
+
+void LanguageTest::unknownLanguage_changesNothing() {
+  QVERIFY(apply_language("de"));
+
+  QVERIFY(!apply_language("tlh"));
+
+  QCOMPARE(menu_file(), QString("Datei"));
+}
+
+void LanguageTest::english_hasPlurals() {
+  const auto sentence = [](int count) {
+    return QCoreApplication::translate("episcope::MeasureController",
+                                       "%n measured line(s) copied as CSV.", nullptr, count);
+  };
+  QCOMPARE(sentence(1), QString("1 measured line copied as CSV."));
+  QCOMPARE(sentence(2), QString("2 measured lines copied as CSV."));
+}
+
+void LanguageTest::keys_areReadAndWrittenInEveryLanguage() {
+  QVERIFY(apply_language("de"));
+
+  const QKeySequence key("Ctrl+Shift+PgDown");
+
+  QCOMPARE(key, QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_PageDown));
+  QCOMPARE(key.toString(QKeySequence::NativeText), QString("Strg+Umschalt+Bild ab"));
+  QCOMPARE(QKeySequence("Strg+Umschalt+Bild ab"), key);
+}
+
+void LanguageTest::numbersOfTheCLibrary_keepThePoint() {
+  if (!std::setlocale(LC_NUMERIC, "de_DE.UTF-8")) {
+    QSKIP("the system has no German locale (locale-gen de_DE.UTF-8)");
+  }
+  QCOMPARE(std::strtod("0.5", nullptr), 0.0);
+
+  QVERIFY(apply_language("de"));
+
+  QCOMPARE(std::strtod("0.5", nullptr), 0.5);
+}
+
+void LanguageTest::whatIsCopied_isTheSameInEveryLanguage() {
+  const QStringList english = copied_from_a_window();
+  QVERIFY(english.count("number") > 10);
+
+  QVERIFY(apply_language("de"));
+
+  QCOMPARE(copied_from_a_window(), english);
+}
+
+void LanguageTest::choice_isRemembered() {
+  WindowFixture f;
+  QCOMPARE(remembered_language(), QString("system"));
+  QVERIFY(f.window.bench().commands.find("language.system")->isChecked());
+
+  f.trigger("language.de");
+
+  QCOMPARE(remembered_language(), QString("de"));
+  QVERIFY(f.window.bench().commands.find("language.de")->isChecked());
+  QVERIFY(!f.window.bench().commands.find("language.system")->isChecked());
+  QCOMPARE(f.window.bench().commands.find("language.de")->text(), QString("Deutsch"));
+  QCOMPARE(menu_file(), QString("File"));
+}
+
+void LanguageTest::mnemonics_areUniqueInAMenu() {
+  QMenu twice;
+  twice.addAction("&Open");
+  twice.addAction("&Over");
+  QCOMPARE(shared_mnemonics(twice), QStringList("&Over"));
+
+  QVERIFY(apply_language("de"));
+  WindowFixture f;
+  const auto* bar = f.window.findChild<QMenuBar*>();
+  QVERIFY(bar && bar->actions().size() > 4);
+  QSet<QString> keys;
+  for (const QAction* menu : bar->actions()) keys << menu->text().section('&', 1).left(1).toLower();
+  QCOMPARE(keys.size(), bar->actions().size());
+  const QList<QMenu*> menus = f.window.findChildren<QMenu*>();
+  QVERIFY(menus.size() > 6);
+  for (const QMenu* menu : menus) QCOMPARE(shared_mnemonics(*menu).join(" | "), QString());
+}
+
+void LanguageTest::noText_isCut_data() {
+  QTest::addColumn<QString>("language");
+  QTest::addColumn<QSize>("size");
+  for (const char* language : {"de", "en"}) {
+    QTest::addRow("%s, small", language) << language << QSize(1280, 760);
+    QTest::addRow("%s, large", language) << language << QSize(2560, 1400);
+  }
+}
+
+void LanguageTest::noText_isCut() {
+  QFETCH(QString, language);
+  QFETCH(QSize, size);
+  QVERIFY(apply_language(language));
+  WindowFixture f;
+  f.window.resize(size);
+  f.openSmall();
+  for (const Tab& tab : f.window.bench().frame.tabs()) {
+    f.window.bench().frame.showTab(tab.id);
+    QCoreApplication::processEvents();
+    QCOMPARE(cut_texts(f.window), QStringList());
+  }
+  const auto* surplus = f.window.findChild<QWidget*>("qt_toolbar_ext_button");
+  QVERIFY(surplus && !surplus->isVisible());
+}
+
+}  // namespace episcope::in_language_test
+
+EPISCOPE_WINDOW_TEST(language_test, LanguageTest)
+#include "language_test.moc"
