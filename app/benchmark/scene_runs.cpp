@@ -9,6 +9,7 @@
 #include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/evaluation/benchmark_tables.h"
 #include "engine/evaluation/parameter_search.h"
 #include "engine/io/base/json.h"

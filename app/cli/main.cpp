@@ -5,6 +5,7 @@
 #include "app/cli/verbs/verbs.h"
 #include "app/session/run_estimator.h"
 #include "app/session/user_folders.h"
+#include "engine/core/error.h"
 #include "engine/io/base/files.h"
 
 #include <exception>

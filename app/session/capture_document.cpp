@@ -2,6 +2,7 @@
 #include "app/session/capture_document.h"
 
 #include "app/session/known_files.h"
+#include "engine/core/text.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -32,17 +32,6 @@ class KnownFiles {
   std::map<std::filesystem::path, FileStamp> stamps_;
 };
 
-/// `wanted`, followed by `separator` and the first number from 2 on where that name is taken.
-template <class IsTaken>
-[[nodiscard]] std::string unique_name(const std::string& wanted, const char* separator,
-                                      const IsTaken& is_taken) {
-  std::string name = wanted;
-  for (int number = 2; is_taken(name); ++number) {
-    name = wanted + separator + std::to_string(number);
-  }
-  return name;
-}
-
 /// A name as any file system takes it: without separators and the like, in UTF-8, and not too long.
 [[nodiscard]] std::string file_name_of(std::string name);
 

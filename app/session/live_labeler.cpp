@@ -4,6 +4,7 @@
 #include "annotation/exchange.h"
 #include "app/session/run_estimator.h"
 #include "app/session/scheduling.h"
+#include "engine/core/error.h"
 #include "engine/labeling/pixel_features.h"
 
 #include <algorithm>

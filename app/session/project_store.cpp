@@ -6,6 +6,7 @@
 #include "app/session/project_file.h"
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 

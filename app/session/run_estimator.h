@@ -61,7 +61,7 @@ struct FinishedBlocks {
 
 /// Whether a run should be made in blocks, which is done by the processor: the method can, no other
 /// device is asked for, and its maps and what it takes beside them may exceed what is free, or a
-/// budget is set (memory_budget.h).
+/// budget is set (memory.h).
 [[nodiscard]] bool should_run_in_blocks(const LightField& light_field, const Estimator& estimator,
                                         const RunOptions& options);
 

@@ -4,6 +4,7 @@
 #include "app/session/known_files.h"
 #include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
+#include "engine/core/text.h"
 
 #include <algorithm>
 #include <iterator>

@@ -12,7 +12,7 @@ namespace episcope {
 /// is known.
 [[nodiscard]] std::filesystem::path default_cache_folder();
 
-/// Has arrays that do not fit into memory go there, to a folder of their own (memory_budget.h);
+/// Has arrays that do not fit into memory go there, to a folder of their own (memory.h);
 /// where it cannot be written, they go to the folder for temporary files.
 void use_cache_for_scratch();
 

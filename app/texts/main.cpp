@@ -121,6 +121,8 @@ Texts schema_texts() {
         CompanionKind::DepthProbabilities, CompanionKind::TrueDepthProbabilities}) {
     add(texts, companion_name(kind));
   }
+  add(texts, kNotEnoughMemory);
+  add(texts, kUnknownFailure);
   return texts;
 }
 

@@ -376,7 +376,7 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const Progress& progre
       scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     }
   } catch (const std::bad_alloc&) {
-    throw IoError(path, "not enough memory for this mesh; reduce it");
+    throw IoError(path, kNotEnoughMemory);
   }
   progress.check();
   if (scene == nullptr) {

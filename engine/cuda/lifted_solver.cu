@@ -14,7 +14,7 @@
 namespace episcope::cuda {
 namespace {
 
-// As of engine/solvers/layered_kernel.h and lifted_labeling_kernel.h.
+// As of engine/solvers/layered_kernel.h.
 constexpr int kLiftedPairs = 4;
 constexpr int kLiftedThresholdCount = 3;
 
@@ -193,7 +193,7 @@ struct Around {
   }
 };
 
-// Where the projection of a column is neither 1 nor 0; as Summits of lifted_labeling_kernel.cpp.
+// Where the projection of a column is neither 1 nor 0; as Summits of layered_kernel.cpp.
 struct Summits {
   float sum = 0, high = 0, excess = 0, high_excess = 0;
   int full = 0, empty = 0;

@@ -66,7 +66,7 @@ using SolvedMask = std::uint64_t;
 inline constexpr int kMostProblems = 64;
 
 /// θ such that Σ_l max(v_l − θ, 0) = 1 of the values `stride` apart, `top` the largest of them; as
-/// in simplex_labeling_kernel.cpp.
+/// in layered_kernel.cpp.
 __device__ inline float simplex_threshold(const float* values, int stride, int layers, float top) {
   float theta = top - 1.0F;
   for (int pass = 0; pass < layers; ++pass) {

@@ -14,7 +14,7 @@ namespace episcope {
 
 /// Weights of the total variation, `[y][x]` in (0, 1]: g = exp(−β·|∇I|), small where the view has
 /// an edge, so that disparity may jump there. |∇I| is the norm of the forward differences over all
-/// channels, samples in [0, 1]; one channel counts as three equal ones (channel_weight.h). β = 0
+/// channels, samples in [0, 1]; one channel counts as three equal ones (channel_weight). β = 0
 /// gives 1 everywhere.
 ///
 /// Noise looks like edges: noise of variance σ² in each of C channels adds 4Cσ² to the mean of

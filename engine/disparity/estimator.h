@@ -150,7 +150,7 @@ struct Estimator {
                          const Progress&, Device)>
       estimate;
   /// The method alone in blocks; empty if it cannot, and then what does not fit into memory is on
-  /// disk (memory_budget.h).
+  /// disk (memory.h).
   std::function<BlockwiseRun(const LightField&, const ParameterSet& values, ViewSelection,
                              const Progress&)>
       blocks;

@@ -485,7 +485,7 @@ BlockPass marking(const MapGeometry& maps) {
 // The run of plane_pm (plane_pm.h) in blocks. Views are estimated one after the other, each of
 // which is kept when it is done; then all others are carried, view by view; then sides are chosen
 // in bands of rows of all views. Of a view at once it needs its costs and what occludes what;
-// these are large arrays, which go to disk beyond the memory budget (large_memory.h). Bands need
+// these are large arrays, which go to disk beyond the memory budget (memory.h). Bands need
 // maps and samples of all views as far beyond them as disparities reach; rows above that the pass
 // has replaced are still in memory, or, in a program that continues, carried again.
 //

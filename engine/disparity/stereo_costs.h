@@ -76,7 +76,7 @@ struct StereoCosts {
 /// The guide of the aggregation keeps whatever contrast is not noise: its regularization is
 /// 3·10⁻⁵ + 8σ², σ² the median of that noise over the view (0 without `compensate_noise`). Evidence
 /// for all three: tests/accuracy/tuning.md. One channel counts as three equal ones
-/// (channel_weight.h). Throws InvalidInput (no such view, a single view),
+/// (channel_weight). Throws InvalidInput (no such view, a single view),
 /// DeviceFailure, Cancelled.
 [[nodiscard]] StereoCosts prepare_stereo(const LightField& light_field, MatchedViews views,
                                          const StereoCostParameters& parameters,

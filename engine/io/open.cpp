@@ -126,8 +126,7 @@ Scene open_scene(const fs::path& path, const OpenOptions& options, const Progres
     throw IoError(path,
                   "it cannot be read (" + error.code().message() + "); check its permissions");
   } catch (const std::bad_alloc&) {
-    throw IoError(
-        path, "not enough memory for this light field; close other programs or open a smaller one");
+    throw IoError(path, kNotEnoughMemory);
   }
 }
 

@@ -2475,14 +2475,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
 <context>
     <name>episcope::Jobs</name>
     <message>
-        <source>There is not enough memory. Close other programs or remove results.</source>
-        <translation>Der Speicher reicht nicht. Andere Programme schließen oder Ergebnisse entfernen.</translation>
-    </message>
-    <message>
-        <source>An unknown error occurred.</source>
-        <translation>Ein unbekannter Fehler ist aufgetreten.</translation>
-    </message>
-    <message>
         <source>%1 failed: %2</source>
         <translation>%1 fehlgeschlagen: %2</translation>
     </message>
@@ -6231,6 +6223,10 @@ s</translation>
         <translation>unterabgetastet</translation>
     </message>
     <message>
+        <source>an unknown error occurred</source>
+        <translation>ein unbekannter Fehler ist aufgetreten</translation>
+    </message>
+    <message>
         <source>2016 benchmark folder</source>
         <translation>Ordner des Benchmarks von 2016</translation>
     </message>
@@ -6281,6 +6277,10 @@ s</translation>
     <message>
         <source>no valid depth</source>
         <translation>keine gültige Tiefe</translation>
+    </message>
+    <message>
+        <source>not enough memory; close other programs or use smaller data</source>
+        <translation>Der Speicher reicht nicht; andere Programme schließen oder kleinere Daten verwenden</translation>
     </message>
     <message>
         <source>not known: the views are too dark, too bright or too small to compare</source>

@@ -3,6 +3,7 @@
 
 #include "app/gui/shell/frame.h"
 #include "app/session/session.h"
+#include "engine/core/error.h"
 #include "widgets/controls/job_panel.h"
 #include "widgets/controls/text.h"
 
@@ -23,15 +24,7 @@ constexpr std::chrono::milliseconds kTimeBetweenProgress{100};
 }  // namespace
 
 QString failure_sentence(const std::exception_ptr& failure) {
-  try {
-    std::rethrow_exception(failure);
-  } catch (const std::bad_alloc&) {
-    return Jobs::tr("There is not enough memory. Close other programs or remove results.");
-  } catch (const std::exception& error) {
-    return QString::fromUtf8(error.what());
-  } catch (...) {
-    return Jobs::tr("An unknown error occurred.");
-  }
+  return schema_text(failure_text(failure));
 }
 
 Jobs::Jobs(QObject* parent) : QObject(parent) {

@@ -47,12 +47,6 @@ Outcome outcome_of(const AnyImage& image) {
       image);
 }
 
-std::string reason_of(const IoError& error) {
-  const std::string text = error.what();
-  const std::string path = error.path().string() + ": ";
-  return text.starts_with(path) ? text.substr(path.size()) : text;
-}
-
 template <class T>
 void copy_grey(const Image<T>& image, ImageView<T> view) {
   for (std::size_t i = 0; i < image.size(); ++i) {
@@ -98,7 +92,7 @@ class ViewDecoder {
       outcomes_[at] = outcome_of(image);
       return image;
     } catch (const IoError& error) {
-      outcomes_[at] = {.text = reason_of(error)};
+      outcomes_[at] = {.text = error.sentence()};
       return {};
     }
   }

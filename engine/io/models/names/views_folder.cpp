@@ -128,13 +128,6 @@ std::string detected_pattern(const fs::path& folder, const std::vector<fs::path>
   }
 }
 
-/// The message without the path at its beginning.
-std::string sentence_of(const IoError& error) {
-  const std::string text = error.what();
-  const std::string path = error.path().string() + ": ";
-  return text.starts_with(path) ? text.substr(path.size()) : text;
-}
-
 /// Where views are, by path.
 std::map<fs::path, ViewIndex> places_of(const ViewFiles& views) {
   std::map<fs::path, ViewIndex> places;
@@ -182,7 +175,7 @@ void preview_names(const fs::path& folder, const std::vector<fs::path>& images,
       if (!placed.is_list) places = places_of(placed.views);
     }
   } catch (const IoError& error) {
-    preview.problem = sentence_of(error);
+    preview.problem = error.sentence();
   } catch (const InvalidInput& error) {
     preview.problem = error.what();
   }
