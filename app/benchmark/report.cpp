@@ -12,8 +12,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-
 namespace episcope {
 
 std::vector<TitledTable> report_tables(const BenchmarkReport& report) {

@@ -15,8 +15,6 @@
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_file.h"
 
-#include <fmt/format.h>
-
 #include <new>
 #include <utility>
 

@@ -10,7 +10,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>

@@ -55,8 +55,7 @@
 namespace episcope {
 namespace {
 
-// Painting labels on views: tools, labels, scribbles on all views, their files, and recovery after
-// a crash.
+// Painting labels on views: tools, labels, scribbles, their files, and recovery after a crash.
 void add_annotating(const Workbench& bench) {
   auto* tab = new QWidget(&bench.frame);
   auto* brush = new BrushPanel(tab);
@@ -83,8 +82,7 @@ void add_annotating(const Workbench& bench) {
   new RecoveryController(bench);
 }
 
-// Browsing views and EPIs, the focus plane, the values of a pixel, and the facts about the light
-// field.
+// Browsing views and EPIs, the focus plane, pixel values, and facts about the light field.
 void add_browsing(const Workbench& bench) {
   new BrowseController(bench);
   new FocusController(bench);
@@ -143,7 +141,7 @@ void add_commands(const Workbench& bench, CloudController* cloud) {
                       .enabled = [cloud] { return cloud->hasScene(); }});
 }
 
-// The shown result as a point cloud.
+// The 3D view.
 void add_cloud(const Workbench& bench) {
   auto* tab = new QWidget(&bench.frame);
   bench.frame.addTab({.id = "cloud",
@@ -156,14 +154,13 @@ void add_cloud(const Workbench& bench) {
   add_commands(bench, new CloudController(bench, tab));
 }
 
-// The light fields of a folder, and the frames of a sequence.
+// Light fields of a folder, and frames of a sequence.
 void add_collection(const Workbench& bench) {
   new CollectionController(bench);
   new FrameController(bench);
 }
 
-// Maps over the view, results compared with each other, statistics of the visible part, the table
-// of metrics, and pictures of all that.
+// Overlays, comparison of results, statistics, the table of metrics, pictures and movies.
 void add_comparing(const Workbench& bench) {
   auto* tab = new QWidget(&bench.frame);
   auto* bar = new CompareBar(tab);
@@ -191,12 +188,12 @@ void add_comparing(const Workbench& bench) {
   new MovieExport(bench);
 }
 
-// Running methods, and the list of what they found.
+// Running methods, and the list of results.
 void add_estimating(const Workbench& bench) {
   new EstimateController(bench);
 }
 
-// Opening light fields and results by dialog, by drop, from the list of recent ones; closing.
+// Opening light fields and results by dialog, by drop or from recent inputs; closing.
 void add_files(const Workbench& bench) {
   new FileController(bench);
 }
@@ -227,7 +224,7 @@ void show_about(QWidget& window) {
   box->open();
 }
 
-// The list of keys, the palette of commands, colours, and what the program is.
+// The list of keys, the command palette, colours, language and About.
 void add_help(const Workbench& bench) {
   Commands& commands = bench.commands;
   QWidget& window = bench.window;
@@ -256,12 +253,12 @@ void add_help(const Workbench& bench) {
                 .run = [&window] { show_about(window); }});
 }
 
-// Adds the Measure tab, which waits until it is asked for.
+// The Measure tab, which is hidden until asked for.
 void add_measuring(const Workbench& bench) {
   new MeasureController(bench);
 }
 
-// Adds the list of open light fields, projects, and what keeps work from being lost.
+// The list of open light fields, projects, autosave and recovery.
 void add_project(const Workbench& bench) {
   auto* autosave = new Autosave(bench);
   auto* project = new ProjectController(bench, *autosave);
@@ -271,7 +268,7 @@ void add_project(const Workbench& bench) {
   new WindowTitle(bench, *autosave, *project);
 }
 
-// Adds the Check tab and what goes from one place to check to the next.
+// The Check tab and its commands.
 void add_reviewing(const Workbench& bench) {
   auto* panel = new LabelReviewPanel(&bench.frame);
   bench.frame.addTab({.id = "check",
@@ -284,7 +281,7 @@ void add_reviewing(const Workbench& bench) {
   new StripController(bench, panel);
 }
 
-// Segmenting from what is painted, live or all views, and what is shown of that.
+// Segmenting from scribbles, live or all views, and showing the result.
 void add_segmenting(const Workbench& bench) {
   auto* panel = new SegmentPanel(&bench.frame);
   bench.frame.addToTab("annotate", panel);

@@ -11,7 +11,6 @@
 
 #include <unistd.h>
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <system_error>
 #include <utility>

@@ -4,7 +4,6 @@
 #include "engine/core/text.h"
 
 #include <algorithm>
-#include <functional>
 #include <string_view>
 #include <system_error>
 

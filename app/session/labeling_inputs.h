@@ -8,7 +8,6 @@
 #include "engine/labeling/label_probabilities.h"
 #include "engine/labeling/labeler.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>

@@ -21,7 +21,6 @@
 #include <array>
 #include <charconv>
 #include <set>
-#include <span>
 
 namespace episcope {
 namespace {

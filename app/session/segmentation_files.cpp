@@ -15,9 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <span>
-#include <string_view>
 
 namespace episcope {
 namespace {

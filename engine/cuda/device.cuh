@@ -48,7 +48,7 @@ class DeviceStream {
   cudaStream_t stream_ = nullptr;
 };
 
-/// Memory of the device, in the order of a stream: uninitialised, freed when the array goes, after
+/// Memory of the device, in the order of a stream: uninitialized, freed when the array goes, after
 /// what was begun before. Move-only. The stream must outlive it.
 template <class T>
 class DeviceArray {
@@ -148,7 +148,7 @@ void upload_bytes(void* device, const void* host, std::size_t bytes, const Devic
 /// Cancelled.
 void download_bytes(void* host, const void* device, std::size_t bytes, const DeviceStream& stream,
                     const Progress& progress);
-/// The same to several places.
+/// Copies to several places.
 void download_bytes(std::initializer_list<void*> hosts, const void* device, std::size_t bytes,
                     const DeviceStream& stream, const Progress& progress);
 

@@ -69,7 +69,7 @@ struct MapPointers {
   float* disparity = nullptr;
   float* confidence = nullptr;
 
-  /// Which map is that of view (v, u).
+  /// Index of the map of view (v, u).
   [[nodiscard]] __host__ __device__ int index(int v, int u) const {
     return (v - first.v) * grid.u + (u - first.u);
   }
@@ -83,7 +83,7 @@ struct MapMemory {
         disparity(like.size(), stream),
         confidence(like.size(), stream) {}
 
-  /// The same for all stages.
+  /// Data of all stages.
   [[nodiscard]] const DeviceSamples& samples(const LightField& lf, const Progress& progress) {
     if (!light_field) light_field = on_device(lf, progress.part(0, 0));
     return light_field->samples();

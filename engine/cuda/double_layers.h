@@ -12,7 +12,7 @@
 
 namespace episcope::cuda {
 
-/// A small odd filter, centred: out(n) = Σ values[i]·in(n + i − radius).
+/// A small odd filter, centerd: out(n) = Σ values[i]·in(n + i − radius).
 struct DoubleTaps {
   static constexpr int kMost = 13;
   int radius = 0;

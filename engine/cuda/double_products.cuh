@@ -35,7 +35,7 @@ struct DoublePlanes {
     return is_horizontal ? static_cast<long>(b) * (width + 2 * margin) + a + margin
                          : static_cast<long>(a + margin) * width + b;
   }
-  /// The same with a clamped to what there is: beyond it samples repeat, and so do derivatives.
+  /// Clamps a to the image: beyond it samples repeat, and so do derivatives.
   [[nodiscard]] __device__ long at_clamped(int a, int b) const {
     return at(min(max(a, -margin), length() - 1 + margin), b);
   }

@@ -10,7 +10,7 @@
 
 namespace episcope::cuda {
 
-/// A pixel goes on to node `next + (value > threshold)` of its tree; a leaf leads to itself.
+/// A pixel moves to node `next + (value > threshold)` of its tree; a leaf leads to itself.
 struct TreeNode {
   float threshold;
   std::uint16_t feature, next;

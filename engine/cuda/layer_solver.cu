@@ -27,7 +27,7 @@ struct ScoredMaps {
 constexpr int kScoreThreads = 128;
 
 // A thread has a column of a row of a view; those at either end of a block, and beyond the view,
-// only help with windows of their neighbours.
+// only help with windows of their neighbors.
 struct Place {
   int view, y, x;
   long first;  // Of the view.

@@ -14,9 +14,9 @@ constexpr int kTrustWide = kTrustColumns + 2 * kTextureRadius,
               kTrustHigh = kTrustRows + 2 * kTextureRadius;
 
 // Whole numbers, which floats hold.
-__device__ float squared_difference(const PackedColour& a, std::uint32_t packed) {
+__device__ float squared_difference(const PackedColor& a, std::uint32_t packed) {
   constexpr float kUnit = 1.0F / static_cast<float>(kPackedMost);
-  const PackedColour b = unpacked(packed);
+  const PackedColor b = unpacked(packed);
   float sum = 0;
   for (int c = 0; c < 3; ++c) {
     const float off = a.channel[c] - b.channel[c];
@@ -30,7 +30,7 @@ struct Gradients {
   float mean, own;
 };
 
-// The neighbour opposite stands in place of one beyond the border.
+// The neighbor opposite stands in place of one beyond the border.
 __device__ int mirrored(int at, int size) {
   const int inside = at < 0 ? -at : at >= size ? 2 * (size - 1) - at : at;
   return min(max(inside, 0), size - 1);
@@ -39,7 +39,7 @@ __device__ int mirrored(int at, int size) {
 __device__ Gradients gradients_at(const PackedField& field, const std::uint32_t* view, int y,
                                   int x) {
   const auto pixel = [&](int py, int px) { return __ldg(view + py * field.width + px); };
-  const PackedColour here = unpacked(pixel(y, x));
+  const PackedColor here = unpacked(pixel(y, x));
   const float left = squared_difference(here, pixel(y, mirrored(x - 1, field.width)));
   const float right = squared_difference(here, pixel(y, mirrored(x + 1, field.width)));
   const float up = squared_difference(here, pixel(mirrored(y - 1, field.height), x));
@@ -132,7 +132,7 @@ T fetch(const T* from, const DeviceStream& stream) {
   return value;
 }
 
-// The median residual of the centre view, which the maps must cover; 0 if no ray has one. Waits
+// The median residual of the center view, which the maps must cover; 0 if no ray has one. Waits
 // for the device. Throws DeviceFailure.
 float residual_noise(const PackedField& field, const MapPointers& maps,
                      const DeviceStream& stream) {
@@ -142,7 +142,7 @@ float residual_noise(const PackedField& field, const MapPointers& maps,
   DeviceArray<float> residuals(count, stream), sorted(count, stream);
   DeviceArray<int> finite(1, stream);
   finite.clear();
-  launch(stream, {"residuals of the centre view", 8.0 * count, 700.0 * count}, [&] {
+  launch(stream, {"residuals of the center view", 8.0 * count, 700.0 * count}, [&] {
     measure<<<blocks_for(count, kThreads), kThreads, 0, stream.get()>>>(
         field, center, maps.disparity + place * count, residuals.data(), finite.data());
   });
@@ -261,7 +261,7 @@ __device__ Sides find_sides(const PackedField& field, const float* disparity,
   sides.own_confidence = sides.far_confidence = sides.near_confidence = confidence[here];
   const float least_trust = kFarTrust * sides.own_confidence;
 #pragma unroll
-  for (int k = 0; k < kSideNeighbours; ++k) {
+  for (int k = 0; k < kSideNeighbors; ++k) {
     const int py = min(max(y + kOffsets.at[k][0], 0), field.height - 1);
     const int px = min(max(x + kOffsets.at[k][1], 0), field.width - 1);
     const int at = py * field.width + px;
@@ -357,7 +357,7 @@ struct Votes {
   float own, far, near;
 };
 
-// Sums of residuals of the pixels around, by similarity of colour.
+// Sums of residuals of the pixels around, by similarity of color.
 __device__ Votes collect(const Ballots& ballots, int place, float sharpness) {
   Votes votes{0, 0, 0};
   for (int j = -kVoteRadius; j <= kVoteRadius; ++j) {
@@ -453,7 +453,7 @@ void choose_sides(const PackedField& field, const MapPointers& before, float var
   });
 }
 
-__device__ std::uint32_t quantised(float sample) {
+__device__ std::uint32_t quantized(float sample) {
   return static_cast<std::uint32_t>(
       __fmaf_rn(fminf(fmaxf(sample, 0.0F), 1.0F), static_cast<float>(kPackedMost), 0.5F));
 }
@@ -467,9 +467,9 @@ __global__ __launch_bounds__(kThreads) void pack(DeviceSamples samples, long cou
     return;
   }
   const int second = samples.channels == 3 ? 1 : 0;
-  out[pixel] = quantised(samples.at(pixel, 0)) |
-               quantised(samples.at(pixel, second)) << kPackedBits |
-               quantised(samples.at(pixel, 2 * second)) << (2 * kPackedBits);
+  out[pixel] = quantized(samples.at(pixel, 0)) |
+               quantized(samples.at(pixel, second)) << kPackedBits |
+               quantized(samples.at(pixel, 2 * second)) << (2 * kPackedBits);
 }
 
 }  // namespace

@@ -57,18 +57,18 @@ struct RayPlace {
 namespace episcope::cuda {
 
 /// In units of 1/1023, plus 2²³: differences are exact, and no conversion is needed.
-struct PackedColour {
+struct PackedColor {
   float channel[3];
 };
 
-__device__ inline PackedColour unpacked(std::uint32_t packed) {
+__device__ inline PackedColor unpacked(std::uint32_t packed) {
   constexpr std::uint32_t kExponent = 0x4B000000U;
-  PackedColour colour;
+  PackedColor color;
   for (int c = 0; c < 3; ++c) {
-    colour.channel[c] =
+    color.channel[c] =
         __uint_as_float(kExponent | (packed >> (kPackedBits * c) & std::uint32_t{kPackedMost}));
   }
-  return colour;
+  return color;
 }
 
 /// An arm with fewer views that see the line does not count.
@@ -79,7 +79,7 @@ __device__ inline int min_arm_views(GridShape grid) {
 /// Mean squared difference along the views of an arm, (dv, du) from one to the next; infinite where
 /// it does not count.
 __device__ inline float arm_residual(const PackedField& field, const RayPlace& ray, int dv, int du,
-                                     const PackedColour& own, float disparity) {
+                                     const PackedColor& own, float disparity) {
   const bool vertical = dv != 0;
   const int last = (vertical ? field.height : field.width) - 1;
   const int stride = vertical ? field.width : 1;
@@ -99,7 +99,7 @@ __device__ inline float arm_residual(const PackedField& field, const RayPlace& r
     const std::uint32_t first = __ldg(from + tap * stride);
     const std::uint32_t second = __ldg(from + min(tap + 1, last) * stride);
     if (field.has_invalid && !(is_valid(first) && is_valid(second))) continue;
-    const PackedColour a = unpacked(first), b = unpacked(second);
+    const PackedColor a = unpacked(first), b = unpacked(second);
     float square = 0;
     for (int c = 0; c < 3; ++c) {
       const float off =
@@ -122,7 +122,7 @@ __device__ inline float line_residual(const PackedField& field, const RayPlace& 
   const std::uint32_t packed =
       field.view(ray.v, ray.u)[static_cast<long>(ray.y) * field.width + ray.x];
   if (field.has_invalid && !is_valid(packed)) return INFINITY;
-  const PackedColour own = unpacked(packed);
+  const PackedColor own = unpacked(packed);
   float best = INFINITY;
 #pragma unroll kUnrolled
   for (int arm = 0; arm < 4; ++arm) {

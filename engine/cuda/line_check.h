@@ -14,13 +14,13 @@ struct LineCheckSteps {
   bool reduces_confidence = true;
 };
 
-/// Changes disparity and confidence of the views that both stacks cover, the centre view among
+/// Changes disparity and confidence of the views that both stacks cover, the center view among
 /// them, as check_lines of the CPU. Throws DeviceFailure, Cancelled.
 void check_lines(const LightField& light_field, const LineCheckSteps& steps,
                  ViewStack<float>& disparity, ViewStack<float>& confidence,
                  const Progress& progress);
 
-/// The same of maps on the device.
+/// Checks maps that are on the device.
 void check_lines(const LightField& light_field, const LineCheckSteps& steps, DeviceMaps& maps,
                  const Progress& progress);
 

@@ -24,7 +24,7 @@ struct MessageField {
   int height = 0, width = 0;
   int labels = 0;  // Padded.
   const float* cost = nullptr;
-  const float* weight_across = nullptr;  // `[y][x]` of a pixel and its neighbour to the right,
+  const float* weight_across = nullptr;  // `[y][x]` of a pixel and its neighbor to the right,
   const float* weight_down = nullptr;    // and of it and the one below.
   float* across = nullptr;               // Messages of these edges.
   float* down = nullptr;

@@ -22,7 +22,7 @@ struct OrderedMaps {
   }
 };
 
-// The four neighbours of a view in the grid. A point moves by −d for each step of u or v.
+// The four neighbors of a view in the grid. A point moves by −d for each step of u or v.
 struct Way {
   int v = 0, u = 0;
   [[nodiscard]] __device__ bool is_vertical() const { return v != 0; }
@@ -81,7 +81,7 @@ struct OrderedViews {
   const std::uint8_t* counts = nullptr;  // `[view]`: whether lines that end there count.
 };
 
-// ½ w (u − f)² and the majoriser of the ordering as one weighted observation for each view, and
+// ½ w (u − f)² and the majorizer of the ordering as one weighted observation for each view, and
 // its edges: `[number][y][x]`.
 struct OrderedProblem {
   float* f;
@@ -157,7 +157,7 @@ __device__ void add_pull_on_from(const Bend& bend, const float* here, const floa
   pull.force += bend.slope(a);
 }
 
-// Of the lines of a neighbour that end at a pixel, in the order of where they begin.
+// Of the lines of a neighbor that end at a pixel, in the order of where they begin.
 __device__ void add_pull_on_to(const Bend& bend, const float* here, const float* there,
                                const Along& along, int position, int last, float step, float least,
                                float largest, Pull& pull) {
@@ -179,7 +179,7 @@ __device__ void add_pull_on_to(const Bend& bend, const float* here, const float*
   }
 }
 
-__global__ void majorise_views(OrderedViews views, DevicePenalty penalty, const Bounds* bounds,
+__global__ void majorize_views(OrderedViews views, DevicePenalty penalty, const Bounds* bounds,
                                OrderedProblem problem) {
   const OrderedMaps& maps = views.maps;
   const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
@@ -246,7 +246,7 @@ dim3 blocks_of(const OrderedMaps& maps, int views) {
   return {blocks_for(maps.width, 32), blocks_for(maps.height, 8), static_cast<unsigned>(views)};
 }
 
-void majorise(const OrderedViews& views, const DevicePenalty& penalty,
+void majorize(const OrderedViews& views, const DevicePenalty& penalty,
               const OrderedProblem& problem, const DeviceStream& stream) {
   DeviceArray<Bounds> bounds(1, stream);
   const long all = views.maps.grid.count() * views.maps.pixels();
@@ -256,7 +256,7 @@ void majorise(const OrderedViews& views, const DevicePenalty& penalty,
          [&] { find_bounds<<<1024, 256, 0, stream.get()>>>(views.u, all, bounds.data()); });
   const double pixels = static_cast<double>(views.maps.pixels()) * views.count;
   launch(stream, {"ordering: pulls", pixels * 44, pixels * 400}, [&] {
-    majorise_views<<<blocks_of(views.maps, views.count), dim3(32, 8), 0, stream.get()>>>(
+    majorize_views<<<blocks_of(views.maps, views.count), dim3(32, 8), 0, stream.get()>>>(
         views, penalty, bounds.data(), problem);
   });
 }
@@ -284,14 +284,14 @@ class Sweeper {
   Sweeper(const LightField& lf, const OrderingSweeps& sweeps, const ViewStack<float>& observed,
           const ViewStack<float>& confidence, const ViewStack<float>& u, const Progress& progress);
 
-  // Improves all views of one colour of the chequerboard; returns the largest relative gap.
-  double improve(int colour, const Progress& progress);
+  // Improves all views of one color of the chequerboard; returns the largest relative gap.
+  double improve(int color, const Progress& progress);
   void download_to(ViewStack<float>& u, const Progress& progress) {
     download(u, u_, stream_, progress);
   }
 
  private:
-  [[nodiscard]] int count(int colour) const { return static_cast<int>(views_[colour].size()); }
+  [[nodiscard]] int count(int color) const { return static_cast<int>(views_[color].size()); }
 
   const OrderingSweeps& sweeps_;
   std::shared_ptr<const DeviceLightField> light_field_;
@@ -299,7 +299,7 @@ class Sweeper {
   DeviceStream stream_;
   DeviceArray<float> observed_, u_, weights_, edges_;
   DeviceArray<std::uint8_t> counts_;
-  DeviceArray<float> batch_f_, batch_w_, batch_g_;  // of the views of one colour
+  DeviceArray<float> batch_f_, batch_w_, batch_g_;  // of the views of one color
   std::vector<int> views_[2];                       // their numbers
   DeviceArray<int> numbers_[2];
 };
@@ -330,26 +330,26 @@ Sweeper::Sweeper(const LightField& lf, const OrderingSweeps& sweeps,
   batch_f_ = {batch, stream_};
   batch_w_ = {batch, stream_};
   batch_g_ = {batch, stream_};
-  for (int colour : {0, 1}) {
-    numbers_[colour] = upload(views_[colour].data(), views_[colour].size(), stream_, Progress(1));
+  for (int color : {0, 1}) {
+    numbers_[color] = upload(views_[color].data(), views_[color].size(), stream_, Progress(1));
   }
 }
 
-double Sweeper::improve(int colour, const Progress& progress) {
-  if (views_[colour].empty()) return 0;
-  majorise({maps_, numbers_[colour].data(), count(colour), u_.data(), observed_.data(),
+double Sweeper::improve(int color, const Progress& progress) {
+  if (views_[color].empty()) return 0;
+  majorize({maps_, numbers_[color].data(), count(color), u_.data(), observed_.data(),
             weights_.data(), edges_.data(), counts_.data()},
            {sweeps_.rise, sweeps_.fall, sweeps_.softness},
            {batch_f_.data(), batch_w_.data(), batch_g_.data()}, stream_);
-  TvL2DeviceSolver solver(maps_.height, maps_.width, count(colour), stream_);
+  TvL2DeviceSolver solver(maps_.height, maps_.width, count(color), stream_);
   double gap = 0;
   for (const TvL2Outcome& outcome :
        solver.solve({batch_f_.data(), batch_w_.data(), batch_g_.data(), sweeps_.lambda},
                     sweeps_.max_iterations, sweeps_.gap, progress, batch_f_.data())) {
     gap = std::max(gap, outcome.relative_gap());
   }
-  for (int i = 0; i < count(colour); ++i) {
-    check(cudaMemcpyAsync(u_.data() + views_[colour][i] * maps_.pixels(),
+  for (int i = 0; i < count(color); ++i) {
+    check(cudaMemcpyAsync(u_.data() + views_[color][i] * maps_.pixels(),
                           batch_f_.data() + i * maps_.pixels(), maps_.pixels() * sizeof(float),
                           cudaMemcpyDeviceToDevice, stream_.get()));
   }

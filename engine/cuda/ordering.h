@@ -36,7 +36,7 @@ struct OrderingSweeps {
                                     const ViewStack<float>& confidence, ViewStack<float>& u,
                                     const Progress& progress);
 
-/// Lines to neighbouring views that stay within the image, and those of D u < `limit`, px.
+/// Lines to neighboring views that stay within the image, and how many have D u < `limit`, px.
 struct OrderedLines {
   long violations = 0, lines = 0;
 };

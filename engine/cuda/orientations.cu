@@ -51,8 +51,8 @@ __device__ Orientation averaged(const AveragedBand& averaged, const AverageSetti
   const long part = static_cast<long>(band.count) * band.length;
   const int radius = settings.across.count / 2;
   const auto tensor_of = [&](int i) {
-    const int neighbour = min(max(epi + i, 0), averaged.last_epi) - band.first;
-    return load(best + static_cast<long>(neighbour) * band.length, part);
+    const int neighbor = min(max(epi + i, 0), averaged.last_epi) - band.first;
+    return load(best + static_cast<long>(neighbor) * band.length, part);
   };
   const Tensor middle = tensor_of(0);
   const float own = slope_of(middle);
@@ -143,7 +143,7 @@ __global__ __launch_bounds__(kTile* kRows) void average(DeviceSamples samples, A
   }
   if (!kVertical) return;
   __syncthreads();
-  // Lanes are rows of the image: neighbouring threads write neighbouring columns.
+  // Lanes are rows of the image: neighboring threads write neighboring columns.
   const int x = first_epi + static_cast<int>(threadIdx.x);
   for (int i = threadIdx.y; i < kTile; i += kRows) {
     const int y = first_lane + i;

@@ -43,10 +43,10 @@ struct AverageSettings {
 struct AveragedBand {
   EpiBand band;
   int first = 0, count = 0;  ///< Results: image rows or columns.
-  int last_epi = 0;          ///< Of the image: its neighbours are repeated.
+  int last_epi = 0;          ///< Of the image: its neighbors are repeated.
 };
 
-/// Averages tensors over neighbouring EPIs, reads disparity and coherence off them and writes both
+/// Averages tensors over neighboring EPIs, reads disparity and coherence off them and writes both
 /// to the maps; see OrientationKernel::resolve and merge.
 void average_tensors(const DeviceSamples& samples, const AveragedBand& band, WantedViews wanted,
                      const float* best, const AverageSettings& settings, const MapPointers& maps,

@@ -25,12 +25,12 @@ struct ViewFilters {
   [[nodiscard]] int views() const { return static_cast<int>(smooth.size()); }
 };
 
-/// What is to be found, and how; see StructureTensor and estimate_epi_l.
+/// Settings of a search for orientations; see StructureTensor and estimate_epi_l.
 struct TensorSettings {
   ViewFilters horizontal, vertical;
   std::vector<float> smooth, integrate;  ///< Along the EPI, odd;
   std::vector<float> integrate_half;     ///< half a pixel further, one tap more;
-  std::vector<float> across;             ///< across neighbouring EPIs, odd.
+  std::vector<float> across;             ///< across neighboring EPIs, odd.
   float contrast_energy = 0, noise_energy = 0;
   int first_shear = 0, shear_step = 0, shear_count = 0;  ///< In half pixels per view step.
   float limit = 0, min = 0, max = 0;  ///< As in TensorSearch, and what it accepts.
@@ -47,14 +47,14 @@ struct TensorSettings {
 
 /// Estimates disparity and coherence of the views that both stacks cover, either all or one, and
 /// writes every element; coherence 0 where a pixel is not valid. Camera line by camera line:
-/// derivatives of all views, the best tensor of all shears, averages over neighbouring EPIs.
+/// derivatives of all views, the best tensor of all shears, averages over neighboring EPIs.
 /// Vertical EPIs are transposed when samples are read and again when results are written. Throws
 /// DeviceFailure, Cancelled.
 void find_orientations(const LightField& light_field, const TensorSettings& settings,
                        ViewStack<float>& disparity, ViewStack<float>& confidence,
                        const Progress& progress);
 
-/// The same, left on the device.
+/// Leaves the estimates on the device.
 void find_orientations(const LightField& light_field, const TensorSettings& settings,
                        DeviceMaps& maps, const Progress& progress);
 

@@ -26,14 +26,13 @@ struct RayView {
 struct RayLabelsTask {
   GridShape grid;
   std::vector<RayView> views;  ///< `[v][u]`
-  int channels = 0;            ///< Of the colours.
+  int channels = 0;            ///< Of the colors.
   /// Views that are solved one after the other, numbers of `views`, each from where the one before
   /// ended, if disparities are known. Longer ones come first.
   std::vector<std::vector<int>> chains;
-  std::span<const float> costs;  ///< Of each probability, 256.
-  std::span<const float>
-      trusts;              ///< Of each squared difference of colours; the last: of all above.
-  float tolerance_px = 0;  ///< Disparities within count as the same point.
+  std::span<const float> costs;   ///< Of each probability, 256.
+  std::span<const float> trusts;  ///< Of each squared difference of colors; the last: of all above.
+  float tolerance_px = 0;         ///< Disparities within count as the same point.
   int near_views = 0;  ///< Rays of the nearest n×n views share their costs; 0 = each has its own.
   int votes = 0;       ///< Rounds in which the rays of a point vote.
   double smoothness = 1;  ///< > 0

@@ -259,7 +259,7 @@ __global__ void move_duals(SimplexFields fields, SolvedMask solved, SimplexRace 
   if (x >= fields.width || (solved >> problem & 1U) != 0) return;
   const SimplexLimits limits(fields, problem, y, x);
   const long first = fields.unknown(problem, y, x);
-  // Where there is no neighbour the limit is 0.
+  // Where there is no neighbor the limit is 0.
   const long right = x + 1 < fields.width ? 1 : 0;
   const long down = y + 1 < fields.height ? fields.row() : 0;
   const float step = fields.dual_step;

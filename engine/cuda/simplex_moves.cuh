@@ -8,8 +8,8 @@
 
 namespace episcope::cuda {
 
-/// Pairs of neighbours of a pixel's cell: right, down, down-right, and its right with its lower
-/// neighbour (engine/solvers/layered_kernel.h).
+/// Pairs of neighbors of a pixel's cell: right, down, down-right, and its right with its lower
+/// neighbor (engine/solvers/layered_kernel.h).
 inline constexpr int kSimplexPairs = 4;
 /// Of shared memory, what the columns of a block may take.
 inline constexpr int kColumnBytes = 48 << 10;

@@ -77,8 +77,8 @@ class StereoMatcher {
   [[nodiscard]] float noise_variance(const Progress& progress) const;
   /// Later costs are aggregated by the guided filter; as GuideImage. Throws DeviceFailure.
   void aggregate(int radius, double regularization);
-  /// Later costs of `volume` have a cap of its own for each pixel, `[y][x]`, instead of that of the
-  /// matching; in the end they are divided by that cap and times the mean of all caps. Throws
+  /// Later costs of `volume` have a cap of its own for each pixel, `[y][x]`, instead of the cap of
+  /// the matching; in the end they are divided by that cap and times the mean of all caps. Throws
   /// DeviceFailure, Cancelled.
   void set_caps(const Image<float>& caps, const Progress& progress);
   /// In later costs of `volume`, samples that a surface of the view occludes count less, as

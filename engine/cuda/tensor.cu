@@ -40,7 +40,7 @@ __device__ inline SearchPlace search_place(const SearchJob& job) {
           {view, min(view + kViewsTogether, job.wanted.last)}};
 }
 
-// One shear: disparity k stands upright if view r is read at x − k·(r − centre).
+// One shear: disparity k stands upright if view r is read at x − k·(r − center).
 struct ShearFrame {
   int half_steps, center;
   [[nodiscard]] __device__ int steps(int view) const { return half_steps * (view - center); }
@@ -279,7 +279,7 @@ __device__ void read_tile(const DeviceSamples& samples, const EpiBand& band, con
                           int channel, int reach, float (&to)[kTileEpis][kWidePitch]) {
   const int wide = kTileLanes + 2 * reach;
   for (int i = threadIdx.x; i < kTileEpis * wide; i += kPlaneThreads) {
-    // Neighbouring threads read neighbouring pixels of the view.
+    // Neighboring threads read neighboring pixels of the view.
     const int epi = kVertical ? i % kTileEpis : i / wide;
     const int lane = kVertical ? i / kTileEpis : i % wide;
     to[epi][lane] =
@@ -287,7 +287,7 @@ __device__ void read_tile(const DeviceSamples& samples, const EpiBand& band, con
   }
 }
 
-// Of three neighbouring lanes: central difference, and Scharr's smoothing.
+// Of three neighboring lanes: central difference, and Scharr's smoothing.
 __device__ float2 derivatives(float left, float here, float right) {
   return {0.5F * (right - left), two_products(3.0F / 16, left + right, 10.0F / 16, here)};
 }
@@ -376,7 +376,7 @@ namespace {
 
 constexpr int kThreads = kSearchThreads;
 constexpr int kLanes = kSearchLanes;
-// Neighbouring lanes that a thread integrates together. In shared memory those of a block are
+// Neighboring lanes that a thread integrates together. In shared memory those of a block are
 // ordered so that threads write side by side.
 constexpr int kTogether = 4;
 constexpr int kQuads = kLanes / kTogether;

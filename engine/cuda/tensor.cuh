@@ -25,7 +25,7 @@ __device__ inline float reciprocal(float value) {
   return guess * __fmaf_rn(-value, guess, 2.0F);
 }
 
-/// A band of neighbouring EPIs of one line of cameras. Lanes run along the EPI: x of horizontal
+/// A band of neighboring EPIs of one line of cameras. Lanes run along the EPI: x of horizontal
 /// ones, y of vertical ones.
 struct EpiBand {
   bool is_vertical = false;
@@ -46,7 +46,7 @@ struct EpiBand {
 /// Derivatives of the samples smoothed along the EPI, for each lane of each EPI: x holds that along
 /// the EPI, y the samples smoothed by Scharr's filter, for the derivative across. First all views
 /// at whole pixels, `[channel][view][EPI][lane]`, then half a pixel further, where wanted, views r
-/// at an odd distance from the centre in place r/2. Fewer than 2³¹ in all.
+/// at an odd distance from the center in place r/2. Fewer than 2³¹ in all.
 struct DerivativePlanes {
   float2* values = nullptr;
   bool with_half = false;
@@ -100,7 +100,7 @@ struct TensorSearchFilters {
   [[nodiscard]] bool has_half_shear() const { return ((first_shear | shear_step) & 1) != 0; }
 };
 
-/// The same for nine views, by value: [of][from] along the views.
+/// Filters for nine views, by value: [of][from] along the views.
 struct NineViewFilters {
   bool fits = false;  ///< Whether the views are nine, and the filters short enough.
   int reach = 0;      ///< Of the filters before products.

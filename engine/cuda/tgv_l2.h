@@ -7,7 +7,7 @@
 namespace episcope::cuda {
 
 /// `solve_tgv_l2` on the device (engine/solvers/tgv_l2.h), the same steps: `f` becomes the
-/// minimiser. All have one shape. Throws DeviceFailure, Cancelled.
+/// minimizer. All have one shape. Throws DeviceFailure, Cancelled.
 struct TgvTask {
   ImageView<const float> w, g;
   double lambda = 0.1;

@@ -47,7 +47,7 @@ struct Load {
   }
 };
 
-struct Centre {
+struct Center {
   TvL2Level level;
   const TvL2View* views;
 
@@ -112,7 +112,7 @@ void TvL2DeviceSolver::load(const TvL2Images& problem) {
   const TvL2Level finest = level(0, 0);
   run("tv_l2: load", Load{finest, problem, static_cast<float>(1 / problem.lambda)}, finest, 12, 6);
   sum_moments(stream_, finest, grids_.views(), sums_.data());
-  centre();
+  center();
   for (int k = 1; k < grids_.levels().count; ++k) {
     run("tv_l2: coarser problem", CoarsenProblem{level(k - 1, k - 1), level(k, k)}, level(k, k), 30,
         24);
@@ -120,7 +120,7 @@ void TvL2DeviceSolver::load(const TvL2Images& problem) {
 }
 
 // Takes the mean off the data, and fits the penalty to their spread.
-void TvL2DeviceSolver::centre() {
+void TvL2DeviceSolver::center() {
   measure();
   const int chunks = chunks_of(level(0, 0));
   for (std::size_t v = 0; v < views_.size(); ++v) {
@@ -135,7 +135,7 @@ void TvL2DeviceSolver::centre() {
     views_[v].knee = kPenaltyKnee * spread;
   }
   grids_.set_views(views_, stream_);
-  run("tv_l2: centre", Centre{level(0, 0), grids_.of_views()}, level(0, 0), 6, 4);
+  run("tv_l2: center", Center{level(0, 0), grids_.of_views()}, level(0, 0), 6, 4);
 }
 
 // Brings the sums of all chunks to the host.
@@ -147,7 +147,7 @@ void TvL2DeviceSolver::measure() {
 
 void TvL2DeviceSolver::renew_penalty(int stage, bool first) {
   const TvL2Level solved = level(stage, stage);
-  run("tv_l2: penalty", Penalise{solved, grids_.of_views(), first}, solved, 20, 60);
+  run("tv_l2: penalty", Penalize{solved, grids_.of_views(), first}, solved, 20, 60);
   for (int k = stage + 1; k < first_of_tail_; ++k) {
     run_cells("tv_l2: coarser penalty",
               CoarsenPenalty{level(k - 1, stage), level(k, stage), grids_.of_views()},

@@ -38,14 +38,14 @@ class TvL2DeviceSolver {
   /// Throws DeviceFailure.
   TvL2DeviceSolver(int height, int width, int views, const DeviceStream& stream);
 
-  /// Writes the minimisers to `u`, `[view][y][x]` on the device, which may be `f`. Ends after the
+  /// Writes the minimizers to `u`, `[view][y][x]` on the device, which may be `f`. Ends after the
   /// next iteration at `progress.finish_requested()`. Throws DeviceFailure, Cancelled.
   std::vector<TvL2Outcome> solve(const TvL2Images& problem, int max_iterations, double gap,
                                  const Progress& progress, float* u);
 
  private:
   void load(const TvL2Images& problem);
-  void centre();
+  void center();
   void renew_penalty(int stage, bool first);
   void correct(int stage);
   void iterate(int stage, int iteration, const Progress& progress);

@@ -31,13 +31,13 @@ struct MapDenoising {
                                                ViewStack<float>& disparity,
                                                const Progress& progress);
 
-/// The same of maps on the device.
+/// Denoises maps that are on the device.
 [[nodiscard]] std::vector<double> denoise_maps(const LightField& light_field,
                                                const MapDenoising& denoising, DeviceMaps& maps,
                                                const Progress& progress);
 
 /// One problem of TvL2Solver on the device, with its default iterations and gap: `f` becomes the
-/// minimiser. `w` and `g` have its shape. Throws DeviceFailure, Cancelled.
+/// minimizer. `w` and `g` have its shape. Throws DeviceFailure, Cancelled.
 void solve_tv_l2(Image<float>& f, const Image<float>& w, ImageView<const float> g, double lambda,
                  const Progress& progress);
 

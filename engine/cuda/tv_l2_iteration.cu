@@ -8,7 +8,7 @@
 #include <limits>
 
 // The steps of tv_l2_steps.cuh, all of an iteration in one pass over the rows of a strip of
-// columns: each step follows the one before it at the least distance that its neighbours allow, and
+// columns: each step follows the one before it at the least distance that its neighbors allow, and
 // rows in between stay in shared memory. On the level being solved all edges of a pixel have the
 // same penalty, so that one plane and the borders of the image tell it.
 
@@ -106,7 +106,7 @@ class Strip {
   [[nodiscard]] __device__ float right(const Row& row, int half) const {
     return half == 0 ? row[1][lane_ + 1] : row[0][lane_ + 2];
   }
-  // Σ penalty·neighbour, and with the pixel itself as `here` Σ penalty·(neighbour − here).
+  // Σ penalty·neighbor, and with the pixel itself as `here` Σ penalty·(neighbor − here).
   [[nodiscard]] __device__ float pull(int y, int half, float here) const {
     const Row &u = shared_.u[y & (kRing - 1)], &r = shared_.r[y & (kRing - 1)];
     const float beside =
@@ -160,7 +160,7 @@ __device__ void Strip::read_ahead(int t, bool is_first) {
   c_of_leaving_ = read(TvL2Plane::C, t - kStored);
 }
 
-// Row t, colour 0 with the correction of its cells.
+// Row t, color 0 with the correction of its cells.
 __device__ void Strip::enter(int t) {
 #pragma unroll
   for (int half = 0; half < 2; ++half) {
@@ -226,7 +226,7 @@ __device__ void Strip::renew(int y) {
   renewed_[0] = b;
 }
 
-// Stores u, and the residual of colour 0, half kHalf, of cells of 2×2; colour 1, relaxed last, has
+// Stores u, and the residual of color 0, half kHalf, of cells of 2×2; color 1, relaxed last, has
 // none.
 template <int kHalf>
 __device__ void Strip::leave(int y, const StripPair& c) {
@@ -352,8 +352,8 @@ void iterate_by_strips(const DeviceStream& stream, const TvL2Level& level, const
 
 }  // namespace episcope::cuda
 
-// The steps of tv_l2_steps.cuh on tiles in shared memory: a step needs its neighbours' results, so
-// a tile computes some of what belongs to its neighbours too, instead of all going through memory
+// The steps of tv_l2_steps.cuh on tiles in shared memory: a step needs its neighbors' results, so
+// a tile computes some of what belongs to its neighbors too, instead of all going through memory
 // after each step. All pixels at once, for few of them.
 
 namespace episcope::cuda {
@@ -364,7 +364,7 @@ constexpr int kTileThreads = Shape::kThreads, kEach = Shape::kEach;
 constexpr int kOdd = Shape::kOdd, kRow = Shape::kRow, kPlane = Shape::kPlane;
 constexpr int kSharedPlanes = 5;
 
-// How many pixels around the tile a step computes, for those after it to have their neighbours.
+// How many pixels around the tile a step computes, for those after it to have their neighbors.
 constexpr int kReadReach = 5;
 constexpr int kReachOfRelaxed1 = 4, kReachOfRelaxed0 = 3;  // before the dual
 constexpr int kReachOfDual = 3, kReachOfB = 2;
@@ -420,11 +420,11 @@ class Tile {
     for (int k = 0; k < kEach; ++k) places_[k] = place_of(level, coarse, k);
   }
 
-  // Reads the tile; colour 0 with the correction of its cell.
+  // Reads the tile; color 0 with the correction of its cell.
   __device__ void load(const TvL2Level& coarse, bool is_first);
   __device__ void invert_diagonal();
-  // Relaxes one colour from b as it is.
-  __device__ void relax(int colour, int reach);
+  // Relaxes one color from b as it is.
+  __device__ void relax(int color, int reach);
   __device__ void move_dual(float relaxation);
   __device__ void renew();
   __device__ void store(const TvL2Level& coarse);
@@ -449,7 +449,7 @@ class Tile {
         place.from_right > half ? level_.of(TvL2Plane::Rx, view_) : level_.of(TvL2Plane::Ry, view_);
     return __ldg(from + place.from + half * level_.odd);
   }
-  // Σ penalty·neighbour, and with the pixel itself as `here` Σ penalty·(neighbour − here).
+  // Σ penalty·neighbor, and with the pixel itself as `here` Σ penalty·(neighbor − here).
   [[nodiscard]] __device__ float pull(int at, int left, float here) const {
     return rx_[at] * (u_[left + 1] - here) + rx_[left] * (u_[left] - here) +
            ry_[at] * (u_[at + kRow] - here) + ry_[at - kRow] * (u_[at - kRow] - here);
@@ -506,12 +506,12 @@ __device__ void Tile::invert_diagonal() {
   }
 }
 
-__device__ void Tile::relax(int colour, int reach) {
+__device__ void Tile::relax(int color, int reach) {
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
     const Place& place = places_[k];
     if (place.reach > reach) continue;
-    const int half = place.is_odd ? 1 - colour : colour;
+    const int half = place.is_odd ? 1 - color : color;
     const int at = place.at + half * kOdd;
     const float b = half == 0 ? b_[k].of[0] : b_[k].of[1];
     const float inverse = half == 0 ? inverse_[k].of[0] : inverse_[k].of[1];
@@ -564,7 +564,7 @@ __device__ void Tile::renew() {
   }
 }
 
-// Stores u, and the residual of colour 0 of cells of 2×2; colour 1, relaxed last, has none.
+// Stores u, and the residual of color 0 of cells of 2×2; color 1, relaxed last, has none.
 __device__ void Tile::store(const TvL2Level& coarse) {
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {

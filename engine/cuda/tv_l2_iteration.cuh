@@ -6,11 +6,11 @@
 namespace episcope::cuda {
 
 /// One iteration on the level being solved, all steps in one kernel: corrects (unless it is the
-/// first) and relaxes both colours, moves the dual, renews b, relaxes both colours, restricts the
+/// first) and relaxes both colors, moves the dual, renews b, relaxes both colors, restricts the
 /// residual to `coarse`. What it moves goes to the second planes.
 void iterate_by_tiles(const DeviceStream& stream, const TvL2Level& level, const TvL2Level& coarse,
                       int views, const TvL2View* of_views, bool is_first);
-/// The same, quicker where there are enough strips of the level to keep the device busy.
+/// Iterates by strips: quicker where the level has enough of them to keep the device busy.
 void iterate_by_strips(const DeviceStream& stream, const TvL2Level& level, const TvL2Level& coarse,
                        int views, const TvL2View* of_views, bool is_first);
 [[nodiscard]] bool has_enough_strips(const TvL2Level& level, int views);

@@ -184,7 +184,7 @@ struct Shared {
   float u[kPlane], rx[kPlane], ry[kPlane], residual[kPlane];
 };
 
-// Where one of a thread's places lies, two pixels, found once; arrays are by colour.
+// Where one of a thread's places lies, two pixels, found once; arrays are by color.
 struct Place {
   int at[2] = {0, 0};    // in a plane of the tile
   int left[2] = {0, 0};  // of the pixel to the left there; that to the right is the next one
@@ -200,12 +200,12 @@ __device__ Place place_of(const TvL2Level& level, const TvL2Level& coarse, int n
   const TvL2TilePlace place = Shape::place(level, number);
   Place result;
 #pragma unroll
-  for (int colour = 0; colour < 2; ++colour) {
-    const int half = (place.row + colour) & 1;
-    result.at[colour] = place.y * kRow + half * kOdd + place.i;
-    result.left[colour] = place.y * kRow + (half == 0 ? kOdd - 1 : 0) + place.i;
-    result.from[colour] = place.row * static_cast<int>(level.pitch) +
-                          half * static_cast<int>(level.odd) + place.place;
+  for (int color = 0; color < 2; ++color) {
+    const int half = (place.row + color) & 1;
+    result.at[color] = place.y * kRow + half * kOdd + place.i;
+    result.left[color] = place.y * kRow + (half == 0 ? kOdd - 1 : 0) + place.i;
+    result.from[color] = place.row * static_cast<int>(level.pitch) +
+                         half * static_cast<int>(level.odd) + place.place;
   }
   result.cell = static_cast<int>(coarse.at(place.row >> 1, place.place));
   result.exists = place.exists;
@@ -226,22 +226,22 @@ class Tile {
     for (int k = 0; k < kEach; ++k) places_[k] = place_of(level, coarse, k);
   }
 
-  // Reads the tile and relaxes colour 0 from 0; colour 1 begins at 0.
+  // Reads the tile and relaxes color 0 from 0; color 1 begins at 0.
   __device__ void load();
-  // Adds the correction of the coarse cells to colour 0.
+  // Adds the correction of the coarse cells to color 0.
   __device__ void correct();
-  __device__ void relax(int colour);
+  __device__ void relax(int color);
   __device__ void restrict_residual();
   __device__ void store() const;
 
  private:
   // What no block writes meanwhile.
-  [[nodiscard]] __device__ float read(TvL2Plane which, const Place& place, int colour) const {
-    return place.is_inside ? __ldg(level_.of(which, view_) + place.from[colour]) : 0.0F;
+  [[nodiscard]] __device__ float read(TvL2Plane which, const Place& place, int color) const {
+    return place.is_inside ? __ldg(level_.of(which, view_) + place.from[color]) : 0.0F;
   }
-  // Σ penalty·(neighbour − here).
-  [[nodiscard]] __device__ float pull(const Place& place, int colour, float here) const {
-    const int at = place.at[colour], left = place.left[colour];
+  // Σ penalty·(neighbor − here).
+  [[nodiscard]] __device__ float pull(const Place& place, int color, float here) const {
+    const int at = place.at[color], left = place.left[color];
     const float *const u = shared_.u, *const rx = shared_.rx, *const ry = shared_.ry;
     return rx[at] * (u[left + 1] - here) + rx[left] * (u[left] - here) +
            ry[at] * (u[at + kRow] - here) + ry[at - kRow] * (u[at - kRow] - here);
@@ -251,7 +251,7 @@ class Tile {
   int view_;
   Shared& shared_;
   Place places_[kEach];
-  float b_[kEach][2], inverse_[kEach][2];  // of both colours
+  float b_[kEach][2], inverse_[kEach][2];  // of both colors
 };
 
 __device__ void Tile::load() {
@@ -260,13 +260,13 @@ __device__ void Tile::load() {
     const Place& place = places_[k];
     if (!place.exists) continue;
 #pragma unroll
-    for (int colour = 0; colour < 2; ++colour) {
-      const int at = place.at[colour];
-      shared_.rx[at] = read(TvL2Plane::Rx, place, colour);
-      shared_.ry[at] = read(TvL2Plane::Ry, place, colour);
-      b_[k][colour] = read(TvL2Plane::B, place, colour);
-      inverse_[k][colour] = read(TvL2Plane::Inverse, place, colour);
-      shared_.u[at] = colour == 0 ? b_[k][0] * inverse_[k][0] : 0.0F;
+    for (int color = 0; color < 2; ++color) {
+      const int at = place.at[color];
+      shared_.rx[at] = read(TvL2Plane::Rx, place, color);
+      shared_.ry[at] = read(TvL2Plane::Ry, place, color);
+      b_[k][color] = read(TvL2Plane::B, place, color);
+      inverse_[k][color] = read(TvL2Plane::Inverse, place, color);
+      shared_.u[at] = color == 0 ? b_[k][0] * inverse_[k][0] : 0.0F;
     }
   }
   __syncthreads();
@@ -283,17 +283,17 @@ __device__ void Tile::correct() {
   __syncthreads();
 }
 
-__device__ void Tile::relax(int colour) {
+__device__ void Tile::relax(int color) {
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
     const Place& place = places_[k];
     if (!place.is_inner) continue;
-    shared_.u[place.at[colour]] = (b_[k][colour] + pull(place, colour, 0)) * inverse_[k][colour];
+    shared_.u[place.at[color]] = (b_[k][color] + pull(place, color, 0)) * inverse_[k][color];
   }
   __syncthreads();
 }
 
-// The residual of colour 0 of cells of 2×2; colour 1, relaxed last, has none.
+// The residual of color 0 of cells of 2×2; color 1, relaxed last, has none.
 __device__ void Tile::restrict_residual() {
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
@@ -319,15 +319,15 @@ __device__ void Tile::store() const {
     const Place& place = places_[k];
     if (!place.is_core) continue;
 #pragma unroll
-    for (int colour = 0; colour < 2; ++colour) {
-      level_.of(TvL2Plane::U, view_)[place.from[colour]] = shared_.u[place.at[colour]];
+    for (int color = 0; color < 2; ++color) {
+      level_.of(TvL2Plane::U, view_)[place.from[color]] = shared_.u[place.at[color]];
     }
   }
 }
 
 enum class Way { Down, Up };
 
-// On the way down nothing but colour 0 is found that is needed on the way up, and that again from b
+// On the way down nothing but color 0 is found that is needed on the way up, and that again from b
 // alone.
 template <Way kWay>
 __global__ void __launch_bounds__(kThreads, 3)
@@ -498,15 +498,15 @@ __device__ void correct(const TvL2Levels& levels, int view, int stage, int begin
   for (int k = begin; k < last; ++k) {
     const TvL2Level fine = level_of(levels, k, stage), coarse = level_of(levels, k + 1, stage);
     run_in_block(RelaxFromZero{fine}, extent_of(fine), view);
-    run_in_block(RelaxColour{fine, 1}, extent_of(fine), view);
+    run_in_block(RelaxColor{fine, 1}, extent_of(fine), view);
     run_in_block(Restrict{fine, coarse}, cells_of(coarse), view);
   }
-  // The last level is a single pixel, of colour 0.
+  // The last level is a single pixel, of color 0.
   run_in_block(RelaxFromZero{level_of(levels, last, stage)}, {1, 1}, view);
   for (int k = last; --k >= begin;) {
     const TvL2Level fine = level_of(levels, k, stage), coarse = level_of(levels, k + 1, stage);
     run_in_block(CorrectAndRelax{fine, coarse}, extent_of(fine), view);
-    run_in_block(RelaxColour{fine, 0}, extent_of(fine), view);
+    run_in_block(RelaxColor{fine, 0}, extent_of(fine), view);
   }
 }
 
@@ -515,18 +515,18 @@ __device__ void iterate(const TvL2Levels& levels, const TvL2View* of_views, int 
   const TvL2Level level = level_of(levels, stage, stage);
   const TvL2Level coarse = level_of(levels, stage + 1, stage);
   if (iteration % penalty_every == 0) {
-    run_in_block(Penalise{level, of_views, iteration == 0}, extent_of(level), view);
+    run_in_block(Penalize{level, of_views, iteration == 0}, extent_of(level), view);
     run_in_block(InvertDiagonal{level}, extent_of(level), view);
     coarsen_penalties(levels, of_views, view, stage, stage + 1);
   }
   if (iteration > 0) {
     correct(levels, view, stage, stage + 1);
     run_in_block(CorrectAndRelax{level, coarse}, extent_of(level), view);
-    run_in_block(RelaxColour{level, 0}, extent_of(level), view);
+    run_in_block(RelaxColor{level, 0}, extent_of(level), view);
   }
   run_in_block(MoveDual{level, of_views}, extent_of(level), view);
   run_in_block(RenewAndRelax{level}, extent_of(level), view);
-  run_in_block(RelaxColour{level, 1}, extent_of(level), view);
+  run_in_block(RelaxColor{level, 1}, extent_of(level), view);
   run_in_block(Restrict{level, coarse}, cells_of(coarse), view);
 }
 

@@ -18,7 +18,7 @@ inline constexpr int kTvL2Slots = kTvL2Planes + 4;
 
 /// One level of the grid hierarchy for all views, `[plane][view][row][half][i]`. Rows are split:
 /// first the pixels of the even columns, `odd` floats further those of the odd ones, so that the
-/// pixels of either colour of a chequerboard, and their neighbours, are contiguous. One row of
+/// pixels of either color of a chequerboard, and their neighbors, are contiguous. One row of
 /// padding above and two below, padding after each half row; it is 0, and stays so because the
 /// coefficients there are 0.
 struct TvL2Level {
@@ -51,16 +51,16 @@ struct TvL2Level {
   [[nodiscard]] __host__ __device__ int half() const { return (width + 1) / 2; }
 };
 
-/// The pixels of one colour of row y, x + y + colour even: one half of it. Their neighbours to the
+/// The pixels of one color of row y, x + y + color even: one half of it. Their neighbors to the
 /// left and right are the other half, from `left` and from one float further.
-struct ColourRow {
+struct ColorRow {
   long own = 0;
   long left = 0;
 };
 
-__device__ inline ColourRow colour_row(const TvL2Level& level, int y, int colour) {
+__device__ inline ColorRow color_row(const TvL2Level& level, int y, int color) {
   const long even = y * level.pitch;
-  if (((y + colour) & 1) == 0) return {even, even + level.odd - 1};
+  if (((y + color) & 1) == 0) return {even, even + level.odd - 1};
   return {even + level.odd, even};
 }
 
@@ -93,8 +93,8 @@ __device__ inline float shrinkage(float zx, float zy, float g) {
   return fminf(1.0F, g * rsqrtf(fmaxf(zx * zx + zy * zy, 1e-30F)));
 }
 
-/// Gauss-Seidel on a pixel whose neighbours beside are given.
-__device__ inline void relax_at(const TvL2Level& level, int view, const ColourRow& row, int i,
+/// Gauss-Seidel on a pixel whose neighbors beside are given.
+__device__ inline void relax_at(const TvL2Level& level, int view, const ColorRow& row, int i,
                                 float b, float left, float right, float up, float down) {
   const float* const rx = level.of(TvL2Plane::Rx, view);
   const float* const ry = level.of(TvL2Plane::Ry, view) + row.own + i;
@@ -104,13 +104,13 @@ __device__ inline void relax_at(const TvL2Level& level, int view, const ColourRo
       (along + across) * level.of(TvL2Plane::Inverse, view)[row.own + i];
 }
 
-/// Relaxes one colour.
-struct RelaxColour {
+/// Relaxes one color.
+struct RelaxColor {
   TvL2Level level;
-  int colour = 0;
+  int color = 0;
 
   __device__ void operator()(int view, int y, int i) const {
-    const ColourRow row = colour_row(level, y, colour);
+    const ColorRow row = color_row(level, y, color);
     const float* const u = level.of(TvL2Plane::U, view);
     const float* const own = u + row.own + i;
     const float b = level.of(TvL2Plane::B, view)[row.own + i];
@@ -119,13 +119,13 @@ struct RelaxColour {
   }
 };
 
-/// Adds the correction of the coarse cells to the pixels of colour 0, which are not stored, and
-/// relaxes colour 1 with them; colour 0 is relaxed next, from colour 1 alone.
+/// Adds the correction of the coarse cells to the pixels of color 0, which are not stored, and
+/// relaxes color 1 with them; color 0 is relaxed next, from color 1 alone.
 struct CorrectAndRelax {
   TvL2Level level, coarse;
 
   __device__ void operator()(int view, int y, int i) const {
-    const ColourRow row = colour_row(level, y, 1);
+    const ColorRow row = color_row(level, y, 1);
     const float* const u = level.of(TvL2Plane::U, view);
     const float* const own = u + row.own + i;
     const float* const cells = coarse.of(TvL2Plane::U, view);
@@ -142,20 +142,20 @@ struct CorrectAndRelax {
   }
 };
 
-/// Relaxes colour 0 from u = 0.
+/// Relaxes color 0 from u = 0.
 struct RelaxFromZero {
   TvL2Level level;
 
   __device__ void operator()(int view, int y, int i) const {
-    const long own = colour_row(level, y, 0).own + i;
+    const long own = color_row(level, y, 0).own + i;
     level.of(TvL2Plane::U, view)[own] =
         level.of(TvL2Plane::B, view)[own] * level.of(TvL2Plane::Inverse, view)[own];
   }
 };
 
-/// Residual of colour 0 in row y.
+/// Residual of color 0 in row y.
 __device__ inline float residual_at(const TvL2Level& level, int view, int y, int i) {
-  const ColourRow row = colour_row(level, y, 0);
+  const ColorRow row = color_row(level, y, 0);
   const long own = row.own + i;
   const float* const u = level.of(TvL2Plane::U, view);
   const float* const rx = level.of(TvL2Plane::Rx, view);
@@ -168,7 +168,7 @@ __device__ inline float residual_at(const TvL2Level& level, int view, int y, int
          ry[own - level.pitch] * (u[own - level.pitch] - here);
 }
 
-/// The residual of fine cells of 2×2, summed; colour 1, relaxed last, has none. Places are those of
+/// The residual of fine cells of 2×2, summed; color 1, relaxed last, has none. Places are those of
 /// the fine level's half rows, rows the coarse level's.
 struct Restrict {
   TvL2Level fine, coarse;
@@ -203,7 +203,7 @@ struct MoveDual {
   }
 };
 
-/// b ← c·f + div(2p − z), and relaxes colour 0, which no dual needs any more.
+/// b ← c·f + div(2p − z), and relaxes color 0, which no dual needs any more.
 struct RenewAndRelax {
   TvL2Level level;
 
@@ -228,7 +228,7 @@ struct RenewAndRelax {
     float* const b = level.of(TvL2Plane::B, view);
     b[even] = b_even;
     b[odd] = b_odd;
-    const ColourRow row = colour_row(level, y, 0);
+    const ColorRow row = color_row(level, y, 0);
     const float* const u = level.of(TvL2Plane::U, view);
     const float* const own = u + row.own + i;
     relax_at(level, view, row, i, row.own < row.left ? b_even : b_odd, u[row.left + i],
@@ -258,7 +258,7 @@ __device__ inline TvL2Gradient gradient_at(const TvL2Level& level, int view, lon
 
 /// Renews the penalty from u, keeping p and d where |p| = g. `first`: z holds p, rx and ry tell
 /// where edges are, and d becomes ∇u.
-struct Penalise {
+struct Penalize {
   TvL2Level level;
   const TvL2View* views;
   bool first = false;
@@ -371,7 +371,7 @@ struct CoarsenProblem {
   }
 };
 
-/// Edges of penalty 1, for `Penalise` to give them their value.
+/// Edges of penalty 1, for `Penalize` to give them their value.
 __device__ inline void open_edges(const TvL2Level& level, int view, int y, int x) {
   const long at = level.at(y, x);
   level.of(TvL2Plane::Rx, view)[at] = x + 1 < level.width ? 1.0F : 0.0F;
@@ -403,9 +403,9 @@ struct Prolong {
   __device__ float blend(const float* plane, int here, int beside, float share, int x) const {
     return (1 - share) * plane[coarse.at(here, x)] + share * plane[coarse.at(beside, x)];
   }
-  /// Cell centres: a pixel lies a quarter of a cell beside the centre of its cell.
+  /// Cell centers: a pixel lies a quarter of a cell beside the center of its cell.
   template <class Cell>
-  __device__ float at_centre(int x, const Cell& cell) const {
+  __device__ float at_center(int x, const Cell& cell) const {
     const int own = x / 2;
     const int beside = (x & 1) == 0 ? max(own - 1, 0) : min(own + 1, coarse.width - 1);
     return 0.75F * cell(own) + 0.25F * cell(beside);
@@ -420,7 +420,7 @@ struct Prolong {
     for_pixels(fine, i, [&](int x) {
       const long to = fine.at(y, x);
       fine.of(TvL2Plane::U, view)[to] =
-          at_centre(x, [&](int cell) { return blend(u, own, beside, 0.25F, cell); });
+          at_center(x, [&](int cell) { return blend(u, own, beside, 0.25F, cell); });
       const auto face = [&](int cell) { return blend(zx, own, beside, 0.25F, cell); };
       const int cell = x / 2;
       float along = face(cell);
@@ -428,7 +428,7 @@ struct Prolong {
       fine.of(TvL2Plane::Zx, view)[to] = x + 1 < fine.width ? along : 0.0F;
       // The row above the first one is padding: p = 0 there.
       const int above = lower ? own : own - 1;
-      const float down = at_centre(x, [&](int each) { return blend(zy, own, above, 0.5F, each); });
+      const float down = at_center(x, [&](int each) { return blend(zy, own, above, 0.5F, each); });
       fine.of(TvL2Plane::Zy, view)[to] = y + 1 < fine.height ? down : 0.0F;
       open_edges(fine, view, y, x);
     });

@@ -13,7 +13,7 @@ namespace episcope {
 
 /// The unit in which smoothness is weighed against matching costs: the mean, over the valid pixels
 /// of a view, of the mean cost of the labels within 0.5 px of a pixel's best one, at least its two
-/// neighbours. It says how much it costs to be off, in the unit of the costs. Labels farther away
+/// neighbors. It says how much it costs to be off, in the unit of the costs. Labels farther away
 /// do not count: the mean over all labels grows with the range that is searched, though nothing
 /// supports the labels added.
 ///
@@ -22,7 +22,7 @@ namespace episcope {
                                VolumeView<const float> costs, double step,
                                const Progress& progress);
 
-/// The same of costs on the device. Throws DeviceFailure, Cancelled.
+/// Computes the unit from costs on the device. Throws DeviceFailure, Cancelled.
 [[nodiscard]] double cost_unit(const LightField& light_field, ViewIndex view,
                                const cuda::DeviceVolume& costs, double step,
                                const Progress& progress);
@@ -39,12 +39,12 @@ namespace episcope {
 /// 1 − cost / mean cost, in [0, 1]; 0 without costs.
 [[nodiscard]] float cost_trust(float cost, float mean);
 
-/// A pixel of a label at the parabola through its cost and those of the labels beside it, with the
-/// square of its trust as weight, at least 0.01.
+/// Places a pixel of a label at the parabola through its cost and the costs of the labels beside
+/// it, with the square of its trust as weight, at least 0.01.
 [[nodiscard]] Placement place_by_costs(const StereoCosts& stereo, VolumeView<const float> costs,
                                        const Image<float>& means, int y, int x, int label);
 
-/// The same of all pixels, for costs on the device. Throws DeviceFailure, Cancelled.
+/// Places all pixels by costs on the device. Throws DeviceFailure, Cancelled.
 [[nodiscard]] Placements place_by_costs(const StereoCosts& stereo, const cuda::DeviceVolume& costs,
                                         const Image<int>& labels, const Progress& progress);
 
@@ -56,7 +56,7 @@ namespace episcope {
                                                  const Image<float>& means,
                                                  const Progress& progress);
 
-/// The same for costs on the device. Throws DeviceFailure, Cancelled.
+/// Computes the trust from costs on the device. Throws DeviceFailure, Cancelled.
 [[nodiscard]] ViewStack<float> volume_confidence(ImageView<const float> disparity,
                                                  const StereoCosts& stereo,
                                                  const cuda::DeviceVolume& costs,

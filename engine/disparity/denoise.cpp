@@ -47,7 +47,7 @@ Image<float> smoothness_weights(const LightField& lf, ViewIndex view, double bet
 
 namespace {
 
-// r^power. Integer powers are multiplied out, which is vectorised; std::pow is slow.
+// r^power. Integer powers are multiplied out, which is vectorized; std::pow is slow.
 void raise_row(const float* r, double power, int width, float* raised) {
   const int whole = static_cast<int>(power);
   if (whole != power) {

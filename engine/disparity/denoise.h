@@ -58,7 +58,7 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Ima
 /// and trusted needs no smoothing, which would flatten its slopes.
 ///
 /// The paper has w = g = 1 ("just performs a TV-L2 denoising"). The weights are an addition: they
-/// preserve jumps at image edges and let doubtful pixels follow their neighbours. p = 0 and β = 0
+/// preserve jumps at image edges and let doubtful pixels follow their neighbors. p = 0 and β = 0
 /// give the plain method.
 /// Reference: Rudin, Osher, Fatemi 1992 [ROF92].
 void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
@@ -71,12 +71,12 @@ struct DenoiseWeights {
   float map_noise = 0;
 };
 
-/// The same for maps of any views; returns the largest relative duality gap.
+/// Denoises maps of any views; returns the largest relative duality gap.
 double denoise(const LightField& light_field, const DenoiseParameters& parameters,
                const DenoiseWeights& weights, ViewStack<float>& disparity,
                const ViewStack<float>& confidence, const Progress& progress);
 
-/// The same parameters, for the device.
+/// The parameters of `denoise` as the device takes them.
 [[nodiscard]] cuda::MapDenoising map_denoising(const DenoiseParameters& parameters,
                                                float min_weight = DataWeight{}.minimum,
                                                float map_noise = 0);

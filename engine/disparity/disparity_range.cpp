@@ -85,7 +85,7 @@ Cells most_coherent(const Findings& findings) {
   return sum;
 }
 
-// Tensors of one EPI alone: neighbours would cost as much again.
+// Tensors of one EPI alone: neighbors would cost as much again.
 TensorScales coarse_scales() {
   TensorScales scales;
   scales.across = 0;
@@ -420,7 +420,7 @@ Interval widened(Interval range, Interval coarse) {
 
 }  // namespace
 
-// The largest disparity whose neighbouring views still share most of the image.
+// The largest disparity whose neighboring views still share most of the image.
 double farthest_found(const LightField& lf) {
   const int along = std::min(lf.grid().u > 1 ? lf.width() : lf.height(),
                              lf.grid().v > 1 ? lf.height() : lf.width());

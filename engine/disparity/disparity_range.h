@@ -11,7 +11,7 @@
 
 namespace episcope {
 
-/// How often each disparity is seen in the centre view, by the structure tensor on some rows and
+/// How often each disparity is seen in the center view, by the structure tensor on some rows and
 /// columns of its EPIs, sheared in whole pixels. Of the pixels, those count whose orientation is
 /// coherent; under noise fewer pixels are, and the threshold is lowered.
 class OrientationHistogram {
@@ -41,7 +41,7 @@ class OrientationHistogram {
   double total_ = 0;
 };
 
-/// Which views are made smaller: those in the row and the column of the centre view, or all.
+/// Which views are made smaller: those in the row and the column of the center view, or all.
 enum class ReducedViews { CrossHair, All };
 
 /// Views of which each sample is the mean of `factor` × `factor` pixels, as uint16: noise is
@@ -52,7 +52,7 @@ enum class ReducedViews { CrossHair, All };
                                        const Progress& progress,
                                        ReducedViews reduced = ReducedViews::CrossHair);
 
-/// Where pixels of the centre view distinctly match: of those on some rows that match the views of
+/// Where pixels of the center view distinctly match: of those on some rows that match the views of
 /// its row and column, 3×3 px at a time, at one label (disparity, px per view step) much better
 /// than at any label 0.75 px or more away, the share that does so at each label, in [0, 1]. They
 /// add up to 1, or to 0 if no pixel matches so. A repeated pattern suits several labels, and what
@@ -89,7 +89,7 @@ inline constexpr const char* kRangeHelp =
                                     const Progress& progress);
 
 /// Estimates the range by a coarse, robust pass: the structure tensor on some rows and columns of
-/// the centre view's EPIs, sheared in whole pixels over ±16 px or a sixth of the image
+/// the center view's EPIs, sheared in whole pixels over ±16 px or a sixth of the image
 /// (OrientationHistogram), and the span between the first and the last disparities that hold a
 /// small fraction of the coherent pixels and that some pixels confirm by matching distinctly
 /// (label_support). The same at half and a quarter of the size (smaller_views), which shows

@@ -145,7 +145,7 @@ using Direction = DoubleOrientation::Direction;
 // Along and across the EPIs: planes of a tile stay in the cache.
 constexpr PixelIndex kHorizontalTile = {16, 96};
 constexpr PixelIndex kVerticalTile = {64, 32};
-// Lanes that a kernel may touch beyond a plane, besides the neighbours it needs.
+// Lanes that a kernel may touch beyond a plane, besides the neighbors it needs.
 constexpr int kDoubleSlack = 64;
 
 int views_along(const LightField& lf, Direction direction) {

@@ -27,12 +27,12 @@ namespace {
 // A line violates the ordering where D u is below this, px.
 constexpr float kOrderingViolation = -0.05F;
 // The least data weight. Less than in EPI_S: pixels that the views contradict should follow their
-// neighbours entirely.
+// neighbors entirely.
 constexpr float kOrderingLeastWeight = 0.001F;
 
-// From a view to its neighbours in the grid.
-constexpr std::array<ViewIndex, 4> kNeighbourWays = {{{0, 1}, {0, -1}, {1, 0}, {-1, 0}}};
-[[nodiscard]] inline ViewIndex neighbour(ViewIndex view, ViewIndex way) {
+// From a view to its neighbors in the grid.
+constexpr std::array<ViewIndex, 4> kNeighborWays = {{{0, 1}, {0, -1}, {1, 0}, {-1, 0}}};
+[[nodiscard]] inline ViewIndex neighbor(ViewIndex view, ViewIndex way) {
   return {view.v + way.v, view.u + way.u};
 }
 // A point moves by −d per step of u or v.
@@ -40,7 +40,7 @@ constexpr std::array<ViewIndex, 4> kNeighbourWays = {{{0, 1}, {0, -1}, {1, 0}, {
   return {way.v != 0, static_cast<float>(-(way.u + way.v))};
 }
 
-// Views that EPI_C denoises: `u` is improved and covers their neighbours in the grid as well, `f`
+// Views that EPI_C denoises: `u` is improved and covers their neighbors in the grid as well, `f`
 // is what was observed.
 struct OrderedViews {
   const LightField& light_field;
@@ -58,11 +58,11 @@ struct LineCount {
   [[nodiscard]] double share() const;
 };
 
-// Calls visit(neighbour, way) for the neighbours of a view whose lines count.
+// Calls visit(neighbor, way) for the neighbors of a view whose lines count.
 template <class Visit>
-void for_each_neighbour(const OrderedViews& work, ViewIndex view, const Visit& visit) {
-  for (const ViewIndex way : kNeighbourWays) {
-    const ViewIndex other = neighbour(view, way);
+void for_each_neighbor(const OrderedViews& work, ViewIndex view, const Visit& visit) {
+  for (const ViewIndex way : kNeighborWays) {
+    const ViewIndex other = neighbor(view, way);
     if (work.u.contains(other) && count_valid(work.light_field, other) > 0) visit(other, way);
   }
 }
@@ -80,8 +80,8 @@ class ViewStep {
 
   // Returns the relative gap.
   double improve(ViewIndex view, const Progress& progress) {
-    pull_from_neighbours(view, progress);
-    majorise(view);
+    pull_from_neighbors(view, progress);
+    majorize(view);
     const DenoiseParameters& parameters = work_.parameters.denoising;
     const Image<float> edges =
         smoothness_weights(work_.light_field, view, parameters.edge_strength);
@@ -92,12 +92,12 @@ class ViewStep {
   }
 
  private:
-  void pull_from_neighbours(ViewIndex view, const Progress& progress) {
+  void pull_from_neighbors(ViewIndex view, const Progress& progress) {
     std::fill(curvature_.begin(), curvature_.end(), 0.0F);
     std::fill(force_.begin(), force_.end(), 0.0F);
     const ImageView<const float> here = std::as_const(work_.u).view(view);
     const OrderingPull pull{curvature_.view(), force_.view()};
-    for_each_neighbour(work_, view, [&](ViewIndex other, ViewIndex way) {
+    for_each_neighbor(work_, view, [&](ViewIndex other, ViewIndex way) {
       const ImageView<const float> there = std::as_const(work_.u).view(other);
       progress.check();
       add_pull_on_from(here, here, there, step_along(way), work_.penalty(), pull);
@@ -106,8 +106,8 @@ class ViewStep {
     });
   }
 
-  // ½ w (u − f)² and the majoriser as one weighted observation.
-  void majorise(ViewIndex view) {
+  // ½ w (u − f)² and the majorizer as one weighted observation.
+  void majorize(ViewIndex view) {
     fill_data_weights(work_.confidence.view(view),
                       {work_.parameters.denoising.weight_power, kOrderingLeastWeight}, weights_);
     const float* const f = work_.f.view(view).data;
@@ -129,17 +129,17 @@ OrderingPenalty OrderedViews::penalty() const {
           static_cast<float>(parameters.fall), static_cast<float>(parameters.softness)};
 }
 
-// The views of a rectangle that have one colour (0 or 1) of the chequerboard of the grid.
-std::vector<ViewIndex> views_of_colour(const ViewRectangle& rectangle, int colour) {
+// The views of a rectangle that have one color (0 or 1) of the chequerboard of the grid.
+std::vector<ViewIndex> views_of_color(const ViewRectangle& rectangle, int color) {
   std::vector<ViewIndex> views;
   for (int i = 0; i < rectangle.grid.count(); ++i) {
     const ViewIndex view = rectangle.grid.view_at(i, rectangle.first);
-    if ((view.u + view.v) % 2 == colour) views.push_back(view);
+    if ((view.u + view.v) % 2 == color) views.push_back(view);
   }
   return views;
 }
 
-// Improves views of one colour, one after the other, as half a sweep of EPI_C; at
+// Improves views of one color, one after the other, as half a sweep of EPI_C; at
 // `progress.finish_requested()` those not yet reached stay as they are. Returns the largest
 // relative gap. Throws Cancelled.
 double improve(const OrderedViews& work, const std::vector<ViewIndex>& views,
@@ -163,13 +163,13 @@ double LineCount::share() const {
   return lines > 0 ? static_cast<double>(violations) / static_cast<double>(lines) : 0;
 }
 
-// Of one view; `disparity` covers its neighbours as well. `scratch` has the size of a view.
+// Of one view; `disparity` covers its neighbors as well. `scratch` has the size of a view.
 LineCount count_lines(const ViewStack<float>& disparity, ViewIndex view, Image<float>& scratch) {
   LineCount count;
   const ImageView<const float> here = disparity.view(view);
-  for (const ViewIndex way : kNeighbourWays) {
-    if (!disparity.contains(neighbour(view, way))) continue;
-    line_differences(here, here, disparity.view(neighbour(view, way)), step_along(way),
+  for (const ViewIndex way : kNeighborWays) {
+    if (!disparity.contains(neighbor(view, way))) continue;
+    line_differences(here, here, disparity.view(neighbor(view, way)), step_along(way),
                      scratch.view());
     for (const float a : scratch) {
       count.lines += a == a ? 1 : 0;
@@ -264,7 +264,7 @@ class OrderedBlocks {
     FinishedBlock made{read(block)};
     const ViewStack<float> observed = read.kept(block, kObserved);
     const double gap = improve({lf_, parameters_, observed, made.maps.confidence, u},
-                               views_of_colour(block.views, half % 2), progress);
+                               views_of_color(block.views, half % 2), progress);
     copy_views(u, block.views, made.maps.field.disparity);
     made.facts = facts;
     made.facts[kGapOfSweep] = std::max(gap, facts[kGapOfSweep]);
@@ -431,7 +431,7 @@ BlockwiseRun center_in_one(const LightField& lf, const EpiCParameters& parameter
 // EPI_C in blocks: orientations in bands of rows; then views of one row of the grid after the
 // other, whose lines are checked and which are denoised by themselves; then rays that other views
 // see through are replaced, and every half of a sweep is one pass, which needs the views above and
-// below. What was observed and what was denoised before the first sweep are kept. The centre view
+// below. What was observed and what was denoised before the first sweep are kept. The center view
 // alone needs all others and is one block.
 //
 // Refers to the light field. Takes no result early. Throws as `estimate_epi_c`.
@@ -488,7 +488,7 @@ double own_energy(const OrderedViews& work, ViewIndex view, ImageView<const floa
 double energy_of(const OrderedViews& work, ViewIndex view, const Image<float>& edges) {
   const ImageView<const float> u = std::as_const(work.u).view(view);
   double sum = own_energy(work, view, u, edges);
-  for_each_neighbour(work, view, [&](ViewIndex other, ViewIndex way) {
+  for_each_neighbor(work, view, [&](ViewIndex other, ViewIndex way) {
     sum +=
         ordering_energy(u, u, std::as_const(work.u).view(other), step_along(way), work.penalty());
   });
@@ -513,7 +513,7 @@ void keep_center(Estimate& estimate, ViewIndex center) {
   cut(estimate.confidence);
 }
 
-// The same for all views of a colour at once, on the device.
+// The same for all views of a color at once, on the device.
 double improve_on_device(const OrderedViews& work, const Progress& progress) {
   const EpiCParameters& parameters = work.parameters;
   const OrderingPenalty penalty = work.penalty();
@@ -556,7 +556,7 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
     name_sweep(sweeps, i, gap, progress);
     const double other =
-        improve(work, views_of_colour({{}, grid}, i % 2), fitting.part(i / steps, (i + 1) / steps));
+        improve(work, views_of_color({{}, grid}, i % 2), fitting.part(i / steps, (i + 1) / steps));
     gap = i % 2 == 0 ? other : std::max(gap, other);
   }
   return gap;
@@ -611,10 +611,10 @@ Schema<EpiCParameters> epi_c_schema() {
              "Cost of a line that meets something nearer, which occludes its point; at most μ₋"},
             {0, 1})
       .real("softness", &P::softness,
-            {"Softness", "Differences along a line below this are penalised quadratically", "px"},
+            {"Softness", "Differences along a line below this are penalized quadratically", "px"},
             {0.005, 0.5, true})
       .integer("sweeps", &P::sweeps,
-               {"Sweeps", "Number of times every view is fitted to its neighbours; 0 = off"},
+               {"Sweeps", "Number of times every view is fitted to its neighbors; 0 = off"},
                {0, 50})
       .flag("replace_occluded", &P::replace_occluded,
             {"Replace occluded",

@@ -9,7 +9,7 @@
 
 namespace episcope {
 
-/// Parameters of EPI_C: of the ordering along lines, and those of EPI_S.
+/// Parameters of EPI_C: the ordering along lines, and the parameters of EPI_S.
 struct EpiCParameters {
   double fall = 0.1;
   double rise = 0;
@@ -27,17 +27,17 @@ struct EpiCParameters {
 /// EPI_C: the estimate of EPI_L, denoised for all views at once under an occlusion ordering.
 ///
 /// In an opaque scene the line of a visible point meets, in any other view, the same point or
-/// something nearer: with D u = u(x − d, u + 1) − u(x, u), and likewise for the four neighbours of
+/// something nearer: with D u = u(x − d, u + 1) − u(x, u), and likewise for the four neighbors of
 /// a view in the camera grid, D u ≥ 0. The energy over all views is
 ///   Σ λ g |∇u| + ½ w (u − f)² + Σ ψ(D u),   ψ(a) = μ₊ max(a, 0) + μ₋ max(−a, 0),
 /// smoothed within ε (OrderingPenalty): a violation of the ordering costs μ₋ per pixel, a permitted
-/// jump nothing. f, g and w are those of EPI_S (check_lines) but for λ and the least w. Before
+/// jump nothing. f, g and w are as in EPI_S (check_lines), except for λ and the least w. Before
 /// the first sweep, rays that other views see through are replaced (replace_occluded) unless the
 /// samples contradict that.
 ///
-/// Solved by block descent: views are coloured like a chequerboard, so that all neighbours of a
-/// view have the other colour. In turn, one colour is fixed and each view of the other minimises
-/// its part with ψ replaced by its quadratic majoriser, which is TvL2Solver's problem with other f
+/// Solved by block descent: views are colored like a chequerboard, so that all neighbors of a
+/// view have the other color. In turn, one color is fixed and each view of the other minimizes
+/// its part with ψ replaced by its quadratic majorizer, which is TvL2Solver's problem with other f
 /// and w. For fixed lines that lowers the energy, since ψ is smooth and TV is separable over views.
 /// Lines are traced anew through the current u at each step; of lines that move with u the energy
 /// (epi_c_energy) is not bound to fall, but it does with every sweep on the scenes of the tests.
@@ -50,7 +50,7 @@ struct EpiCParameters {
 /// convex; not the form of the constraint. Chosen: the energy above with μ₊ = 0.01, four sweeps,
 /// λ = 0.1.
 ///
-/// The centre view alone needs all other views as well: they are computed and dropped. The form of
+/// The center view alone needs all other views as well: they are computed and dropped. The form of
 /// the constraint in the original paper was not recovered.
 /// Reference: Goldluecke and Wanner 2013 [GW13]; Wanner, Meister, Goldluecke 2013 [WMG13].
 [[nodiscard]] Estimate estimate_epi_c(const LightField& light_field,
@@ -66,18 +66,18 @@ double denoise_with_ordering(const LightField& light_field, const EpiCParameters
                              const Progress& progress, Device device = Device::Cpu);
 
 /// The energy above of `estimate.field`, for `observed` f and the weights from
-/// `estimate.confidence`; all cover all views. Lines are those of `estimate.field` itself.
+/// `estimate.confidence`; all cover all views. Lines follow `estimate.field` itself.
 /// Throws Cancelled.
 [[nodiscard]] double epi_c_energy(const LightField& light_field, const EpiCParameters& parameters,
                                   const ViewStack<float>& observed, Estimate& estimate,
                                   const Progress& progress);
 
-/// Share in [0, 1] of the lines to neighbouring views, within the image, that violate the ordering:
+/// Share in [0, 1] of the lines to neighboring views, within the image, that violate the ordering:
 /// D u < −0.05 px at u itself. `disparity` covers all views. Throws Cancelled.
 [[nodiscard]] double ordering_violations(const ViewStack<float>& disparity,
                                          const Progress& progress, Device device = Device::Cpu);
 
-/// What a result notes of both shares.
+/// Note of a result about both shares.
 [[nodiscard]] std::string ordering_note(double before, double after);
 
 [[nodiscard]] Estimator epi_c_estimator();

@@ -11,7 +11,7 @@ namespace episcope {
 enum class DirectionCosts { Sum, Least };
 [[nodiscard]] Names<DirectionCosts> names_of(DirectionCosts);
 
-/// Parameters of EPI_G: of the labeling, and those of EPI_L.
+/// Parameters of EPI_G: the labeling, and the parameters of EPI_L.
 struct EpiGParameters {
   GlobalLabelingParameters labeling{.smoothness = 1.6, .edge_strength = 20, .settling = 3};
   int labels = 64;
@@ -24,13 +24,13 @@ struct EpiGParameters {
 
 [[nodiscard]] Schema<EpiGParameters> epi_g_schema();
 
-/// EPI_G: a globally optimal labeling of the centre view from its horizontal and vertical EPIs
+/// EPI_G: a globally optimal labeling of the center view from its horizontal and vertical EPIs
 /// (EPI_L before merging): ρ(x, l) = r_h^p min(|l − d_h|, κ) + r_v^p min(|l − d_v|, κ), labels
 /// equidistant over the range (label_globally). Each direction's estimate is checked as in EPI_S
 /// (check_lines). λ is in units of the mean of r^p
 /// over both directions, so that weak texture and noise are not smoothed away. Between labels, a
-/// pixel moves to the mean, weighted by r^p, of those of d_h and d_v that lie within one label of
-/// the solution. Confidence is the larger coherence.
+/// pixel moves to the mean, weighted by r^p, of d_h and d_v, as long as they lie within one label
+/// of the solution. Confidence is the larger coherence.
 ///
 /// The profile `paper` has labels over the range, no edge weights, no settling and no check of
 /// lines, EPI_L as published, and as data term min(r_h |l − d_h|, r_v |l − d_v|), which is how

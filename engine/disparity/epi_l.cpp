@@ -29,7 +29,7 @@ Schema<EpiLParameters> scales_schema() {
             {"View scale", "Standard deviation of the same window along the views", "views"},
             {0, 3})
       .real("cross_scale", &P::cross_scale,
-            {"Cross scale", "Standard deviation of the same window across neighbouring EPIs", "px"},
+            {"Cross scale", "Standard deviation of the same window across neighboring EPIs", "px"},
             {0, 2});
 }
 
@@ -129,7 +129,7 @@ struct Maps {
   }
 };
 
-// Rows of a task of horizontal EPIs: many against the neighbours it shares with the next task, few
+// Rows of a task of horizontal EPIs: many against the neighbors it shares with the next task, few
 // enough to report progress and to end soon after a stop request (about 20 ms at 768 columns).
 int band_rows(int height) {
   return std::clamp(height / 8, 8, 96);
@@ -279,7 +279,7 @@ Estimate orientations_on_device(const LightField& lf, const EpiLParameters& para
   return estimate;
 }
 
-// One direction of the centre view: the filters along the other are left out.
+// One direction of the center view: the filters along the other are left out.
 void find_direction(const LightField& lf, cuda::TensorSettings settings,
                     cuda::ViewFilters cuda::TensorSettings::*other, Estimate& estimate,
                     const Progress& progress) {

@@ -39,10 +39,10 @@ struct EpiLParameters {
 };
 
 [[nodiscard]] Schema<EpiLParameters> epi_l_schema();
-/// The same without the profile, for a method that the paper does not have.
+/// Schema without the profile, for methods that the paper does not have.
 [[nodiscard]] Schema<EpiLParameters> orientation_schema();
 
-/// What the structure tensor takes of them.
+/// Scales and shears that the structure tensor takes from the parameters.
 [[nodiscard]] TensorScales scales_of(const EpiLParameters& parameters);
 [[nodiscard]] TensorSearch search_of(const EpiLParameters& parameters, Interval range);
 
@@ -62,14 +62,14 @@ struct EpiLParameters {
                                       const EpiLParameters& parameters, ViewSelection views,
                                       const Progress& progress, Device device = Device::Cpu);
 
-/// The same before it is clamped to the range: what a method that denoises it should begin with,
+/// Estimates orientations without clamping them to the range. Methods that denoise begin here,
 /// since clamped noise no longer averages out. Values overshoot the range by up to 0.6 px.
 [[nodiscard]] Estimate estimate_orientations(const LightField& light_field,
                                              const EpiLParameters& parameters, ViewSelection views,
                                              const Progress& progress, Device device = Device::Cpu);
 
-/// Both block by block: bands of rows, which depend on the samples of others within the reach of
-/// the structure tensor.
+/// Run both block by block, in bands of rows. A band depends on the samples of rows within the
+/// reach of the structure tensor.
 [[nodiscard]] BlockwiseRun epi_l_in_blocks(const LightField& light_field,
                                            const EpiLParameters& parameters, ViewSelection views,
                                            const Progress& progress);
@@ -77,18 +77,18 @@ struct EpiLParameters {
                                                   const EpiLParameters& parameters,
                                                   ViewSelection views, const Progress& progress);
 
-/// Where `estimate_orientations` begins: an estimate with its range, and maps of the right shape
+/// Begins `estimate_orientations`: returns an estimate with its range, and maps of the right shape
 /// that are not filled yet.
 [[nodiscard]] Estimate begin_orientations(const LightField& light_field,
                                           const EpiLParameters& parameters, ViewSelection views,
                                           const Progress& progress);
 
-/// What it looks for in a range, for the device.
+/// Settings of the device for a range.
 [[nodiscard]] cuda::TensorSettings orientation_settings(const LightField& light_field,
                                                         const EpiLParameters& parameters,
                                                         Interval range);
 
-/// What the two directions say of the centre view, each for itself.
+/// Estimates of the center view by each direction alone.
 struct DirectionalOrientations {
   Estimate horizontal, vertical;  ///< Confidence 0 everywhere if the grid has no such direction.
 };

@@ -13,7 +13,7 @@
 namespace episcope {
 namespace {
 
-// Pixels that the views contradict should follow their neighbours.
+// Pixels that the views contradict should follow their neighbors.
 constexpr float kDenoisedMinWeight = 0.003F;
 
 float least_weight(const EpiSParameters& parameters) {

@@ -32,8 +32,8 @@ struct EpiSParameters {
                                       const EpiSParameters& parameters, ViewSelection views,
                                       const Progress& progress, Device device = Device::Cpu);
 
-/// The same block by block: orientations in bands of rows, then views by themselves, which need up
-/// to 16 others each.
+/// Runs EPI_S block by block: orientations in bands of rows, then single views, each of which needs
+/// up to 16 others.
 [[nodiscard]] BlockwiseRun epi_s_in_blocks(const LightField& light_field,
                                            const EpiSParameters& parameters, ViewSelection views,
                                            const Progress& progress);

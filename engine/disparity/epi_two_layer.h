@@ -12,7 +12,7 @@
 
 namespace episcope {
 
-/// Parameters of EPI_TWO_LAYER: of the two layers and their denoising, and those of EPI_L for
+/// Parameters of EPI_TWO_LAYER: the two layers and their denoising, and the parameters of EPI_L for
 /// single orientations.
 struct EpiTwoLayerParameters {
   double decision = 0.15;
@@ -43,7 +43,7 @@ struct EpiTwoLayerParameters {
 ///    the fit of lines of one disparity (raise_by_line_fit), so that silhouettes are not taken for
 ///    two layers. e above `decision` speaks for two. Where the two are no surfaces
 ///    (layer_steadiness), one layer is taken, however badly its lines fit: noise and crossing
-///    silhouettes are not two layers, and there the result is that of EPI_S.
+///    silhouettes are not two layers, and there the result equals EPI_S.
 /// 3. The region of two layers in each view by TV segmentation of that score, weighted by max(r, c)
 ///    as far as it is above what noise alone reaches, with one layer where nothing else is seen
 ///    (`segment_binary`): a blank wall in the noise of a camera is not two walls.

@@ -24,8 +24,8 @@ enum class Profile { Tuned, Paper };
 inline constexpr const char* kProfileKey = "profile";
 inline constexpr const char* kPaperProfile = "paper";
 
-/// Chooses defaults of other parameters (Schema::preset): each method says which are those of the
-/// paper. What is given beside the profile wins.
+/// Chooses defaults of other parameters (Schema::preset): each method names the defaults of the
+/// paper. Values given beside the profile win.
 struct ProfileChoice {
   Profile profile = Profile::Tuned;
 };
@@ -37,7 +37,7 @@ enum class ViewSelection { All, Center };
 
 [[nodiscard]] Names<Device> names_of(Device);
 
-/// How a method is run, whichever it is.
+/// Options of a run that all methods share.
 struct RunOptions {
   ViewSelection views = ViewSelection::All;  ///< A method for single views estimates one anyway.
   Device device = Device::Auto;
@@ -46,22 +46,22 @@ struct RunOptions {
 
 [[nodiscard]] Schema<RunOptions> run_schema();
 
-/// Reads what has been made of a block so far: the maps of the pass before, as long as the pass has
-/// not replaced them, and one of those that were kept.
+/// Reads the state of a block: the maps of the previous pass, as long as this pass has not replaced
+/// them, and one of the kept maps.
 struct ReadBlock {
   std::function<BlockMaps(const MapBlock&)> maps;
   std::function<ViewStack<float>(const MapBlock&, int number)> kept;
   [[nodiscard]] BlockMaps operator()(const MapBlock& block) const { return maps(block); }
 };
 
-/// How the maps are cut: into bands of rows of all views, or into views.
+/// Cut of the maps: bands of rows of all views, or single views.
 enum class BlockUnit { Rows, Views };
 
-/// What a block becomes.
+/// Result of a block.
 struct FinishedBlock {
   BlockMaps maps;
-  double finding = 0;                ///< Something of which the largest of all blocks is wanted.
-  std::vector<double> facts{};       ///< For all further blocks; empty = nothing new.
+  double finding = 0;                ///< Value whose maximum over all blocks is reported.
+  std::vector<double> facts{};       ///< Passed on to all further blocks; empty = nothing new.
   std::vector<std::string> notes{};  ///< For the estimate.
 };
 
@@ -100,8 +100,7 @@ struct BlockwiseRun {
   std::function<std::vector<std::string>(const BlockProgress& end)> notes;
 };
 
-/// What pixels that hold nothing (LightField::valid) mean for estimates. A light field without a
-/// mask leaves everything as it is.
+/// Invalid pixels (LightField::valid) in estimates. A light field without a mask changes nothing.
 
 /// Sets maps of some views of the light field, whole or rows from `first_row` on, to 0 where its
 /// pixels are invalid.
@@ -111,7 +110,7 @@ void clear_invalid(const LightField& light_field, ViewStack<std::uint8_t>& maps,
 /// Marks the results of invalid pixels as not valid; sets their confidence and number of layers to
 /// 0.
 void mark_invalid(const LightField& light_field, Estimate& estimate);
-/// The same of a block that begins with row `first_row`.
+/// Marks a block that begins with row `first_row`.
 void mark_invalid(const LightField& light_field, int first_row, BlockMaps& block);
 
 /// Number of valid pixels of a view.
@@ -123,7 +122,7 @@ struct EstimatorInfo {
   std::string name;        ///< As in the paper: "EPI_L".
   std::string summary;     ///< One line.
   std::string reference;   ///< Authors, year, key in resources/references.bib.
-  bool all_views = false;  ///< Estimates every view at once; else one, the centre by default.
+  bool all_views = false;  ///< Estimates every view at once; else one, the center by default.
   bool iterative = false;  ///< Ends early with what it has (Progress::finish_requested).
   int revision = 1;  ///< Grows whenever results change: kept benchmark results are then renewed.
   std::vector<Device> devices = {Device::Cpu};  ///< Where it can compute.
@@ -134,8 +133,8 @@ struct EstimatorInfo {
 /// Throws Unavailable if the method cannot compute there; with Device::Auto it always can.
 void require_device(Device device, const EstimatorInfo& info);
 
-/// Where a method computes that was asked to on `device`: the CPU or CUDA. Auto takes CUDA where
-/// the method and the machine have it.
+/// The device that a method runs on: the CPU or CUDA. Auto takes CUDA where the method and the
+/// machine have it.
 [[nodiscard]] Device chosen_device(Device device, const EstimatorInfo& info);
 
 /// A disparity estimator: pure, no globals, no files. Values of this type come from

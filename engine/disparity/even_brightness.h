@@ -21,8 +21,8 @@ struct EvenLightField {
 
 /// The views in one brightness: orientations of lines and differences between views, of which most
 /// methods are made, take a gain for structure. A copy without the gains (measure_view_gains), if
-/// one of them differs by more than 2 % from that of the centre view; nothing else. Nothing of
-/// light fields that were read with kKeepBrightness. Measured, for which those on disk are read as
+/// one of them differs by more than 2 % from the gain of the center view; else nothing. Light
+/// fields read with kKeepBrightness stay as they are. Measured, for which those on disk are read as
 /// a whole, and copied once, to disk if it does not fit, and kept with the light field
 /// (LightField::beside). Throws Cancelled, IoError if there is no room on the disk.
 [[nodiscard]] std::shared_ptr<const std::optional<EvenLightField>> even_brightness(

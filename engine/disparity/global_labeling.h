@@ -15,7 +15,7 @@
 namespace episcope {
 
 /// How a disparity is interpolated between labels from the costs of its label and the two
-/// neighbouring labels: not at all, at the vertex of a parabola, or where two lines of equal slope
+/// neighboring labels: not at all, at the vertex of a parabola, or where two lines of equal slope
 /// meet (for costs like |·|).
 enum class Refinement { None, Parabola, Equiangular };
 [[nodiscard]] Names<Refinement> names_of(Refinement);

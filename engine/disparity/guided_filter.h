@@ -11,7 +11,7 @@
 namespace episcope {
 
 /// What the guided filter knows of a view: samples, their means and inverse covariances over
-/// windows of (2·radius + 1)² pixels. Immutable; 48 bytes per pixel (12 for grey views).
+/// windows of (2·radius + 1)² pixels. Immutable; 48 bytes per pixel (12 for gray views).
 class GuideImage {
  public:
   /// `regularization` is added to the variances, samples in [0, 1]: contrast below its root is
@@ -48,10 +48,10 @@ class GuideImage {
 };
 
 /// Filters every layer of a volume by the guided filter (a local affine model of the layer in the
-/// colours of the guide): averages over windows, but not across edges of the guide. Not
+/// colors of the guide): averages over windows, but not across edges of the guide. Not
 /// thread-safe: use one object per thread.
 ///
-/// Applied to matching costs it gathers evidence from neighbours on the same surface.
+/// Applied to matching costs it gathers evidence from neighbors on the same surface.
 /// Reference: He, Sun, Tang 2013 [HST13]; for costs, Rhemann et al. 2011 [RHBRG11].
 class GuidedFilter {
  public:

@@ -25,7 +25,7 @@ bool agree(float a, float b) {
   return std::abs(a - b) <= kAgreement_px;
 }
 
-// A map with a margin that agrees with nothing, so that every pixel has all its neighbours.
+// A map with a margin that agrees with nothing, so that every pixel has all its neighbors.
 class Surroundings {
  public:
   static constexpr int kMargin = 2;
@@ -68,7 +68,7 @@ class Surroundings {
   Volume<float> padded_;
 };
 
-// How many of its neighbours agree with a pixel.
+// How many of its neighbors agree with a pixel.
 int agreeing(const Surroundings& map, int y, int x) {
   const float* const above = map.row(y - 1) + x;
   const float* const here = map.row(y) + x;
@@ -79,7 +79,7 @@ int agreeing(const Surroundings& map, int y, int x) {
          int{agree(below[0], own)} + int{agree(below[1], own)};
 }
 
-// Of a pixel with which one neighbour agrees, or none.
+// Of a pixel with which one neighbor agrees, or none.
 bool is_island(const Surroundings& map, Offset at) {
   const float own = map.row(at.y)[at.x];
   if (!std::isfinite(own)) return false;
@@ -132,7 +132,7 @@ Schema<IslandParameters> island_schema() {
   return Schema<IslandParameters>().flag(
       kIslandsKey, &IslandParameters::islands,
       {"Fill islands",
-       "One or two pixels nearer than all their neighbours, or farther, take the median of these; "
+       "One or two pixels nearer than all their neighbors, or farther, take the median of these; "
        "off, as in the paper"});
 }
 

@@ -143,7 +143,7 @@ int LabelExpansion::number_nodes(int alpha) {
 
 CutGraph LabelExpansion::build(int alpha, int nodes, const Progress& progress) const {
   CutGraph graph(nodes);
-  // Two neighbours and about two pixels of other views each.
+  // Two neighbors and about two pixels of other views each.
   graph.reserve(4 * static_cast<std::size_t>(nodes));
   const int height = labels_[0].height();
   for (int view = 0; view < energy_.views(); ++view) {
@@ -375,8 +375,8 @@ Schema<Kz02Parameters> kz02_schema() {
       .part(&P::matching, matching_schema())
       .real("smoothness", &P::smoothness,
             {"Smoothness λ",
-             "Cost of a jump by one label between neighbours, as a multiple of K; "
-             "three times as much where they have the same colour"},
+             "Cost of a jump by one label between neighbors, as a multiple of K; "
+             "three times as much where they have the same color"},
             {0, 4})
       .integer("truncation", &P::truncation,
                {"Truncation T", "Jumps by more labels cost no more", "labels"}, {1, 64, true})
@@ -387,7 +387,7 @@ Schema<Kz02Parameters> kz02_schema() {
                "How the disparity is interpolated between labels, from the costs over all views"})
       .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .view("view", &P::view,
-            {"View", "Row and column of the view to estimate; auto = centre view"})
+            {"View", "Row and column of the view to estimate; auto = center view"})
       .search("smoothness", {0.005, 0.01, 0.02, 0.05, 0.2})
       .search("distance", {2, 3, 4})
       .preset(kProfileKey, kPaperProfile,

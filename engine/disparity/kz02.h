@@ -94,7 +94,7 @@ struct Kz02Parameters {
 
 /// KZ02: multi-camera scene reconstruction via graph cuts. Labels of one view and of up to four
 /// side views, left, right, above and below it, are found together: pixels of two views that have
-/// the label at which both see the same point gain by it the more they look alike, neighbours of a
+/// the label at which both see the same point gain by it the more they look alike, neighbors of a
 /// view should have similar labels, and no pixel may look through what another view sees
 /// (MultiCameraEnergy). The energy is lowered by α-expansions (LabelExpansion) from the farthest
 /// label on until no label lowers it further, or for `cycles` rounds; the order of labels is coarse

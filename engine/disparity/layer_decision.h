@@ -7,11 +7,10 @@
 
 namespace episcope {
 
-/// The disparity range that a method for two layers should search: as `search_range`, but where the
-/// range must be estimated from the light field, it is extended to the layers of those pixels of
-/// the centre view whose two orientations, searched on every few tiles over ±`limit`, are
-/// unambiguous: pixels behind a second surface are not coherent for any single disparity.
-/// Throws as `require_double_grid`, Cancelled.
+/// Disparity range that a method for two layers should search, as `search_range`. A range that is
+/// found from the light field is extended to the layers of unambiguous pixels: of the center view,
+/// on every few tiles, over ±`limit`. Pixels behind a second surface are not coherent for any
+/// single disparity. Throws as `require_double_grid`, Cancelled.
 [[nodiscard]] Interval search_layer_range(const LightField& light_field,
                                           const EpiLParameters& parameters,
                                           const TensorScales& double_scales,
@@ -29,8 +28,8 @@ class LayerScore {
   LayerScore(const PackedViews& packed, GridShape grid, double decision);
 
   /// Fills `score`, in [−1, 1] and positive for two layers, and `weight`, how much is seen there.
-  /// `fit` is the coherence of one orientation `single` before lines were checked, `confidence`
-  /// that of two orientations near ≥ far, in 1/255. All are `[y][x]` of one size.
+  /// `fit` is the coherence of one orientation `single` before lines were checked, `confidence` is
+  /// the confidence of two orientations near ≥ far, in 1/255. All are `[y][x]` of one size.
   struct Maps {
     ImageView<const float> fit, single, near, far;
     ImageView<const std::uint8_t> confidence;

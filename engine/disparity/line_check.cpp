@@ -92,7 +92,7 @@ namespace {
 
 constexpr int kChoiceBandRows = 48;
 
-// The rows of a map with their ends repeated, so that all neighbours can be read.
+// The rows of a map with their ends repeated, so that all neighbors can be read.
 Image<float> padded_map(ImageView<const float> map) {
   Image<float> wide(map.height, map.width + 2 * kSideReach + kSideSlack);
   for (int y = 0; y < map.height; ++y) {
@@ -176,9 +176,9 @@ SideChooser::SideChooser(const PackedViews& views, float variance, const Before&
 void SideChooser::find_sides(int j) {
   has_jump_[j] = false;
   if (!is_inside(j)) return;
-  NeighbourRow row;
+  NeighborRow row;
   row.width = width_;
-  for (int k = 0; k < kSideNeighbours; ++k) {
+  for (int k = 0; k < kSideNeighbors; ++k) {
     const int y = std::clamp(begin_ + j + kSideOffsets.at[k][0], 0, height_ - 1);
     const int x = kSideReach + kSideOffsets.at[k][1];
     row.disparity[k] = before_.disparity.row(y) + x;
@@ -198,7 +198,7 @@ void SideChooser::find_sides(int j) {
   }
 }
 
-// Residuals and colours of a row, if a row that it votes on has a jump.
+// Residuals and colors of a row, if a row that it votes on has a jump.
 void SideChooser::measure(int j, int rows) {
   const auto first = has_jump_.begin() + std::max(j - kVoteRadius, 0);
   const auto last = has_jump_.begin() + std::min(j + kVoteRadius + 1, rows);
@@ -275,7 +275,7 @@ void choose_sides(const PackedViews& views, float variance, ViewStack<float>& di
 
 namespace {
 
-// Rows of packed samples, each with the nearest neighbours before and after it in place of those
+// Rows of packed samples, each with the nearest neighbors before and after it in place of those
 // beyond the border: see GradientRow.
 class MirroredRows {
  public:
@@ -388,8 +388,8 @@ Schema<LineCheck> line_check_schema() {
              "fits, in half of the views at least"})
       .flag("check_lines", &LineCheck::is_on,
             {"Check lines",
-             "Reduce the confidence of estimates where other views show a different colour along "
-             "the line, or where the texture belongs to a neighbouring pixel"});
+             "Reduce the confidence of estimates where other views show a different color along "
+             "the line, or where the texture belongs to a neighboring pixel"});
 }
 
 void check_lines(const LightField& lf, const LineCheck& check, Estimate& estimate,

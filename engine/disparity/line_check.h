@@ -15,8 +15,8 @@
 namespace episcope {
 
 /// Computes how well rays agree with their lines, row by row of one view after the other; one per
-/// thread. The residual of a ray of disparity d is the mean squared colour difference (samples in
-/// [0, 1], squares summed over channels) between it and its line in up to four neighbouring views
+/// thread. The residual of a ray of disparity d is the mean squared color difference (samples in
+/// [0, 1], squares summed over channels) between it and its line in up to four neighboring views
 /// on one side, the minimum over the four sides; infinite where too few views on every side show
 /// the line. In an opaque scene a line can only be hidden by something nearer, and seldom on all
 /// sides.
@@ -38,7 +38,7 @@ class LineResiduals {
   ResidualRow row_;
 };
 
-/// The variance of the noise, summed over channels: the median residual of the centre view, which
+/// The variance of the noise, summed over channels: the median residual of the center view, which
 /// `disparity` must cover. 0 if no ray has a residual.
 [[nodiscard]] float residual_noise(const PackedViews& views, const ViewStack<float>& disparity);
 /// The median residual of another view.
@@ -50,25 +50,25 @@ class LineResiduals {
 /// of the background (foreground fattening), where a line of the background is visible in half of
 /// the views only.
 ///
-/// Besides its own disparity d, a ray can take the least or the largest of those of 12 neighbours,
+/// Besides its own disparity d, a ray can take the least or the largest disparity of 12 neighbors,
 /// 3 px away in the eight directions of the grid (diagonally 3 in x and y) and 6 px away in four;
-/// the least only of those that have 0.2 times its confidence.
+/// the least only of neighbors that have 0.2 times its confidence.
 /// Each of the three is judged by the residuals of its map (LineResiduals, which sees lines by
 /// halves), at most 3·(n² + 1/255²), summed over 5×5 pixels with weights (1 − t/4)⁴,
-/// t = |difference of colour|²/(2σ²), σ² = (8/255)² + 2n², 0 where t > 4; n² is the median residual
-/// of the centre view (residual_noise). The far side wins if its sum is below 0.95 of the own one
+/// t = |difference of color|²/(2σ²), σ² = (8/255)² + 2n², 0 where t > 4; n² is the median residual
+/// of the center view (residual_noise). The far side wins if its sum is below 0.95 of the own one
 /// and not above the near one's, else the near side if its sum is below 0.8 of the own one: windows
 /// fatten the foreground, not the background. Sides less than 0.2 px from d do not count. The ray
 /// takes disparity and confidence of the winner. A ray that stays more than 0.5 px in front of the
-/// far side keeps its confidence only as far as the lines tell: 0.25 + 1.5·(far/own − 1) of it, at
-/// most all, far and own being the sums. All rays are judged by the
-/// estimate before the call, so the order of processing does not matter.
+/// far side keeps only the part of its confidence that the lines support: 0.25 + 1.5·(far/own − 1)
+/// of it, at most all, far and own being the sums. All rays are judged by the estimate before the
+/// call, so the order of processing does not matter.
 ///
-/// `estimate.field` and `estimate.confidence` cover the centre view. Throws Cancelled. Evidence:
+/// `estimate.field` and `estimate.confidence` cover the center view. Throws Cancelled. Evidence:
 /// tests/accuracy/tuning.md.
 void choose_sides(const PackedViews& packed_views, Estimate& estimate, const Progress& progress);
 
-/// The same for maps of any views, given the noise n².
+/// Chooses sides in maps of any views, given the noise n².
 void choose_sides(const PackedViews& packed_views, float noise, ViewStack<float>& disparity,
                   ViewStack<float>& confidence, const Progress& progress);
 
@@ -79,33 +79,32 @@ void choose_sides(const PackedViews& packed_views, float noise, ViewStack<float>
 /// window that straddles it reports the foreground's disparity for background pixels (foreground
 /// fattening), which coherence alone does not detect.
 ///
-/// t_line = s²/(s² + max(0, e − n²)): e is the mean squared colour difference between the pixel and
-/// its line in up to four neighbouring views on one side, the minimum over the four sides. In an
+/// t_line = s²/(s² + max(0, e − n²)): e is the mean squared color difference between the pixel and
+/// its line in up to four neighboring views on one side, the minimum over the four sides. In an
 /// opaque scene a line can only be hidden by something nearer, and seldom on all sides: a disparity
-/// that no side confirms is wrong. n² is the median of e over the centre view, the noise; s² =
+/// that no side confirms is wrong. n² is the median of e over the center view, the noise; s² =
 /// (1/255)² + n².
 ///
 /// t_texture = min(1, 4·(own + s²)/(window + s²)): `window` is the mean squared gradient over 5×5
-/// px, `own` that of the pixel, along each axis the smaller of its two differences. A pixel without
-/// texture of its own beside a strong edge has been given the edge's orientation.
+/// px, `own` the gradient of the pixel, along each axis the smaller of its two differences. A pixel
+/// without texture of its own beside a strong edge has been given the edge's orientation.
 ///
 /// Pixels of other views that are not valid (LightField::valid) do not count for t_line.
 ///
-/// The estimate must cover the centre view. Memory: 4 bytes per ray of the light field. Throws
+/// The estimate must cover the center view. Memory: 4 bytes per ray of the light field. Throws
 /// Cancelled. Evidence: tests/accuracy/tuning.md.
 void reduce_confidence(const LightField& light_field, Estimate& estimate, const Progress& progress);
 
-/// The same with views that are already packed (pack_views), for several estimates of one light
-/// field.
+/// Takes views that are already packed (pack_views), for several estimates of one light field.
 void reduce_confidence(const PackedViews& packed_views, Estimate& estimate,
                        const Progress& progress);
 
-/// The same for maps of any views, given the noise n².
+/// Lowers the confidence of maps of any views, given the noise n².
 void reduce_confidence(const PackedViews& packed_views, float noise,
                        const ViewStack<float>& disparity, ViewStack<float>& confidence,
                        const Progress& progress);
 
-/// What a method does where the views contradict a local estimate.
+/// Steps of a method where the views contradict a local estimate.
 struct LineCheck {
   bool chooses_sides = true;  ///< choose_sides
   bool is_on = true;          ///< reduce_confidence
@@ -113,21 +112,21 @@ struct LineCheck {
 };
 [[nodiscard]] Schema<LineCheck> line_check_schema();
 
-/// Does it: sides are chosen first. Throws Cancelled.
+/// Runs the steps, sides first. Throws Cancelled.
 void check_lines(const PackedViews& packed_views, const LineCheck& check, Estimate& estimate,
                  const Progress& progress);
 
-/// What a check of some views has to know of the centre view: the noise that sides are chosen by,
-/// then the noise that confidence is reduced by. `center` holds the maps of that view.
+/// Noise of the center view that a check of some views needs: first for choosing sides, then for
+/// reducing confidence. `center` holds the maps of that view.
 [[nodiscard]] std::vector<double> line_check_noise(const LightField& light_field,
                                                    const LineCheck& check, BlockMaps center,
                                                    const Progress& progress);
-/// Checks whole maps of any views, given that noise; `packed_views` are packed around them as far
-/// as kMaxArmViews. Throws Cancelled.
+/// Checks whole maps of any views, given that noise; `packed_views` hold up to kMaxArmViews around
+/// each. Throws Cancelled.
 void check_lines(const PackedViews& packed_views, const LineCheck& check,
                  const std::vector<double>& noise, BlockMaps& maps, const Progress& progress);
 
-/// The same, packing the views if need be, on a device. Throws DeviceFailure, Cancelled.
+/// Packs the views if need be and runs the steps on a device. Throws DeviceFailure, Cancelled.
 void check_lines(const LightField& light_field, const LineCheck& check, Estimate& estimate,
                  const Progress& progress, Device device = Device::Cpu);
 

@@ -192,7 +192,7 @@ struct MatchingCostRows::State {
     int y = 0, x = 0;
     int rows = 0, columns = 0;
   };
-  // Samples of a view around the tile, for neighbouring labels.
+  // Samples of a view around the tile, for neighboring labels.
   struct Window {
     int y = 0, x = 0;  // Offset of its first sample from the tile's first pixel.
     int rows = 0, columns = 0;

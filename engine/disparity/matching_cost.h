@@ -18,16 +18,16 @@
 
 namespace episcope {
 
-/// Which views are compared with the reference view: all (ST_AV), or those of its row and column of
-/// the camera grid, the cross-hair (ST_CH).
+/// Views that are compared with the reference view: all (ST_AV), or the views of its row and column
+/// of the camera grid, the cross-hair (ST_CH).
 enum class MatchedViews { All, CrossHair };
 
 /// How views are sampled between pixels. Cubic (Catmull-Rom) blurs less than bilinear, which makes
-/// labels that move a view by whole pixels look better than their neighbours.
+/// labels that move a view by whole pixels look better than their neighbors.
 enum class Interpolation { Bilinear, Cubic };
 [[nodiscard]] Names<Interpolation> names_of(Interpolation);
 
-/// What stands before the points of a view, as far as it is known.
+/// Known surfaces that stand before the points of a view.
 struct Occluders {
   /// The nearest surface in every view, px of disparity; −∞ where none is known.
   ViewStack<float> nearest;
@@ -67,7 +67,7 @@ class MatchingCostRows {
   ~MatchingCostRows();
   MatchingCostRows(MatchingCostRows&&) noexcept;
 
-  /// Costs of rows [y, y + costs.height) into `costs` (layers = labels, width = that of a view).
+  /// Costs of rows [y, y + costs.height) into `costs` (layers = labels, width of a view).
   /// Throws Cancelled on a stop request (checked every few milliseconds).
   void compute(int y, VolumeView<float> costs, const Progress& progress);
 
@@ -90,7 +90,7 @@ class MatchingCostRows {
 /// Memory: height · width · labels · 4 bytes. Throws InvalidInput as MatchingCostRows, Cancelled.
 ///
 /// The paper's equations leave open what happens to samples outside the image. They are skipped and
-/// the remaining ones renormalised; repeating the border would pull estimates towards it. Division
+/// the remaining ones renormalized; repeating the border would pull estimates towards it. Division
 /// by n keeps later weights independent of the number of views.
 /// Reference: the paper, equations (3) and (4).
 [[nodiscard]] Volume<float> matching_costs(const LightField& light_field, ViewIndex reference,

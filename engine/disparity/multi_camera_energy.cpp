@@ -102,9 +102,9 @@ void add_squares(const float* samples, const float* others, int count, float sca
 
 }  // namespace
 
-Names<Comparison> names_of(Comparison) {
-  return {{Comparison::BetweenPixels, "between_pixels", "between pixels"},
-          {Comparison::WholePixels, "whole_pixels", "whole pixels"}};
+Names<PixelComparison> names_of(PixelComparison) {
+  return {{PixelComparison::BetweenPixels, "between_pixels", "between pixels"},
+          {PixelComparison::WholePixels, "whole_pixels", "whole pixels"}};
 }
 
 Names<LimitRule> names_of(LimitRule) {
@@ -141,7 +141,7 @@ Interactions::Seen Interactions::differences(int side, int label, int y, float* 
   for (int c = 0; c < here.channels(); ++c) {
     const float* const p = here.row(c, y) + seen.first;
     const float* const q = other.row(c, at.y) + at.x + seen.first;
-    if (comparison_ == Comparison::WholePixels) {
+    if (comparison_ == PixelComparison::WholePixels) {
       add_squares(p, q, count, 1 / channels, out + seen.first);
     } else {
       add_squares(p, q, taps_at(beyond), step, count, 0.5F / channels, out + seen.first);
@@ -205,13 +205,13 @@ void Interactions::find_limit(LimitRule rule, const Progress& progress) {
 
 namespace {
 
-// Neighbours that differ less belong to one surface, so more speaks against a jump there.
+// Neighbors that differ less belong to one surface, so more speaks against a jump there.
 constexpr float kAlike = 8;
 constexpr std::int32_t kAlikeFactor = 3;
 
 // λ_pq of every pixel and the one `dy` rows below and `dx` columns to the right.
-Image<std::int32_t> neighbour_weights(const CameraImage& image, int height, int width, int dy,
-                                      int dx, std::int32_t weight) {
+Image<std::int32_t> neighbor_weights(const CameraImage& image, int height, int width, int dy,
+                                     int dx, std::int32_t weight) {
   Image<std::int32_t> weights(height, width);
   for (int y = 0; y < height - dy; ++y) {
     for (int x = 0; x < width - dx; ++x) {
@@ -232,8 +232,8 @@ MultiCameraEnergy::MultiCameraEnergy(const Interactions& interactions, CameraSmo
   const int height = interactions.height(), width = interactions.width();
   for (int view = 0; view <= static_cast<int>(interactions.sides().size()); ++view) {
     const CameraImage& image = interactions.image(view);
-    to_right_.push_back(neighbour_weights(image, height, width, 0, 1, smoothness.weight));
-    below_.push_back(neighbour_weights(image, height, width, 1, 0, smoothness.weight));
+    to_right_.push_back(neighbor_weights(image, height, width, 0, 1, smoothness.weight));
+    below_.push_back(neighbor_weights(image, height, width, 1, 0, smoothness.weight));
   }
 }
 

@@ -57,8 +57,8 @@ class CameraImage {
 
 /// How the intensities of two pixels that see one point are compared: each with the other view,
 /// interpolated cubically at the exact place, and averaged; or as they are, at whole pixels [KZ02].
-enum class Comparison { BetweenPixels, WholePixels };
-[[nodiscard]] Names<Comparison> names_of(Comparison);
+enum class PixelComparison { BetweenPixels, WholePixels };
+[[nodiscard]] Names<PixelComparison> names_of(PixelComparison);
 
 /// How K is found: from noise, as three times the median of the least difference that a pixel has
 /// at any label, at least 30, the value of [KZ02]; or as the mean of the difference that a quarter
@@ -68,7 +68,7 @@ enum class LimitRule { Noise, Quarter };
 
 /// What pixels must fulfil to interact.
 struct Matching {
-  Comparison comparison = Comparison::BetweenPixels;
+  PixelComparison comparison = PixelComparison::BetweenPixels;
   double limit = 0;  ///< K, (1/255)²; 0 = found by `rule`.
   LimitRule rule = LimitRule::Noise;
 };
@@ -107,14 +107,14 @@ class Interactions {
 
   int height_;
   int width_;
-  Comparison comparison_;
+  PixelComparison comparison_;
   double limit_;  // K
   std::vector<SideView> sides_;
   std::vector<CameraImage> images_;
 };
 
-/// The smoothness term of [KZ02]: λ_pq min(|f_p − f_q|, T) between the four neighbours of a pixel,
-/// in each view. λ_pq is three times λ where the intensities of the neighbours differ by less than
+/// The smoothness term of [KZ02]: λ_pq min(|f_p − f_q|, T) between the four neighbors of a pixel,
+/// in each view. λ_pq is three times λ where the intensities of the neighbors differ by less than
 /// 8/255 in every channel [KMT14].
 struct CameraSmoothness {
   std::int32_t weight = Interactions::kUnit / 5;  ///< λ ≥ 0 in units of Interactions.
@@ -126,7 +126,7 @@ using CameraLabels = std::vector<Image<std::int16_t>>;
 
 /// The energy of [KZ02] of a labeling of several views at once:
 ///   E = Σ D(p, q) + Σ λ_pq min(|f_p − f_q|, T) + E_visibility.
-/// The first sum runs over interacting pixels with the same label, the second over neighbours in
+/// The first sum runs over interacting pixels with the same label, the second over neighbors in
 /// one view. The last is infinite if a pixel claims to look through a point that another view sees:
 /// if p has label l, the pixel of the other view on which that point falls must have l or more.
 class MultiCameraEnergy {
@@ -136,7 +136,7 @@ class MultiCameraEnergy {
   [[nodiscard]] const Interactions& interactions() const { return interactions_; }
   [[nodiscard]] int views() const { return static_cast<int>(to_right_.size()); }
   [[nodiscard]] int truncation() const { return truncation_; }
-  /// λ_pq of a pixel and its neighbour to the right, below. 0 at the border.
+  /// λ_pq of a pixel and its neighbor to the right, below. 0 at the border.
   [[nodiscard]] const std::int32_t* to_right(int view, int y) const {
     return to_right_[view].row(y);
   }

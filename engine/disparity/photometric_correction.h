@@ -9,7 +9,7 @@
 
 namespace episcope {
 
-/// How the brightness of views differs from that of one of them.
+/// Differences in brightness between the views and a reference view.
 struct Brightness {
   /// Of every view and channel, 1 for the reference; alike of a single channel; empty = all 1.
   std::vector<std::array<double, 3>> gains;
@@ -21,7 +21,7 @@ struct Brightness {
 
 /// Gains by the means of whole views alone, before anything is known of their disparity. Objects
 /// that come into a view change its mean as well, but steadily from view to view: where means are
-/// off the mean of their neighbours' in a row by no more than 0.5 % gains would explain, all gains
+/// off the mean of their neighbors' in a row by no more than 0.5 % gains would explain, all gains
 /// are 1. Throws Cancelled.
 [[nodiscard]] Brightness brightness_of_means(const LightField& light_field, ViewIndex reference,
                                              const Progress& progress);

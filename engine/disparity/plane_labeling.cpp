@@ -46,17 +46,17 @@ Schema<JumpLabelingParameters> jump_labeling_schema() {
   using P = JumpLabelingParameters;
   return Schema<P>()
       .real("smoothness", &P::smoothness,
-            {"Smoothness", "Cost of a px by which neighbours differ, relative to the cap"},
+            {"Smoothness", "Cost of a px by which neighbors differ, relative to the cap"},
             {0.001, 100})
       .real("jump", &P::jump,
-            {"Jump", "No pair of neighbours pays for a larger difference than this", "px"},
+            {"Jump", "No pair of neighbors pays for a larger difference than this", "px"},
             {0.001, 20})
       .real("edge_strength", &P::edge_strength,
             {"Edge strength β",
-             "A pair of neighbours is weighted by exp(−β·|difference of their colours|)"},
+             "A pair of neighbors is weighted by exp(−β·|difference of their colors|)"},
             {0, 100})
       .real("least_weight", &P::least_weight,
-            {"Least weight", "The least weight of a pair of neighbours"}, {0, 1})
+            {"Least weight", "The least weight of a pair of neighbors"}, {0, 1})
       .integer("passes", &P::passes, {"Passes", "Iterations of the labeling"}, {1, 200, true});
 }
 
@@ -177,7 +177,7 @@ Schema<PlaneRefinementParameters> plane_refinement_schema() {
              "px"},
             {0, 20})
       .real("bend", &P::bend,
-            {"Bend", "Cost of a bend against that of a jump in the final denoising", "px"},
+            {"Bend", "Relative cost of curvature to jumps in the final denoising", "px"},
             {0.01, 100, true})
       .integer("tgv_iterations", &P::tgv_iterations,
                {"TGV² iterations", "Number of iterations of the final denoising"}, {1, 5000, true});
@@ -211,7 +211,7 @@ namespace {
 constexpr int kMedianRadius = 4;
 constexpr int kBand = 3;
 constexpr float kJump_px = 0.2F;
-// σ of colours, as a share of their spread, and at most, in three channels.
+// σ of colors, as a share of their spread, and at most, in three channels.
 constexpr double kShareOfSpread = 0.25;
 constexpr double kMostSigma = 0.08;
 constexpr double kLeastSigma = 1e-3;

@@ -40,14 +40,14 @@ void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementPara
 /// How labels are chosen before they are placed between each other.
 struct JumpLabelingParameters {
   double smoothness = 0.5;    ///< α, per px of difference, in units of the cap.
-  double jump = 0.3;          ///< τ / α, px: no pair of neighbours pays for more.
+  double jump = 0.3;          ///< τ / α, px: no pair of neighbors pays for more.
   double edge_strength = 20;  ///< β.
   double least_weight = 0.1;  ///< Of a pair across an edge.
   int passes = 8;
 };
 [[nodiscard]] Schema<JumpLabelingParameters> jump_labeling_schema();
 
-/// Weights of pairs of neighbours, `[y][x]`: max(least, exp(−β·|difference of the two|)). Throws
+/// Weights of pairs of neighbors, `[y][x]`: max(least, exp(−β·|difference of the two|)). Throws
 /// Cancelled.
 struct PairWeights {
   Image<float> across, down;
@@ -63,7 +63,7 @@ std::string label_with_jumps(const PlaneRefinementData& data, const PairWeights&
                              ImageView<float> disparity);
 
 /// Moves silhouettes to the edges of the view: each pixel within 3 px of a jump of `disparity` (by
-/// more than 0.2 px between neighbours) takes the median of the 9×9 px around it, weighted by
+/// more than 0.2 px between neighbors) takes the median of the 9×9 px around it, weighted by
 /// exp(−|ΔI|²/2σ²), |ΔI| the Euclidean difference of samples in [0, 1], σ a quarter of their spread
 /// over the view, at most 0.08, and by exp(−r²/2ρ²), ρ = 1.7 px. Pixels that are not valid neither
 /// count nor change. Evidence: tests/accuracy/tuning.md. Throws Cancelled.

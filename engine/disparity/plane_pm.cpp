@@ -297,7 +297,7 @@ class PlaneBlocks {
     const PackedViews packed = pack_rows(compared, first, end, progress.part(0.1, 0.2));
     FinishedBlock made{read(block)};
     choose_propagated_sides({packed, before, first, maps_.height}, cap_, block.first_row,
-                         made.maps.field.disparity, progress.part(0.2, 1));
+                            made.maps.field.disparity, progress.part(0.2, 1));
     for (const Estimate& map : known_) {
       put_map(map, block.first_row, made.maps.field.disparity, made.maps.confidence);
     }
@@ -522,7 +522,7 @@ Schema<PlaneParameters> plane_pm_schema() {
              "corners, where there are any"})
       .flag("silhouettes", &P::silhouettes,
             {"Place silhouettes",
-             "Beside jumps, take the median of the surroundings, weighted by likeness of colour"})
+             "Beside jumps, take the median of the surroundings, weighted by likeness of color"})
       .part(&P::islands, island_schema())
       .search("smoothness", {0.75, 1.5, 3})
       .search("rounds", {0, 1, 2});
@@ -555,8 +555,8 @@ Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters
   estimate.confidence = std::move(carried.confidence);
   const LightField& compared = data.light_field();
   const PackedViews packed = pack_views(compared, progress.part(0.92, 0.93));
-  choose_propagated_sides(packed, propagated_cap(compared, from, progress.part(0.93, 0.931)), estimate,
-                       progress.part(0.931, 1));
+  choose_propagated_sides(packed, propagated_cap(compared, from, progress.part(0.93, 0.931)),
+                          estimate, progress.part(0.931, 1));
   for (const Estimate& map : maps) put_map(map, 0, estimate.field.disparity, estimate.confidence);
   estimate.notes.push_back(propagated_note(maps.size()));
   return estimate;

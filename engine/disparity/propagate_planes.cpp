@@ -163,14 +163,14 @@ void carry(const std::vector<Estimate>& maps, ViewIndex to, const Target& out) {
 
 }  // namespace
 
-CarriedMaps carry_to_views(const std::vector<Estimate>& maps, ViewRectangle views,
-                           const Progress& progress) {
+PropagatedMaps propagate_to_views(const std::vector<Estimate>& maps, ViewRectangle views,
+                                  const Progress& progress) {
   if (maps.empty()) throw InvalidInput("there is no map to carry to other views");
   const ViewStack<float>& map = maps.front().field.disparity;
   const auto stack = [&] {
     return ViewStack<float>(views.grid, map.height(), map.width(), 1, views.first);
   };
-  CarriedMaps all{stack(), stack()};
+  PropagatedMaps all{stack(), stack()};
   progress.step("carrying to other views");
   parallel_for(views.grid.count(), progress, [&](int i) {
     const ViewIndex view = views.grid.view_at(i, views.first);
@@ -190,7 +190,7 @@ void put_map(const Estimate& map, int first_row, ViewStack<float>& disparity,
   put(map.confidence, confidence);
 }
 
-std::string carried_note(std::size_t views) {
+std::string propagated_note(std::size_t views) {
   return fmt::format("carried to all views from {} of them", views);
 }
 
@@ -203,7 +203,7 @@ constexpr float kHidingTolerance = 0.2F;
 constexpr float kAdvantage = 0.95F;
 // Between samples of one point without noise.
 constexpr double kSmallDifference = 0.015;
-// By so much differs the colour of a neighbour that counts 1/e.
+// By so much differs the color of a neighbor that counts 1/e.
 constexpr float kCarriedColorScale = 8.0F / 255;
 
 using Color = std::array<float, 3>;
@@ -227,7 +227,7 @@ struct Sides {
 // Decides bands of rows of one view; one per thread.
 class Chooser {
  public:
-  Chooser(const CarriedRows& rows, float cap, ViewIndex view)
+  Chooser(const PropagatedRows& rows, float cap, ViewIndex view)
       : views_(rows.views),
         before_(rows.before),
         first_row_(rows.first_row),
@@ -321,7 +321,7 @@ class Chooser {
     return all;
   }
 
-  // Which of the sides of a pixel those of its neighbours stand for is told by their disparity.
+  // Which of the sides of a pixel those of its neighbors stand for is told by their disparity.
   bool other_wins(int y, int x) {
     const Sides& here = at(y, x);
     const bool is_near = here.disparity[0] > here.disparity[1];
@@ -353,15 +353,15 @@ class Chooser {
 
 }  // namespace
 
-void choose_carried_sides(const PackedViews& views, float cap, Estimate& estimate,
-                          const Progress& progress) {
+void choose_propagated_sides(const PackedViews& views, float cap, Estimate& estimate,
+                             const Progress& progress) {
   ViewStack<float>& disparity = estimate.field.disparity;
   const ViewStack<float> before = disparity.clone();
-  choose_carried_sides({views, before, 0, disparity.height()}, cap, 0, disparity, progress);
+  choose_propagated_sides({views, before, 0, disparity.height()}, cap, 0, disparity, progress);
 }
 
-void choose_carried_sides(const CarriedRows& rows, float cap, int begin,
-                          ViewStack<float>& disparity, const Progress& progress) {
+void choose_propagated_sides(const PropagatedRows& rows, float cap, int begin,
+                             ViewStack<float>& disparity, const Progress& progress) {
   const GridShape grid = disparity.grid();
   const int end = begin + disparity.height();
   const int bands = (disparity.height() + kCarriedBandRows - 1) / kCarriedBandRows;
@@ -378,13 +378,13 @@ void choose_carried_sides(const CarriedRows& rows, float cap, int begin,
   }
 }
 
-int carried_reach(GridShape grid, double farthest) {
+int propagated_reach(GridShape grid, double farthest) {
   const int steps = std::max(grid.v, grid.u) - 1;
-  // Sides of neighbours, what they are found from, and the sample below a place.
+  // Sides of neighbors, what they are found from, and the sample below a place.
   return 2 * kCarriedRadius + static_cast<int>(std::ceil(farthest * steps)) + 1;
 }
 
-float carried_cap(const LightField& lf, ViewIndex view, const Progress& progress) {
+float propagated_cap(const LightField& lf, ViewIndex view, const Progress& progress) {
   const double variance = view_noise_variance(lf, view, progress);
   return static_cast<float>(kSmallDifference + 2 * std::sqrt(3 * variance));
 }

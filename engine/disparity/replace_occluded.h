@@ -13,8 +13,8 @@ namespace episcope {
 /// meets something farther by more than 0.1 px, of at least its own confidence, in a quarter of
 /// up to 16 views (four on each side in its row and column of the grid), at least two, takes the
 /// median of the disparities met there, unless that contradicts the samples: its residual
-/// (LineResiduals) may be larger than that of the ray's own disparity by 0.3·(n² + 1/255²) at most,
-/// n² the residual noise of the centre view (residual_noise). All rays are judged by the
+/// (LineResiduals) may exceed the residual of the ray's own disparity by 0.3·(n² + 1/255²) at most,
+/// n² the residual noise of the center view (residual_noise). All rays are judged by the
 /// disparities before the call, so the order of processing does not matter.
 ///
 /// This moves an edge that all views show with the motion of the background, where no step of a
@@ -25,17 +25,16 @@ namespace episcope {
 long replace_occluded(const PackedViews& packed_views, ViewStack<float>& disparity,
                       const ViewStack<float>& confidence, const Progress& progress);
 
-/// The noise that rays are judged by, of the centre view, whose packed views and disparity are
-/// given.
+/// Noise of the center view that rays are judged by, from its packed views and disparity.
 [[nodiscard]] float replacement_noise(const PackedViews& packed_views, ViewIndex center,
                                       ImageView<const float> disparity);
-/// The same for the views of `disparity`, given that noise, from maps and packed views that cover
-/// four views around each of them in its row and column.
+/// Replaces rays in the views of `disparity`, given that noise. Maps and packed views cover four
+/// views around each of them in its row and column.
 long replace_occluded(const PackedViews& packed_views, float noise, const ViewStack<float>& before,
                       const ViewStack<float>& confidence, ViewStack<float>& disparity,
                       const Progress& progress);
 
-/// The same, packing the views first, on a device. Throws DeviceFailure, Cancelled.
+/// Packs the views first and replaces rays on a device. Throws DeviceFailure, Cancelled.
 void replace_occluded(const LightField& light_field, ViewStack<float>& disparity,
                       const ViewStack<float>& confidence, const Progress& progress, Device device);
 

@@ -8,17 +8,16 @@
 
 namespace episcope {
 
-/// Keeps the maps of an estimate while it is made, and how far it has come, both beyond the end of
-/// the program.
+/// Keeps the maps of an unfinished estimate and its progress beyond the end of the program.
 class BlockStore {
  public:
   virtual ~BlockStore() = default;
-  /// How far a former program has come.
+  /// Progress of a former program.
   [[nodiscard]] virtual BlockProgress progress() const = 0;
   /// Without `kept`, of which this reads one.
   [[nodiscard]] virtual BlockMaps read(const MapBlock& block) const = 0;
   [[nodiscard]] virtual ViewStack<float> read_kept(const MapBlock& block, int number) const = 0;
-  /// Nothing changes but what is known of the progress.
+  /// Records progress alone.
   virtual void note(const BlockProgress& after) = 0;
   /// Keeps a block, then notes the progress; `replaces` if the pass needs what was there to make
   /// the block again. If the program ends in between, either both or neither is found again, but
@@ -38,9 +37,9 @@ struct BlockMemory {
 /// memory. For callers that have something to prepare, or to replace, before a run.
 void require_memory(const BlockwiseRun& run, BlockMemory memory);
 
-/// Makes what is missing of an estimate and returns its notes and seconds. Pixels that are not
-/// valid are marked so in the last pass. Throws as require_memory, before anything is made;
-/// Cancelled; what the method and the store throw.
+/// Completes an estimate and returns its notes and seconds. The last pass marks invalid pixels.
+/// Throws as require_memory, before anything is made; Cancelled; what the method and the store
+/// throw.
 [[nodiscard]] Provenance run_blocks(const LightField& light_field, const BlockwiseRun& run,
                                     BlockStore& store, BlockMemory memory,
                                     const Progress& progress);

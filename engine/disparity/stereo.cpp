@@ -130,7 +130,7 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
       .real(
           "map_noise", &P::map_noise,
           {"Noise of the map σ₀",
-           "Where neighbouring disparities scatter less than this, in px, the data term gets more "
+           "Where neighboring disparities scatter less than this, in px, the data term gets more "
            "weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper"},
           {0, 1})
       .part(&P::islands, island_schema())

@@ -29,7 +29,7 @@ struct StereoSmoothParameters {
 [[nodiscard]] Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views);
 
 /// The label of the least cost at every pixel of one view, moved between labels by `refinement`:
-/// none, a parabola through the costs of the label and its neighbours, or two lines of equal slope
+/// none, a parabola through the costs of the label and its neighbors, or two lines of equal slope
 /// (equiangular), by half a label at most. Costs are computed band by band and never held.
 ///
 /// Confidence: 1 − least cost / mean cost over the labels. It is near 0 where all labels are alike
@@ -39,19 +39,19 @@ struct StereoSmoothParameters {
                                              const StereoLocalParameters& parameters,
                                              const Progress& progress, Device device = Device::Cpu);
 
-/// The same block by block: bands of rows, under costs that were prepared for all.
+/// Runs the local method block by block: bands of rows, under costs that were prepared for all.
 [[nodiscard]] BlockwiseRun stereo_local_in_blocks(const LightField& light_field, MatchedViews views,
                                                   const StereoLocalParameters& parameters,
                                                   const Progress& progress);
 
-/// The same, denoised (engine/disparity/denoise.h) and without islands
+/// The local method, denoised (engine/disparity/denoise.h) and without islands
 /// (engine/disparity/islands.h); the duality gap is in the notes.
 [[nodiscard]] Estimate estimate_stereo_smooth(const LightField& light_field, MatchedViews views,
                                               const StereoSmoothParameters& parameters,
                                               const Progress& progress,
                                               Device device = Device::Cpu);
 
-/// The same in blocks: bands of rows, then the view is denoised as a whole.
+/// Runs the denoised method in blocks: bands of rows, then the view is denoised as a whole.
 [[nodiscard]] BlockwiseRun stereo_smooth_in_blocks(const LightField& light_field,
                                                    MatchedViews views,
                                                    const StereoSmoothParameters& parameters,
@@ -67,7 +67,7 @@ struct StereoGlobalParameters {
   IslandParameters islands = {};
 };
 
-/// The profile `paper` is that of the local methods (no cap or ε = 1, bilinear samples, no
+/// The profile `paper` is as in the local methods (no cap or ε = 1, bilinear samples, no
 /// aggregation) without edge weights and settling, and with islands. The paper does not give λ;
 /// kPaperSmoothness is less than the tuned λ: without a cap, costs that many views share vary less
 /// from label to label than their mean tells (tests/accuracy/tuning.md).
@@ -76,7 +76,7 @@ struct StereoGlobalParameters {
 /// min Σ ρ(x, u) + λ ρ̄ Σ g |∇u| for one view: ρ the matching costs of the local methods, ρ̄ their
 /// mean near each pixel's best label (cost_volume.h), whatever the range, u among the labels
 /// (label_globally). Each pixel then settles
-/// between labels, towards the parabola through the costs of its label and the two neighbouring
+/// between labels, towards the parabola through the costs of its label and the two neighboring
 /// labels, weighted by confidence², and islands are filled (engine/disparity/islands.h).
 /// Confidence: 1 − cost of the label / mean cost over the labels. β = 25: a smaller one joins the
 /// background between thin structures to them. ε, energy, gap and iterations are reported in the
@@ -95,8 +95,8 @@ struct StereoGlobalParameters {
 ///
 /// The profile `paper` is the method as published: no cap for the cross-hair; for all views ε =
 /// 1.0, which no pixel of the paper's scenes can tell from no cap; bilinear samples, no refinement.
-/// The default departs from it: ε follows the noise, samples are cubic, neighbours of similar
-/// colour share costs through a guided filter of radius 2, and a parabola is fitted between labels.
+/// The default departs from it: ε follows the noise, samples are cubic, neighbors of similar
+/// color share costs through a guided filter of radius 2, and a parabola is fitted between labels.
 /// This reduces the error to about a fifth (tests/accuracy/tuning.md).
 [[nodiscard]] Estimator st_av_l_estimator();
 [[nodiscard]] Estimator st_ch_l_estimator();

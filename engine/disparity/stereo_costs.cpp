@@ -183,8 +183,8 @@ Schema<StereoCostParameters> stereo_matching_schema() {
              "move views by whole pixels are at no disadvantage"})
       .integer("aggregation", &P::aggregation,
                {"Aggregation",
-                "Radius of the guided filter that averages the costs of neighbours of similar "
-                "colour; 0 = off",
+                "Radius of the guided filter that averages the costs of neighbors of similar "
+                "color; 0 = off",
                 "px"},
                {0, 8})
       .choice("cost", &P::cost,
@@ -197,7 +197,7 @@ Schema<StereoCostParameters> stereo_matching_schema() {
                "there; ignore: on the regular grid"})
       .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .view("view", &P::view,
-            {"View", "Row and column of the view to estimate; auto = centre view"});
+            {"View", "Row and column of the view to estimate; auto = center view"});
 }
 
 Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {

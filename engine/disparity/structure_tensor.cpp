@@ -34,7 +34,7 @@ Taps gaussian_taps(double sigma) {
   return taps;
 }
 
-// The same filter evaluated half a sample further: the mean of two neighbouring positions.
+// The same filter evaluated half a sample further: the mean of two neighboring positions.
 Taps half_sample(const Taps& taps) {
   Taps half = taps;
   const int count = 2 * taps.radius + 1;
@@ -52,7 +52,7 @@ Matrix zero_matrix(int rows) {
   return Matrix(rows, std::vector<double>(rows, 0));
 }
 
-// A filter along the views, truncated at the first and last view and renormalised.
+// A filter along the views, truncated at the first and last view and renormalized.
 Matrix smoothing_matrix(int rows, int radius, const std::function<double(int)>& weight) {
   Matrix matrix = zero_matrix(rows);
   for (int r = 0; r < rows; ++r) {
@@ -184,7 +184,7 @@ int largest_shear(const TensorSearch& search) {
   return largest;
 }
 
-// A wanted row integrates over neighbours, whose gradients reach to their neighbours: each step
+// A wanted row integrates over neighbors, whose gradients reach to their neighbors: each step
 // along the views moves by the shear.
 int reach_along(const TensorFilterSet& set, const TensorSearch& search) {
   const int reach =
@@ -232,12 +232,12 @@ struct StructureTensor::State {
   const TensorFilters& filters = set.filters;
   const Taps& across = set.across;
   TensorBlock block;
-  int columns = kBlockColumns;  // Lanes of a pixel row of a vertical block, neighbours included.
+  int columns = kBlockColumns;  // Lanes of a pixel row of a vertical block, neighbors included.
   int payload_pixels = 0;       // Along the EPI, at most.
   bool with_half = false;
   std::vector<float> memory;
   SamplePlanes planes;
-  std::vector<float*> slots;  // Best tensors: of neighbouring lines (horizontal) or of the block.
+  std::vector<float*> slots;  // Best tensors: of neighboring lines (horizontal) or of the block.
   float* result[2] = {};
 
   State(const LightField& lf, Direction dir, const TensorScales& scales, TensorSearch wanted);

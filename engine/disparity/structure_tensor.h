@@ -15,8 +15,8 @@ namespace episcope {
 struct TensorScales {
   double inner = 0.5;   ///< σ_i in px and views: Gaussian before the derivatives.
   double outer = 1.0;   ///< σ_o in px: Gaussian over the products of derivatives, along the EPI.
-  double views = 1.5;   ///< The same along the views.
-  double across = 1.0;  ///< The same in px across neighbouring EPIs.
+  double views = 1.5;   ///< Gaussian over the products along the views.
+  double across = 1.0;  ///< Gaussian over the products across neighboring EPIs, in px.
   double contrast = 2;  ///< Gradients above this are toned down, in 1/255; 255 = none are.
   double noise = 0.15;  ///< Contrast below which coherence fades, in 1/255.
 };
@@ -24,16 +24,16 @@ struct TensorScales {
 /// The filters of a structure tensor over an EPI of some views, with the memory they live in.
 struct TensorFilterSet {
   TensorFilters filters;  ///< Its rows point into the vectors below.
-  Taps across;            ///< Average over neighbouring EPIs.
+  Taps across;            ///< Average over neighboring EPIs.
   int view_reach = 0;     ///< How many views away samples still matter for a result.
   std::vector<RowTaps> row_smooth, row_derivative, row_integrate;
 };
 
-/// Half the length of the Gaussian of that σ.
+/// Half the length of the Gaussian with this σ.
 [[nodiscard]] int gaussian_radius(double sigma);
 
-/// Gaussians cut at 2σ and normalised; along the views truncated at the first and last and
-/// renormalised. σ = 0 leaves a filter out.
+/// Gaussians cut at 2σ and normalized; along the views truncated at the first and last and
+/// renormalized. σ = 0 leaves a filter out.
 [[nodiscard]] TensorFilterSet make_tensor_filters(int rows, int channels,
                                                   const TensorScales& scales);
 
@@ -71,7 +71,7 @@ struct TensorExtent {
 
 /// Disparity and coherence of the views of an EPI by the structure tensor: smoothing with σ_i,
 /// derivatives (central difference along, Scharr's [3,10,3]/16 across), products summed over
-/// colour channels, integration with σ_o, orientation d = −2Jxs/(Jxx − Jss + √((Jxx − Jss)² +
+/// color channels, integration with σ_o, orientation d = −2Jxs/(Jxx − Jss + √((Jxx − Jss)² +
 /// 4Jxs²)) and coherence r = √((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss + n²), n² the energy of the noise.
 /// Source: Bigün and Granlund 1987 [BG87]; Wanner and Goldluecke 2012 [WG12].
 ///
@@ -81,11 +81,11 @@ struct TensorExtent {
 /// - Products are divided by (1 + |∇|²/contrast²): else a silhouette drowns the weaker texture
 ///   beside it and objects grow by the size of the window.
 /// - The tensor of the chosen shear, turned back to unsheared coordinates, is averaged over
-///   neighbouring EPIs before the disparity is read off, by least squares. Neighbours count less
+///   neighboring EPIs before the disparity is read off, by least squares. Neighbors count less
 ///   the more their own disparity differs, 0.3 px by half: averages over all of them make objects
 ///   grow by the size of that window as well.
-/// With `TensorSearch::eigenvector` the disparity is that of the formula, EPI by EPI.
-/// Filters are truncated at the first and last view and renormalised, so that slopes there come
+/// With `TensorSearch::eigenvector` the disparity follows the formula, EPI by EPI.
+/// Filters are truncated at the first and last view and renormalized, so that slopes there come
 /// out right.
 ///
 /// Not thread-safe: use one object per thread. Takes 2 to 10 MB.
@@ -124,14 +124,14 @@ class StructureTensor {
   std::unique_ptr<State> state_;
 };
 
-/// Merges `count` estimates of one direction into those of the other: where both agree within
-/// 0.3 px their mean weighted by coherence^power, else the more coherent one; coherence becomes the
-/// larger of the two. Source: winner-takes-all as in [WG12], here weighted.
+/// Merges `count` estimates of one direction into the estimates of the other: where both agree
+/// within 0.3 px their mean weighted by coherence^power, else the more coherent one; coherence
+/// becomes the larger of the two. Source: winner-takes-all as in [WG12], here weighted.
 void merge_orientations(const float* disparity, const float* coherence, int count, int power,
                         float* to_disparity, float* to_coherence);
 
-/// What the structure tensor with these scales looks for in this light field, for the device: both
-/// directions, where the grid has them; how estimates are merged is left open. Throws InvalidInput
+/// Settings of the device for a structure tensor with these scales in this light field: both
+/// directions, where the grid has them. How estimates are merged is left open. Throws InvalidInput
 /// as StructureTensor.
 [[nodiscard]] cuda::TensorSettings device_tensor_settings(const LightField& light_field,
                                                           const TensorScales& scales,

@@ -65,7 +65,7 @@ namespace {
 
 constexpr std::uint32_t kInvalid = 1U << kPackedInvalidBit;
 
-std::uint32_t quantised(float sample) {
+std::uint32_t quantized(float sample) {
   return static_cast<std::uint32_t>(std::clamp(sample, 0.0F, 1.0F) * kPackedMost + 0.5F);
 }
 
@@ -73,8 +73,8 @@ void pack_row(const float* samples, int width, int channels, std::uint32_t* out)
   const int second = channels == 3 ? 1 : 0;
   for (int x = 0; x < width; ++x) {
     const float* const s = samples + static_cast<std::ptrdiff_t>(x) * channels;
-    out[x] = quantised(s[0]) | quantised(s[second]) << kPackedBits |
-             quantised(s[2 * second]) << (2 * kPackedBits);
+    out[x] = quantized(s[0]) | quantized(s[second]) << kPackedBits |
+             quantized(s[2 * second]) << (2 * kPackedBits);
   }
 }
 

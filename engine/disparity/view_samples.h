@@ -39,7 +39,7 @@ class SamplePlanes {
 };
 
 /// All views with each pixel packed into one word: three channels of 10 bits, the first lowest,
-/// each round(1023·s) of a sample s in [0, 1]; grey three times. Of a pixel that is not valid, a
+/// each round(1023·s) of a sample s in [0, 1]; gray three times. Of a pixel that is not valid, a
 /// bit above them and nothing else is set. A single gather then fetches a pixel whatever its type.
 /// 4 bytes per ray.
 struct PackedViews {
@@ -60,7 +60,8 @@ struct PackedViews {
 [[nodiscard]] PackedViews pack_around(const LightField& light_field, const ViewRectangle& views,
                                       int reach, const Progress& progress);
 
-/// How many views that are, for one row of `count` views in the middle of a large grid.
+/// Number of views that `pack_around` packs for a row of `count` views in the middle of a large
+/// grid.
 [[nodiscard]] inline int packed_around(int count, int reach) {
   return count + 2 * reach + 2 * reach * count;
 }
@@ -70,7 +71,7 @@ struct PackedViews {
   return static_cast<int>(packed >> (kPackedBits * c)) & kPackedMost;
 }
 
-/// The same in [0, 1].
+/// Channel `c` of a packed pixel in [0, 1].
 [[nodiscard]] inline float packed_sample(std::uint32_t packed, int c) {
   return static_cast<float>(packed_channel(packed, c)) / kPackedMost;
 }
@@ -78,15 +79,15 @@ struct PackedViews {
 /// The light field with every sample relative to its surroundings: half of its ratio to the mean of
 /// its channel over (2·radius + 1)² pixels of the same view, at most 1, stored in 16 bits. A gain
 /// of a view, or one that varies slowly over it, changes nothing. Windows end at the border;
-/// invalid pixels enter no mean. In the dark, where the mean is below 0.02, samples grow less. What
-/// is left out is the brightness of whole regions. Takes 2 bytes a sample. Throws Cancelled.
+/// invalid pixels enter no mean. In the dark, where the mean is below 0.02, samples grow less. The
+/// brightness of whole regions is lost. Takes 2 bytes a sample. Throws Cancelled.
 [[nodiscard]] LightField relative_samples(const LightField& light_field, int radius,
                                           const Progress& progress);
 
 /// The noise variance around each pixel of a view, `[y][x]`, mean over the channels, samples in [0,
 /// 1]: the mean square of second differences a − 2b + c over windows of 5×5 px, divided by 6, in
 /// the direction of four in which it is smallest, so that edges do not count. An upper bound: fine
-/// texture counts as noise. The outermost pixels use the differences of their neighbours.
+/// texture counts as noise. The outermost pixels use the differences of their neighbors.
 /// 0 for views of less than 3×3 px. Throws Cancelled.
 [[nodiscard]] Image<float> local_noise_variance(const LightField& light_field, ViewIndex view,
                                                 const Progress& progress);
@@ -96,7 +97,7 @@ struct PackedViews {
 [[nodiscard]] double view_noise_variance(const LightField& light_field, ViewIndex view,
                                          const Progress& progress);
 
-/// The same of one map, in the square of its unit.
+/// The noise variance around each pixel of a map, in the square of its unit.
 [[nodiscard]] Image<float> local_noise_variance(ImageView<const float> map,
                                                 const Progress& progress);
 
@@ -124,7 +125,7 @@ inline void box_mean_row(const float* in, int width, int radius, float* out) {
   };
   const int inner = std::min(radius, width), outer = std::max(inner, width - radius);
   for (int x = 0; x < inner; ++x) out[x] = mean_at(x);
-  // Shift by shift, which is vectorised.
+  // Shift by shift, which is vectorized.
   std::fill(out + inner, out + outer, 0.0F);
   for (int i = -radius; i <= radius; ++i) {
     for (int x = inner; x < outer; ++x) out[x] += in[x + i];

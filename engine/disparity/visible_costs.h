@@ -12,7 +12,7 @@
 
 namespace episcope {
 
-/// What the cap ε of a pixel is made of.
+/// Parts of the cap ε of a pixel.
 struct LocalCapOptions {
   float offset = 0.03F;  ///< Error of disparity that is still to cost its due, px.
   float noise_share = 2;
@@ -62,7 +62,7 @@ class LabelCosts {
   cuda::SharedVolume on_device_;
 };
 
-/// Which views count, and how much a difference does.
+/// Parameters of visibility and caps.
 struct VisibilityParameters {
   int rounds = 2;            ///< Times that costs are computed anew with what occludes what.
   double tolerance = 0.2;    ///< Occluders::tolerance, px.
@@ -82,16 +82,16 @@ void set_local_caps(const LightField& light_field, const VisibilityParameters& p
 [[nodiscard]] Image<float> sure_surfaces(ImageView<const float> disparity,
                                          ImageView<const float> confidence, double least_trust);
 
-/// From here on views in which a sure surface occludes a point do not count for it. Throws
+/// Excludes views in which a sure surface occludes a point from its costs. Throws
 /// Cancelled.
 void set_occluders(const LightField& light_field, ImageView<const float> disparity,
                    ImageView<const float> confidence, const VisibilityParameters& parameters,
                    const Progress& progress, StereoCosts& costs);
 
 /// The costs of all rows (stereo_volume), where the data term has them computed; with caps of
-/// single pixels divided by that of their pixel and times the mean cap: a smooth region whose noise
-/// is low then says as much as one of strong contrast, and is not overruled by the smoothness. They
-/// refer to `costs`. Throws DeviceFailure, Cancelled.
+/// single pixels, costs are divided by the cap of their pixel and multiplied by the mean cap: a
+/// smooth region whose noise is low then says as much as one of strong contrast, and is not
+/// overruled by the smoothness. They refer to `costs`. Throws DeviceFailure, Cancelled.
 [[nodiscard]] LabelCosts visible_costs(const LightField& light_field, const StereoCosts& costs,
                                        const Progress& progress);
 

@@ -39,7 +39,7 @@ constexpr const char* kSave =
     "this is an object that a program has saved for itself; save the array as .npy, .npz or .h5";
 
 constexpr const char* kConvert =
-    "views are not read from GIF pictures, which hold 256 colours; use the originals, or convert "
+    "views are not read from GIF pictures, which hold 256 colors; use the originals, or convert "
     "them to PNG";
 
 constexpr UnsupportedForm kUnsupportedForms[] = {

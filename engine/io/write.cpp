@@ -21,6 +21,100 @@
 namespace episcope::io {
 namespace {
 
+namespace fs = std::filesystem;
+
+/// Names of the files of one view: row and column from 0 on, padded to the same width.
+class GridFileNames {
+ public:
+  explicit GridFileNames(GridShape grid)
+      : digits_(std::max<std::size_t>(2, std::to_string(std::max(grid.v, grid.u) - 1).size())) {}
+
+  [[nodiscard]] std::string of(ViewIndex view) const {
+    return fmt::format("{:0{}}_{:0{}}", view.v, digits_, view.u, digits_);
+  }
+
+ private:
+  std::size_t digits_;
+};
+
+void write_view_image(const fs::path& stem, const LightField& field, ViewIndex view) {
+  const fs::path png = stem.string() + ".png";
+  if (field.sample_type() == SampleType::UInt8) {
+    write_png(png, field.view<std::uint8_t>(view));
+  } else if (field.sample_type() == SampleType::UInt16) {
+    write_png(png, field.view<std::uint16_t>(view));
+  } else {
+    write_tiff(stem.string() + ".tiff", field.view<float>(view));
+  }
+}
+
+void write_disparity_npy(const fs::path& path, const DisparityView& map) {
+  std::vector<float> marked;
+  marked.reserve(map.disparity.size());
+  for (int y = 0; y < map.disparity.height; ++y) {
+    for (int x = 0; x < map.disparity.width; ++x) {
+      marked.push_back(map.is_valid(y, x) ? map.disparity.at(y, x)
+                                          : std::numeric_limits<float>::quiet_NaN());
+    }
+  }
+  write_npy<float>(path,
+                   {static_cast<std::size_t>(map.disparity.height),
+                    static_cast<std::size_t>(map.disparity.width)},
+                   marked);
+}
+
+void write_label_map(const fs::path& path, ImageView<const std::int32_t> labels) {
+  write_npy<std::int32_t>(
+      path, {static_cast<std::size_t>(labels.height), static_cast<std::size_t>(labels.width)},
+      {labels.data, labels.size()});
+}
+
+void write_regions(const fs::path& folder, const GroundTruth& truth) {
+  for (const auto& [name, region] : truth.regions) {
+    write_npy<std::uint8_t>(
+        folder / ("mask_" + name + ".npy"),
+        {static_cast<std::size_t>(region.height()), static_cast<std::size_t>(region.width())},
+        {region.data(), region.size()});
+  }
+}
+
+std::uintmax_t grid_folder_bytes(const Scene& scene) {
+  const GroundTruth& truth = *scene.truth;
+  const std::size_t disparities = truth.field.empty() ? 0 : truth.field.disparity.size();
+  const std::size_t labels = truth.labels.empty() ? 0 : truth.labels.size();
+  return scene.light_field->byte_size() + 4 * (disparities + labels);
+}
+
+/// Writes a folder of images, one for each view, named `RR_CC.png` by row and column from 0 on:
+/// PNG of 8 or 16 bit, or TIFF of 32-bit float. Beside them, for every view that has them,
+/// `disparity_RR_CC.npy` (float, px per view step, NaN = invalid) and `label_RR_CC.npy` (int32),
+/// and region masks of the centre view as `mask_<name>.npy` (uint8). Atomic. Throws IoError (also
+/// if the folder holds other files), Cancelled.
+void write_grid_folder(const fs::path& folder, const Scene& scene, const Progress& progress) {
+  progress.check();
+  progress.step("writing " + folder.filename().string());
+  const LightField& field = *scene.light_field;
+  const GroundTruth& truth = *scene.truth;
+  const GridFileNames names(field.grid());
+  AtomicFolder target(folder, grid_folder_bytes(scene));
+  const fs::path& place = target.temporary();
+  parallel_for(field.grid().count(), progress, [&](int i) {
+    const ViewIndex view = field.grid().view_at(i);
+    const std::string name = names.of(view);
+    write_view_image(place / name, field, view);
+    if (truth.field.contains(view)) {
+      write_disparity_npy(place / ("disparity_" + name + ".npy"), truth.field.view(view));
+    }
+    if (!truth.labels.empty() && truth.labels.contains(view)) {
+      write_label_map(place / ("label_" + name + ".npy"), truth.labels.view(view));
+    }
+  });
+  write_regions(place, truth);
+  progress.check();
+  target.commit();
+  progress.report(1);
+}
+
 constexpr const char* kHdf5[] = {".h5", ".hdf5"};
 constexpr const char* kNpy[] = {".npy"};
 constexpr const char* kNpz[] = {".npz"};
@@ -183,99 +277,6 @@ std::vector<std::string> left_out(const Writer& writer, const Scene& scene) {
   losses.compare(!scene.scribbles.empty(), holds.has_scribbles, "scribbles");
   losses.compare(!field.valid().empty(), holds.has_valid, "masks of valid pixels");
   return losses.take();
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-
-/// Names of the files of one view: row and column from 0 on, padded to the same width.
-class GridFileNames {
- public:
-  explicit GridFileNames(GridShape grid)
-      : digits_(std::max<std::size_t>(2, std::to_string(std::max(grid.v, grid.u) - 1).size())) {}
-
-  [[nodiscard]] std::string of(ViewIndex view) const {
-    return fmt::format("{:0{}}_{:0{}}", view.v, digits_, view.u, digits_);
-  }
-
- private:
-  std::size_t digits_;
-};
-
-void write_view_image(const fs::path& stem, const LightField& field, ViewIndex view) {
-  const fs::path png = stem.string() + ".png";
-  if (field.sample_type() == SampleType::UInt8) {
-    write_png(png, field.view<std::uint8_t>(view));
-  } else if (field.sample_type() == SampleType::UInt16) {
-    write_png(png, field.view<std::uint16_t>(view));
-  } else {
-    write_tiff(stem.string() + ".tiff", field.view<float>(view));
-  }
-}
-
-void write_disparity_npy(const fs::path& path, const DisparityView& map) {
-  std::vector<float> marked;
-  marked.reserve(map.disparity.size());
-  for (int y = 0; y < map.disparity.height; ++y) {
-    for (int x = 0; x < map.disparity.width; ++x) {
-      marked.push_back(map.is_valid(y, x) ? map.disparity.at(y, x)
-                                          : std::numeric_limits<float>::quiet_NaN());
-    }
-  }
-  write_npy<float>(path,
-                   {static_cast<std::size_t>(map.disparity.height),
-                    static_cast<std::size_t>(map.disparity.width)},
-                   marked);
-}
-
-void write_label_map(const fs::path& path, ImageView<const std::int32_t> labels) {
-  write_npy<std::int32_t>(
-      path, {static_cast<std::size_t>(labels.height), static_cast<std::size_t>(labels.width)},
-      {labels.data, labels.size()});
-}
-
-void write_regions(const fs::path& folder, const GroundTruth& truth) {
-  for (const auto& [name, region] : truth.regions) {
-    write_npy<std::uint8_t>(
-        folder / ("mask_" + name + ".npy"),
-        {static_cast<std::size_t>(region.height()), static_cast<std::size_t>(region.width())},
-        {region.data(), region.size()});
-  }
-}
-
-std::uintmax_t grid_folder_bytes(const Scene& scene) {
-  const GroundTruth& truth = *scene.truth;
-  const std::size_t disparities = truth.field.empty() ? 0 : truth.field.disparity.size();
-  const std::size_t labels = truth.labels.empty() ? 0 : truth.labels.size();
-  return scene.light_field->byte_size() + 4 * (disparities + labels);
-}
-
-}  // namespace
-
-void write_grid_folder(const fs::path& folder, const Scene& scene, const Progress& progress) {
-  progress.check();
-  progress.step("writing " + folder.filename().string());
-  const LightField& field = *scene.light_field;
-  const GroundTruth& truth = *scene.truth;
-  const GridFileNames names(field.grid());
-  AtomicFolder target(folder, grid_folder_bytes(scene));
-  const fs::path& place = target.temporary();
-  parallel_for(field.grid().count(), progress, [&](int i) {
-    const ViewIndex view = field.grid().view_at(i);
-    const std::string name = names.of(view);
-    write_view_image(place / name, field, view);
-    if (truth.field.contains(view)) {
-      write_disparity_npy(place / ("disparity_" + name + ".npy"), truth.field.view(view));
-    }
-    if (!truth.labels.empty() && truth.labels.contains(view)) {
-      write_label_map(place / ("label_" + name + ".npy"), truth.labels.view(view));
-    }
-  });
-  write_regions(place, truth);
-  progress.check();
-  target.commit();
-  progress.report(1);
 }
 
 void write_eslf(const std::filesystem::path& path, const Scene& scene, const Progress& progress) {

@@ -11,10 +11,10 @@
 
 namespace episcope::io {
 
-/// Of which views a form holds a kind of map.
+/// For which views a form holds maps of a kind.
 enum class MapsHeld { None, Center, All };
 
-/// What becomes of views of float samples.
+/// How a form holds float samples.
 enum class FloatsHeld {
   None,     ///< They cannot be written.
   Rounded,  ///< To 16 bit.
@@ -28,7 +28,7 @@ enum class CamerasHeld {
   All
 };
 
-/// What a form can hold of a scene besides views of 8 and 16 bit.
+/// Parts of a scene that a form can hold besides views of 8 and 16 bit.
 struct FormContents {
   FloatsHeld floats = FloatsHeld::None;
   MapsHeld disparity = MapsHeld::None;
@@ -47,18 +47,18 @@ struct FormContents {
 struct Writer {
   const char* id;    ///< As on the command line: "archive".
   const char* name;  ///< As in a sentence: "the archive form".
-  /// How names of its files end, in lower case, the usual one first; empty = a folder is written.
+  /// Suffixes of its files in lower case, the usual one first; empty = a folder is written.
   std::span<const char* const> suffixes;
   FormContents holds;
-  /// Writes what the form can hold; atomic. Throws IoError, also for samples that the form cannot
-  /// hold; Cancelled.
+  /// Writes the parts that the form can hold; atomic. Throws IoError, also for samples that the
+  /// form cannot hold; Cancelled.
   void (*write)(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
 
   [[nodiscard]] bool writes_folder() const { return suffixes.empty(); }
   [[nodiscard]] bool has_suffix_of(const std::filesystem::path& path) const;
 };
 
-/// Every writer. Of those with the same suffix, the first is the usual one.
+/// All writers. Of writers with the same suffix, the first is the usual one.
 [[nodiscard]] std::span<const Writer> writers();
 
 /// The writer with this id; null for an unknown one.
@@ -67,17 +67,8 @@ struct Writer {
 /// The first writer of files whose names end as `path` does; null if there is none.
 [[nodiscard]] const Writer* writer_of(const std::filesystem::path& path);
 
-/// What of a scene the form cannot hold: a sentence for each kind, without those that the scene
-/// lacks itself.
+/// Lists the parts of a scene that the form cannot hold, a sentence for each kind.
 [[nodiscard]] std::vector<std::string> left_out(const Writer& writer, const Scene& scene);
-
-/// Writes a folder of images, one for each view, named `RR_CC.png` by row and column from 0 on:
-/// PNG of 8 or 16 bit, or TIFF of 32-bit float. Beside them, for every view that has them,
-/// `disparity_RR_CC.npy` (float, px per view step, NaN = invalid) and `label_RR_CC.npy` (int32),
-/// and region masks of the centre view as `mask_<name>.npy` (uint8). Atomic. Throws IoError (also
-/// if the folder holds other files), Cancelled.
-void write_grid_folder(const std::filesystem::path& folder, const Scene& scene,
-                       const Progress& progress);
 
 /// Writes the views as one PNG of lenslets: pixel (x, y) of view (v, u) at (x·columns + u,
 /// y·rows + v), 8 or 16 bit as they are. Truth, labels and the camera have no place in it. Atomic.

@@ -4907,7 +4907,7 @@ s</translation>
         <translation>3 bis 40 Objekte aus einem Startwert: random?seed=7&amp;kind=thin</translation>
     </message>
     <message>
-        <source>A pair of neighbours is weighted by exp(−β·|difference of their colours|)</source>
+        <source>A pair of neighbors is weighted by exp(−β·|difference of their colors|)</source>
         <translation>Ein Paar von Nachbarn wird mit exp(−β·|Unterschied ihrer Farben|) gewichtet</translation>
     </message>
     <message>
@@ -4943,7 +4943,7 @@ s</translation>
         <translation>Knick</translation>
     </message>
     <message>
-        <source>Beside jumps, take the median of the surroundings, weighted by likeness of colour</source>
+        <source>Beside jumps, take the median of the surroundings, weighted by likeness of color</source>
         <translation>Nimmt neben Sprüngen den Median der Umgebung, gewichtet nach Ähnlichkeit der Farbe</translation>
     </message>
     <message>
@@ -5007,11 +5007,11 @@ s</translation>
         <translation>Kosten</translation>
     </message>
     <message>
-        <source>Cost of a bend against that of a jump in the final denoising</source>
+        <source>Relative cost of curvature to jumps in the final denoising</source>
         <translation>Kosten eines Knicks gegenüber denen eines Sprungs im abschließenden Entrauschen</translation>
     </message>
     <message>
-        <source>Cost of a jump by one label between neighbours, as a multiple of K; three times as much where they have the same colour</source>
+        <source>Cost of a jump by one label between neighbors, as a multiple of K; three times as much where they have the same color</source>
         <translation>Kosten eines Sprungs um ein Label zwischen Nachbarn, als Vielfaches von K; das Dreifache, wo sie gleiche Farbe haben</translation>
     </message>
     <message>
@@ -5023,7 +5023,7 @@ s</translation>
         <translation>Kosten einer Linie, die auf Näheres trifft, das ihren Punkt verdeckt; höchstens μ₋</translation>
     </message>
     <message>
-        <source>Cost of a px by which neighbours differ, relative to the cap</source>
+        <source>Cost of a px by which neighbors differ, relative to the cap</source>
         <translation>Kosten eines px, um das sich Nachbarn unterscheiden, relativ zur Kappung</translation>
     </message>
     <message>
@@ -5063,7 +5063,7 @@ s</translation>
         <translation>Tiefeneinheiten</translation>
     </message>
     <message>
-        <source>Differences along a line below this are penalised quadratically</source>
+        <source>Differences along a line below this are penalized quadratically</source>
         <translation>Unterschiede entlang einer Linie werden darunter quadratisch bestraft</translation>
     </message>
     <message>
@@ -5347,7 +5347,7 @@ s</translation>
         <translation>Nähe</translation>
     </message>
     <message>
-        <source>No pair of neighbours pays for a larger difference than this</source>
+        <source>No pair of neighbors pays for a larger difference than this</source>
         <translation>Kein Paar von Nachbarn zahlt für einen größeren Unterschied</translation>
     </message>
     <message>
@@ -5367,7 +5367,7 @@ s</translation>
         <translation>Anzahl der Iterationen des abschließenden Entrauschens</translation>
     </message>
     <message>
-        <source>Number of times every view is fitted to its neighbours; 0 = off</source>
+        <source>Number of times every view is fitted to its neighbors; 0 = off</source>
         <translation>Wie oft jede Ansicht an ihre Nachbarn angepasst wird; 0 = aus</translation>
     </message>
     <message>
@@ -5431,7 +5431,7 @@ s</translation>
         <translation>Profil</translation>
     </message>
     <message>
-        <source>Radius of the guided filter that averages the costs of neighbours of similar colour; 0 = off</source>
+        <source>Radius of the guided filter that averages the costs of neighbors of similar color; 0 = off</source>
         <translation>Radius des geführten Filters, der die Kosten von Nachbarn ähnlicher Farbe mittelt; 0 = aus</translation>
     </message>
     <message>
@@ -5439,7 +5439,7 @@ s</translation>
         <translation>Abzusuchender Disparitätsbereich; auto nimmt ihn aus den Dateien oder ermittelt ihn aus den Bildern, ermittelt nimmt ihn aus den Bildern, gleich was die Dateien sagen</translation>
     </message>
     <message>
-        <source>Reduce the confidence of estimates where other views show a different colour along the line, or where the texture belongs to a neighbouring pixel</source>
+        <source>Reduce the confidence of estimates where other views show a different color along the line, or where the texture belongs to a neighboring pixel</source>
         <translation>Verringert die Konfidenz von Schätzungen, wo andere Ansichten entlang der Linie eine andere Farbe zeigen oder wo die Textur zu einem Nachbarpixel gehört</translation>
     </message>
     <message>
@@ -5459,7 +5459,7 @@ s</translation>
         <translation>Runden</translation>
     </message>
     <message>
-        <source>Row and column of the view to estimate; auto = centre view</source>
+        <source>Row and column of the view to estimate; auto = center view</source>
         <translation>Zeile und Spalte der zu schätzenden Ansicht; auto = mittlere Ansicht</translation>
     </message>
     <message>
@@ -5551,7 +5551,7 @@ s</translation>
         <translation>Standardabweichung des Gauß-Fensters, über das zwei Orientierungen entlang des EPI gemittelt werden</translation>
     </message>
     <message>
-        <source>Standard deviation of the same window across neighbouring EPIs</source>
+        <source>Standard deviation of the same window across neighboring EPIs</source>
         <translation>Standardabweichung desselben Fensters quer über benachbarte EPIs</translation>
     </message>
     <message>
@@ -5615,7 +5615,7 @@ s</translation>
         <translation>Kleinste Kappung eines Pixels, als Anteil von ε</translation>
     </message>
     <message>
-        <source>The least weight of a pair of neighbours</source>
+        <source>The least weight of a pair of neighbors</source>
         <translation>Kleinstes Gewicht eines Paars von Nachbarn</translation>
     </message>
     <message>
@@ -5699,7 +5699,7 @@ s</translation>
         <translation>Was die Fotos zeigen</translation>
     </message>
     <message>
-        <source>Where neighbouring disparities scatter less than this, in px, the data term gets more weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper</source>
+        <source>Where neighboring disparities scatter less than this, in px, the data term gets more weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper</source>
         <translation>Wo benachbarte Disparitäten weniger streuen als dies, in px, erhält der Datenterm mehr Gewicht, damit Schrägen nicht abgeflacht werden; 0 behandelt alle Pixel gleich, wie im Artikel</translation>
     </message>
     <message>
@@ -6215,7 +6215,7 @@ s</translation>
         <translation>Inseln füllen</translation>
     </message>
     <message>
-        <source>One or two pixels nearer than all their neighbours, or farther, take the median of these; off, as in the paper</source>
+        <source>One or two pixels nearer than all their neighbors, or farther, take the median of these; off, as in the paper</source>
         <translation>Ein oder zwei Pixel, die näher oder ferner sind als alle Nachbarn, nehmen deren Median an; aus: wie im Artikel</translation>
     </message>
     <message>

@@ -2,7 +2,7 @@
 #include "engine/io/formats/benchmark_reader.h"
 #include "engine/io/models/file_usage.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
-#include "tests/engine/io/arrays/array_files.h"
+#include "tests/engine/io/formats/array_files.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 

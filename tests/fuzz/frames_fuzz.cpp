@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/formats/frames_reader.h"
 #include "engine/io/formats/movie.h"
-#include "tests/engine/io/frames/described_tiff.h"
+#include "tests/engine/io/formats/described_tiff.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 

@@ -2,7 +2,7 @@
 #include "tests/fuzz/hdf5_seeds.h"
 
 #include "engine/io/base/hdf5_file.h"
-#include "tests/engine/io/arrays/array_files.h"
+#include "tests/engine/io/formats/array_files.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/fuzz/seed_scene.h"
 

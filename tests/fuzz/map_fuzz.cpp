@@ -2,7 +2,7 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
-#include "tests/engine/io/arrays/array_files.h"
+#include "tests/engine/io/formats/array_files.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/engine/io/arrays/array_files.h"
+#include "tests/engine/io/formats/array_files.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/base/npy.h"
-#include "tests/engine/io/arrays/array_files.h"
+#include "tests/engine/io/formats/array_files.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"

@@ -2,7 +2,7 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
 #include "engine/io/open.h"
-#include "tests/engine/io/grid/exr_file.h"
+#include "tests/engine/io/base/exr_file.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 

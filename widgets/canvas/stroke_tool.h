@@ -33,7 +33,6 @@ class StrokeTool : public CanvasTool {
   /// Colour of the current label, shown in the centre of the ring; invalid = none.
   void setColor(const QColor& color);
 
-  [[nodiscard]] bool isErasing() const { return is_eraser_; }
   [[nodiscard]] double brushSize() const { return brush_px_; }
   [[nodiscard]] double eraserSize() const { return eraser_px_; }
   [[nodiscard]] bool isStroking() const { return is_stroking_; }

@@ -169,7 +169,7 @@ void style_text(vtkTextProperty& text, double ratio) {
 
 }  // namespace
 
-// A cross_lines and a text beside it.
+// A cross and a text beside it.
 struct CloudMarks::Named {
   Named(const CloudMark& mark, double ratio, vtkRenderer& of) : renderer(of) {
     const QColor color = mark.is_emphasised ? theme::kCrossHair : theme::kEstimate;

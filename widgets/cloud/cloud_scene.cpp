@@ -299,7 +299,7 @@ void CloudScene::handle(const QWheelEvent& event) {
                                                       : vtkCommand::MouseWheelBackwardEvent);
 }
 
-// Where the surface or point is that is drawn nearest to a place, in device pixels from below.
+// Position of the nearest drawn surface or point at a place, in device pixels from below.
 std::optional<CloudScene::Place> CloudScene::seenAt(int x, int y) {
   const int reach = static_cast<int>(std::lround(kPickReach * view_.devicePixelRatioF()));
   const int* size = window_->GetSize();

@@ -303,7 +303,7 @@ void CloudControls::addLook(QGridLayout& grid) {
   setLook({});
 }
 
-// Something is always left between near and far.
+// Keeps something visible between near and far.
 void CloudControls::keepClipOpen(const QSlider* moved) {
   if (near_->value() < far_->value()) return;
   if (moved == near_) {

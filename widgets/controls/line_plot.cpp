@@ -104,7 +104,7 @@ std::vector<double> round_values(double min, double max, double most) {
   return values;
 }
 
-// The values that an axis tells: of a logarithmic one powers of ten, with 2 and 5 between few.
+// Values to label: powers of ten on a logarithmic axis, with 2 and 5 between if there is room.
 std::vector<double> ticks_of(const ChartAxis& axis, double most) {
   const double span = axis.max - axis.min;
   if (!axis.is_logarithmic) return round_values(axis.min, axis.max, most);

@@ -196,7 +196,7 @@ void draw_grip(const QStyleOption& handle, QPainter& painter) {
   painter.fillRect(grip, theme::frame(handle.palette));
 }
 
-// With as much of the text as there is room for.
+// Elides the text to the available room.
 QStyleOptionComboBox elided(const QStyleOptionComboBox& box, const QRect& field) {
   QStyleOptionComboBox fitting = box;
   const int icon = box.currentIcon.isNull() ? 0 : box.iconSize.width() + kIconSpace;

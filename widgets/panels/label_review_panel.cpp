@@ -26,7 +26,7 @@ namespace {
 constexpr int kActionColumns = 2;  // Their texts are long.
 constexpr int kWidestName = 140;
 
-// Columns of the list of labels that are more than a number.
+// Columns with numbers in the list of labels.
 enum { kPixelColumn = 1, kShareColumn, kMeanColumn, kMinColumn, kMaxColumn };
 
 QString name_of(const LabelInfo& label) {
@@ -97,7 +97,7 @@ LabelReviewPanel::LabelReviewPanel(QWidget* parent)
 }
 
 QTreeWidget* LabelReviewPanel::makeList(const QString& name, const QString& title,
-                                  const QStringList& columns) {
+                                        const QStringList& columns) {
   auto* list = new QTreeWidget(this);
   list->setObjectName(name);
   list->setAccessibleName(title);
@@ -165,8 +165,8 @@ bool LabelReviewPanel::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
-// Names are read before numbers: where both do not fit, the share is left to the tool tip of the
-// pixels, and if that is not enough, the list scrolls.
+// Names have priority over numbers: the share moves to the tool tip of the pixels, then the list
+// scrolls.
 void LabelReviewPanel::fitNames() {
   QHeaderView& header = *labels_->header();
   const QAbstractItemView& cells = *labels_;

@@ -231,7 +231,7 @@ void MetricTable::setSides(quint64 a, quint64 b) {
   fitColumns();
 }
 
-// Ties are all stressed; a value that stands alone is no best one.
+// Emphasises all ties, but not a value without others.
 void MetricTable::stressBest() {
   for (int column = 0; column < table_->columnCount(); ++column) {
     const BestValue best = columns_[static_cast<std::size_t>(column)].best;

@@ -209,7 +209,7 @@ void ResultList::setShown(std::optional<quint64> id, std::optional<quint64> comp
   updateButtons();
 }
 
-// A long name does not push the numbers out of sight.
+// Keeps a long name from pushing the numbers out of sight.
 void ResultList::fitMethods() {
   QFont bold = tree_->font();
   bold.setBold(true);
@@ -228,7 +228,7 @@ void ResultList::fitMethods() {
   tree_->setColumnWidth(kParameters, std::max(room - method, parameters));
 }
 
-// A click on the mark chooses B; the selection, which is what is shown, stays.
+// A click on the mark chooses B and leaves the selection (A) alone.
 bool ResultList::eventFilter(QObject* watched, QEvent* event) {
   if (watched == tree_->viewport() && event->type() == QEvent::Resize) fitMethods();
   if (watched == tree_->viewport() && event->type() == QEvent::MouseButtonPress) {

@@ -8,7 +8,6 @@
 
 #include <iostream>
 #include <sstream>
-#include <string_view>
 
 namespace episcope::cli {
 namespace {

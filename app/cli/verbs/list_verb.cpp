@@ -12,7 +12,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <chrono>
+#include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <set>

@@ -12,7 +12,6 @@
 namespace episcope {
 
 class BrushPanel;
-class FillTool;
 class LassoTool;
 class OutlineTool;
 class PointTool;

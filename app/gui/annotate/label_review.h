@@ -18,9 +18,6 @@ class QDialog;
 
 namespace episcope {
 
-class LabelReviewPanel;
-class EpiStripView;
-
 /// Goes to the places of a view where a stroke would help most, and to the islands and holes of the
 /// current label, and marks them on the view.
 class LabelReviewController : public QObject {

@@ -29,7 +29,7 @@ void LabelingSource::update(Parts parts) {
   emit changed();
 }
 
-// They take as much memory as a result.
+// Disparities of closed scenes take as much memory as a result.
 void LabelingSource::leaveGone() {
   std::erase_if(own_, [this](const auto& own) {
     const OpenScene* scene = session_.find_scene(own.first);

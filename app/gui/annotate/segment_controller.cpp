@@ -184,7 +184,7 @@ void SegmentController::update(Parts parts) {
   }
 }
 
-// Whatever the labels go by is another now.
+// An input of the labels changed.
 void SegmentController::noteInput() {
   const AnnotationDocument* document = std::as_const(document_).document();
   if (!document || !session_.scene()) {
@@ -262,7 +262,7 @@ void SegmentController::followLabeler() {
   }
 }
 
-// Tells the overlay of what is there now.
+// Updates the overlay.
 void SegmentController::publish() {
   shown_labeling_ = live_.labeling(session_.view());
   const bool showed_labels = showsLabels();
@@ -423,7 +423,7 @@ void SegmentController::keep(const LabelingPtr& labeling, const LabelingInput& i
                        {}});
 }
 
-// Once for each time a scene is shown.
+// Runs once each time a scene is shown.
 void SegmentController::restore() {
   const std::uint64_t scene = session_.generation();
   if (std::exchange(restored_, scene) == scene) return;

@@ -32,7 +32,6 @@ class SegmentController : public QObject, public MapProvider {
 
   /// Live mode: recomputes labels after every change of document, view or settings.
   void setLive(bool is_live);
-  [[nodiscard]] bool isLive() const { return is_live_; }
   /// Segments this view once.
   void updateNow();
   /// Segments all views as a job, which continues while other scenes are shown.

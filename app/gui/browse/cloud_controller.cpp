@@ -159,7 +159,7 @@ void CloudController::setLarge(bool is_large) {
   bench_.commands.refresh();
 }
 
-// What is out of date and not seen takes no memory and no time.
+// Outdated clouds are dropped while they are not visible.
 void CloudController::refresh() {
   is_stale_ = true;
   if (isOnScreen()) {
@@ -265,7 +265,7 @@ bool is_of_map(CloudColoring coloring) {
          coloring == CloudColoring::Labels;
 }
 
-// What is learnt from strokes, else the true labels.
+// Labels learnt from strokes, else the true labels.
 Quantity labels_of(const Overlay& overlay) {
   return overlay.isAvailable(Quantity::Segmentation) ? Quantity::Segmentation
                                                      : Quantity::TrueLabels;
@@ -327,7 +327,7 @@ QString CloudRequests::otherName() const {
   return other() ? QString::fromStdString(bench_.session.compared()->name) : QString();
 }
 
-// To what is shown with the result, else to the truth, else to the other result.
+// Distances refer to the companion, else to the truth, else to the other result.
 std::shared_ptr<const DisparityField> CloudRequests::reference(CloudCompanion companion) const {
   if (companion == CloudCompanion::Other && other()) return other();
   return truth() ? truth() : other();
@@ -365,7 +365,7 @@ CloudChoice CloudRequests::possible(CloudChoice choice) const {
   return choice;
 }
 
-// The truth has colours of its own.
+// The truth has its own colours.
 Quantity CloudRequests::quantity(CloudColoring coloring) const {
   const Quantity quantity = quantity_of(coloring, bench_.overlay);
   return quantity == Quantity::Disparity && !result() ? Quantity::Truth : quantity;

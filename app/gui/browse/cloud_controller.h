@@ -16,7 +16,6 @@
 namespace episcope {
 
 struct EstimateEntry;
-class PointCloudPanel;
 
 /// Turns a choice of the 3D view into a request to the session in its current state. Shows the
 /// current result, or the ground truth if there is none.

@@ -391,7 +391,7 @@ void add_conventions(SceneInfo& info, const CameraGrid& camera,
   info.rows.push_back({InfoPanelText::tr("Format"), schema_text(convention.format), {}, "format"});
 }
 
-// `gpu`: what methods compute on; none while that is not known yet.
+// `gpu`: device that methods compute on; none while unknown.
 SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
   const LightField& light_field = *scene.light_field;
   const GridShape grid = light_field.grid();
@@ -453,7 +453,7 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
   return info;
 }
 
-// The options that a reader of the input knows; of one that nobody reads, all but the focus plane.
+// Options known to a reader of the input; for an input that nobody reads, all but the focus plane.
 std::vector<ParameterDescription> options_of(const QString& input, const std::string& reader_id) {
   const io::Reader* reader = io::reader_named(reader_id);
   try {

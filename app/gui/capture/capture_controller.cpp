@@ -34,7 +34,7 @@
 namespace episcope {
 namespace {
 
-// Why there can be no pose; empty = there can.
+// Why there is no pose; empty = there can be one.
 QString obstacle(const Session& session) {
   if (!session.scene()) return CaptureController::tr("Open a light field first.");
   if (!session.light_field()->info().camera.pinhole) {
@@ -45,7 +45,7 @@ QString obstacle(const Session& session) {
   return {};
 }
 
-// What is known of the pose of the current object, or what it lacks.
+// State of the current object's pose, or what it lacks.
 QString pose_text(const Session& session, const CaptureDocuments& documents) {
   const QString missing = obstacle(session);
   if (!missing.isEmpty()) return missing;

@@ -76,7 +76,7 @@ std::vector<fs::path> paths_of(const QStringList& names) {
   return paths;
 }
 
-// A folder that is not there yet.
+// Path of a folder that does not exist yet.
 fs::path new_folder(const QString& parent) {
   const QString name = QDir(parent).filePath("gantry_demo");
   QString free = name;
@@ -84,7 +84,7 @@ fs::path new_folder(const QString& parent) {
   return path_of(free);
 }
 
-// What the tool tip of the lens tells.
+// Tool tip of the lens.
 QString details_of(const CaptureLens& lens) {
   if (!lens.file.empty()) return QString::fromStdString(lens.file);
   const auto used = std::ranges::count_if(
@@ -106,7 +106,7 @@ QString alignment_text(const RowAlignment& rows) {
       .arg(rows.before.percentile_95, 0, 'f', 2);
 }
 
-// As the demo begins, but for the lens.
+// Initial work of the demo, without the lens.
 CaptureWork work_of(const GantryFolder& demo) {
   CaptureWork work;
   work.pattern = capture::demo_pattern();

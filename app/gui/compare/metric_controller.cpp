@@ -245,7 +245,7 @@ struct MetricName {
   int decimals = 2;
 };
 
-// In the order of tables.
+// Metrics in the order of tables.
 constexpr MetricName kNames[] = {
     {"mse_100", QT_TRANSLATE_NOOP("episcope::MetricTable", "MSE×100"),
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Mean squared error ×100, px²"), 3},
@@ -328,7 +328,7 @@ struct MetricTableText {
   Q_DECLARE_TR_FUNCTIONS(episcope::MetricTable)
 };
 
-// What a number is of, where the end of its key says so; a key may have several such ends.
+// Meaning of a key's suffix; a key may have several.
 struct PartName {
   const char* suffix;
   const char* label;
@@ -344,7 +344,7 @@ constexpr PartName kParts[] = {
                        "In the resolution of the views: the official score needs the truth of ten "
                        "times the resolution")}};
 
-// A key without its ends, and the numbers of the parts they name, the first one first.
+// A key without its suffixes, and the indices of their meanings, the first suffix first.
 struct KeyParts {
   std::string base;
   std::vector<std::size_t> parts;

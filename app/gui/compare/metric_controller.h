@@ -17,8 +17,6 @@
 
 namespace episcope {
 
-struct MetricColumn;
-class MetricTable;
 class RegionController;
 
 /// A result with its known scores.

@@ -40,7 +40,7 @@ struct Look {
   }
 };
 
-// The view alone where there is no map.
+// Falls back to the view alone without a map.
 MapSource source_of(const Workbench& bench, const MapChoice& choice) {
   auto source = bench.overlay.sourceOf(choice);
   if (source) return std::move(*source);

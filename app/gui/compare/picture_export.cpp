@@ -31,7 +31,7 @@ struct DrawnMap {
   render::Shading shading;
 };
 
-// What is drawn over the view; nothing without an overlay.
+// The overlay's map; none without an overlay.
 std::optional<DrawnMap> drawn_map(const Overlay& overlay) {
   const MapChoice choice = overlay.choice();
   auto source = overlay.sourceOf(choice);

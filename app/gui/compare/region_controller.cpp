@@ -208,7 +208,7 @@ void RegionController::takeMask(std::uint64_t scene, const std::string& path,
   refresh();
 }
 
-// What was judged before stays; the whole view is, if that was the mask of a project.
+// Keeps the previous region, or the whole view if a project named the mask.
 void RegionController::dropMask(std::uint64_t scene, const std::string& path) {
   masks_.erase(scene);
   const OpenScene* open = bench_.session.find_scene(scene);
@@ -259,14 +259,14 @@ RegionPtr RegionController::makeRegion() {
   return nullptr;
 }
 
-// Of a project that was opened, it is read when its scene is shown first.
+// The mask of a project is read when its scene is first shown.
 RegionPtr RegionController::maskRegion() {
   const std::uint64_t scene = bench_.session.generation();
   readMask(scene, now().mask);
   return masks_[scene].pixels;
 }
 
-// Of the segmentation of the judged view; without one, what is painted there.
+// Pixels of the segmentation of the evaluated view, or of its strokes without a segmentation.
 RegionPtr RegionController::labelRegion() const {
   const Session& session = bench_.session;
   const LightField& light_field = *session.light_field();

@@ -18,7 +18,6 @@
 
 namespace episcope {
 
-class RectangleTool;
 class RegionBar;
 
 /// Mask of evaluated pixels; null = all.

@@ -141,7 +141,6 @@ void StatisticsController::show(const Counted& counted) {
   panel_->setSummary({overlay_.describe(measured), quantity_unit(measured.quantity),
                       counted.statistics, counted.bad_percent,
                       overlay_.shadingOf(measured.quantity)});
-  emit updated();
   if (wants_range_) applyAutomaticRange();
 }
 

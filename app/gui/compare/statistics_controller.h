@@ -30,9 +30,6 @@ class StatisticsController : public QObject {
     return statistics_;
   }
 
- signals:
-  void updated();
-
  private:
   struct Counted {
     render::RegionStatistics statistics;

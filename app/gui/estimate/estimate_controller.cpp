@@ -85,8 +85,7 @@ std::vector<MethodDescription> described_methods() {
   return methods;
 }
 
-// What distinguishes this run: whether it was ended early, and parameters that are not at their
-// defaults.
+// Distinguishes this run: whether it ended early, and its changed parameters.
 QString parameter_text(const Estimate& estimate) {
   QStringList texts;
   if (was_taken_early(estimate)) texts << EstimateController::tr("ended early");

@@ -24,7 +24,6 @@ class LiveController : public QObject {
   LiveController(const Workbench& bench, MethodPanel& method);
 
   void setOn(bool is_on);
-  [[nodiscard]] bool isOn() const { return is_on_; }
   [[nodiscard]] const LiveEstimator& estimator() const { return estimator_; }
 
  private:

@@ -33,7 +33,7 @@ std::vector<ParameterDescription> descriptions_of(const RunRequest& request) {
   return described_under(find_estimator(request.method).parameters, request.values);
 }
 
-// Proposals are around the value of the form.
+// Proposes values around the form's value.
 ParameterDescription at_present(ParameterDescription description, const ParameterSet& values) {
   const auto present = std::ranges::find(values, description.key, &ParameterSet::value_type::first);
   if (present != values.end()) description.default_value = present->second;
@@ -240,7 +240,7 @@ void SweepController::showPlots() {
   describe();
 }
 
-// A point of the mean shows the map of the light field that is in sight.
+// A point of the mean shows the map of the visible light field.
 void SweepController::choose(int plot, const PlotPlace& chosen) {
   const auto& places = charts_.at(static_cast<std::size_t>(plot)).places;
   const SweepChart::Place place = places.at(chosen.series).at(chosen.point);
@@ -299,7 +299,7 @@ void SweepController::runAgain(SweepPlace place) {
   bench_.jobs.setScene(job, bench_.session.generation());
 }
 
-// What the user named, annotated or saved stays.
+// Keeps results that the user named, annotated or saved.
 void SweepController::dropShown() {
   Session& session = bench_.session;
   const Shown former = std::exchange(shown_[session.generation()], {});
@@ -374,7 +374,7 @@ struct Measured {
   SweepMeasure measure;
   const char* name;
 };
-// In the order of the lists; what needs ground truth comes first.
+// Measures in the order of the lists, first those that need ground truth.
 constexpr Measured kMeasures[] = {
     {SweepMeasure::MseTimes100,
      QT_TRANSLATE_NOOP("episcope::SweepPlot", "MSE×100, all pixels [px²]")},

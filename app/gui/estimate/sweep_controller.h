@@ -21,7 +21,6 @@
 namespace episcope {
 
 class MethodPanel;
-struct PlotPlace;
 class SweepPanel;
 class SweepRuns;
 

@@ -31,7 +31,7 @@ struct Work {
   std::function<void(std::uint64_t scene, const SweepPoint&)> tell;
 };
 
-// Every point of a light field that cannot be read says why.
+// Every point of an unreadable light field tells why.
 std::shared_ptr<const Scene> read(const Work& work, const Work::Of& of, const Progress& progress) {
   try {
     return of.source(progress);

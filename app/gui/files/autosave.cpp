@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr int kLater_ms = 500;  // what changes with every movement of the hand
 
-// A light field that was merely opened is opened again as quickly.
+// Merely opened light fields are not worth keeping: they open again as quickly.
 bool is_worth_keeping(const Project& project) {
   return project.scenes.size() > 1 || !project.sweeps.empty() ||
          std::ranges::any_of(project.scenes, [](const ProjectScene& scene) {
@@ -27,7 +27,7 @@ bool is_worth_keeping(const Project& project) {
          });
 }
 
-// As far as files hold it.
+// The part of a project that is in files.
 Project written_part(Project project) {
   for (ProjectScene& scene : project.scenes) {
     std::erase_if(scene.results, [](const ProjectResult& each) { return !is_in_file(each); });
@@ -119,7 +119,7 @@ void Autosave::write_all(Project project, const fs::path& file, Kept& kept,
   }
 }
 
-// The file of labels that are out of date goes once the project names the new one.
+// Removes the file of outdated labels once the project names the new one.
 void Autosave::keepLabels(const Kept::Labels& kept) {
   const fs::path former = std::exchange(label_files_[kept.scene], kept.file);
   std::error_code ignored;

@@ -301,7 +301,7 @@ bool CollectionController::isTouched(const OpenScene& scene) const {
          });
 }
 
-// Who goes through a collection does not want all of it open.
+// Users who step through a collection do not want all of it open.
 void CollectionController::closeIfUntouched(std::uint64_t id) {
   const OpenScene* scene = bench_.session.find_scene(id);
   if (scene && !isTouched(*scene)) bench_.session.remove(id);

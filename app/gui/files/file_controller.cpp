@@ -306,8 +306,8 @@ void FileController::openAny(const QString& path) {
   }
 }
 
-// One after the other, for each takes the place of what is still being opened; results last, as
-// they belong to a light field.
+// Opens one after the other, since each replaces the one being opened; results last, since they
+// belong to a light field.
 void FileController::openAll(QStringList paths, const QStringList& failures) {
   std::stable_partition(paths.begin(), paths.end(),
                         [](const QString& path) { return !is_result(path); });

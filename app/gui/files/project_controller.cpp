@@ -25,7 +25,7 @@
 namespace episcope {
 namespace {
 
-// The results of a scene, in the order in which they were made: also those that cannot be read.
+// Results of a scene in order of creation, also unreadable ones.
 std::string results_text(const OpenScene& scene) {
   std::map<int, std::string> lines;
   for (const auto* entries : {&scene.estimates, &scene.unread}) {
@@ -36,7 +36,7 @@ std::string results_text(const OpenScene& scene) {
   return text;
 }
 
-// The documents with the files of the project that hold them.
+// Documents with the project files that hold them.
 std::vector<EditedDocument> stored_in(const Project& project,
                                       std::vector<EditedDocument> documents) {
   for (EditedDocument& each : documents) {

@@ -23,7 +23,7 @@ QString list_of(const std::vector<std::string>& names) {
   return listed(texts);
 }
 
-// Those of the built-in gantry come with it.
+// Pairs of the built-in gantry come with it.
 bool has_picks(const OpenScene& scene) {
   return builtin_scene_id(scene.input).empty() &&
          std::ranges::any_of(scene.place.capture.objects,

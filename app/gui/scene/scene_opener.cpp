@@ -141,7 +141,7 @@ ParameterSet with_option(ParameterSet given, const std::string& key, const std::
   return given;
 }
 
-// What came of reading: a scene, a question, or a folder of several.
+// Outcome of reading: a scene, a question, or a folder of several.
 struct Opened {
   ScenePtr scene;
   std::optional<io::Undecided> question;
@@ -158,7 +158,7 @@ Opened read_or_question(const std::function<ScenePtr()>& read) {
   }
 }
 
-// The user is told of conventions that no longer fit the file; they are not used.
+// Drops conventions that no longer fit the file, and tells the user.
 ScenePtr read_as_remembered(const std::string& input, const LoadOptions& options,
                             const Progress& progress) {
   if (io::given_options(options.open).empty()) return read_as_told(input, options, progress);

@@ -163,7 +163,7 @@ void SceneSwitcher::finish(std::uint64_t id, const Read& read) {
   if (!read.failures.isEmpty()) messages_.warn(read.failures.join(' '));
 }
 
-// Those of closed scenes go with them.
+// Drops sweeps of closed scenes.
 void SceneSwitcher::keepSweeps() {
   std::vector<std::uint64_t> open;
   for (const OpenScene* each : session_.scenes()) open.push_back(each->id);

@@ -17,7 +17,6 @@ namespace episcope {
 
 class Jobs;
 class Messages;
-class Session;
 
 /// Switches between open scenes: at once if the scene is in memory, else after reading it and its
 /// results in the background. Keeps the sweeps over scenes. Frees the least recently used scenes

@@ -21,7 +21,7 @@
 namespace episcope {
 namespace {
 
-// Of the view and of the EPIs, until the user drags between them.
+// Sizes of the view and the EPIs until the user drags between them.
 constexpr int kCanvasWidth = 600;
 constexpr int kCanvasHeight = 500;
 constexpr int kEpiWidth = 145;  // and of the legend under it
@@ -125,7 +125,7 @@ void ViewerArea::alignColumns() {
   vertical_place_->installEventFilter(this);
 }
 
-// Whatever changed its width, the legend follows.
+// The legend follows every change of its width.
 bool ViewerArea::eventFilter(QObject* watched, QEvent* event) {
   const bool is_sized = event->type() == QEvent::Resize || event->type() == QEvent::Show;
   if (watched == vertical_place_ && is_sized) {

@@ -62,7 +62,7 @@ void CommandPalette::popUp() {
   edit_->setFocus();
 }
 
-// What cannot be run now stands, if it is asked for, behind what can, in gray.
+// Commands that cannot run now are listed last, in grey.
 void CommandPalette::filter(const QString& text) {
   list_->clear();
   list(text, true);

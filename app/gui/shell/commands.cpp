@@ -25,7 +25,7 @@ QString settings_key(const QString& id) {
   return "keys/" + id;
 }
 
-// Keys that the user gave a command; none if it has its own.
+// Keys that the user gave a command; none if it has its defaults.
 std::optional<QList<QKeySequence>> remembered_keys(const QString& id) {
   const QSettings settings;
   if (!settings.contains(settings_key(id))) return std::nullopt;

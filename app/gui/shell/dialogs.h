@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <functional>
 
-class QString;
 class QWidget;
 
 namespace episcope {

@@ -28,7 +28,7 @@ QString pane_id(const QString& tab) {
   return "tab." + tab;
 }
 
-// Tabs that do not fit are scrolled; here are all of them, also those that wait.
+// Lists all tabs, also those that are scrolled away or hidden.
 QToolButton* make_list_of_tabs(Frame& frame, QWidget* parent) {
   auto* button = new QToolButton(parent);
   button->setObjectName("tabs.list");
@@ -54,7 +54,7 @@ QToolButton* make_list_of_tabs(Frame& frame, QWidget* parent) {
   return button;
 }
 
-// A tab comes to the front, at its place among those that are there.
+// Inserts a tab at its place and shows it.
 void put_in_book(QTabWidget& book, const std::vector<Tab>& tabs, const QString& id) {
   int place = 0;
   for (const Tab& each : tabs) {
@@ -66,7 +66,7 @@ void put_in_book(QTabWidget& book, const std::vector<Tab>& tabs, const QString& 
   }
 }
 
-// The tabs, and below them those that the user puts there.
+// The tabs, and below them the stacked panes.
 QSplitter* make_books(QTabWidget* tabs, TabStack* stack, QWidget* parent) {
   auto* split = new QSplitter(Qt::Vertical, parent);
   split->setObjectName("split.side");

@@ -142,7 +142,7 @@ void JobCancel::cancel(const std::vector<quint64>& ids) {
   }
 }
 
-// Of those that are not being cancelled.
+// Considers only jobs that are not being cancelled.
 std::optional<Jobs::Running> JobCancel::longestOf(const std::vector<quint64>& ids) const {
   std::optional<Jobs::Running> longest;
   for (const quint64 id : ids) {

@@ -18,13 +18,10 @@
 #include <optional>
 #include <vector>
 
-class QObject;
-
 namespace episcope {
 
 class Frame;
 class Messages;
-class Session;
 
 /// Jobs of one lane run one after the other; lanes run in parallel. Opening a light field or
 /// project ends other jobs of that lane only.

@@ -24,8 +24,8 @@ class QWidget;
 namespace episcope {
 namespace {
 
-// Gives a control a name that screen readers can tell: what has neither a text, nor a label, nor a
-// name of its own is called as the first line of its tool tip says.
+// Names a control for screen readers by the first line of its tool tip, if it has neither text,
+// label nor name.
 void name_for_readers(QWidget& control) {
   if (control.toolTip().isEmpty()) return;
   QAccessibleInterface* reader = QAccessible::queryAccessibleInterface(&control);
@@ -47,7 +47,7 @@ bool is_field(const QWidget& widget) {
          (combo && combo->isEditable());
 }
 
-// A name that is edited in its list: the list ends that itself, on the same keys.
+// A name that is edited in its list, which ends that itself on the same keys.
 bool is_in_place(const QWidget& field) {
   for (const QWidget* each = field.parentWidget(); each; each = each->parentWidget()) {
     if (qobject_cast<const QAbstractItemView*>(each)) return true;
@@ -115,7 +115,7 @@ void KeyboardHome::greet(QWidget& widget) {
   }
 }
 
-// What was typed counts before whatever is clicked.
+// Applies typed input before any click.
 void KeyboardHome::endTyping(const QWidget& clicked) {
   const QWidget* focus = QApplication::focusWidget();
   if (!focus || !is_field(*focus) || focus == &clicked || focus->isAncestorOf(&clicked)) return;
@@ -138,7 +138,7 @@ bool KeyboardHome::belongsTo(const QWidget& widget, const QKeyEvent& key) {
   return is_control(widget) && (moves(key) || presses(key));
 }
 
-// After the field has heard the key itself.
+// Runs after the field has handled the key.
 void KeyboardHome::leave(QWidget& field, int key) {
   const bool drops = key == Qt::Key_Escape;
   if (!drops && key != Qt::Key_Return && key != Qt::Key_Enter) return;

@@ -89,7 +89,7 @@ QString Panes::stackedPane(const QWidget* widget) const {
   return {};
 }
 
-// Where it was before does not hold it any more.
+// Removes a pane from its present place.
 void Panes::leave(const QString& id) {
   if (isTorn(id)) {
     remember(id);

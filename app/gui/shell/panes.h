@@ -11,8 +11,6 @@
 #include <functional>
 #include <vector>
 
-class QWidget;
-
 namespace episcope {
 
 class PaneWindow;

@@ -43,11 +43,4 @@ struct Workbench {
   ResultOpener& results;
 };
 
-/// Row of the table of features. A feature adds its widgets, tabs, commands and controllers to the
-/// window. Features share only the workbench.
-struct Feature {
-  const char* id;
-  void (*add)(const Workbench&);
-};
-
 }  // namespace episcope

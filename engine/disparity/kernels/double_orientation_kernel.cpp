@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMaxChannels = 3;
 
-// Even filters take the sum of two neighbours, the odd one their difference.
+// Even filters take the sum of two neighbors, the odd one their difference.
 template <int kRadius>
 void differentiate_plane(const float* __restrict in, long lanes, int along,
                          const SecondOrderFilters& filters, float* __restrict const* out) {

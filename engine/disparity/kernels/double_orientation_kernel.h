@@ -23,8 +23,8 @@ struct SecondOrderFilters {
 };
 
 /// Buffers and geometry of one tile: planes of one view each, `[y][x]` with all margins, flattened
-/// to `lanes`. The image axis of the EPI is x (horizontal EPIs) or y: neighbours along it lie
-/// `along` lanes apart, neighbouring EPIs `across` lanes. All buffers belong to the caller and have
+/// to `lanes`. The image axis of the EPI is x (horizontal EPIs) or y: neighbors along it lie
+/// `along` lanes apart, neighboring EPIs `across` lanes. All buffers belong to the caller and have
 /// slack on either side.
 struct DoubleBlock {
   int rows = 0;                             ///< Views along the EPI.

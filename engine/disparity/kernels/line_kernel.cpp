@@ -10,16 +10,16 @@ namespace {
 
 constexpr float kUnit = 1.0F / static_cast<float>(kPackedMost);
 
-struct Colour {
+struct Color {
   Vec channel[3];
 };
 
-inline Colour unpack(IntVec packed) {
-  Colour colour;
+inline Color unpack(IntVec packed) {
+  Color color;
   for (int c = 0; c < 3; ++c) {
-    colour.channel[c] = convert<float>((packed >> (kPackedBits * c)) & kPackedMost);
+    color.channel[c] = convert<float>((packed >> (kPackedBits * c)) & kPackedMost);
   }
-  return colour;
+  return color;
 }
 
 inline IntVec gather(const std::uint32_t* from, IntVec index) {
@@ -46,7 +46,7 @@ inline Vec lowest(Vec value) {
 struct Pixels {
   int x = 0;
   IntVec column;
-  Colour own;
+  Color own;
   Vec disparity;
   float low = 0, high = 0;
 };
@@ -142,9 +142,9 @@ inline SamplePair sample_pair(const ResidualRow& row, const LineArm& arm, int k,
   return sweep_pair(view + from, stride, offset, reach);
 }
 
-inline Vec squared_difference(const Colour& own, const SamplePair& pair, Vec weight) {
-  const Colour first = unpack(pair.first);
-  const Colour second = unpack(pair.second);
+inline Vec squared_difference(const Color& own, const SamplePair& pair, Vec weight) {
+  const Color first = unpack(pair.first);
+  const Color second = unpack(pair.second);
   Vec sum{};
   for (int c = 0; c < 3; ++c) {
     const Vec off =
@@ -211,13 +211,13 @@ struct PackedColor {
   IntVec channel[3];
 };
 
-inline PackedColor load_colour(const std::uint32_t* from) {
+inline PackedColor load_color(const std::uint32_t* from) {
   const IntVec packed = load_packed(from);
   return {{packed & kPackedMost, (packed >> kPackedBits) & kPackedMost,
            (packed >> (2 * kPackedBits)) & kPackedMost}};
 }
 
-inline Vec squared_difference(const PackedColor& a, const PackedColour& b) {
+inline Vec squared_difference(const PackedColor& a, const PackedColor& b) {
   IntVec sum{};
   for (int c = 0; c < 3; ++c) {
     const IntVec off = a.channel[c] - b.channel[c];
@@ -228,11 +228,11 @@ inline Vec squared_difference(const PackedColor& a, const PackedColour& b) {
 
 void gradients(const GradientRow& row) {
   for (int x = 0; x < row.width; x += kLanes) {
-    const PackedColor here = load_colour(row.here + x);
-    const Vec left = squared_difference(here, load_colour(row.here + x - 1));
-    const Vec right = squared_difference(here, load_colour(row.here + x + 1));
-    const Vec up = squared_difference(here, load_colour(row.above + x));
-    const Vec down = squared_difference(here, load_colour(row.below + x));
+    const PackedColor here = load_color(row.here + x);
+    const Vec left = squared_difference(here, load_color(row.here + x - 1));
+    const Vec right = squared_difference(here, load_color(row.here + x + 1));
+    const Vec up = squared_difference(here, load_color(row.above + x));
+    const Vec down = squared_difference(here, load_color(row.below + x));
     store(row.mean + x, 0.5F * (left + right) + 0.5F * (up + down));
     store(row.own + x, least(left, right) + least(up, down));
   }
@@ -257,12 +257,12 @@ const TrustKernel kTrustKernel{gradients, trust};
 
 namespace {
 
-void gather_neighbours(const NeighbourRow& row) {
+void gather_neighbors(const NeighborRow& row) {
   for (int x = 0; x < row.width; x += kLanes) {
     Vec far = load(row.own_disparity + x), near = far;
     Vec far_confidence = load(row.own_confidence + x), near_confidence = far_confidence;
     const Vec least_trust = row.far_trust * far_confidence;
-    for (int k = 0; k < kSideNeighbours; ++k) {
+    for (int k = 0; k < kSideNeighbors; ++k) {
       const Vec d = load(row.disparity[k] + x), r = load(row.confidence[k] + x);
       const IntVec is_farther = (d < far) & (r >= least_trust);
       far_confidence = choose(is_farther, r, far_confidence);
@@ -281,7 +281,7 @@ struct Votes {
   Vec own{}, far{}, near{};
 };
 
-// Sums of residuals of the pixels around, by similarity of colour.
+// Sums of residuals of the pixels around, by similarity of color.
 inline Votes collect(const SideRow& row, int x) {
   Vec own_color[3];
   for (int c = 0; c < 3; ++c) own_color[c] = load(row.color[c][kVoteRadius] + x);
@@ -330,6 +330,6 @@ void choose_side(const SideRow& row) {
 
 }  // namespace
 
-const SideKernel kSideKernel = {gather_neighbours, choose_side};
+const SideKernel kSideKernel = {gather_neighbors, choose_side};
 
 }  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE

@@ -44,7 +44,7 @@ EPISCOPE_DECLARE_KERNEL(extern const ResidualKernel kResidualKernel);
 /// Elements before and after each row below that may be read, and after it written.
 inline constexpr int kTrustSlack = 16;
 
-/// Three rows of packed samples (PackedViews): where a neighbour does not exist, the one opposite
+/// Three rows of packed samples (PackedViews): where a neighbor does not exist, the one opposite
 /// stands in its place, also before and after each row.
 struct GradientRow {
   const std::uint32_t* above = nullptr;
@@ -79,15 +79,15 @@ EPISCOPE_DECLARE_KERNEL(extern const TrustKernel kTrustKernel);
 inline constexpr int kSideSlack = 16;
 inline constexpr int kVoteRows = 2 * kVoteRadius + 1;
 
-/// What lies around the pixels of one row: in the k-th neighbour, disparity[k][x] of confidence
+/// What lies around the pixels of one row: in the k-th neighbor, disparity[k][x] of confidence
 /// confidence[k][x].
-struct NeighbourRow {
-  const float* disparity[kSideNeighbours] = {};
-  const float* confidence[kSideNeighbours] = {};
+struct NeighborRow {
+  const float* disparity[kSideNeighbors] = {};
+  const float* confidence[kSideNeighbors] = {};
   const float* own_disparity = nullptr;
   const float* own_confidence = nullptr;
   int width = 0;
-  float far_trust = 0;  ///< The share of the own confidence that a neighbour on the far side needs.
+  float far_trust = 0;  ///< The share of the own confidence that a neighbor on the far side needs.
   /// Written: the least and the largest disparity, the own one included, and the confidences that
   /// belong to them.
   float* far = nullptr;
@@ -97,13 +97,13 @@ struct NeighbourRow {
 };
 
 /// One row to decide. Of the rows from y − 2 to y + 2, in columns from −2 to width + 2: residuals
-/// of own, far and near disparities, and the colour of the view, far outside [0, 1] where there is
+/// of own, far and near disparities, and the color of the view, far outside [0, 1] where there is
 /// no pixel.
 struct SideRow {
   const float* residual[3][kVoteRows] = {};
   const float* color[3][kVoteRows] = {};
   int width = 0;
-  float sharpness = 1;  ///< 1/(8σ²): σ is the difference of colour of pixels that belong together.
+  float sharpness = 1;  ///< 1/(8σ²): σ is the difference of color of pixels that belong together.
   float least_step = 0;  ///< A side that is less far off is no other.
   /// The share of the own residual that the other's must be below.
   float far_advantage = 1, near_advantage = 1;
@@ -121,7 +121,7 @@ struct SideRow {
 };
 
 struct SideKernel {
-  void (*gather)(const NeighbourRow&);
+  void (*gather)(const NeighborRow&);
   void (*choose)(const SideRow&);
 };
 

@@ -67,7 +67,7 @@ struct GuideRow {
   int radius = 0;
   const float* guide[3] = {};
   const float* mean[3] = {};     ///< Over the window.
-  const float* inverse[6] = {};  ///< Of covariance + regularisation: 00, 01, 02, 11, 12, 22.
+  const float* inverse[6] = {};  ///< Of covariance + regularization: 00, 01, 02, 11, 12, 22.
   const float* share = nullptr;  ///< 1 / columns of the window that lie within the image.
 };
 

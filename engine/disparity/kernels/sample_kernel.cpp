@@ -7,7 +7,7 @@
 #include <immintrin.h>
 #endif
 
-// The intrinsics of GCC 12 leave lanes that they overwrite uninitialised (GCC PR105593).
+// The intrinsics of GCC 12 leave lanes that they overwrite uninitialized (GCC PR105593).
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif

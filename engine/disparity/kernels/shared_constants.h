@@ -21,10 +21,10 @@ inline constexpr int kTextureRadius = 2;
 inline constexpr float kTextureGain = 4;
 
 /// The side of a jump that a ray belongs to (choose_sides).
-inline constexpr int kSideNeighbours = 12;
+inline constexpr int kSideNeighbors = 12;
 inline constexpr int kSideReach = 6;  ///< px
 struct SideOffsets {
-  int at[kSideNeighbours][2];  ///< y, x
+  int at[kSideNeighbors][2];  ///< y, x
 };
 inline constexpr SideOffsets kSideOffsets = {{{-3, -3},
                                               {-3, 0},
@@ -54,7 +54,7 @@ inline constexpr int kOccludedMinShare = 4;  ///< One of so many.
 inline constexpr float kOccludedFarther = 0.1F;
 inline constexpr float kOccludedTolerance = 0.3F;  ///< Of residuals, in variances of the noise.
 
-/// The structure tensor: taps of its longest filter; neighbours whose disparity differs by so much,
+/// The structure tensor: taps of its longest filter; neighbors whose disparity differs by so much,
 /// squared, count half, since they see another surface; directions that agree within so many px are
 /// averaged, also those of two layers.
 inline constexpr int kMaxTaps = 13;

@@ -171,7 +171,7 @@ inline GradientGroup gradient_group(const RowWork& work, long at) {
   return g;
 }
 
-// The number of taps that rows have with neighbours enough on both sides, at the usual scale: those
+// The number of taps that rows have with neighbors enough on both sides, at the usual scale: those
 // along are symmetric, those across antisymmetric. Samples of a pair are added first, on adders
 // that multiplications leave idle.
 constexpr int kInner = -5;

@@ -11,7 +11,7 @@ namespace episcope {
 /// The longest filter of the structure tensor, in taps.
 inline constexpr int kMaxTensorViews = 160;  ///< Along an EPI.
 
-/// A small odd filter, centred: out(n) = Σ taps[i]·in(n + i − radius). Half a sample further it has
+/// A small odd filter, centerd: out(n) = Σ taps[i]·in(n + i − radius). Half a sample further it has
 /// one tap more.
 struct Taps {
   int radius = 0;
@@ -25,7 +25,7 @@ struct RowTaps {
   float values[kMaxTaps] = {};
 };
 
-/// Buffers and geometry of one block of EPIs, planes of `rows` views by `pitch` lanes. Neighbours
+/// Buffers and geometry of one block of EPIs, planes of `rows` views by `pitch` lanes. Neighbors
 /// along the image axis lie `stride` lanes apart: 1 for horizontal EPIs (lanes are x), the width of
 /// a column block for vertical EPIs (lanes are [y][x]). All buffers belong to the caller.
 struct TensorBlock {
@@ -34,7 +34,7 @@ struct TensorBlock {
   int stride = 1;
   int pitch = 0;         ///< Lanes from row to row of a plane of samples or derivatives.
   int margin = 0;        ///< Lanes before the payload there; samples repeat the border or are real.
-  int tensor_pitch = 0;  ///< The same of the planes in sheared coordinates.
+  int tensor_pitch = 0;  ///< Pitch of the planes in sheared coordinates.
   int tensor_margin = 0;
   int length = 0;                   ///< Lanes of payload.
   int first_row = 0, last_row = 0;  ///< Rows [first, last) whose result is wanted.
@@ -70,7 +70,7 @@ struct Shear {
   float min = 0, max = 0;  ///< Disparities beyond are not accepted.
 };
 
-/// Tensors of neighbouring EPIs to be averaged, and where the result goes.
+/// Tensors of neighboring EPIs to be averaged, and where the result goes.
 struct TensorAverage {
   int count = 0;
   const float* tensor[kMaxTaps][3] = {};  ///< Jxx, Jxs, Jss, unsheared, `length` lanes each.
@@ -90,7 +90,7 @@ constexpr int floor_half(int half_steps) {
 /// The kernels' entry points, a set of each for each instruction set.
 struct TensorKernel {
   /// Pre-smooths `samples` and fills `along` and `across`; those half a pixel to the right only for
-  /// rows at an odd distance from row `rows`/2, which must be the centre of all shears.
+  /// rows at an odd distance from row `rows`/2, which must be the center of all shears.
   void (*differentiate)(const TensorBlock&, const TensorFilters&, bool with_half);
   /// Fills `tensor` for one shear, all channels summed.
   void (*accumulate)(const TensorBlock&, const TensorFilters&, const Shear&);
@@ -101,7 +101,8 @@ struct OrientationKernel {
   void (*select)(const TensorBlock&, const TensorFilters&, const Shear&);
   /// Averages tensors and reads disparity and coherence off the mean.
   void (*resolve)(const TensorAverage&);
-  /// Merges `count` estimates of one direction into those of the other: see merge_orientations.
+  /// Merges `count` estimates of one direction into the estimates of the other: see
+  /// merge_orientations.
   void (*merge)(const float* disparity, const float* coherence, int count, int power,
                 float* to_disparity, float* to_coherence);
 };

@@ -19,6 +19,113 @@
 namespace episcope::io {
 namespace {
 
+struct LogContent {
+  std::vector<LogRecord> records;
+  std::size_t whole_bytes = 0;  ///< Of the signature and these records.
+};
+
+constexpr std::array<std::uint32_t, 256> checksum_table() {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
+    std::uint32_t value = byte;
+    for (int bit = 0; bit < 8; ++bit)
+      value = (value & 1U) != 0 ? 0xEDB88320U ^ (value >> 1) : value >> 1;
+    table[byte] = value;
+  }
+  return table;
+}
+
+}  // namespace
+
+std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
+  static constexpr std::array<std::uint32_t, 256> table = checksum_table();
+  std::uint32_t value = 0xFFFFFFFFU;
+  for (const std::uint8_t byte : bytes) value = table[(value ^ byte) & 0xFFU] ^ (value >> 8);
+  return ~value;
+}
+
+namespace {
+
+using LogBytes = std::span<const std::uint8_t>;
+
+constexpr std::array<std::uint8_t, 8> kSignature{'E', 'P', 'I', 'L', 'O', 'G', '1', '\n'};
+constexpr std::size_t kFrame = 8;  // length and checksum, 32 bits each, lowest byte first
+constexpr std::size_t kMaxRecord = std::size_t{1} << 31;
+
+void put_number(std::size_t number, std::vector<std::uint8_t>& bytes) {
+  for (int shift = 0; shift < 32; shift += 8) {
+    bytes.push_back(static_cast<std::uint8_t>(number >> shift));
+  }
+}
+
+std::uint32_t number_at(LogBytes bytes) {
+  return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+         std::uint32_t{bytes[3]} << 24;
+}
+
+// It also covers the length: zeros are no record.
+std::uint32_t checksum_of(LogBytes record) {
+  return checksum(record) ^ static_cast<std::uint32_t>(record.size()) ^ 0xA5A5A5A5U;
+}
+
+// A record at the beginning of some bytes, and how many of them it takes with its frame.
+struct Framed {
+  LogBytes record;
+  std::size_t size = 0;
+};
+
+std::optional<Framed> first_line(LogBytes bytes) {
+  const auto end = std::ranges::find(bytes, '\n');
+  if (end == bytes.end()) return std::nullopt;
+  const auto length = static_cast<std::size_t>(end - bytes.begin());
+  return Framed{bytes.first(length), length + 1};
+}
+
+std::optional<Framed> first_checked(LogBytes bytes) {
+  if (bytes.size() < kFrame) return std::nullopt;
+  const std::size_t length = number_at(bytes);
+  if (bytes.size() - kFrame < length) return std::nullopt;
+  const LogBytes record = bytes.subspan(kFrame, length);
+  if (checksum_of(record) != number_at(bytes.subspan(4))) return std::nullopt;
+  return Framed{record, kFrame + length};
+}
+
+/// The bytes of a log without records.
+LogBytes log_signature(LogFraming framing) {
+  return framing == LogFraming::Lines ? LogBytes{} : LogBytes{kSignature};
+}
+
+/// Adds a record to the bytes of a log. Throws InvalidInput if it is longer than 2 GiB.
+void put_record(LogFraming framing, LogBytes record, std::vector<std::uint8_t>& bytes) {
+  if (record.size() > kMaxRecord) throw InvalidInput("a record of more than 2 GiB cannot be kept");
+  if (framing == LogFraming::Checked) {
+    put_number(record.size(), bytes);
+    put_number(checksum_of(record), bytes);
+  }
+  bytes.insert(bytes.end(), record.begin(), record.end());
+  if (framing == LogFraming::Lines) {
+    assert(std::ranges::find(record, '\n') == record.end());
+    bytes.push_back('\n');
+  }
+}
+
+/// Returns the records before the first truncated or damaged one, which a program that ends during
+/// a write leaves. Empty if the bytes are no such log.
+std::optional<LogContent> parse_log(LogFraming framing, LogBytes bytes) {
+  const LogBytes signature = log_signature(framing);
+  if (bytes.size() < signature.size() ||
+      !std::ranges::equal(signature, bytes.first(signature.size()))) {
+    return std::nullopt;
+  }
+  LogContent content{{}, signature.size()};
+  const auto first = framing == LogFraming::Lines ? first_line : first_checked;
+  while (const auto framed = first(bytes.subspan(content.whole_bytes))) {
+    content.records.emplace_back(framed->record.begin(), framed->record.end());
+    content.whole_bytes += framed->size;
+  }
+  return content;
+}
+
 bool lock(const FileDescriptor& file) {
   return ::flock(file.id(), LOCK_EX | LOCK_NB) == 0;
 }
@@ -189,108 +296,6 @@ void BackgroundFlush::run(const std::stop_token& stop) {
     if (error != 0) error_ = error;
     changed_.notify_all();
   }
-}
-
-namespace {
-
-constexpr std::array<std::uint32_t, 256> checksum_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
-    std::uint32_t value = byte;
-    for (int bit = 0; bit < 8; ++bit)
-      value = (value & 1U) != 0 ? 0xEDB88320U ^ (value >> 1) : value >> 1;
-    table[byte] = value;
-  }
-  return table;
-}
-
-}  // namespace
-
-std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
-  static constexpr std::array<std::uint32_t, 256> table = checksum_table();
-  std::uint32_t value = 0xFFFFFFFFU;
-  for (const std::uint8_t byte : bytes) value = table[(value ^ byte) & 0xFFU] ^ (value >> 8);
-  return ~value;
-}
-
-namespace {
-
-using LogBytes = std::span<const std::uint8_t>;
-
-constexpr std::array<std::uint8_t, 8> kSignature{'E', 'P', 'I', 'L', 'O', 'G', '1', '\n'};
-constexpr std::size_t kFrame = 8;  // length and checksum, 32 bits each, lowest byte first
-constexpr std::size_t kMaxRecord = std::size_t{1} << 31;
-
-void put_number(std::size_t number, std::vector<std::uint8_t>& bytes) {
-  for (int shift = 0; shift < 32; shift += 8) {
-    bytes.push_back(static_cast<std::uint8_t>(number >> shift));
-  }
-}
-
-std::uint32_t number_at(LogBytes bytes) {
-  return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
-         std::uint32_t{bytes[3]} << 24;
-}
-
-// It also covers the length: zeros are no record.
-std::uint32_t checksum_of(LogBytes record) {
-  return checksum(record) ^ static_cast<std::uint32_t>(record.size()) ^ 0xA5A5A5A5U;
-}
-
-// A record at the beginning of some bytes, and how many of them it takes with its frame.
-struct Framed {
-  LogBytes record;
-  std::size_t size = 0;
-};
-
-std::optional<Framed> first_line(LogBytes bytes) {
-  const auto end = std::ranges::find(bytes, '\n');
-  if (end == bytes.end()) return std::nullopt;
-  const auto length = static_cast<std::size_t>(end - bytes.begin());
-  return Framed{bytes.first(length), length + 1};
-}
-
-std::optional<Framed> first_checked(LogBytes bytes) {
-  if (bytes.size() < kFrame) return std::nullopt;
-  const std::size_t length = number_at(bytes);
-  if (bytes.size() - kFrame < length) return std::nullopt;
-  const LogBytes record = bytes.subspan(kFrame, length);
-  if (checksum_of(record) != number_at(bytes.subspan(4))) return std::nullopt;
-  return Framed{record, kFrame + length};
-}
-
-}  // namespace
-
-LogBytes log_signature(LogFraming framing) {
-  return framing == LogFraming::Lines ? LogBytes{} : LogBytes{kSignature};
-}
-
-void put_record(LogFraming framing, LogBytes record, std::vector<std::uint8_t>& bytes) {
-  if (record.size() > kMaxRecord) throw InvalidInput("a record of more than 2 GiB cannot be kept");
-  if (framing == LogFraming::Checked) {
-    put_number(record.size(), bytes);
-    put_number(checksum_of(record), bytes);
-  }
-  bytes.insert(bytes.end(), record.begin(), record.end());
-  if (framing == LogFraming::Lines) {
-    assert(std::ranges::find(record, '\n') == record.end());
-    bytes.push_back('\n');
-  }
-}
-
-std::optional<LogContent> parse_log(LogFraming framing, LogBytes bytes) {
-  const LogBytes signature = log_signature(framing);
-  if (bytes.size() < signature.size() ||
-      !std::ranges::equal(signature, bytes.first(signature.size()))) {
-    return std::nullopt;
-  }
-  LogContent content{{}, signature.size()};
-  const auto first = framing == LogFraming::Lines ? first_line : first_checked;
-  while (const auto framed = first(bytes.subspan(content.whole_bytes))) {
-    content.records.emplace_back(framed->record.begin(), framed->record.end());
-    content.whole_bytes += framed->size;
-  }
-  return content;
 }
 
 }  // namespace episcope::io

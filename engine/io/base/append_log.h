@@ -57,23 +57,6 @@ enum class LogFraming {
   Checked,  ///< Binary: a signature, then every record after its length and a checksum.
 };
 
-/// The bytes of a log without records.
-[[nodiscard]] std::span<const std::uint8_t> log_signature(LogFraming framing);
-
-/// Adds a record to the bytes of a log. Throws InvalidInput if it is longer than 2 GiB.
-void put_record(LogFraming framing, std::span<const std::uint8_t> record,
-                std::vector<std::uint8_t>& bytes);
-
-struct LogContent {
-  std::vector<LogRecord> records;
-  std::size_t whole_bytes = 0;  ///< Of the signature and these records.
-};
-
-/// Returns the records before the first truncated or damaged one, which a program that ends during
-/// a write leaves. Empty if the bytes are no such log.
-[[nodiscard]] std::optional<LogContent> parse_log(LogFraming framing,
-                                                  std::span<const std::uint8_t> bytes);
-
 /// When a log flushes what was appended to the disk.
 enum class LogFlush {
   AtOnce,        ///< Before `append` returns.

@@ -42,10 +42,6 @@ class AtomicFile {
 /// Flushes the names in the folder of `target` to the disk; failures are ignored.
 void flush_folder(const std::filesystem::path& target);
 
-/// Checks that `bytes` more fit on the disk that holds `folder`. Throws IoError naming `target`.
-void require_space(const std::filesystem::path& target, const std::filesystem::path& folder,
-                   std::uintmax_t bytes);
-
 /// Writes a whole file through AtomicFile. Throws IoError.
 void write_atomically(const std::filesystem::path& target, std::span<const std::uint8_t> bytes);
 void write_atomically(const std::filesystem::path& target, std::string_view text);
@@ -75,10 +71,6 @@ class AtomicFolder {
 /// A hidden name beside `target` that no other program on any machine uses:
 /// `.NAME.<machine>-<process>-<random>-<count>.part`.
 [[nodiscard]] std::string temporary_name(const std::filesystem::path& target);
-
-/// Removes temporary files beside `target` that killed programs of this machine have left; failures
-/// are ignored. Linear in the number of files of its folder.
-void remove_abandoned(const std::filesystem::path& target);
 
 /// The folder that holds `target`.
 [[nodiscard]] std::filesystem::path folder_of(const std::filesystem::path& target);

@@ -36,7 +36,7 @@ struct Hdf5Block {
   Hdf5Shape count;
 };
 
-/// Of the library that is loaded: "1.10.8".
+/// Version of the loaded library: "1.10.8".
 [[nodiscard]] std::string hdf5_version();
 
 /// Whether the name of a file ends as those of HDF5 files do: .h5, .hdf5.
@@ -46,23 +46,23 @@ struct Hdf5Block {
 
 class Hdf5OpenFile;
 
-/// An HDF5 file open for reading, without file locks. All inputs of a file at a time share one
-/// opening of it and what was found in it. Objects are named by their path in the file;
-/// "/" is the root. Element types are converted by HDF5 (clipped, rounded towards zero). Links to
-/// other files and samples in them are not followed: `has` and `read` throw IoError.
+/// An HDF5 file open for reading, without file locks. All inputs of one file share one opening and
+/// one list of its datasets. Objects are named by their path in the file; "/" is the root. HDF5
+/// converts element types (clipped, rounded towards zero). Links to other files and samples stored
+/// there are refused: `has` and `read` throw IoError.
 class Hdf5Input {
  public:
   /// Throws IoError that tells a missing file, another kind of file and a damaged one apart.
   explicit Hdf5Input(const std::filesystem::path& path);
-  /// The same, with a group in the place of the root, whose attributes are looked up as well. The
-  /// names of `referenced` stay those of the file. Throws IoError if there is no such group.
+  /// Opens a file with a group in place of the root, for datasets and attributes. `referenced`
+  /// still returns names from the root of the file. Throws IoError if there is no such group.
   Hdf5Input(const std::filesystem::path& path, const std::string& group);
   ~Hdf5Input();
   Hdf5Input(const Hdf5Input&) = delete;
   Hdf5Input& operator=(const Hdf5Input&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// In the place of the root; empty = the root itself.
+  /// Name of the group that stands for the root; empty = the root itself.
   [[nodiscard]] const std::string& group() const { return group_; }
   [[nodiscard]] bool has(const std::string& name) const;
   /// Datasets of the root group and of the groups in it, at most three deep, by name.
@@ -72,23 +72,23 @@ class Hdf5Input {
   [[nodiscard]] Hdf5Dataset dataset(const std::string& name,
                                     const std::string& advice = "choose another file") const;
 
-  /// The names of what a dataset of references points at, element by element; empty if it holds
-  /// something else, an element empty if it points nowhere.
+  /// Names of the objects that a dataset of references points at, element by element. Empty if it
+  /// holds something else; an element is empty if it points nowhere.
   [[nodiscard]] std::vector<std::string> referenced(const std::string& name) const;
 
   /// Reads a block as uint8, uint16, int32, float or double. Throws IoError.
   template <class T>
   void read(const std::string& name, const Hdf5Block& block, T* out) const;
 
-  /// Where in the file the samples of a dataset begin if they are stored there as an array of T
-  /// would be in memory: one after the other, uncompressed, of the type and byte order of this
-  /// machine, all of them written. T: uint8, int32, uint16 or float. Throws IoError as `dataset`.
+  /// Offset in the file of samples that are stored as an array of T in memory: contiguous,
+  /// uncompressed, complete, with the type and byte order of this machine. Empty if they are stored
+  /// otherwise. T: uint8, int32, uint16 or float. Throws IoError as `dataset`.
   template <class T>
   [[nodiscard]] std::optional<std::uintmax_t> place_in_file(const std::string& name) const;
 
   [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
-  /// Attribute of any numeric type, a scalar or an array of length 1, or a text that spells a
-  /// number; empty if there is none.
+  /// Reads an attribute of any numeric type, scalar or of length 1, or a text that spells a number.
+  /// Empty if there is none.
   [[nodiscard]] std::optional<double> number(const std::string& object,
                                              const std::string& name) const;
   /// All elements of a numeric attribute; empty if there is none.
@@ -120,21 +120,22 @@ class Hdf5Output {
  public:
   /// `user_bytes`: room for other contents in front: 0, 512 or a power of two above.
   explicit Hdf5Output(const AtomicFile& file, std::size_t user_bytes = 0);
-  /// Adds to a file that such an output made; failures name `target`. What it finds there must be
-  /// whole: if the program ends before `close` has returned, it is not any more.
+  /// Adds to a complete file that an Hdf5Output made; failures name `target`. If the program ends
+  /// before `close` returns, the file is damaged.
   Hdf5Output(const std::filesystem::path& file, const std::filesystem::path& target);
   ~Hdf5Output();
   Hdf5Output(const Hdf5Output&) = delete;
   Hdf5Output& operator=(const Hdf5Output&) = delete;
 
-  /// Copies every object and attribute of the root group as stored, but those named.
+  /// Copies every object and attribute of the root group as stored, except those in `without`.
   void copy_all(const Hdf5Input& from, const std::vector<std::string>& without);
   void add_group(const std::string& name);
   /// Adds a dataset with its attributes `axes` ("v,u,y,x") and `units`. T as in `Hdf5Input::read`.
   template <class T>
   void add_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
                    const std::string& units);
-  /// The same, and gives it its place in the file, which others fill (Hdf5Input::place_in_file).
+  /// Adds a dataset and allocates its place in the file, for others to fill
+  /// (Hdf5Input::place_in_file).
   template <class T>
   void reserve_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
                        const std::string& units);
@@ -147,7 +148,7 @@ class Hdf5Output {
   void set_numbers(const std::string& object, const std::string& name,
                    const std::vector<double>& values);
   void set_text(const std::string& object, const std::string& name, const std::string& value);
-  /// As MATLAB writes text: ASCII, of fixed length, without an end.
+  /// Writes text as MATLAB does: ASCII of fixed length, without a terminator.
   void set_ascii(const std::string& object, const std::string& name, const std::string& value);
 
   /// Flushes and closes. Throws IoError if anything could not be written.

@@ -48,12 +48,11 @@ class Hdf5Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// One opening of an HDF5 file, which all inputs of it share while one of them is there: readers
-/// ask a file one after the other whether it is theirs. For the sources that speak to HDF5 only;
-/// their callers hold its lock.
+/// One opening of an HDF5 file, shared by all inputs of the file while one of them exists, since
+/// one reader after the other looks at it. Callers hold the lock of the library.
 class Hdf5OpenFile {
  public:
-  /// The opening that is there, unless the file has changed since; else a new one. Throws IoError
+  /// Returns the existing opening unless the file has changed since, else a new one. Throws IoError
   /// that tells a missing file, another kind of file and a damaged one apart.
   [[nodiscard]] static std::shared_ptr<Hdf5OpenFile> of(const std::filesystem::path& path);
 
@@ -78,9 +77,6 @@ class Hdf5OpenFile {
 
 /// Shape, type and blocks of an open dataset.
 [[nodiscard]] Hdf5Dataset describe_dataset(hid_t dataset, const std::string& name);
-
-/// As `Hdf5Input::datasets`, of an open file or group.
-[[nodiscard]] std::vector<Hdf5Dataset> list_datasets(hid_t root);
 
 /// Checks of what an HDF5 file claims, before memory is taken for it.
 

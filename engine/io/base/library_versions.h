@@ -14,8 +14,8 @@ struct LibraryVersion {
 
 namespace io {
 
-/// The libraries of this room of the engine, by name: versions of those that are loaded, not of
-/// those that were compiled against; of libraries that are headers only, these.
+/// Libraries that engine/io uses, by name, with the versions loaded. Of libraries that consist of
+/// headers, the versions compiled.
 [[nodiscard]] std::vector<LibraryVersion> library_versions();
 
 }  // namespace io

@@ -26,15 +26,9 @@ struct NpyHeader {
 
 /// Bytes that suffice to know how long the header is.
 constexpr std::size_t kNpyPrefix = 12;
-/// No header of an array of numbers is longer.
-constexpr std::size_t kLongestNpyHeader = 65536;
 
 /// Whether a file that begins like this is an `.npy` file.
 [[nodiscard]] bool has_npy_magic(std::string_view begin);
-
-/// Parses the header at the front of a file, which `begin` holds. Nothing in it is evaluated:
-/// objects, records and text are refused. Throws IoError that names `path`.
-[[nodiscard]] NpyHeader parse_npy_header(const std::filesystem::path& path, std::string_view begin);
 
 /// A header of version 1.0 for samples in C order of this machine, which must be little-endian.
 [[nodiscard]] std::string npy_header(const ArrayShape& shape, NumberType type);

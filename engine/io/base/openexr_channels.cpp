@@ -246,11 +246,11 @@ void replace_list(ExrBytes& bytes, const ExrHeader& header, const ExrBytes& list
 }
 
 ExrBytes bytes_of(const std::filesystem::path& path) {
-  constexpr std::string_view kSignature = "\x76\x2f\x31\x01";
+  constexpr std::string_view kExrSignature = "\x76\x2f\x31\x01";
   std::ifstream in(path, std::ios::binary);
-  ExrBytes bytes(kSignature.size());
+  ExrBytes bytes(kExrSignature.size());
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  const bool is_exr = in && std::equal(bytes.begin(), bytes.end(), kSignature.begin(),
+  const bool is_exr = in && std::equal(bytes.begin(), bytes.end(), kExrSignature.begin(),
                                        [](std::uint8_t a, char b) { return a == std::uint8_t(b); });
   if (!is_exr) return {};
   bytes.insert(bytes.end(), std::istreambuf_iterator<char>(in), {});

@@ -11,8 +11,7 @@ namespace episcope::io {
 /// negative scale means little endian; samples are multiplied by |scale|. Returned with row 0 on
 /// top; NaN and infinities are kept, a round trip is bit-exact. Throws IoError.
 [[nodiscard]] Image<float> read_pfm(const std::filesystem::path& path);
-/// One channel, also of a map that was written as a gray picture of three. Throws IoError if these
-/// differ.
+/// Reads a map of one channel, or a gray picture of three. Throws IoError if the three differ.
 [[nodiscard]] Image<float> read_pfm_map(const std::filesystem::path& path);
 /// Little endian, scale −1. Atomic. Throws IoError, InvalidInput for other than 1 or 3 channels.
 void write_pfm(const std::filesystem::path& path, ImageView<const float> image);

@@ -31,16 +31,16 @@ struct ArchiveTruth {
 };
 
 /// Reads GT_DEPTH and the datasets of transparent scenes with their masks, finds the units and
-/// converts to disparity; what it decided goes to `report`. Depth that is zero, negative or NaN is
-/// invalid; of views without any valid depth nothing is kept. Without `options.needs_truth` only
-/// the centre view is read. Throws IoError, Cancelled.
+/// converts depth to disparity; `report` tells the decisions. Depth that is zero, negative or NaN
+/// is invalid. Views without any valid depth are dropped. Without `options.needs_truth` only the
+/// center view is read. Throws IoError, Cancelled.
 [[nodiscard]] ArchiveTruth read_archive_depth(const Hdf5Input& file,
                                               const LightField::Samples& samples,
                                               const OpenOptions& options, ConventionReport& report,
                                               const Progress& progress);
 
-/// Camera attributes as stored, on the root or on LF; an unknown camera if they are missing, if one
-/// is not finite, or if the file states that it has none.
+/// Reads camera attributes as stored, on the root or on LF. The camera is unknown if one is missing
+/// or not finite, or if the file states that it has none.
 [[nodiscard]] CameraGrid read_camera(const Hdf5Input& file);
 
 /// Depth as stored, with the mask beside it; views in the stored order.
@@ -57,19 +57,19 @@ struct DepthMaps {
   }
 };
 
-/// Settles the units of `stored` by the depth and by warping views (see find_units); what it
-/// decided goes to `report`. Linear in the size of five views.
+/// Decides the units of `stored` by the depth and by warping views; `report` tells the decision.
+/// Linear in the size of five views.
 [[nodiscard]] CameraGrid settle_units(const DepthMaps& maps, const LightField::Samples& samples,
                                       const CameraGrid& stored, Units units,
                                       ConventionReport& report);
 
-/// Turns depth into disparity in place. If valid depth lies in a single view, only that is kept; if
-/// there is none, the field is empty. Tells `report` of pixels without depth. Throws Cancelled.
+/// Converts depth to disparity in place. If only one view has valid depth, only that view is kept;
+/// if none has, the field is empty. Tells `report` of pixels without depth. Throws Cancelled.
 [[nodiscard]] DisparityField disparity_from_depth(DepthMaps maps, const CameraGrid& camera,
                                                   ConventionReport& report,
                                                   const Progress& progress);
 
-/// What has been read of an archive file, in the stored order of views.
+/// The parts of an archive file read so far, in the stored order of views.
 struct ArchiveParts {
   const LightField::Samples& samples;
   GroundTruth& truth;
@@ -79,16 +79,11 @@ struct ArchiveParts {
   ConventionReport& report;
 };
 
-/// Reads what lies beside LF under other names than the archive's: disparity, labels and masks as
-/// `read_array_maps` knows them, and depth that no camera turns into disparity; what `parts` has
-/// already stays. Returns what became of these
-/// datasets. Throws IoError, Cancelled.
+/// Reads datasets beside LF whose names are not the archive's: disparity, labels and masks as
+/// `read_array_maps` does, and depth that no camera converts. Existing `parts` stay. Returns the
+/// use of these datasets. Throws IoError, Cancelled.
 [[nodiscard]] std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& file,
                                                    const ArchiveLayout& layout, bool wants_labels,
                                                    ArchiveParts parts, const Progress& progress);
-
-/// The name of the only dataset that holds depth of all views or of one by its name and shape, but
-/// is not the archive's; empty if there is none.
-[[nodiscard]] std::string other_depth(const Hdf5Input& file, const FieldShape& shape);
 
 }  // namespace episcope::io

@@ -12,11 +12,11 @@
 
 namespace episcope::io {
 
-/// The group in which a file without LF at its root holds one, with GT_DEPTH or the two layers of
-/// it beside it and in the form of the archive; empty if there is none, or if there are several.
+/// Finds the only group that holds LF in the form of the archive with GT_DEPTH or its two layers
+/// beside it, in a file without LF at its root. Empty if there is none, or several.
 [[nodiscard]] std::string archive_group(const Hdf5Input& file);
 
-/// A file of the archive, with that group in the place of the root. Throws IoError.
+/// Opens a file of the archive, with that group in place of the root. Throws IoError.
 [[nodiscard]] std::shared_ptr<const Hdf5Input> open_archive(const std::filesystem::path& path);
 
 /// The dataset of an archive file that holds the views.
@@ -30,16 +30,16 @@ struct ArchiveLayout {
   Hdf5Type type = Hdf5Type::UInt8;
 };
 
-/// Throws IoError if there is no such dataset, or if it is not that of a light field.
+/// Reads the layout. Throws IoError if there is no such dataset, or if it holds no light field.
 [[nodiscard]] ArchiveLayout archive_layout(const Hdf5Input& file);
 
 /// Warns of attributes that state another size than the shape of LF.
 void compare_sizes(const Hdf5Input& file, ConventionReport& report);
 
-/// The order of views that attributes promise: as stated, or that of raw archive files.
+/// Order of views by the attributes: as stated, else the order of raw archive files.
 [[nodiscard]] ExpectedOrder expected_order(const Hdf5Input& file);
 
-/// What the headers of an archive file, and of labels.h5 beside it, tell. Throws IoError.
+/// Probes the headers of an archive file, and of labels.h5 beside it. Throws IoError.
 [[nodiscard]] SceneProbe probe_archive(const std::filesystem::path& path,
                                        const OpenOptions& options);
 

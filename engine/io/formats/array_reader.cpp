@@ -41,6 +41,13 @@
 namespace episcope::io {
 namespace {
 
+/// What a file holds beside arrays that `read_array_maps` knows.
+struct OtherArrays {
+  std::function<bool(const ArrayEntry&)> owns;  ///< Arrays that it alone reads.
+  /// Adds them to the parts, which hold samples and maps in the order of the file.
+  std::function<void(SceneParts&, ConventionReport&, const Progress&)> add;
+};
+
 constexpr double kVideoBlack = 16.0 / 255;
 constexpr double kVideoWhite = 235.0 / 255;
 constexpr double kVideoChroma = 224.0 / 255;
@@ -307,12 +314,13 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   return scene;
 }
 
-}  // namespace
-
+/// Keys of the reading options that every reader of arrays knows.
 std::span<const char* const> array_options() {
   return kArrayOptions;
 }
 
+/// What the shape of the light field of a file of arrays tells. Throws NoLightField if none of them
+/// can be one; IoError, Undecided.
 SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
   const auto several = MultiFieldFile::find(file, options);
   if (!several) {
@@ -324,8 +332,13 @@ SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
   return probe;
 }
 
+}  // namespace
+
+/// Reads the light field of a file of arrays, and the maps beside it; then, if given, what else
+/// there is. A picture of the centre view is given first. Throws IoError, InvalidInput for options
+/// that do not fit, Cancelled.
 Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOptions& options,
-                       const Progress& progress, const OtherArrays& more) {
+                       const Progress& progress, const OtherArrays& more = {}) {
   const auto several = MultiFieldFile::find(file, options);
   if (!several) {
     const auto colours = with_stacked_channels(file, options);

@@ -330,7 +330,7 @@ void correct_values(const LightField::Samples& samples, DisparityField& field,
   if (field.empty()) return;
   const GridShape grid = grid_of(samples);
   const ViewIndex at = field.contains(grid.center()) ? grid.center() : field.disparity.first();
-  const std::string undone = put_truth_upright(samples, field);
+  const std::string undone = put_truth_upright(samples, field).undone;
   if (!undone.empty()) report.warnings.push_back(turned_back_text(undone));
   drop_unknown(samples, at, field, report);
   const Explanation explanation = explain_views(samples, at, field.view(at), 1);

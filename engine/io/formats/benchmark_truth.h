@@ -27,18 +27,18 @@ inline constexpr const char* kMaskSuffix = "_lowres.png";
 /// "planes" of "mask_planes_lowres.png", if names of masks end in "_lowres.png"; else empty.
 [[nodiscard]] std::string region_of(const std::filesystem::path& mask, const std::string& suffix);
 
-/// Disparity by the names of the 2016 benchmark, `gt_disp_lowres_Cam*.pfm` of all views, else
-/// `gt_disp_lowres.pfm` or, where the camera is known, `gt_depth_lowres.pfm` of the centre view, as
-/// disparity with the sign of the benchmark: larger is nearer. Empty if there is none. Files that
-/// are damaged or do not fit are left out with a warning, and their views are invalid. Throws
-/// Cancelled.
+/// Reads disparity of the 2016 benchmark; larger is nearer. `gt_disp_lowres_Cam*.pfm` covers all
+/// views, `gt_disp_lowres.pfm` the center view, or `gt_depth_lowres.pfm` if the camera is known.
+/// Empty if there is none. Files that are damaged or do not fit are ignored with a warning, and
+/// their views are invalid. Throws Cancelled.
 [[nodiscard]] DisparityField read_benchmark_disparity(const std::filesystem::path& folder,
-                                                      const BesideViews& views,
-                                                      const BesideNotes& notes,
+                                                      const SidecarViews& views,
+                                                      const SidecarNotes& notes,
                                                       const Progress& progress);
 
-/// Adds labels, region masks and the truth in high resolution to `truth`; leaves out likewise.
-void read_benchmark_masks(const std::filesystem::path& folder, const BesideViews& views,
-                          const BesideNotes& notes, GroundTruth& truth);
+/// Adds labels, region masks and the truth in high resolution to `truth`; ignores damaged files
+/// likewise.
+void read_benchmark_masks(const std::filesystem::path& folder, const SidecarViews& views,
+                          const SidecarNotes& notes, GroundTruth& truth);
 
 }  // namespace episcope::io

@@ -15,14 +15,14 @@
 namespace episcope::io {
 
 /// Folders that the Blender add-on (`resources/blender`) renders to: a manifest `light_field.json`,
-/// a picture of every view, and depth and labels as `.npy`. While rendering goes on, the complete
-/// views around the centre are read.
+/// a picture of every view, and depth and labels as `.npy`. During rendering, the complete views
+/// around the center are read.
 [[nodiscard]] Reader blender_reader();
 
 /// The manifest of a folder that the Blender add-on renders to.
 inline constexpr const char* kRenderManifest = "light_field.json";
 
-/// What a manifest says.
+/// Contents of a manifest.
 struct RenderManifest {
   std::filesystem::path folder;
   std::string blender;  ///< The version that rendered it; empty = not stated.

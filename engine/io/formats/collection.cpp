@@ -97,7 +97,7 @@ void add_results(std::vector<CollectionEntry>& entries, const std::vector<Listed
 /// Deeper ones are a mistake; paths end at some length anyway.
 constexpr int kDeepestFolder = 64;
 
-/// Maps of every view, in a folder inside that of the views, look like views.
+/// Maps of every view, in a folder inside the folder of the views, look like views.
 bool are_maps_of(const CollectionEntry& inside, const CollectionEntry& views) {
   return inside.reader == views.reader && inside.probe.grid == views.probe.grid &&
          inside.probe.list == views.probe.list && inside.probe.height == views.probe.height &&

@@ -13,12 +13,12 @@ namespace episcope::io {
 /// mask.png beside it.
 [[nodiscard]] Reader excerpt_reader();
 
-/// What an excerpt of the 2013 archive says of its camera, by name: `dH` (baseline), `focalLength`
+/// Camera attributes of an excerpt of the 2013 archive, by name: `dH` (baseline), `focalLength`
 /// (px), `shift`, `min_disp`, `max_disp`.
 using ExcerptAttributes = std::map<std::string, double>;
 
-/// Lines "value //name" of an `attributes.dat`; others are skipped. Throws IoError if the file
-/// cannot be read.
+/// Reads lines "value //name" of an `attributes.dat`; others are skipped. Throws IoError if the
+/// file cannot be read.
 [[nodiscard]] ExcerptAttributes read_excerpt_attributes(const std::filesystem::path& path);
 
 }  // namespace episcope::io

@@ -22,9 +22,9 @@ struct Film {
   std::string codec;  ///< "h264".
 };
 
-/// Decodes the pictures of the first video in a file, in the order in which they are shown. Nothing
-/// but this file is opened, whatever is written in it. Throws IoError if it cannot be decoded, has
-/// more than `most` pictures or more than memory can hold; Cancelled.
+/// Decodes the pictures of the first video in a file, in the order of display. No other file is
+/// opened, whatever the file refers to. Throws IoError if it cannot be decoded, has more than
+/// `most` pictures or more than memory can hold; Cancelled.
 [[nodiscard]] Film read_film(const std::filesystem::path& path, int most, const Progress& progress);
 
 }  // namespace episcope::io

@@ -10,25 +10,25 @@
 
 namespace episcope::io {
 
-/// A light field whose views are the pages of a TIFF file or the pictures of a film, row by row, in
-/// another order that the views themselves tell, or along a line. A film is read where it is named
-/// itself, not by the folder that it is in, since films are also made of light fields.
+/// A light field whose views are the pages of a TIFF file or the pictures of a film: row by row, in
+/// another order that the views show, or along a line. A film is read if it is named itself, not
+/// through its folder, since films are also made of light fields.
 [[nodiscard]] Reader frames_reader();
 
-/// How pages follow each other if the channels of a view are pages, one after the other or a part
-/// of the list each.
+/// Order of pages if the channels of a view are pages: one after the other, or a part of the list
+/// each.
 struct PageOrder {
   int channels = 1;
   /// Views that follow each other before the next channel: 1 if the channels of a view do.
   int views_in_turn = 1;
 
-  /// From 0.
+  /// Page of a channel of a view; all count from 0.
   [[nodiscard]] int page(int view, int channel) const {
     return view % views_in_turn + views_in_turn * (channel + channels * (view / views_in_turn));
   }
 };
 
-/// What the pages of a TIFF file are, as the program that wrote it says.
+/// Meaning of the pages of a TIFF file, as stated by the program that wrote it.
 struct StatedPages {
   std::string program;              ///< "ImageJ", "OME-TIFF", "tifffile".
   PageOrder order;                  ///< One channel if no pages are.
@@ -37,17 +37,17 @@ struct StatedPages {
 
 /// Reads a text ImageDescription: hyperstacks of ImageJ (`channels=2`, `slices=9`, `frames=9`),
 /// OME-XML (`SizeC`, `SizeZ`, `SizeT`, `DimensionOrder`), and the shape that tifffile writes
-/// (`{"shape": [9, 9, 512, 512]}`), of whose axes before those of a page two are views, and of
-/// three the last or the first are channels. More than 4 channels are views. Nothing where it says
-/// nothing about `pages` pages.
+/// (`{"shape": [9, 9, 512, 512]}`). Of the axes of a shape before those of a page, two are views;
+/// of three, the last or the first are channels. More than 4 channels are views. Empty if the text
+/// does not describe `pages` pages.
 [[nodiscard]] std::optional<StatedPages> stated_pages(const std::string& description, int pages);
 
-/// Pages of a TIFF file, counted by its directories, of which nothing else is read; 0 for files
-/// that are none or are damaged, at most `most` + 1.
+/// Counts the pages of a TIFF file by its directories, up to `most` + 1. 0 for other or damaged
+/// files.
 [[nodiscard]] int count_tiff_pages(const std::filesystem::path& path, int most);
 
-/// What the program that wrote a TIFF file says about it: the text ImageDescription of the first
-/// page, cut off after 64 KiB. Empty if there is none.
+/// Reads the text ImageDescription of the first page of a TIFF file, cut off after 64 KiB. Empty if
+/// there is none.
 [[nodiscard]] std::string tiff_description(const std::filesystem::path& path);
 
 }  // namespace episcope::io

@@ -77,7 +77,7 @@ void warn_of_ignored_files(const std::vector<fs::path>& left_out,
                   strays.size(), strays.front().filename().string()));
 }
 
-/// Without those whose names differ from that of a view in numbers only: a pattern that states one
+/// Drops names that differ from a view's in numbers only: a pattern that states one
 /// of them leaves the others out on purpose.
 std::vector<fs::path> without_other_numbers(std::vector<fs::path> left_out, const fs::path& view) {
   const std::string skeleton = split_name(view).skeleton;
@@ -124,7 +124,7 @@ std::vector<CameraPosition> positions_of(const PartOfGrid& part,
   return positions;
 }
 
-/// What poses tell of distances: that of cameras side by side, whose views are not shifted.
+/// Takes the distance of cameras side by side from poses; views are then not shifted.
 void add_camera(const PosedViews& poses, const LightField::Samples& samples, CameraGrid& camera,
                 FileUsage& account) {
   for (const fs::path& file : poses.files) {

@@ -19,6 +19,81 @@
 namespace episcope::io {
 namespace {
 
+constexpr int kMostLines = 400;
+
+/// Not a multiple of the distance of two lines, or all of them would show the same part of
+/// lenslets.
+int spread(int line, int lines, int length) {
+  return static_cast<int>((line + 0.5) * length / lines);
+}
+
+template <class T>
+float brightness(const T* pixel, int channels) {
+  float sum = 0;
+  for (int c = 0; c < channels; ++c) sum += static_cast<float>(pixel[c]);
+  return sum / static_cast<float>(channels);
+}
+
+/// Brightness along up to 400 rows (Axis::X) or columns (Axis::Y) spread over a picture: a line a
+/// row, in units of the samples, the mean of the channels.
+Image<float> picture_lines(const AnyImage& picture, Axis axis) {
+  return std::visit(
+      [axis](const auto& image) {
+        const int across = axis == Axis::X ? image.height() : image.width();
+        const int along = axis == Axis::X ? image.width() : image.height();
+        Image<float> lines(std::min(across, kMostLines), along);
+        // Row by row of the picture in both cases, as it lies in memory.
+        for (int i = 0; i < (axis == Axis::X ? lines.height() : along); ++i) {
+          const auto* row = image.row(axis == Axis::X ? spread(i, lines.height(), across) : i);
+          for (int k = 0; k < (axis == Axis::X ? along : lines.height()); ++k) {
+            const int x = axis == Axis::X ? k : spread(k, lines.height(), across);
+            const float value = brightness(row + x * image.channels(), image.channels());
+            (axis == Axis::X ? lines.at(i, k) : lines.at(k, i)) = value;
+          }
+        }
+        return lines;
+      },
+      picture);
+}
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kEslf = "eslf";
+constexpr std::array<std::string_view, 3> kLensletWords{"macpi", "lenslet", "lenslets"};
+
+/// "eslf" and "flower_eslf", but not "heslf".
+bool ends_with_word(const std::string& stem, std::string_view word) {
+  if (!stem.ends_with(word)) return false;
+  if (stem.size() == word.size()) return true;
+  const char before = stem[stem.size() - word.size() - 1];
+  return before == '_' || before == '-' || before == '.' || before == ' ';
+}
+
+}  // namespace
+
+MosaicName mosaic_name(const std::filesystem::path& path) {
+  if (!is_image_name(path)) return MosaicName::Plain;
+  const std::string stem = lower_case(path.stem().string());
+  if (ends_with_word(stem, kEslf)) return MosaicName::Eslf;
+  for (const std::string_view word : kLensletWords) {
+    if (ends_with_word(stem, word)) return MosaicName::Lenslets;
+  }
+  return stem == "lf" ? MosaicName::Mosaic : MosaicName::Plain;
+}
+
+std::string scene_of_mosaic(const std::filesystem::path& path) {
+  std::string stem = lower_case(path.stem().string());
+  for (const std::string_view word :
+       {kEslf, kLensletWords[0], kLensletWords[1], kLensletWords[2]}) {
+    if (stem.size() <= word.size() + 1 || !ends_with_word(stem, word)) continue;
+    stem.resize(stem.size() - word.size() - 1);
+    break;
+  }
+  return stem;
+}
+
+namespace {
+
 /// The period with which the brightness of a picture changes along its lines. From one lenslet to
 /// the next, the view jumps from the last to the first, and so does the brightness; lenslets with
 /// dark borders show their period in the brightness itself.
@@ -210,8 +285,6 @@ TileCount find_tile_count(const Image<float>& lines) {
   return best;
 }
 
-namespace fs = std::filesystem;
-
 /// A picture, what is known of it, and its lines, which show periods.
 struct Question {
   const fs::path& path;
@@ -396,45 +469,6 @@ std::optional<GridShape> find_lenslets(const AnyImage& top, int height, const fs
 
 namespace {
 
-constexpr int kMostLines = 400;
-
-/// Not a multiple of the distance of two lines, or all of them would show the same part of
-/// lenslets.
-int spread(int line, int lines, int length) {
-  return static_cast<int>((line + 0.5) * length / lines);
-}
-
-template <class T>
-float brightness(const T* pixel, int channels) {
-  float sum = 0;
-  for (int c = 0; c < channels; ++c) sum += static_cast<float>(pixel[c]);
-  return sum / static_cast<float>(channels);
-}
-
-}  // namespace
-
-Image<float> picture_lines(const AnyImage& picture, Axis axis) {
-  return std::visit(
-      [axis](const auto& image) {
-        const int across = axis == Axis::X ? image.height() : image.width();
-        const int along = axis == Axis::X ? image.width() : image.height();
-        Image<float> lines(std::min(across, kMostLines), along);
-        // Row by row of the picture in both cases, as it lies in memory.
-        for (int i = 0; i < (axis == Axis::X ? lines.height() : along); ++i) {
-          const auto* row = image.row(axis == Axis::X ? spread(i, lines.height(), across) : i);
-          for (int k = 0; k < (axis == Axis::X ? along : lines.height()); ++k) {
-            const int x = axis == Axis::X ? k : spread(k, lines.height(), across);
-            const float value = brightness(row + x * image.channels(), image.channels());
-            (axis == Axis::X ? lines.at(i, k) : lines.at(k, i)) = value;
-          }
-        }
-        return lines;
-      },
-      picture);
-}
-
-namespace {
-
 constexpr float kOneColour = 0.004F;  ///< A step of 8 bits, of the brightest sample.
 
 struct Run {
@@ -615,41 +649,5 @@ Image<T> join_lenslets(const ViewStack<T>& views, const Progress& progress) {
 
 template Image<std::uint8_t> join_lenslets(const ViewStack<std::uint8_t>&, const Progress&);
 template Image<std::uint16_t> join_lenslets(const ViewStack<std::uint16_t>&, const Progress&);
-
-namespace {
-
-constexpr std::string_view kEslf = "eslf";
-constexpr std::array<std::string_view, 3> kLensletWords{"macpi", "lenslet", "lenslets"};
-
-/// "eslf" and "flower_eslf", but not "heslf".
-bool ends_with_word(const std::string& stem, std::string_view word) {
-  if (!stem.ends_with(word)) return false;
-  if (stem.size() == word.size()) return true;
-  const char before = stem[stem.size() - word.size() - 1];
-  return before == '_' || before == '-' || before == '.' || before == ' ';
-}
-
-}  // namespace
-
-MosaicName mosaic_name(const std::filesystem::path& path) {
-  if (!is_image_name(path)) return MosaicName::Plain;
-  const std::string stem = lower_case(path.stem().string());
-  if (ends_with_word(stem, kEslf)) return MosaicName::Eslf;
-  for (const std::string_view word : kLensletWords) {
-    if (ends_with_word(stem, word)) return MosaicName::Lenslets;
-  }
-  return stem == "lf" ? MosaicName::Mosaic : MosaicName::Plain;
-}
-
-std::string scene_of_mosaic(const std::filesystem::path& path) {
-  std::string stem = lower_case(path.stem().string());
-  for (const std::string_view word :
-       {kEslf, kLensletWords[0], kLensletWords[1], kLensletWords[2]}) {
-    if (stem.size() <= word.size() + 1 || !ends_with_word(stem, word)) continue;
-    stem.resize(stem.size() - word.size() - 1);
-    break;
-  }
-  return stem;
-}
 
 }  // namespace episcope::io

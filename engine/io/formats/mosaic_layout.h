@@ -13,7 +13,7 @@
 
 namespace episcope::io {
 
-/// What the name of a picture says about the views in it.
+/// Meaning of the name of a picture for the views in it.
 enum class MosaicName {
   Plain,     ///< Nothing.
   Mosaic,    ///< "lf.bmp", "lf.png", …: all views, in a way that is not told.
@@ -21,14 +21,14 @@ enum class MosaicName {
   Eslf       ///< "*_eslf.*": lenslets of a Lytro camera.
 };
 
-/// Regardless of case. Plain for a file that is no image.
+/// Classifies a name regardless of case. Plain for a file that is no image.
 [[nodiscard]] MosaicName mosaic_name(const std::filesystem::path& path);
 
-/// What the scene is called: "flower" of "Flower_eslf.png" and of "flower.png", in small letters.
+/// Name of the scene in small letters: "flower" of "Flower_eslf.png" and of "flower.png".
 [[nodiscard]] std::string scene_of_mosaic(const std::filesystem::path& path);
 
-/// How one picture holds all views. Of lenslets, view (v, u) has its pixel (x, y) at
-/// (x·columns + u, y·rows + v); of views side by side, at (u·width + x, v·height + y).
+/// Layout of all views in one picture. Pixel (x, y) of view (v, u) is at (x·columns + u, y·rows +
+/// v) for lenslets, at (u·width + x, v·height + y) for views side by side.
 struct MosaicLayout {
   Mosaic kind = Mosaic::Lenslets;  ///< Never Auto.
   GridShape grid;
@@ -38,28 +38,24 @@ struct MosaicLayout {
 };
 
 /// Finds the layout by the options `mosaic`, `lenslet` and `grid`, the name of the file, and the
-/// period of the picture. Throws IoError, which names the options, if that is not certain or does
-/// not fit the size of the picture, which they call `subject`; InvalidInput if options contradict
-/// each other.
+/// period of the picture. Throws IoError, which names the options and calls the picture `subject`,
+/// if the layout is not certain or does not fit the size; InvalidInput if options contradict each
+/// other.
 [[nodiscard]] MosaicLayout find_mosaic_layout(const AnyImage& picture,
                                               const std::filesystem::path& path,
                                               const OpenOptions& options,
                                               const std::string& subject = "this picture");
 
-/// Rows and columns of a lenslet of a picture of `height` px of which only `top` is decoded, as
-/// `find_mosaic_layout` would find them if its name tells that it consists of lenslets; nothing
-/// where the top does not tell.
+/// Finds rows and columns of a lenslet from the decoded `top` of a picture of `height` px, as
+/// `find_mosaic_layout` does for a picture named as one of lenslets. Empty if the top does not
+/// tell.
 [[nodiscard]] std::optional<GridShape> find_lenslets(const AnyImage& top, int height,
                                                      const std::filesystem::path& path,
                                                      const OpenOptions& options);
 
 enum class Axis { X, Y };
 
-/// Brightness along up to 400 rows (Axis::X) or columns (Axis::Y) spread over a picture: a line a
-/// row, in units of the samples, the mean of the channels.
-[[nodiscard]] Image<float> picture_lines(const AnyImage& picture, Axis axis);
-
-/// Along one axis of a picture, equal tiles with equal lines of one colour between them.
+/// Equal tiles along one axis of a picture, with equal lines of one color between them.
 struct TileGaps {
   int first = 0;  ///< Where the first tile begins, in px; a margin may come before it,
   int count = 1;
@@ -77,24 +73,23 @@ struct ContactSheet {
   [[nodiscard]] std::string text() const;
 };
 
-/// The tiles of a picture with rows or columns of one colour at equal distances, of at least 32 px.
-/// Nothing if there are none, or if margins and gaps are those of views that each have the same
-/// border: these are views side by side.
+/// Finds tiles of at least 32 px between rows or columns of one color at equal distances. Empty if
+/// there are none, or if the gaps are equal borders of the views: these are views side by side.
 [[nodiscard]] std::optional<ContactSheet> find_contact_sheet(const AnyImage& picture);
 
-/// The tiles of the picture side by side.
+/// Joins the tiles of the picture side by side.
 [[nodiscard]] AnyImage without_gaps(const AnyImage& picture, const ContactSheet& sheet);
 
-/// One view of a mosaic; its precondition is that the layout fits the picture.
+/// Extracts one view of a mosaic. Precondition: the layout fits the picture.
 [[nodiscard]] AnyImage mosaic_view(const AnyImage& picture, const MosaicLayout& layout,
                                    ViewIndex view);
 
-/// All views of a mosaic, in parallel. Throws Cancelled.
+/// Extracts all views of a mosaic, in parallel. Throws Cancelled.
 [[nodiscard]] LightField::Samples split_mosaic(const AnyImage& picture, const MosaicLayout& layout,
                                                const Progress& progress);
 
-/// Views of a light field as one picture of lenslets, `[y·rows + v][x·columns + u][c]`. Throws
-/// Cancelled.
+/// Joins views of a light field to one picture of lenslets, `[y·rows + v][x·columns + u][c]`.
+/// Throws Cancelled.
 template <class T>
 [[nodiscard]] Image<T> join_lenslets(const ViewStack<T>& views, const Progress& progress);
 

@@ -28,20 +28,12 @@ struct MosaicDataset {
   GridShape grid{};            ///< By an attribute; 0×0 = none states it.
 };
 
-/// The largest dataset whose name says so: SAI for views side by side, MacPI for lenslets, as in
-/// `Hr_SAI_y` and `Lr_SAI_y` of data for super-resolution, which are stored `[x][y]` (source: the
-/// scripts of Liang's BasicLFSR); or the one of the option `dataset`, stored `[y][x]`, if options
-/// ask for a mosaic. The attribute angRes or grid, of it or of the root, gives rows and columns.
-/// Nothing for files that are no HDF5 files, or hold LF or a result. Throws IoError.
+/// Finds the largest dataset named as a mosaic: SAI for views side by side, MacPI for lenslets.
+/// Data for super-resolution has `Hr_SAI_y` and `Lr_SAI_y`, stored `[x][y]` (source: the scripts of
+/// Liang's BasicLFSR). If options ask for a mosaic, takes the dataset of the option `dataset`,
+/// stored `[y][x]`. The attribute angRes or grid, of the dataset or the root, gives rows and
+/// columns. Empty for files that are no HDF5 files, or hold LF or a result. Throws IoError.
 [[nodiscard]] std::optional<MosaicDataset> find_mosaic_dataset(const std::filesystem::path& path,
                                                                const OpenOptions& options);
-
-/// The picture `[y][x]`. Throws IoError.
-[[nodiscard]] AnyImage read_mosaic_dataset(const std::filesystem::path& path,
-                                           const MosaicDataset& dataset);
-
-/// What became of all datasets of the file.
-[[nodiscard]] std::vector<FileUse> uses_beside(const std::filesystem::path& path,
-                                               const MosaicDataset& dataset);
 
 }  // namespace episcope::io

@@ -23,8 +23,8 @@ struct MovieShape {
 /// Whether a path names a movie: ".mp4", ".webm", ".gif", or no suffix: a folder of PNG images.
 [[nodiscard]] bool is_movie_path(const std::filesystem::path& path);
 
-/// A film of pictures that appears under its name only when it is whole. MP4 is H.264, WebM is VP9,
-/// both 4:2:0; GIF has one palette for all of it and repeats for ever; a path without a suffix
+/// A film of pictures that appears under its name only when it is complete. MP4 is H.264, WebM is
+/// VP9, both 4:2:0; GIF has one palette for all of it and repeats for ever; a path without a suffix
 /// becomes a folder of `frame_0000.png` and so on.
 class MovieFile {
  public:

@@ -11,31 +11,31 @@
 
 namespace episcope::io {
 
-/// Whether an array can hold light fields along its first axis (of those stored), N×V×U×H×W×C or
-/// grey ones N×V×U×H×W, and is none itself.
+/// Whether an array can hold light fields along its first stored axis, N×V×U×H×W×C or gray ones
+/// N×V×U×H×W, and is none itself.
 [[nodiscard]] bool can_be_stack(const ArrayEntry& entry);
 
-/// Light fields of equal right in one file: arrays of one shape that are called alike, in several
-/// groups ("a/LF", "b/LF") or with numbers, or one array that is a stack of them; also where its
-/// three or four slices could be channels but show different scenes. The option
-/// `frame` says which is meant, or `dataset`.
+/// Several light fields of equal rank in one file: arrays of one shape with similar names, in
+/// several groups ("a/LF", "b/LF") or with numbers, or one array that is a stack of them. Three or
+/// four slices of a stack count as light fields, not channels, if they show different scenes. The
+/// option `frame` or `dataset` selects one.
 class MultiFieldFile {
  public:
-  /// Nothing if the file holds a single light field or none, or several of different shapes, or if
-  /// the option `dataset` names something else. Throws InvalidInput for a `dataset` that is not
-  /// there.
+  /// Empty if the file holds at most one light field, or several of different shapes, or if the
+  /// option `dataset` names something else. Throws InvalidInput for a `dataset` that does not
+  /// exist.
   [[nodiscard]] static std::optional<MultiFieldFile> find(const ArrayFile& file,
                                                           const OpenOptions& options);
 
   [[nodiscard]] int count() const { return count_; }
-  /// Whether the option `dataset` names one of them, and none is to be chosen by its number.
+  /// Whether the option `dataset` names one of them, so that no number is needed.
   [[nodiscard]] bool is_named(const OpenOptions& options) const;
-  /// The one that the options mean. Throws InvalidInput if there are not so many.
+  /// Index of the one that the options select. Throws InvalidInput if there are fewer.
   [[nodiscard]] int index(const ArrayFile& file, const OpenOptions& options) const;
-  /// A file of that light field alone and its maps: of a stack those that are stacks as long, else
-  /// all that are not named like another light field. `file` must outlive it.
+  /// A file with only that light field and its maps. Maps of a stack are stacks of the same length;
+  /// otherwise all arrays not named like another light field. `file` must outlive it.
   [[nodiscard]] std::unique_ptr<ArrayFile> one(const ArrayFile& file, int index) const;
-  /// A sentence about which is opened and which others there are.
+  /// A sentence about which light field is opened and which others exist.
   [[nodiscard]] std::string text(int index) const;
 
  private:

@@ -10,13 +10,13 @@ namespace episcope::io {
 
 inline constexpr const char* kSequenceReader = "sequence";
 
-/// Sequences of light fields: a folder of numbered folders or files that are light
-/// fields of the same form and shape, or of the images of all of them. Opens the
+/// Sequences of light fields: a folder of numbered folders or files that are light fields of one
+/// form and shape, a folder with the views of all frames, or a folder for each camera. Opens the
 /// frame of `OpenOptions::frame` by the reader of its form.
 [[nodiscard]] Reader sequence_reader();
 
-/// The folder or file of the frame that was read, or `folder/frame_3`, which is not there, of
-/// images of one folder; empty for what is no sequence, or no longer one.
+/// Folder or file of the frame that was read; for images of one folder `folder/frame_3`, which does
+/// not exist. Empty for anything but a sequence.
 [[nodiscard]] std::filesystem::path frame_path(const LightFieldInfo& info);
 
 /// Folders or files of one folder whose names differ in one running number.
@@ -25,13 +25,10 @@ struct NumberedFrames {
   std::vector<long> numbers;                 ///< In names, ascending.
 };
 
-/// The folders, else the files, of `folder` whose names say that they follow each other: digits
-/// alone ("0001"), or with a word for time ("frame_003", "f12", "t=4", "time_07.h5"), and one
-/// number that is different in each. Empty if there are fewer than two, if other numbered folders
-/// are beside them, or, with digits alone, any other folder. Looks at names only.
+/// Finds folders, else files, of `folder` that are numbered frames: digits alone ("0001"), or with
+/// a word for time ("frame_003", "f12", "t=4", "time_07.h5"), with one number that differs in each.
+/// Empty if there are fewer than two, if other numbered folders exist beside them, or, with digits
+/// alone, any other folder. Looks at names only.
 [[nodiscard]] NumberedFrames numbered_frames(const std::filesystem::path& folder);
-
-/// Likewise the images of `folder`.
-[[nodiscard]] NumberedFrames numbered_images(const std::filesystem::path& folder);
 
 }  // namespace episcope::io

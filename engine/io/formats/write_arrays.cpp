@@ -58,8 +58,7 @@ void add_stack(ZipWriter& zip, const std::string& name, const ViewStack<T>& stac
                            stack.size() * sizeof(T)}});
 }
 
-}  // namespace
-
+/// Disparity as files hold it: NaN where it is invalid; empty if there is none.
 ViewStack<float> disparity_with_nan(const DisparityField& field) {
   if (field.empty()) return {};
   ViewStack<float> disparity = field.disparity.clone();
@@ -68,6 +67,8 @@ ViewStack<float> disparity_with_nan(const DisparityField& field) {
   }
   return disparity;
 }
+
+}  // namespace
 
 void write_npy(const std::filesystem::path& path, const Scene& scene, const Progress& progress) {
   progress.check();

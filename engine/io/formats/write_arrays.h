@@ -8,11 +8,11 @@
 
 namespace episcope::io {
 
-/// Writes the views as one array `[v][u][y][x][c]` in their sample type, and nothing else. Atomic,
-/// as the following. Throws IoError, Cancelled.
+/// Writes the views as one array `[v][u][y][x][c]` in their sample type, without maps. Atomic.
+/// Throws IoError, Cancelled.
 void write_npy(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
 
-/// Writes an archive, not compressed, of `lf` as above and, where the scene has them, `disparity`
+/// Writes an uncompressed archive of `lf` as above and, where the scene has them, `disparity`
 /// (float, NaN = invalid), `labels` (int32) and `valid` (uint8, 0 = invalid): `[y][x]` of the
 /// centre view alone, else `[v][u][y][x]`. Throws IoError, Cancelled.
 void write_npz(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
@@ -22,8 +22,5 @@ void write_npz(const std::filesystem::path& path, const Scene& scene, const Prog
 /// the scene has invalid pixels. `disparity`, `labels` and, for grey views, `valid` as above, in
 /// MATLAB's order: (v, u) or (t, s, v, u). Throws IoError, Cancelled.
 void write_mat(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
-
-/// Disparity as files hold it: NaN where it is invalid; empty if there is none.
-[[nodiscard]] ViewStack<float> disparity_with_nan(const DisparityField& field);
 
 }  // namespace episcope::io

@@ -8,14 +8,14 @@
 
 namespace episcope::io {
 
-/// Writes a scene in the form of the 2013 archive: the light field and its depth to
-/// `path`, labels and scribbles to `labels.h5` beside it if the scene has them; where a `labels.h5`
-/// of something else is there, they go into `path`. Rows are in canonical order, which the
-/// attribute `convention` states. Atomic for each file. Throws IoError, Cancelled.
+/// Writes a scene in the form of the 2013 archive: the light field and its depth to `path`, labels
+/// and scribbles to `labels.h5` beside it. They go into `path` if a `labels.h5` of another light
+/// field exists. Rows are in canonical order, which the attribute `convention` states. Atomic for
+/// each file. Throws IoError, Cancelled.
 void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
 
-/// Whether it puts the labels into `path` itself, because a `labels.h5` of something else is beside
-/// it.
+/// Whether `write_archive` puts labels into `path`, because a `labels.h5` of another light field
+/// lies beside it.
 [[nodiscard]] bool puts_labels_inside(const std::filesystem::path& path, const Scene& scene);
 
 /// Writes a folder of the 2016 benchmark form: images, cfg, PFM truth of the centre

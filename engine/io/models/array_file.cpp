@@ -20,58 +20,7 @@
 namespace episcope::io {
 namespace {
 
-/// What deflate reaches at most.
-constexpr std::size_t kDensestDeflated = 1032;
-/// Light fields and maps are far from it, but for small or empty ones.
-constexpr std::size_t kDense = 200;
-constexpr std::size_t kSmallArray = std::size_t{64} << 20;
-
-}  // namespace
-
-std::string last_name(const std::string& name) {
-  return name.substr(name.rfind('/') + 1);
-}
-
-std::string telling_name(const ArrayEntry& entry) {
-  return entry.is_of_views() ? entry.name : last_name(entry.name);
-}
-
-std::string content_text(const ArrayEntry& entry) {
-  if (!entry.other_kind.empty()) return entry.other_kind;
-  return shape_text(in_index_order(entry.shape, entry.order));
-}
-
-void ArrayFile::join_parts() {
-  join_arrays(entries_);
-}
-
-std::unique_ptr<ArrayInput> ArrayFile::open(const ArrayEntry& entry) const {
-  if (entry.parts.empty()) return open_stored(entry);
-  ArrayEntry part = entry;
-  part.parts.clear();
-  part.shape.erase(part.shape.begin(),
-                   part.shape.begin() + static_cast<std::ptrdiff_t>(entry.leading.size()));
-  std::vector<std::unique_ptr<ArrayInput>> parts;
-  for (const std::string& name : entry.parts) {
-    part.name = name;
-    parts.push_back(open_stored(part));
-  }
-  return stacked(path_, entry, std::move(parts));
-}
-
-void require_plausible_size(const std::filesystem::path& path, const ArrayShape& shape,
-                            NumberType type, std::uint64_t bytes) {
-  const std::size_t count = element_count(shape);
-  const std::size_t width = byte_size(type);
-  const std::size_t allowed =
-      bytes * (count / kSmallArray * width > 0 ? kDense : kDensestDeflated) / width;
-  if (count <= allowed) return;
-  throw IoError(path, fmt::format("an array of {} {} samples is claimed by {} bytes, which cannot "
-                                  "hold it; the file is damaged or made to harm: choose another",
-                                  shape_text(shape), number_name(type), bytes));
-}
-
-namespace {
+namespace fs = std::filesystem;
 
 constexpr std::size_t kFewestJoined = 3;
 constexpr std::size_t kFewestViewPixels = 4;
@@ -318,12 +267,12 @@ class StackedArray : public ArrayInput {
   std::vector<std::unique_ptr<ArrayInput>> parts_;
 };
 
-}  // namespace
-
 void join_arrays(std::vector<ArrayEntry>& entries) {
   join_channels(entries);
   join_views(entries);
 }
+
+}  // namespace
 
 std::optional<ArrayEntry> joined_cells(const std::string& name,
                                        const std::vector<ArrayEntry>& cells,
@@ -362,7 +311,58 @@ std::string joined_axes(const ArrayEntry& entry) {
 
 namespace {
 
-namespace fs = std::filesystem;
+/// What deflate reaches at most.
+constexpr std::size_t kDensestDeflated = 1032;
+/// Light fields and maps are far from it, but for small or empty ones.
+constexpr std::size_t kDense = 200;
+constexpr std::size_t kSmallArray = std::size_t{64} << 20;
+
+}  // namespace
+
+std::string last_name(const std::string& name) {
+  return name.substr(name.rfind('/') + 1);
+}
+
+std::string telling_name(const ArrayEntry& entry) {
+  return entry.is_of_views() ? entry.name : last_name(entry.name);
+}
+
+std::string content_text(const ArrayEntry& entry) {
+  if (!entry.other_kind.empty()) return entry.other_kind;
+  return shape_text(in_index_order(entry.shape, entry.order));
+}
+
+void ArrayFile::join_parts() {
+  join_arrays(entries_);
+}
+
+std::unique_ptr<ArrayInput> ArrayFile::open(const ArrayEntry& entry) const {
+  if (entry.parts.empty()) return open_stored(entry);
+  ArrayEntry part = entry;
+  part.parts.clear();
+  part.shape.erase(part.shape.begin(),
+                   part.shape.begin() + static_cast<std::ptrdiff_t>(entry.leading.size()));
+  std::vector<std::unique_ptr<ArrayInput>> parts;
+  for (const std::string& name : entry.parts) {
+    part.name = name;
+    parts.push_back(open_stored(part));
+  }
+  return stacked(path_, entry, std::move(parts));
+}
+
+void require_plausible_size(const std::filesystem::path& path, const ArrayShape& shape,
+                            NumberType type, std::uint64_t bytes) {
+  const std::size_t count = element_count(shape);
+  const std::size_t width = byte_size(type);
+  const std::size_t allowed =
+      bytes * (count / kSmallArray * width > 0 ? kDense : kDensestDeflated) / width;
+  if (count <= allowed) return;
+  throw IoError(path, fmt::format("an array of {} {} samples is claimed by {} bytes, which cannot "
+                                  "hold it; the file is damaged or made to harm: choose another",
+                                  shape_text(shape), number_name(type), bytes));
+}
+
+namespace {
 
 NumberType number_type(Hdf5Type type) {
   switch (type) {

@@ -13,7 +13,7 @@
 
 namespace episcope::io {
 
-/// Something in a file of arrays.
+/// An entry of a file of arrays.
 struct ArrayEntry {
   std::string name;
   ArrayShape shape;  ///< As stored; empty if it is no array of numbers.
@@ -21,7 +21,7 @@ struct ArrayEntry {
   IndexOrder order = IndexOrder::C;
   std::string stated_axes{};  ///< As its file says ("v,u,y,x,c"), in the order of indices.
   std::string other_kind{};   ///< "struct", "text": what it is if it is no array of numbers.
-  /// Names of arrays of the file that are this one's parts (`join_arrays`), and
+  /// Names of the arrays of which this one consists (see ArrayFile), and
   std::vector<std::string> parts{};
   std::string leading{};  ///< what their places mean, "c", "n", "vu", as letters of axes.
   std::string warning{};  ///< What is missing among them, and left out; empty for all.
@@ -30,15 +30,23 @@ struct ArrayEntry {
   [[nodiscard]] bool is_of_views() const { return !leading.empty() && leading != "c"; }
 };
 
-/// A name without the structures or groups that the array lies in: "LF" of "s/LF".
+/// Strips structures and groups from a name: "LF" of "s/LF".
 [[nodiscard]] std::string last_name(const std::string& name);
 /// "9×9×512×512×3", in the order of indices, or what it is if it is no array of numbers.
 [[nodiscard]] std::string content_text(const ArrayEntry& entry);
 
-/// The words that tell what the array holds: its last name, or all of those of its parts.
+/// The words that tell what the array holds: its last name, or the last names of its parts.
 [[nodiscard]] std::string telling_name(const ArrayEntry& entry);
 
-/// A file of one or several arrays with names.
+/// A file of one or several arrays with names. Arrays of equal shape whose names are parts of one
+/// array are joined, and only the whole is an entry:
+/// - r, g and b (also R, red, LF_r, of one group) as channels;
+/// - at least three views ([y][x], with channels last or first), numbered by row and column or in a
+///   row: view_00_00, 3/4, cam012. Numbers that are equal in all names do not count.
+///
+/// The whole is called like its parts, with # for the numbers. Of an incomplete grid it is the
+/// largest part without a gap (`part_to_open`), with a warning; without such a part it is an entry
+/// of another kind that says what is missing.
 class ArrayFile {
  public:
   virtual ~ArrayFile() = default;
@@ -56,7 +64,7 @@ class ArrayFile {
   ArrayFile(std::filesystem::path path, std::string form)
       : path_(std::move(path)), form_(std::move(form)) {}
   void add(ArrayEntry entry) { entries_.push_back(std::move(entry)); }
-  /// To be called when all were added.
+  /// Joins parts; to be called after the last `add`.
   void join_parts();
   /// One that has no parts.
   [[nodiscard]] virtual std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const = 0;
@@ -67,29 +75,17 @@ class ArrayFile {
   std::vector<ArrayEntry> entries_;
 };
 
-/// Throws IoError if samples of this shape cannot be in a file of `bytes`, even compressed as
-/// densely as can be.
+/// Throws IoError if a file of `bytes` cannot hold samples of this shape, however well compressed.
 void require_plausible_size(const std::filesystem::path& path, const ArrayShape& shape,
                             NumberType type, std::uint64_t bytes);
 
-/// Puts arrays of equal shape together that are parts of one by their names, and leaves only the
-/// whole in `entries`:
-/// - r, g and b (also R, red, LF_r, of one group) as channels;
-/// - a view each ([y][x], with channels last or first), numbered by row and column, or in a row:
-///   view_00_00, 3/4, cam012. Three at least; numbers that are the same in all names say nothing.
-///
-/// The whole is called like its parts, with # for the numbers. Of a grid that is not full it is the
-/// largest part without a gap (`part_to_open`), with a warning; without such a part it is an entry
-/// of another kind that says what is missing.
-void join_arrays(std::vector<ArrayEntry>& entries);
-
-/// The cells of a cell array of MATLAB as one array, if all are views of one size, or maps; nothing
-/// if they are not. `grid`: its lengths as stored, {columns, rows}.
+/// Joins the cells of a MATLAB cell array if all are views, or maps, of one size; else nothing.
+/// `grid`: its lengths as stored, {columns, rows}.
 [[nodiscard]] std::optional<ArrayEntry> joined_cells(const std::string& name,
                                                      const std::vector<ArrayEntry>& cells,
                                                      const ArrayShape& grid);
 
-/// The parts of `entry`, opened, as one array along its first axes. They must not be empty.
+/// Stacks the opened parts of `entry`, at least one, along its first axes.
 [[nodiscard]] std::unique_ptr<ArrayInput> stacked(const std::filesystem::path& path,
                                                   const ArrayEntry& entry,
                                                   std::vector<std::unique_ptr<ArrayInput>> parts);
@@ -97,14 +93,13 @@ void join_arrays(std::vector<ArrayEntry>& entries);
 /// The axes of an array of views that are parts, in the order of `entry.shape`.
 [[nodiscard]] std::string joined_axes(const ArrayEntry& entry);
 
-/// Whether an HDF5 file was written by MATLAB (version 7.3), or as MATLAB writes: a block of 512
-/// bytes that says so precedes it, or its datasets have the attribute MATLAB_class. Then the axes
-/// are those of MATLAB reversed.
+/// Whether an HDF5 file was written by MATLAB 7.3 or in its manner: it begins with MATLAB's block
+/// of 512 bytes, or its datasets have the attribute MATLAB_class. Its axes are reversed against
+/// MATLAB's.
 [[nodiscard]] bool is_matlab_hdf5(const Hdf5Input& file);
 
 /// The datasets of an HDF5 file and of the groups in it (structs of MATLAB): "LF", "s/LF". The
-/// attribute `axes` of a dataset is taken for what it states. Datasets that are parts of one, by
-/// their names, are one array (`join_arrays`).
+/// attribute `axes` of a dataset states its axes. Datasets that are parts of one are joined.
 class Hdf5Arrays : public ArrayFile {
  public:
   static constexpr const char* kPlainForm = "HDF5 file";

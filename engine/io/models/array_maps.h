@@ -11,7 +11,7 @@
 
 namespace episcope::io {
 
-/// What lies beside the light field in a file of arrays.
+/// Maps beside the light field in a file of arrays.
 struct ArrayMaps {
   GroundTruth truth;              ///< In the order of views as stored.
   ViewStack<std::uint8_t> valid;  ///< Likewise; empty = none.
@@ -21,7 +21,7 @@ struct ArrayMaps {
   bool is_sign_assumed = false;   ///< Nothing tells near from far in it.
   bool is_named_labels = false;   ///< That name is one of labels, but it holds fractions.
 
-  /// For the report: the name, and why it is not taken for labels.
+  /// The name for the report, with the reason why it is not taken for labels.
   [[nodiscard]] std::string disparity_text() const;
 };
 
@@ -37,21 +37,21 @@ inline constexpr const char* kNamedLabels = "named like labels, but with fractio
 /// Whether any value that is finite is not whole.
 [[nodiscard]] bool has_fractions(const ViewStack<float>& values);
 
-/// Reads disparity, labels and masks (by their names: `map_kind`, or "gt") of the centre view or of
-/// all views, whose axes are those of the light field without channels, among `others` of the file.
-/// What has another name or shape is noted as not used. A mask of one view is that of the disparity
-/// of one view. Floats with fractions that are named like labels are disparity, as EPINET names it,
-/// where there is no other. Throws IoError, Cancelled.
+/// Reads disparity, labels and masks of the center view or of all views among `others`. Names tell
+/// the kind (`map_kind`, or "gt"); axes must match the light field without channels. Other arrays
+/// are noted as not used. A mask of one view belongs to the disparity of one view. Fractional
+/// floats named like labels are disparity, as EPINET names it, if there is no other. Throws
+/// IoError, Cancelled.
 [[nodiscard]] ArrayMaps read_array_maps(const ArrayFile& file,
                                         const std::vector<const ArrayEntry*>& others,
                                         const FieldAxes& light_field, bool wants_labels,
                                         const Progress& progress);
 
-/// Brings disparity as stored into px per view step, positive = nearer, as the views speak for
-/// (`settle_values`, `find_near_side`), and tells the report. Depth becomes disparity, and gives
-/// the camera if that is not known, where the views tell its unit (`settle_unknown_values`); else
-/// it is not used. Whether the sign is assumed is noted in `maps`, of whose truth `field` is,
-/// wherever it is by now.
+/// Converts stored disparity to px per view step, positive = nearer, by the evidence of the views
+/// (`infer_units`, `find_occlusion_order`), and tells the report. Depth becomes disparity, and tells an
+/// unknown camera, if the views show its unit (`infer_unknown_units`); else it is not used.
+/// `field` is the truth of `maps`, which may have been moved; `maps` notes whether the sign is
+/// assumed.
 void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, DisparityField& field,
                       CameraGrid& camera, ConventionReport& report);
 

@@ -15,7 +15,7 @@
 
 namespace episcope::io {
 
-/// Samples of views, and which of their pixels hold something.
+/// Samples of views, and their mask of valid pixels.
 struct ArraySamples {
   LightField::Samples samples;
   /// From a fourth channel, a weight or alpha: 0 = nothing was seen. Empty if there is none, or no
@@ -38,7 +38,7 @@ template <class T>
 [[nodiscard]] ViewStack<T> read_map_stack(const ArrayInput& array, const ArrayLayout& layout,
                                           const Progress& progress);
 
-/// Something for each of v, u, y, x, c.
+/// A value for each of the axes v, u, y, x, c.
 using FiveAxes = std::array<std::size_t, 5>;
 
 /// Samples in memory of any order of axes.

@@ -46,10 +46,45 @@ void check_line(const SceneParts& parts, ConventionReport& report, const Progres
   if (motion.is_askew()) report.warnings.push_back(motion.warning());
 }
 
-/// Undoes how a program wrote the truth of a single view, and says so.
-void turn_truth(SceneParts& parts, ConventionReport& report) {
-  const std::string undone = put_truth_upright(parts.samples, parts.truth.field);
-  if (!undone.empty()) report.warnings.push_back(turned_back_text(undone));
+/// The truth of one view: the disparity, or the two layers of a transparent scene. A disparity is
+/// put upright first.
+std::vector<OrderEvidence> evidence_of(SceneParts& parts, ConventionReport& report) {
+  GroundTruth& truth = parts.truth;
+  const UprightTruth upright = put_truth_upright(parts.samples, truth.field);
+  if (!upright.undone.empty()) report.warnings.push_back(turned_back_text(upright.undone));
+  const ViewIndex center = grid_of(parts.samples).center();
+  std::vector<OrderEvidence> found;
+  for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    if (field->empty() || (field != &truth.field && truth.has_disparity())) continue;
+    const ViewIndex at = field->contains(center) ? center : field->disparity.first();
+    found.push_back({at, field->view(at)});
+    if (field == &truth.field) found.back().errors = upright.errors;
+  }
+  return found;
+}
+
+/// Reverses views and truth as `find_order` determines it, and continues the report.
+void put_in_order(SceneParts& parts, Flip choice, ConventionReport& report,
+                  const Progress& progress) {
+  const OrderFinding finding =
+      find_order(parts.samples, evidence_of(parts, report), parts.expected, choice, progress);
+  report.order = finding.order;
+  report.order_check = finding.check;
+  report.order_was_chosen = finding.was_chosen;
+  report.sign = finding.sign;
+  report.sign_check = finding.sign_check;
+  report.reversed_u = finding.flip.u;
+  report.reversed_v = finding.flip.v;
+  report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());
+
+  const GridShape grid = grid_of(parts.samples);
+  std::visit([&](auto& stack) { reverse_views(stack, grid, finding.flip); }, parts.samples);
+  for (DisparityField* field :
+       {&parts.truth.field, &parts.truth.foreground, &parts.truth.background}) {
+    reverse_views(*field, grid, finding.flip);
+  }
+  reverse_views(parts.truth.labels, grid, finding.flip);
+  reverse_views(parts.valid, grid, finding.flip);
 }
 
 /// Adds to what is known of order and sign: swapped axes, and where positions run.
@@ -86,9 +121,7 @@ void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionRep
                                   ? *parts.swapped_axes
                                   : order_axes(parts, are_axes_known, report, progress);
   check_line(parts, report, progress);
-  turn_truth(parts, report);
-  put_in_order(parts.samples, parts.truth, parts.expected, options.flip, report, progress);
-  reverse_views(parts.valid, grid_of(parts.samples), flip_of(report));
+  put_in_order(parts, options.flip, report, progress);
   complete_order(parts, swapped, report);
 }
 
@@ -121,7 +154,7 @@ int count_unknown(const ViewGains& gains) {
   return unknown;
 }
 
-/// Tells `report` how much the brightness of the views differs from that of the center view
+/// Tells `report` how much the brightness of the views differs from the center view
 /// (measure_view_gains). With `options.equalize` takes it out, unless all gains are within
 /// kMeasurableGain; else says that methods even out what is notable, unless
 /// `options.keep_brightness`. Of a single view there is nothing to tell. Throws Cancelled.

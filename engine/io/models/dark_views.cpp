@@ -266,7 +266,7 @@ std::string crop_text(const ViewCrop& crop, const ViewBrightness& brightness) {
   return fmt::format(
       "{} of {} views kept, rows {} to {} and columns {} to {} from 0: {} outer views are dark "
       "(mean "
-      "{} % of the centre's); --crop all keeps them.",
+      "{} % of the center's); --crop all keeps them.",
       grid_text(crop.kept), grid_text(crop.stored), crop.first.v, crop.first.v + crop.kept.v - 1,
       crop.first.u, crop.first.u + crop.kept.u - 1, count,
       std::lround(100 * sum / std::max(count, 1)));
@@ -353,7 +353,7 @@ std::string mark_empty_pixels(const ViewBrightness& brightness, int height, int 
   const long long total = std::accumulate(marked.begin(), marked.end(), 0LL);
   if (total == 0) return {};
   return fmt::format(
-      "{:.1f} % of all pixels, in {} of {} views, are dark where the centre view is not; they are "
+      "{:.1f} % of all pixels, in {} of {} views, are dark where the center view is not; they are "
       "marked as not valid.",
       100.0 * static_cast<double>(total) / static_cast<double>(valid.size()), views.size(),
       grid.count());

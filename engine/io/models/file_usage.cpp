@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostUnusedKinds =
     20;  ///< Of files not used; more are told apart less finely.
 
-/// A name with # for each of its numbers; those of a suffix such as .h5 are none.
+/// A name with # for each of its numbers, except in a suffix such as .h5.
 std::string kind_by_numbers(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   const bool has_suffix = dot != name.npos && dot + 1 < name.size() && !is_digit(name[dot + 1]);
@@ -56,7 +56,7 @@ std::vector<FileUse> count_unused(const std::vector<std::string>& names,
   return kinds;
 }
 
-/// The same for all ways to write a path.
+/// One key for all ways to write a path.
 fs::path key_of(const fs::path& path) {
   return fs::absolute(path).lexically_normal();
 }

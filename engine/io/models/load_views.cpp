@@ -65,7 +65,7 @@ void store(const AnyImage& decoded, ImageView<T> view) {
   std::copy_n(image->data(), image->size(), view.data);
 }
 
-/// All views as far as they fit one of them, and what each of them is, by place.
+/// Views that fit one of them, and the outcome of each view, by place.
 struct Loaded {
   LightField::Samples samples;
   std::vector<Outcome> outcomes;
@@ -112,7 +112,7 @@ class ViewDecoder {
   std::vector<Outcome> outcomes_;
 };
 
-/// The views as far as they fit the first of `references` that can be decoded.
+/// Loads the views that fit the first of `references` that can be decoded.
 Loaded load_around(const ViewFiles& views, const std::vector<int>& references,
                    const OnCenterView& on_center, const Progress& progress) {
   progress.check();
@@ -173,14 +173,14 @@ std::vector<UnusableView> unusable_views(const ViewFiles& views,
 [[noreturn]] void refuse(const ViewFiles& views, const std::vector<UnusableView>& unusable) {
   if (unusable.empty()) {
     throw IoError(views.files.front().parent_path(),
-                  "some views are grey and others have colour; all views must match");
+                  "some views are grey and others have color; all views must match");
   }
   const UnusableView& first = unusable.front();
   throw IoError(views.files[static_cast<std::size_t>(first.place)],
                 first.is_damaged ? first.why : first.why + "; all views must match");
 }
 
-/// Of a part of views that were decoded, the places from its center on, those of color first.
+/// Places of a part of the decoded views, from its center on, color views first.
 std::vector<int> references_in(const UsableViews& usable, GridShape all,
                                const std::vector<Outcome>& outcomes) {
   std::vector<int> places = from_center(usable.views.grid);

@@ -14,8 +14,8 @@ namespace episcope::io {
 /// Whether a file begins as a MATLAB file of version 5 to 7, which is no HDF5 file.
 [[nodiscard]] bool is_mat5_file(const std::filesystem::path& path);
 
-/// Such a file; fields of structures are named "s/LF". Compressed variables are held in memory once
-/// they are read.
+/// A MATLAB file of version 5 to 7; fields of structures are named "s/LF". Compressed variables
+/// stay in memory once read.
 class Mat5File : public ArrayFile {
  public:
   /// Throws IoError for a damaged file.
@@ -33,8 +33,8 @@ class Mat5File : public ArrayFile {
   std::unique_ptr<Content> content_;
 };
 
-/// The arrays of a MATLAB file of version 5 to 7.3. Throws IoError for a file of another kind, or a
-/// damaged one.
+/// Opens a MATLAB file of version 5 to 7.3. Throws IoError for a file of another kind, or a damaged
+/// one.
 [[nodiscard]] std::unique_ptr<const ArrayFile> open_matlab_file(const std::filesystem::path& path);
 
 }  // namespace episcope::io

@@ -14,8 +14,7 @@ namespace episcope::io {
 /// `.npy` files, alone or in a folder, and `.npz` archives of them, by name without suffix.
 class NumpyFile : public ArrayFile {
  public:
-  /// An archive, all of a folder, or one `.npy` with those beside it that hold no light field.
-  /// Throws IoError.
+  /// Opens an archive, a folder, or one `.npy` with the maps beside it. Throws IoError.
   explicit NumpyFile(const std::filesystem::path& path);
 
  private:
@@ -35,7 +34,7 @@ class NumpyFile : public ArrayFile {
 /// Whether a folder holds pictures as `.npy` files, numbered, and no images.
 [[nodiscard]] bool is_folder_of_views(const std::filesystem::path& folder);
 
-/// Whether a file can be one, by its suffix or how it begins.
+/// Whether a file is an `.npy` or `.npz` file by its suffix or first bytes.
 [[nodiscard]] bool is_numpy_file(const std::filesystem::path& path);
 
 }  // namespace episcope::io

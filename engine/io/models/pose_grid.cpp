@@ -9,6 +9,13 @@
 namespace episcope::io {
 namespace {
 
+constexpr double kMostOff_steps = 0.1;
+
+/// How cameras of a light field may differ from a plane grid that is exact: orientations by half a
+/// degree, places by a tenth of a step, on the plane and off it, steps of rows and columns by a
+/// tenth.
+constexpr double kMostTurn_deg = 0.5;
+
 constexpr std::size_t kFewestCameras = 3;
 constexpr double kMostPosePlaces = 10;  ///< Of a grid with gaps, for each camera.
 constexpr double kMostSteps = 1e4;

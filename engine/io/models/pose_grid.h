@@ -10,13 +10,7 @@
 
 namespace episcope::io {
 
-/// How cameras of a light field may differ from a plane grid that is exact: orientations by half a
-/// degree, places by a tenth of a step, on the plane and off it, steps of rows and columns by a
-/// tenth.
-inline constexpr double kMostTurn_deg = 0.5;
-inline constexpr double kMostOff_steps = 0.1;
-
-/// In `PoseGrid::order`: no camera stands in this place.
+/// Marks a place without a camera in `PoseGrid::order`.
 inline constexpr auto kNoCamera = static_cast<std::size_t>(-1);
 
 /// Cameras as the grid of a light field, in canonical order.
@@ -30,8 +24,9 @@ struct PoseGrid {
   std::string problem{};   ///< Why they are no such grid, as a clause; empty if they are.
 };
 
-/// Whether cameras stand on the grid of a light field, and where each: rows and columns along what
-/// they see as down and right. O(N log N).
+/// Arranges cameras on the grid of a light field: rows and columns along what they see as down and
+/// right. Orientations may differ by 0.5°, places by a tenth of a step, steps of rows and columns
+/// by a tenth. O(N log N).
 [[nodiscard]] PoseGrid find_pose_grid(const std::vector<CameraPose>& poses);
 
 }  // namespace episcope::io

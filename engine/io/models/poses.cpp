@@ -23,6 +23,23 @@
 namespace episcope::io {
 namespace {
 
+constexpr std::uintmax_t kLargestColmap = 1'000'000'000;  ///< In bytes: with all points.
+
+/// The pose that COLMAP states as a quaternion (w, x, y, z), which has not to be normalised, and a
+/// translation, both from the scene to the camera, whose y is down and z ahead.
+CameraPose colmap_pose(const std::array<double, 7>& numbers) {
+  const auto [w, x, y, z, tx, ty, tz] = numbers;
+  const double n = 2 / (w * w + x * x + y * y + z * z);
+  CameraPose pose{.image = {},
+                  .right = {1 - n * (y * y + z * z), n * (x * y - z * w), n * (x * z + y * w)},
+                  .down = {n * (x * y + z * w), 1 - n * (x * x + z * z), n * (y * z - x * w)},
+                  .ahead = {n * (x * z - y * w), n * (y * z + x * w), 1 - n * (x * x + y * y)}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    pose.center[i] = -(pose.right[i] * tx + pose.down[i] * ty + pose.ahead[i] * tz);
+  }
+  return pose;
+}
+
 namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little);
@@ -182,6 +199,11 @@ std::vector<CameraPose> read_colmap_poses(const fs::path& path) {
   return poses;
 }
 
+namespace {
+
+/// Poses of `poses_bounds.npy`, N×17: for each image, in the order of names, a 3×5 matrix whose
+/// columns are down, right, backwards, the place of the camera, and height, width and focal length
+/// in px; then two bounds of depth, which are not used. Images are not named. Throws IoError.
 std::vector<CameraPose> read_llff_poses(const std::filesystem::path& path) {
   constexpr std::size_t kNumbers = 17;
   constexpr std::size_t kMostImages = 100'000;
@@ -213,8 +235,6 @@ std::vector<CameraPose> read_llff_poses(const std::filesystem::path& path) {
   return poses;
 }
 
-namespace {
-
 using Json = nlohmann::json;
 
 double focal_widths(const Json& json) {
@@ -239,8 +259,9 @@ CameraPose pose_of(const Json& frame, double focal) {
           .focal_widths = own > 0 ? own : focal};
 }
 
-}  // namespace
-
+/// Poses of `transforms.json`: `frames` with `file_path` and `transform_matrix`, 4×4, from the
+/// camera, whose x is right, y up and z backwards, to the scene. Focal length by `camera_angle_x`,
+/// or `fl_x` and `w`. Throws IoError.
 std::vector<CameraPose> read_nerf_poses(const std::filesystem::path& path) {
   try {
     const Json json = read_json<Json>(path);
@@ -260,8 +281,6 @@ std::vector<CameraPose> read_nerf_poses(const std::filesystem::path& path) {
                   "remove the file");
   }
 }
-
-namespace {
 
 struct PoseForm {
   const char* name;

@@ -14,7 +14,7 @@
 
 namespace episcope::io {
 
-/// What a draft of a result holds.
+/// Contents of a draft of a result.
 struct DraftShape {
   MapGeometry maps;
   bool has_valid = false;   ///< Whether some pixels may be marked as not valid.
@@ -22,7 +22,7 @@ struct DraftShape {
   int kept = 0;             ///< Maps beside it that passes keep for later ones.
 };
 
-/// Bytes of a file and where they are.
+/// Bytes of a file and their offset.
 struct FileExtent {
   std::uintmax_t offset = 0;
   std::vector<std::uint8_t> bytes;
@@ -40,12 +40,12 @@ enum class DraftMap {
   BackgroundValid
 };
 
-/// An HDF5 file with the maps of a result, of which blocks are written in any order, without the
+/// An HDF5 file with the maps of a result. Blocks are written in any order, without the HDF5
 /// library. Members throw IoError that names `target`.
 class DraftFile {
  public:
-  /// Makes the file at `path`, whole but for the values of the maps. Throws IoError also if the
-  /// disk has no room for these.
+  /// Creates the file at `path`, complete but for the values of the maps. Throws IoError also if
+  /// the disk has no room for them.
   static void create(const std::filesystem::path& path, const DraftShape& shape,
                      const std::filesystem::path& target);
 
@@ -54,19 +54,19 @@ class DraftFile {
   DraftFile(const std::filesystem::path& path, const DraftShape& shape,
             const std::filesystem::path& target);
 
-  /// All but the maps.
+  /// Everything in the file but the maps.
   [[nodiscard]] std::vector<FileExtent> rest() const;
   [[nodiscard]] std::uintmax_t byte_size() const;
-  /// Makes all but the maps of a file what it was, whatever was added or is damaged. Throws IoError
-  /// that names `path`.
+  /// Restores everything in a file but the maps, whatever was added or damaged. Throws IoError that
+  /// names `path`.
   static void restore(const std::filesystem::path& path, const std::vector<FileExtent>& rest,
                       std::uintmax_t byte_size);
 
   [[nodiscard]] BlockMaps read(const MapBlock& block) const;
-  /// Is on the disk when it returns. Disparity is NaN where it is not valid.
+  /// Writes a block, which is on the disk when it returns. Invalid disparity is NaN.
   void write(const MapBlock& block, const BlockMaps& maps) const;
-  /// The same into another file, from its beginning, and from there to where it belongs;
-  /// `has_valid` tells whether the block had a mask.
+  /// Write a block to another file, and move it from there to its place; `has_valid` tells whether
+  /// the block had a mask.
   void write_aside(const FileDescriptor& aside, const MapBlock& block, const BlockMaps& maps) const;
   void take_from(const FileDescriptor& aside, const MapBlock& block, bool has_valid) const;
 
@@ -89,13 +89,13 @@ class DraftFile {
   std::vector<Place> places_;  // By offset.
 };
 
-/// A file of maps that passes of a run in blocks keep for later ones, one after the other, each
-/// float32 `[v][u][y][x]`, without a header. Members throw IoError that names `target`.
+/// A file of maps that passes of a block-wise run keep for later passes. The maps follow each other
+/// as float32 `[v][u][y][x]`, without a header. Members throw IoError that names `target`.
 class KeptMaps {
  public:
-  /// How large the file of `count` maps is.
+  /// Size of a file of `count` maps.
   [[nodiscard]] static std::uintmax_t byte_size(const MapGeometry& maps, int count);
-  /// Makes the file at `path`, whatever is there. Throws IoError also if the disk has no room.
+  /// Creates the file at `path`, replacing any other. Throws IoError also if the disk has no room.
   static void create(const std::filesystem::path& path, const MapGeometry& maps, int count,
                      const std::filesystem::path& target);
 
@@ -105,7 +105,7 @@ class KeptMaps {
            const std::filesystem::path& target);
 
   [[nodiscard]] ViewStack<float> read(const MapBlock& block, int number) const;
-  /// All of a block, from number 0 on; is on the disk when it returns.
+  /// Writes a block of all maps, which is on the disk when it returns.
   void write(const MapBlock& block, const std::vector<ViewStack<float>>& kept) const;
 
  private:
@@ -117,38 +117,36 @@ class KeptMaps {
   FileDescriptor file_;
 };
 
-/// A result file that is filled block by block, each of which is on the disk before the next, and
-/// that survives the end of the program at any instant: `NAME.partial` beside the result, which it
-/// becomes when it is complete, `NAME.partial.kept` with what passes keep for later ones, and
-/// `NAME.partial.log`, which says of what run it is, how far that has come, and how to undo or redo
-/// what was being written. Members throw IoError.
+/// A result file that is filled block by block and survives the end of the program at any instant.
+/// Each block is on the disk before the next. `NAME.partial` becomes the result when it is
+/// complete. `NAME.partial.kept` holds maps for later passes. `NAME.partial.log` tells the run, its
+/// progress, and how to undo or redo an interrupted write. Members throw IoError.
 class ResultDraft {
  public:
-  /// Continues the draft that a run of the same `identity` (one line) left, or begins one, in the
-  /// place of one of another run. Throws IoError also if there is not enough room for all of it, or
-  /// if another program is writing it.
+  /// Continues the draft of a run with the same `identity` (one line), or begins a new one that
+  /// replaces the draft of another run. Throws IoError also if the disk has too little room, or if
+  /// another program is writing it.
   ResultDraft(const std::filesystem::path& result, const DraftShape& shape,
               const std::string& identity);
 
-  /// What was there: nothing, a draft of another run, or one that is continued.
+  /// What existed before: nothing, a draft of another run, or one that is continued.
   enum class Found { Nothing, Other, Same };
   [[nodiscard]] Found found() const { return found_; }
 
   [[nodiscard]] const BlockProgress& progress() const { return progress_; }
-  /// Disparity and confidence as they were written last.
+  /// Reads disparity and confidence as last written.
   [[nodiscard]] BlockMaps read(const MapBlock& block) const { return file_.read(block); }
   [[nodiscard]] ViewStack<float> read_kept(const MapBlock& block, int number) const {
     return kept_.read(block, number);
   }
 
   void note(const BlockProgress& after);
-  /// Writes a block, and notes the progress once it is on the disk. With `replaces`, what was there
-  /// is either replaced as a whole and the progress noted, or neither. What is kept beside it for
-  /// later passes is written first.
+  /// Writes a block, then notes the progress once it is on the disk. With `replaces`, the block and
+  /// the progress change together or not at all. Maps for later passes are written first.
   void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
              bool replaces);
 
-  /// Makes it the result file. `source` as in write_result.
+  /// Turns the draft into the result file. `source` as in write_result.
   void commit(const Provenance& provenance, const std::string& source);
 
  private:

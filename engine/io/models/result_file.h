@@ -12,11 +12,12 @@
 
 namespace episcope::io {
 
-/// Writes a result file: group `/estimate` with `disparity`, `confidence`, `valid`
-/// and, of layered methods, `disparity_foreground`, `disparity_background`, `layers`; provenance in
-/// attributes. Atomic: a temporary file beside it, flushed, then renamed. `source` is stored in the
-/// place of the estimate's own if it is given.
-/// Throws IoError (nothing is left behind), Cancelled.
+/// Writes a result file: group `/estimate` with `disparity`, `confidence`, `valid` and, of layered
+/// methods, `disparity_foreground`, `disparity_background`, `layers`; provenance in attributes.
+/// Atomic: a temporary file beside it, flushed, then renamed. `source` replaces the source of the
+/// estimate if given. Confidence is kept as 32-bit float: later passes of some methods read it
+/// again, so fewer bits would change results of block-wise runs. Throws IoError (nothing is left
+/// behind), Cancelled.
 void write_result(const std::filesystem::path& path, const Estimate& estimate,
                   const Progress& progress, const std::optional<std::string>& source = {});
 
@@ -27,23 +28,23 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
 [[nodiscard]] Estimate read_result(const std::filesystem::path& path, GridShape grid,
                                    const std::string& scene = "");
 
-/// How the light field of a result was read, as its file says; unknown for results from elsewhere
-/// and of former versions. Throws IoError if it is an HDF5 file and damaged.
+/// Tells how the light field of a result was read. Unknown for results of other programs and of
+/// former versions. Throws IoError if it is an HDF5 file and damaged.
 [[nodiscard]] Reading read_reading(const std::filesystem::path& path);
 
 /// Whether the file is one that `write_result` wrote (an HDF5 file with the group `/estimate`).
 /// Throws IoError if it is an HDF5 file and damaged.
 [[nodiscard]] bool is_result_file(const std::filesystem::path& path);
 
-/// The group of a result file that holds maps, and in its attributes where they come from.
+/// Group of a result file that holds the maps; its attributes tell their provenance.
 inline constexpr const char* kResultGroup = "estimate";
-/// Unit of its disparities.
+/// Unit of disparities in result files.
 inline constexpr const char* kDisparityUnit = "px per view step";
 
 /// "estimate/<name>".
 [[nodiscard]] std::string in_group(const char* name);
 
-/// Writes where maps of this geometry come from; `source` in the place of the estimate's own.
+/// Writes the provenance of maps of this geometry; `source` replaces the source of the estimate.
 /// Throws IoError.
 void write_provenance(Hdf5Output& file, const Provenance& estimate, const MapGeometry& maps,
                       const std::string& source);
@@ -52,7 +53,7 @@ void write_provenance(Hdf5Output& file, const Provenance& estimate, const MapGeo
 /// not known.
 void write_reading(Hdf5Output& file, const std::string& group, const Reading& reading);
 
-/// What `write_reading` stored; unknown in files of others and of former versions.
+/// Reads what `write_reading` stored; unknown in files of other programs and of former versions.
 [[nodiscard]] Reading reading_in(const Hdf5Input& file, const std::string& group);
 
 }  // namespace episcope::io

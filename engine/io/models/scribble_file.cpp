@@ -89,7 +89,8 @@ std::uintmax_t scribble_bytes(const Scribbles& scribbles, const FieldShape& shap
 }
 
 /// In canonical order, on all views as they are stored.
-Scribbles read_stored(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
+Scribbles read_stored_scribbles(const Hdf5Input& file, const Scene& scene,
+                                const Progress& progress) {
   const FieldShape shape = stored_shape_of(scene);
   StoredScribbles stored =
       read_scribble_dataset(file, shape, scene.convention.raised_labels, progress);
@@ -99,7 +100,7 @@ Scribbles read_stored(const Hdf5Input& file, const Scene& scene, const Progress&
 
 /// On the views of the scene, as these are stored.
 Scribbles read_unmoved(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
-  Scribbles stored = read_stored(file, scene, progress);
+  Scribbles stored = read_stored_scribbles(file, scene, progress);
   const ViewCrop& crop = scene.convention.crop;
   return crop.leaves_out() ? cropped(std::move(stored), crop) : stored;
 }
@@ -114,7 +115,8 @@ Scribbles put_back(const Scribbles& scribbles, const Hdf5Input* former, const Sc
   const ViewCrop& crop = scene.convention.crop;
   Scribbles unmoved = unsheared(scribbles, before(read_unmoved), scene.light_field->center(),
                                 scene.convention.focus_px);
-  return crop.leaves_out() ? uncropped(std::move(unmoved), before(read_stored), crop) : unmoved;
+  return crop.leaves_out() ? uncropped(std::move(unmoved), before(read_stored_scribbles), crop)
+                           : unmoved;
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ void put_in_order(Scribbles& scribbles, GridShape grid, ViewFlip flip);
 /// Shape of the file to write scribbles to, and its order of views.
 struct ScribblePlace {
   FieldShape shape;
-  ViewFlip flip;               ///< From the canonical order to that of the file.
+  ViewFlip flip;               ///< From the canonical order to the order of the file.
   bool raises_labels = false;  ///< As StoredScribbles.
 };
 

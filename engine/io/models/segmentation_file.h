@@ -32,7 +32,7 @@ void fill_samples(VolumeView<const std::uint8_t> probabilities, Image<float>& sa
 /// Content of a segmentation file except its probabilities.
 struct StoredSegmentation {
   ViewStack<std::int32_t> labels;
-  std::vector<LabelInfo> infos;  ///< By id; those of the layers of probabilities above all.
+  std::vector<LabelInfo> infos;  ///< By id; includes the labels of the layers of probabilities.
   ParameterSet parameters;
   std::string source;  ///< Path or name of the light field.
   Reading reading{};   ///< How that was read.

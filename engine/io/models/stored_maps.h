@@ -22,47 +22,45 @@ struct FieldShape {
 
 [[nodiscard]] FieldShape field_shape(const LightField::Samples& samples);
 
-/// Reads `[v][h][y][x]`, `[1][1][y][x]` or `[y][x]` view by view, in the stored order; the latter
-/// two belong to the centre view; `Center` reads that alone. Also with a last axis of length 1, and
-/// all at once with all axes in the opposite order, as MATLAB writes them, where the lengths tell:
-/// `[x][y]` of a square view cannot be told from `[y][x]`. T: uint8, int32 or float. Throws IoError
-/// for another rank or size.
+/// Reads `[v][h][y][x]`, `[1][1][y][x]` or `[y][x]` view by view, in the stored order. The latter
+/// two belong to the center view; `Center` reads that alone. A last axis of length 1 is accepted.
+/// So is the opposite order of all axes, as MATLAB writes it, if the lengths tell: `[x][y]` of a
+/// square view is taken for `[y][x]`. T: uint8, int32 or float. Throws IoError for another rank or
+/// size.
 template <class T>
 [[nodiscard]] ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name,
                                      const FieldShape& shape, const Progress& progress,
                                      MapViews views = MapViews::All);
 
-/// Whether the rank and size of a dataset are those that `read_maps` reads.
+/// Whether `read_maps` reads a dataset of this rank and size.
 [[nodiscard]] bool holds_maps(const Hdf5Input& file, const std::string& name,
                               const FieldShape& shape);
 /// Whether the axes are stored in the opposite order. Throws as `read_maps`.
 [[nodiscard]] bool is_column_major(const Hdf5Input& file, const std::string& name,
                                    const FieldShape& shape);
 
-/// Fills `views` from a dataset that the file stores just as they are in memory
-/// (Hdf5Input::place_in_file), on several threads: most of the time of reading a large light field
-/// is that of the system giving memory for it, which HDF5 would have one thread wait for. False,
-/// with `views` undefined, if it is stored otherwise, in another size, or cannot be read in this
-/// way. T: uint8, int32, uint16 or float. Throws IoError, Cancelled.
+/// Fills `views` on several threads from a dataset stored as in memory (Hdf5Input::place_in_file).
+/// Most of the time of reading a large light field goes into getting memory from the system, which
+/// HDF5 does on one thread. False, with `views` undefined, if the dataset is stored otherwise or
+/// has another size. T: uint8, int32, uint16 or float. Throws IoError, Cancelled.
 template <class T>
 [[nodiscard]] bool read_stored_views(const Hdf5Input& file, const std::string& name,
                                      ViewStack<T>& views, const Progress& progress);
 
-/// Which views a stack of maps holds, as a shape of a dataset: `[y][x]` for a single view, else
-/// `[v][u][y][x]`.
+/// Shape of the dataset of a stack of maps: `[y][x]` for a single view, else `[v][u][y][x]`.
 [[nodiscard]] Hdf5Shape map_shape(GridShape grid, int height, int width);
 
 /// "y,x" or "v,u,y,x".
 [[nodiscard]] const char* map_axes(GridShape grid);
 
-/// Adds a dataset and writes it view by view: `samples(view)` gives those of each. T: uint8, int32
-/// or float.
+/// Adds a dataset and writes it view by view; `samples(view)` gives the samples of a view. T:
+/// uint8, int32 or float.
 template <class T>
 void write_maps(Hdf5Output& file, const std::string& name, const MapGeometry& maps,
                 const std::string& units, const Progress& progress,
                 const std::function<const T*(ViewIndex)>& samples);
 
-/// Writes a stack as it is.
+/// Writes a stack unchanged.
 template <class T>
 void write_stack(Hdf5Output& file, const std::string& name, const ViewStack<T>& stack,
                  const std::string& units, const Progress& progress) {

@@ -321,8 +321,8 @@ bool has_divisors(int count) {
   return false;
 }
 
-/// Numbers of a frame and of one of the cameras on a grid look like those of rows and columns. But
-/// views of a row do not lie on a grid themselves: then the other number is that of the frame.
+/// Numbers of a frame and of a camera on a grid look like numbers of rows and columns. But
+/// views of a row do not lie on a grid themselves: then the other number counts frames.
 /// Looks where there are not as many rows as columns.
 void refuse_frames(const fs::path& folder, const NamedGrid& named, const Progress& progress) {
   const GridShape grid = named.placed.views.grid;

@@ -34,7 +34,7 @@ struct Field {
 
 /// Counts positions by their order, if they lie at equal distances.
 void count_positions(const NameGroup& group, std::size_t number, Field& field) {
-  constexpr double kTolerance = 0.1;  // of a step
+  constexpr double kStepTolerance = 0.1;  // of a step
   std::vector<double> values;
   for (const NumberedImage& image : group.images) {
     values.push_back(image.numbers[number].position());
@@ -46,7 +46,7 @@ void count_positions(const NameGroup& group, std::size_t number, Field& field) {
   std::vector<long long> counts;
   for (const double value : values) {
     const double place = step > 0 ? (value - steps.front()) / step : 0;
-    if (std::abs(place - std::round(place)) > kTolerance) return;
+    if (std::abs(place - std::round(place)) > kStepTolerance) return;
     counts.push_back(std::llround(place));
     field.places.push_back(static_cast<std::size_t>(counts.back()));
   }
@@ -422,7 +422,7 @@ struct Lettered {
   }
 };
 
-/// Places of letters with none beside them, but for those of the suffix.
+/// Places of letters with none beside them, except in the suffix.
 std::vector<std::size_t> lonely_letters(const std::string& skeleton) {
   const std::size_t end = std::min(skeleton.rfind('.'), skeleton.size());
   const auto is_letter_at = [&](std::size_t at) { return at < end && is_letter(skeleton[at]); };

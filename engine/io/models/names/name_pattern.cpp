@@ -106,7 +106,7 @@ bool store(NameField field, std::string_view text, NamedView& view) {
 
 /// A part of a pattern: a field, `*`, `?`, or one byte.
 struct PatternPart {
-  enum class Kind { Byte, Anything, Character, Number, Position };
+  enum class Kind { Byte, Anything, Character, Number, Coordinate };
   Kind kind = Kind::Byte;
   char byte = 0;
 };
@@ -182,7 +182,7 @@ class Wildcards final : public NamePattern::Matcher {
                          "'; there are {row}, {col}, {index}, {y} and {x}");
     }
     const bool is_position = *field == NameField::Y || *field == NameField::X;
-    parts_.push_back({is_position ? PatternPart::Kind::Position : PatternPart::Kind::Number});
+    parts_.push_back({is_position ? PatternPart::Kind::Coordinate : PatternPart::Kind::Number});
     fields_.push_back(*field);
     return end + 1;
   }
@@ -212,10 +212,10 @@ class Wildcards final : public NamePattern::Matcher {
       case PatternPart::Kind::Anything:
         return matches(search, part + 1, at) || (at < name.size() && matches(search, part, at + 1));
       case PatternPart::Kind::Number:
-      case PatternPart::Kind::Position:
+      case PatternPart::Kind::Coordinate:
         break;
     }
-    const bool may_have_fraction = parts_[part].kind == PatternPart::Kind::Position;
+    const bool may_have_fraction = parts_[part].kind == PatternPart::Kind::Coordinate;
     std::vector<std::size_t> ends = ends_of_number(name, at, may_have_fraction);
     if (part + 1 < parts_.size() && parts_[part + 1].kind == PatternPart::Kind::Number) {
       // Digits that run together belong to both by halves, if that fits.

@@ -149,7 +149,7 @@ bool is_there(const GridWithGaps& views, ViewIndex view) {
   return !views.files[static_cast<std::size_t>(view.v * shape.u + view.u)].empty();
 }
 
-/// Whether the views are exactly those of one row and one column.
+/// Whether the views are exactly one row and one column.
 bool is_cross(const GridWithGaps& views, ViewIndex middle) {
   const GridShape shape = views.shape();
   for (int i = 0; i < shape.count(); ++i) {

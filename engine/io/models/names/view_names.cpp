@@ -43,7 +43,7 @@ void warn_of_steps(const char* what, const NumberRun& run, std::vector<std::stri
   if (run.values.size() < 2 || run.is_plain()) return;
   if (run.has_gaps()) {
     warnings.push_back(
-        fmt::format("The names number {} {}: they are taken for neighbours at equal distances.",
+        fmt::format("The names number {} {}: they are taken for neighbors at equal distances.",
                     what, run.text()));
   } else if (run.step > 1) {
     warnings.push_back(

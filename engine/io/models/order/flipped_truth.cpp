@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/order/flipped_truth.h"
 
-#include "engine/io/models/order/warp_check.h"
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -76,26 +74,29 @@ std::string turned_back_text(const std::string& turn) {
          ", as comparing it with the views shows; it was put right.";
 }
 
-std::string put_truth_upright(const LightField::Samples& samples, DisparityField& field) {
+UprightTruth put_truth_upright(const LightField::Samples& samples, DisparityField& field) {
   if (field.empty()) return {};
   const ViewIndex center = grid_of(samples).center();
   const ViewIndex at = field.contains(center) ? center : field.disparity.first();
-  const WarpErrors stored = warp_errors(samples, at, field.view(at));
+  UprightTruth found{{}, warp_errors(samples, at, field.view(at))};
+  const WarpErrors stored = *found.errors;
   const double without = stored.unwarped();
-  if (stored.best() < kEvident * without) return {};
+  if (stored.best() < kEvident * without) return found;
   double least = kFarBetterTurn * std::min(stored.best(), without);
   std::optional<MapTurn> undone;
   for (const MapTurn& turn : possible_turns(field.disparity.height(), field.disparity.width())) {
     const DisparityField candidate{turned(field.disparity, turn, {1, 1}, at),
                                    turned(field.valid, turn, {1, 1}, at)};
-    const double error = warp_errors(samples, at, candidate.view(at)).best();
-    if (error >= least) continue;
-    least = error;
+    const WarpErrors errors = warp_errors(samples, at, candidate.view(at));
+    if (errors.best() >= least) continue;
+    least = errors.best();
+    found.errors = errors;
     undone = turn;
   }
-  if (!undone) return {};
+  if (!undone) return found;
   field = turned_back(field, *undone);
-  return undone->text;
+  found.undone = undone->text;
+  return found;
 }
 
 }  // namespace episcope::io

@@ -3,7 +3,9 @@
 
 #include "engine/core/disparity_field.h"
 #include "engine/core/light_field.h"
+#include "engine/io/models/order/warp_check.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,15 +27,21 @@ struct MapTurn {
 /// Undoes the turn of one map; returns a field of the single view (0, 0).
 [[nodiscard]] DisparityField turned_back(const DisparityView& map, const MapTurn& turn);
 
-/// Warning about `MapTurn::text`, or about the result of `put_truth_upright`.
+/// Warning about `MapTurn::text` or `UprightTruth::undone`.
 [[nodiscard]] std::string turned_back_text(const std::string& turn);
+
+/// Truth in the usual order of pixels.
+struct UprightTruth {
+  std::string undone;  ///< Such as "rows from bottom to top"; empty = the truth was upright.
+  std::optional<WarpErrors> errors{};  ///< Of warping by the map of one view; none without truth.
+};
 
 /// Corrects truth with rows from bottom to top (PFM of a program that forgets its order), mirrored
 /// truth, and square truth with rows and columns exchanged (an array by MATLAB). Such truth hardly
 /// explains the views. A turn is undone in all maps if it explains the center view, or the only
 /// one, far better: its error after warping is below 0.6 of the error as stored and of the error
-/// without warping. Returns what it undid, such as "rows from bottom to top"; empty if nothing.
-[[nodiscard]] std::string put_truth_upright(const LightField::Samples& samples,
-                                            DisparityField& field);
+/// without warping.
+[[nodiscard]] UprightTruth put_truth_upright(const LightField::Samples& samples,
+                                             DisparityField& field);
 
 }  // namespace episcope::io

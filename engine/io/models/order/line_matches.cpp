@@ -34,9 +34,9 @@ double mean_of(const Image<float>& picture) {
 
 /// Loads views of one axis through the center of the grid, brought to the brightness of the middle
 /// one: else the darker of two surfaces would seem to be seen in a vignetted view.
-class Axis {
+class AxisViews {
  public:
-  Axis(const LightField::Samples& samples, bool is_v, int side)
+  AxisViews(const LightField::Samples& samples, bool is_v, int side)
       : samples_(samples), is_v_(is_v), side_(side) {
     const GridShape grid = grid_of(samples);
     center_ = grid.center();
@@ -180,55 +180,78 @@ class Costs {
   std::array<Image<float>, 2> sides_;
 };
 
+}  // namespace
+
 struct ShiftSearch {
   double first = 0;
   double last = 0;
-  /// Beyond it, either way, points must match far better than within.
-  double usual = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool is_empty() const { return last <= first; }
   [[nodiscard]] double most() const { return std::max(std::abs(first), std::abs(last)); }
 };
 
-void lower(const Image<float>& values, Image<float>& least) {
-  std::transform(values.begin(), values.end(), least.begin(), least.begin(),
-                 [](float a, float b) { return std::min(a, b); });
-}
+/// The shift of least cost of every pixel, of those tried so far.
+struct BestShifts {
+  Image<float> cost;
+  Image<float> sum;
+  Image<float> shift;
+  int count = 0;
 
-Image<float> best_shifts(const LineOfViews& views, ShiftSearch search, const Progress& progress) {
-  const int height = views.middle.height();
-  const int width = views.middle.width();
-  Image<float> best(height, width, 1, std::numeric_limits<float>::max());
-  const bool looks_far = std::isfinite(search.usual);
-  Image<float> usual;
-  if (looks_far) usual = best;
-  Image<float> sum(height, width);
-  Image<float> shift(height, width);
+  explicit BestShifts(const Image<float>& picture)
+      : cost(picture.height(), picture.width(), 1, std::numeric_limits<float>::max()),
+        sum(picture.height(), picture.width()),
+        shift(sum) {}
+
+  void take(const Image<float>& costs, double tried) {
+    for (std::size_t k = 0; k < costs.size(); ++k) {
+      const float value = costs.data()[k];
+      sum.data()[k] += value;
+      if (value < cost.data()[k]) {
+        cost.data()[k] = value;
+        shift.data()[k] = static_cast<float>(tried);
+      }
+    }
+    ++count;
+  }
+  /// NaN for shifts at the ends of the search, and for those hardly better than the others.
+  [[nodiscard]] float distinct(std::size_t k, const ShiftSearch& search) const {
+    const float found = shift.data()[k];
+    const float mean = sum.data()[k] / static_cast<float>(count);
+    const bool is_inside = found > search.first && found < search.last;
+    const bool is_distinct = is_inside && cost.data()[k] < 0.6F * mean;
+    return is_distinct ? found : std::numeric_limits<float>::quiet_NaN();
+  }
+};
+
+namespace {
+
+/// Calls `take` with the costs of every shift of the search.
+template <class Take>
+void try_shifts(const LineOfViews& views, const ShiftSearch& search, const Progress& progress,
+                const Take& take) {
   Costs costs(views);
   const int steps = static_cast<int>(std::round((search.last - search.first) / kMatchStep));
   for (int i = 0; i <= steps; ++i) {
     progress.check();
     const double tried = search.first + i * kMatchStep;
-    const Image<float>& cost = costs.at(tried);
-    if (looks_far && std::abs(tried) <= search.usual) lower(cost, usual);
-    for (std::size_t k = 0; k < cost.size(); ++k) {
-      const float value = cost.data()[k];
-      sum.data()[k] += value;
-      if (value < best.data()[k]) {
-        best.data()[k] = value;
-        shift.data()[k] = static_cast<float>(tried);
-      }
-    }
+    take(costs.at(tried), tried);
   }
-  for (std::size_t k = 0; k < shift.size(); ++k) {
-    const float mean = sum.data()[k] / static_cast<float>(steps + 1);
-    const bool is_inside = shift.data()[k] > search.first && shift.data()[k] < search.last;
-    const bool is_usual = !looks_far || std::abs(shift.data()[k]) <= search.usual ||
-                          best.data()[k] < kFarBetterBeyond * usual.data()[k];
-    const bool is_distinct = is_inside && is_usual && best.data()[k] < 0.6F * mean;
-    if (!is_distinct) shift.data()[k] = std::numeric_limits<float>::quiet_NaN();
+}
+
+Image<float> best_shifts(const LineOfViews& views, const ShiftSearch& search,
+                         const Progress& progress) {
+  BestShifts best(views.middle);
+  try_shifts(views, search, progress,
+             [&](const Image<float>& costs, double tried) { best.take(costs, tried); });
+  for (std::size_t k = 0; k < best.shift.size(); ++k) {
+    best.shift.data()[k] = best.distinct(k, search);
   }
-  return shift;
+  return std::move(best.shift);
+}
+
+void lower(const Image<float>& values, Image<float>& least) {
+  std::transform(values.begin(), values.end(), least.begin(), least.begin(),
+                 [](float a, float b) { return std::min(a, b); });
 }
 
 /// The middle 96 % of the shifts and a bit more; empty if there are hardly any.
@@ -244,7 +267,7 @@ ShiftSearch range_of(const Image<float>& shifts) {
 }
 
 /// The middle view and those next to it.
-LineOfViews next_views(const Axis& axis) {
+LineOfViews next_views(const AxisViews& axis) {
   LineOfViews views;
   views.middle = axis.view(0);
   views.near = {axis.view(-1), axis.view(1)};
@@ -255,23 +278,61 @@ LineOfViews next_views(const Axis& axis) {
 
 }  // namespace
 
-double largest_motion(const LightField::Samples& samples, bool is_v, double usual_px,
-                      const Progress& progress) {
-  const Axis axis(samples, is_v, kCoarseSide);
-  if (axis.reach() < 1) return 0;
-  const ShiftSearch coarse{-kCoarseRange, kCoarseRange, usual_px / axis.pixels()};
-  return axis.pixels() * range_of(best_shifts(next_views(axis), coarse, progress)).most();
+struct CoarseMotion::Search {
+  static constexpr ShiftSearch kRange{-kCoarseRange, kCoarseRange};
+
+  int pixels = 1;  ///< Of the views as stored, in a px of the views of the search.
+  BestShifts best;
+  /// Least cost of shifts of up to so many steps, either way.
+  std::vector<Image<float>> within;
+
+  Search(const AxisViews& axis, const Progress& progress)
+      : Search(axis, next_views(axis), progress) {}
+  Search(const AxisViews& axis, const LineOfViews& views, const Progress& progress)
+      : pixels(axis.pixels()), best(views.middle) {
+    within.assign(static_cast<std::size_t>(kCoarseRange / kMatchStep) + 1, best.cost);
+    try_shifts(views, kRange, progress, [&](const Image<float>& costs, double tried) {
+      best.take(costs, tried);
+      lower(costs, within[static_cast<std::size_t>(std::abs(tried) / kMatchStep)]);
+    });
+    for (std::size_t i = 1; i < within.size(); ++i) lower(within[i - 1], within[i]);
+  }
+
+  [[nodiscard]] double largest(double usual) const {
+    const double steps = std::min(usual, kCoarseRange) / kMatchStep;
+    const Image<float>& least = within[static_cast<std::size_t>(steps)];
+    Image<float> shifts = best.shift;
+    for (std::size_t k = 0; k < shifts.size(); ++k) {
+      float& shift = shifts.data()[k];
+      const bool is_usual =
+          std::abs(shift) <= usual || best.cost.data()[k] < kFarBetterBeyond * least.data()[k];
+      shift = is_usual ? best.distinct(k, kRange) : std::numeric_limits<float>::quiet_NaN();
+    }
+    return range_of(shifts).most();
+  }
+};
+
+CoarseMotion::CoarseMotion(const LightField::Samples& samples) : samples_(samples) {}
+CoarseMotion::~CoarseMotion() = default;
+
+double CoarseMotion::largest(bool is_v, double usual_px, const Progress& progress) const {
+  std::unique_ptr<const Search>& search = along_[is_v ? 1 : 0];
+  if (!search) {
+    const AxisViews axis(samples_, is_v, kCoarseSide);
+    if (axis.reach() < 1) return 0;
+    search = std::make_unique<const Search>(axis, progress);
+  }
+  return search->pixels * search->largest(usual_px / search->pixels);
 }
 
-LineMatches match_line(const LightField::Samples& samples, bool is_v, int side,
-                       const Progress& progress) {
-  const Axis axis(samples, is_v, side);
+LineMatches match_line(const CoarseMotion& coarse, bool is_v, int side, const Progress& progress) {
+  const AxisViews axis(coarse.samples(), is_v, side);
   LineMatches found;
   if (axis.reach() < 1) return found;
   LineOfViews& views = found.views;
   views = next_views(axis);
   const double usual = std::clamp(views.middle.width() / 32.0, 4.0, 16.0);
-  const double motion = largest_motion(samples, is_v, usual * axis.pixels(), progress);
+  const double motion = coarse.largest(is_v, usual * axis.pixels(), progress);
   const double range = std::max(usual, motion / axis.pixels());
   if (range > kLargestRange) return {};
   found.shift = best_shifts(views, {-range, range}, progress);
@@ -443,12 +504,12 @@ SlopeCorrelation correlate(const LightField::Samples& samples, ViewIndex center,
 }
 
 /// In px between neighboring views.
-double search_range(const LightField::Samples& samples, const Progress& progress) {
+double search_range(const CoarseMotion& coarse, const Progress& progress) {
   const int smaller = std::visit(
-      [](const auto& stack) { return std::min(stack.width(), stack.height()); }, samples);
+      [](const auto& stack) { return std::min(stack.width(), stack.height()); }, coarse.samples());
   const double usual = std::clamp(smaller / 48.0, 3.0, 16.0);
-  const auto [u, v] = along_both_axes(
-      progress, [&](bool is_v) { return largest_motion(samples, is_v, usual, progress); });
+  const auto [u, v] =
+      along_both_axes(progress, [&](bool is_v) { return coarse.largest(is_v, usual, progress); });
   return std::clamp(std::max(u, v), usual, kMostSlope);
 }
 
@@ -465,15 +526,15 @@ bool SlopeCorrelation::is_decided() const {
          std::abs(value) * std::sqrt(squares) > kSignificantSlopes;
 }
 
-SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples,
-                                      const Progress& progress) {
+SlopeCorrelation correlate_epi_slopes(const CoarseMotion& coarse, const Progress& progress) {
+  const LightField::Samples& samples = coarse.samples();
   return std::visit(
       [&](const auto& stack) {
         const ViewIndex center = stack.grid().center();
         const int reach = std::min(
             {center.v, center.u, stack.grid().v - 1 - center.v, stack.grid().u - 1 - center.u});
         SlopeCorrelation found;
-        const double range = search_range(samples, progress);
+        const double range = search_range(coarse, progress);
         // Farther views tell small disparities apart, where the next ones do not.
         for (int step = 1; step <= std::min(reach, 4); step *= 2) {
           const SlopeCorrelation next = correlate(samples, center, step, range, progress);

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <concepts>
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct LineOfViews {
   std::array<Image<float>, 2> near;  ///< One step before and one after the middle,
   std::array<Image<float>, 2> far;   ///< and `far_step` before and after.
   int far_step = 0;                  ///< 0 = the axis has fewer than three views.
-  double near_share = 1;  ///< Distance of the near views as a part of that of the far ones.
+  double near_share = 1;             ///< Distance of the near views as a share of the far ones'.
 };
 
 /// Motion of points of the middle view to the far view after it, in px, positive = to the left. NaN
@@ -40,19 +41,32 @@ struct LineMatches {
   Image<float> shift;
 };
 
-/// Largest motion of points between neighboring views along an axis, in px; a few may move farther.
-/// Searches up to 24 px in views of at most 128 px. Motion above `usual_px` counts only if views
-/// then agree twice as well. 0 if the axis has fewer than three views or the views have no texture.
-/// Throws Cancelled.
-[[nodiscard]] double largest_motion(const LightField::Samples& samples, bool is_v, double usual_px,
-                                    const Progress& progress);
+/// Motion between neighboring views in pictures of at most 128 px, where up to 24 px are searched:
+/// once for each axis, whatever asks. Both axes may be asked at a time, each by one thread.
+class CoarseMotion {
+ public:
+  /// Keeps a reference to `samples`.
+  CoarseMotion(const LightField::Samples& samples);
+  ~CoarseMotion();
+
+  [[nodiscard]] const LightField::Samples& samples() const { return samples_; }
+  /// Largest motion of points between neighboring views along an axis, in px; a few may move
+  /// farther. Motion above `usual_px` counts only if views then agree twice as well. 0 if the axis
+  /// has fewer than three views or the views have no texture. Throws Cancelled.
+  [[nodiscard]] double largest(bool is_v, double usual_px, const Progress& progress) const;
+
+ private:
+  struct Search;
+  const LightField::Samples& samples_;
+  mutable std::array<std::unique_ptr<const Search>, 2> along_;  ///< u and v, once searched.
+};
 
 /// Matches windows of 5×5 px with the views before and the views after, and keeps the better side:
 /// points hidden on one side are matched on the other. Shifts are multiples of 0.5 px. Views are
 /// reduced to at most `side` px (by whole factors); only their middle of 512×512 px is matched.
 /// Empty if the axis has fewer than three views, the views have no texture, or points move by more
 /// than 48 px of the reduced views. Throws Cancelled.
-[[nodiscard]] LineMatches match_line(const LightField::Samples& samples, bool is_v, int side,
+[[nodiscard]] LineMatches match_line(const CoarseMotion& coarse, bool is_v, int side,
                                      const Progress& progress);
 
 /// Correlation of the slopes of horizontal and vertical EPIs, point by point.
@@ -71,7 +85,7 @@ struct SlopeCorrelation {
 /// at most 512×512 px in the middle of the view. Searches a 48th of the smaller side, or the
 /// distance that points move, at most 64 px. Linear in the image area and in the search range.
 /// Throws Cancelled.
-[[nodiscard]] SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples,
+[[nodiscard]] SlopeCorrelation correlate_epi_slopes(const CoarseMotion& coarse,
                                                     const Progress& progress);
 
 }  // namespace episcope::io

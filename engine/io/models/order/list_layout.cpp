@@ -201,7 +201,7 @@ Unlikeness unlikeness(const ListPictures& pictures, std::size_t scale, const Pro
   parallel_for(static_cast<int>(found.pairs.size()), progress, [&](int i) {
     const auto& [a, b] = found.pairs[static_cast<std::size_t>(i)];
     found.values[static_cast<std::size_t>(i)] =
-        1 - correlation(pictures.at(a).scales[scale], pictures.at(b).scales[scale]);
+        1 - picture_correlation(pictures.at(a).scales[scale], pictures.at(b).scales[scale]);
   });
   const double least = std::ranges::min(found.values);
   const double most = least + kSaturation * std::max(1 - least, 0.0);
@@ -338,12 +338,12 @@ ListLayout with_axes(int count, const Arrangement& one, const ListPictures& pict
   ListLayout layout = layout_of(count, one, !in_rows.is_y());
   if (one.period == count) {
     layout.is_decided = in_rows.is_decided();
-    layout.evidence = motion_text("between neighbours", in_rows);
+    layout.evidence = motion_text("between neighbors", in_rows);
     return layout;
   }
   const AxisEvidence across = motion(pictures, one, false);
   layout.is_decided = (in_rows.is_x() && across.is_y()) || (in_rows.is_y() && across.is_x());
-  layout.evidence = motion_text("between neighbours in the list", in_rows) + ", " +
+  layout.evidence = motion_text("between neighbors in the list", in_rows) + ", " +
                     motion_text(fmt::format("between views {} apart", one.period).c_str(), across);
   return layout;
 }

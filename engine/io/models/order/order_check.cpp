@@ -4,7 +4,6 @@
 #include "engine/core/text_table.h"
 #include "engine/io/models/order/line_matches.h"
 #include "engine/io/models/order/sign_check.h"
-#include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +26,8 @@ WarpErrors mean_errors(const LightField::Samples& samples,
           a * to.unwarped + b * more.unwarped, to.pixels + more.pixels};
   };
   for (const OrderEvidence& one : truth) {
-    const WarpErrors errors = warp_errors(samples, one.at, one.disparity);
+    const WarpErrors errors =
+        one.errors ? *one.errors : warp_errors(samples, one.at, one.disparity);
     add(sum.u, errors.u);
     add(sum.v, errors.v);
   }
@@ -90,8 +90,9 @@ Checked check_by_truth(const LightField::Samples& samples, const std::vector<Ord
   if (errors.v.is_decided()) checked.flip.v = errors.v.says_reversed();
   // The layers of a transparent scene explain views only together.
   if (truth.size() == 1) {
-    const auto& [at, disparity] = truth.front();
-    checked.warning = poor_truth(errors, compare_with_constant(samples, at, disparity, errors));
+    const OrderEvidence& one = truth.front();
+    checked.warning =
+        poor_truth(errors, compare_with_constant(samples, one.at, one.disparity, errors));
     checked.is_poor = !checked.warning.empty() && (errors.u.is_poor() || errors.v.is_poor());
   }
   if (checked.is_decided) {
@@ -107,9 +108,8 @@ Checked check_by_truth(const LightField::Samples& samples, const std::vector<Ord
   return checked;
 }
 
-Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected,
-                        const Progress& progress) {
-  const SlopeCorrelation slopes = correlate_epi_slopes(samples, progress);
+Checked check_by_slopes(const CoarseMotion& coarse, ViewFlip expected, const Progress& progress) {
+  const SlopeCorrelation slopes = correlate_epi_slopes(coarse, progress);
   Checked checked{expected, slopes.is_decided(), {}};
   if (!checked.is_decided) return checked;
   const bool must_differ = slopes.value < 0;
@@ -123,8 +123,8 @@ Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected,
 }
 
 /// Near and far: what the slopes leave open, or, where they are undecided, all that is known.
-void add_occlusion(const LightField::Samples& samples, Checked& checked, const Progress& progress) {
-  const SignFinding sign = check_sign(samples, checked.flip, checked.is_decided, progress);
+void add_occlusion(const CoarseMotion& coarse, Checked& checked, const Progress& progress) {
+  const SignFinding sign = check_sign(coarse, checked.flip, checked.is_decided, progress);
   checked.is_sign_known = sign.is_decided;
   checked.sign_text = sign.is_decided ? "by " + sign.evidence : sign.evidence;
   if (!sign.is_decided) return;
@@ -139,17 +139,6 @@ std::string not_checked_text(GridShape grid) {
   if (grid.v == 1) return "not checked (one row of views)";
   if (grid.u == 1) return "not checked (one column of views)";
   return "not checked (too little depth or texture)";
-}
-
-/// The truth of one view: the disparity, or the two layers of a transparent scene.
-std::vector<OrderEvidence> evidence_of(const GroundTruth& truth, ViewIndex center) {
-  std::vector<OrderEvidence> found;
-  for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
-    if (field->empty() || (field != &truth.field && truth.has_disparity())) continue;
-    const ViewIndex at = field->contains(center) ? center : field->disparity.first();
-    found.push_back({at, field->view(at)});
-  }
-  return found;
 }
 
 ViewFlip chosen_flip(Flip choice) {
@@ -187,8 +176,9 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
   OrderFinding finding;
   if (!checked.warning.empty()) finding.warnings.push_back(checked.warning);
   if (!checked.is_decided || !checked.warning.empty()) {
-    Checked by_views = check_by_slopes(samples, expected.flip, progress);
-    add_occlusion(samples, by_views, progress);
+    const CoarseMotion coarse(samples);
+    Checked by_views = check_by_slopes(coarse, expected.flip, progress);
+    add_occlusion(coarse, by_views, progress);
     const bool says_more = by_views.is_sign_known || by_views.contradicts(checked.flip);
     // Truth that hardly explains the views says nothing of their order.
     if (!checked.is_decided || (by_views.is_decided && (checked.is_poor || says_more))) {
@@ -212,27 +202,6 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
                                expected.reason + ".");
   }
   return finding;
-}
-
-void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
-                  Flip choice, ConventionReport& report, const Progress& progress) {
-  const GridShape grid = grid_of(samples);
-  const OrderFinding finding =
-      find_order(samples, evidence_of(truth, grid.center()), expected, choice, progress);
-  report.order = finding.order;
-  report.order_check = finding.check;
-  report.order_was_chosen = finding.was_chosen;
-  report.sign = finding.sign;
-  report.sign_check = finding.sign_check;
-  report.reversed_u = finding.flip.u;
-  report.reversed_v = finding.flip.v;
-  report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());
-
-  std::visit([&](auto& stack) { reverse_views(stack, grid, finding.flip); }, samples);
-  for (DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
-    reverse_views(*field, grid, finding.flip);
-  }
-  reverse_views(truth.labels, grid, finding.flip);
 }
 
 }  // namespace episcope::io

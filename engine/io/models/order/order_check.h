@@ -6,7 +6,9 @@
 #include "engine/core/scene.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/view_order.h"
+#include "engine/io/models/order/warp_check.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ struct ExpectedOrder {
 struct OrderEvidence {
   ViewIndex at;
   DisparityView disparity;
+  std::optional<WarpErrors> errors{};  ///< Of `warp_errors` with it, if known.
 };
 
 struct OrderFinding {
@@ -50,10 +53,5 @@ struct OrderFinding {
 
 /// Choice that reverses these axes.
 [[nodiscard]] Flip flip_choice(ViewFlip flip);
-
-/// Brings stored views and truth into canonical order as `find_order` determines it from the
-/// disparity of the truth. Continues `report`. Throws Cancelled.
-void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
-                  Flip choice, ConventionReport& report, const Progress& progress);
 
 }  // namespace episcope::io

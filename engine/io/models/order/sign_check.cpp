@@ -217,10 +217,9 @@ bool OcclusionVotes::is_decided() const {
 /// the one that is seen in that place is the nearer one. If it has the larger disparity, the axis
 /// has the canonical direction. Looks at five views of each axis, reduced to at most `side` px, of
 /// them at the middle of 512×512 px. Linear in the range of disparities. Throws Cancelled.
-OcclusionByAxis count_occlusions(const LightField::Samples& samples, int side,
-                                 const Progress& progress) {
+OcclusionByAxis count_occlusions(const CoarseMotion& coarse, int side, const Progress& progress) {
   const auto [u, v] = along_both_axes(
-      progress, [&](bool is_v) { return votes_of(match_line(samples, is_v, side, progress)); });
+      progress, [&](bool is_v) { return votes_of(match_line(coarse, is_v, side, progress)); });
   return {u, v};
 }
 
@@ -266,13 +265,13 @@ SignFinding single_axes(const OcclusionByAxis& votes, GridShape grid, ViewFlip f
 
 }  // namespace
 
-SignFinding check_sign(const LightField::Samples& samples, ViewFlip flip, bool are_axes_related,
+SignFinding check_sign(const CoarseMotion& coarse, ViewFlip flip, bool are_axes_related,
                        const Progress& progress) {
   const auto [grid, larger] = std::visit(
       [](const auto& stack) {
         return std::pair(stack.grid(), std::max(stack.width(), stack.height()));
       },
-      samples);
+      coarse.samples());
   SignFinding found{flip, false, {}};
   if (std::max(grid.u, grid.v) < 3) {
     found.evidence = "occlusion cannot be seen in fewer than three views in a row";
@@ -282,7 +281,7 @@ SignFinding check_sign(const LightField::Samples& samples, ViewFlip flip, bool a
   for (int side = std::min(larger, kLargestVoteSide); side >= std::min(kSmallestVoteSide, larger);
        side = (side + 1) / 2) {
     progress.check();
-    const OcclusionByAxis votes = count_occlusions(samples, side, progress);
+    const OcclusionByAxis votes = count_occlusions(coarse, side, progress);
     found = are_axes_related ? related_axes(votes, flip) : single_axes(votes, grid, flip);
     if (found.is_decided) return found;
     const OcclusionVotes sum = votes_for(votes, flip);

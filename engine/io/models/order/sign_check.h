@@ -3,6 +3,7 @@
 
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/io/models/order/line_matches.h"
 #include "engine/io/models/order/view_order.h"
 
 #include <string>
@@ -20,7 +21,7 @@ struct SignFinding {
 /// `flip` is the order that is known or expected so far. With `are_axes_related` it is certain
 /// whether the axes agree, and they are judged together; else each axis by itself. Throws
 /// Cancelled.
-[[nodiscard]] SignFinding check_sign(const LightField::Samples& samples, ViewFlip flip,
+[[nodiscard]] SignFinding check_sign(const CoarseMotion& coarse, ViewFlip flip,
                                      bool are_axes_related, const Progress& progress);
 
 }  // namespace episcope::io

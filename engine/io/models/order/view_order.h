@@ -36,8 +36,8 @@ struct ViewFlip {
   return {flip.v ? grid.v - 1 - view.v : view.v, flip.u ? grid.u - 1 - view.u : view.u};
 }
 
-/// Reverses the order of views, in memory unless it is that of a file; `grid` is that of the whole
-/// light field, of which `stack` may cover a part, which then moves to its mirrored place.
+/// Reverses the order of views, in memory unless they are in a file; `grid` is the grid of the
+/// whole light field, of which `stack` may cover a part, which then moves to its mirrored place.
 template <class T>
 void reverse_views(ViewStack<T>& stack, GridShape grid, ViewFlip flip) {
   if (stack.empty() || flip == ViewFlip{}) return;

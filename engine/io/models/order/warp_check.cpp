@@ -158,7 +158,7 @@ void add_channels(const T* samples, int width, int channels, float* sums) {
   }
 }
 
-/// The same of floats: one that is not finite counts as the last before it that is.
+/// Sums floats: a sample that is not finite counts as the last finite one before it.
 void add_channels(const float* samples, int width, int channels, float* sums) {
   std::array<float, 4> last{};
   for (int x = 0; x < width; ++x) {
@@ -241,7 +241,7 @@ constexpr double kSignificantConstant = 2.7;
 constexpr int kSteps = 24;              ///< Constants tried to either side of 0.
 constexpr double kDiffers = 0.25;       ///< px between the map and the constant, or less in maps
 constexpr double kPartOfRange = 0.125;  ///< of which that is more than this part of the range;
-constexpr double kLeastRange = 0.05;    ///< those of less px are constants.
+constexpr double kLeastRange = 0.05;    ///< maps of less px are constants.
 constexpr float kLargestConstantError = 40;  ///< Grey levels; what is hidden counts no more.
 constexpr double kMostConstantPoints = 10000;
 

@@ -82,7 +82,7 @@ std::vector<MapUnit> common_units(GridShape grid, int width) {
         {1.0 / steps, fmt::format("px over the {} steps of the whole baseline", steps)});
   }
   if (steps > 3) {
-    units.push_back({2.0 / steps, "px from the centre view to the outermost one"});
+    units.push_back({2.0 / steps, "px from the center view to the outermost one"});
   }
   units.push_back({static_cast<double>(width), "widths of the image per view step"});
   return units;

@@ -50,7 +50,7 @@ struct SettledUnit {
 /// view fall on the same pixel of another view, that view shows the nearer one.
 struct OcclusionOrder {
   double larger = 0;   ///< Mean grey error (0 … 255) of the pixels of larger disparity,
-  double smaller = 0;  ///< and of those of smaller disparity.
+  double smaller = 0;  ///< and of pixels of smaller disparity.
   int points = 0;      ///< Pairs that were compared.
   double doubt = 0;    ///< Standard error of the difference of these means.
 

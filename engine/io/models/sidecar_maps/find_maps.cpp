@@ -59,7 +59,7 @@ std::vector<fs::path> map_folders_in(const fs::path& folder) {
   return folders;
 }
 
-/// Whether the folder is only that of the pictures of a scene, whose other files lie beside it.
+/// Whether the folder holds only the pictures of a scene, whose other files lie beside it.
 bool is_inner_folder(const fs::path& folder) {
   constexpr std::array<std::string_view, 12> names{"lf",    "views", "images", "rectified",
                                                    "image", "rgb",   "color",  "input",
@@ -145,7 +145,7 @@ struct KeyedFile {
   fs::path file;
 };
 
-/// Numbers as those of the views, or beginning elsewhere.
+/// Matches numbers with the numbers of the views, or from another first number on.
 std::vector<MapSet::Entry> match_numbers(const std::vector<KeyedFile>& files,
                                          const ViewKeys& views) {
   const auto match = [&](const Key& shift) {
@@ -297,7 +297,7 @@ std::vector<MapPlace> map_places(const fs::path& folder) {
   return places;
 }
 
-/// By its own name, else by that of its folder.
+/// By its own name, else by the name of its folder.
 std::optional<MapKind> kind_of(const fs::path& file, std::optional<MapKind> of_folder) {
   constexpr std::array<std::string_view, 3> kTruth{"gt", "ground_truth", "groundtruth"};
   const std::string stem = file.stem().string();

@@ -31,9 +31,9 @@ constexpr std::ptrdiff_t kFewestFilled = 200;
 constexpr double kFilledBetter = 0.93;
 constexpr double kLeastDifference = 0.3;  ///< Grey levels.
 constexpr double kAlike = 0.2;            ///< px between both: then neither matters.
-/// Values are contradicted if the error there is so many times that of the others.
+/// Values are contradicted if their error is so many times the error of the others.
 constexpr double kContradicted = 2;
-/// Other values than 0 may be those of a surface that matches badly, but better than unwarped.
+/// Values other than 0 may belong to a surface that matches badly, but better than unwarped.
 constexpr double kAsUnwarped = 0.9;
 
 Image<std::uint8_t> pixels_of(const DisparityView& map, float value) {
@@ -410,7 +410,7 @@ constexpr double kPlainMap = 0.5;
 /// A fit must leave at most this share of the error.
 constexpr double kClearlyBetterFit = 0.85;
 
-/// How values of the file became those of the field.
+/// How values of the file became values of the field.
 struct Becoming {
   const FittedMeaning* meaning = nullptr;  ///< If they were turned into disparity,
   double factor = 1;                       ///< else what is still to be done.

@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 
 using Kinds = std::initializer_list<MapKind>;
 
-std::unique_ptr<const ArrayFile> open_archive(const fs::path& path) {
+std::unique_ptr<const ArrayFile> open_map_archive(const fs::path& path) {
   if (suffix_of(path) == ".mat") return open_matlab_file(path);
   return std::make_unique<const NumpyFile>(path);
 }
@@ -92,12 +92,12 @@ FoundMap find_archived_map(const ArrayFile& file, GridShape grid, Kinds kinds, K
 
 template <class T>
 ViewStack<T> read_archived(const fs::path& path, GridShape grid, Kinds kinds, Kinds others = {}) {
-  const std::unique_ptr<const ArrayFile> file = open_archive(path);
+  const std::unique_ptr<const ArrayFile> file = open_map_archive(path);
   const FoundMap map = find_archived_map(*file, grid, kinds, others);
   return read_map_stack<T>(*file->open(map.entry), map.layout, Progress());
 }
 
-/// Likewise, labels.
+/// Reads labels from named arrays.
 ViewStack<std::int32_t> read_archived_labels(const fs::path& path, GridShape grid) {
   return read_archived<std::int32_t>(path, grid, {MapKind::Labels});
 }
@@ -192,7 +192,7 @@ ViewStack<float> read_archived_values(const fs::path& path, GridShape grid) {
 }
 
 bool holds_archived_fractions(const fs::path& path, GridShape grid) {
-  const std::unique_ptr<const ArrayFile> file = open_archive(path);
+  const std::unique_ptr<const ArrayFile> file = open_map_archive(path);
   const FoundMap map = find_archived_map(*file, grid, {MapKind::Labels}, {});
   return is_float(map.entry.type) &&
          has_fractions(read_map_stack<float>(*file->open(map.entry), map.layout, Progress()));
@@ -303,8 +303,8 @@ DisparityField read_picture_values(const fs::path& path) {
               std::all_of(pixel, pixel + channels, [&](auto level) { return level == *pixel; });
           if (!is_grey) {
             throw IoError(path,
-                          "this picture has colours, but levels of grey are expected, which "
-                          "stand for numbers; export the map without a colour map");
+                          "this picture has colors, but levels of grey are expected, which "
+                          "stand for numbers; export the map without a color map");
           }
           values.data()[i] = static_cast<float>(*pixel);
         }
@@ -373,7 +373,7 @@ StoredLabels picture_labels(const Image<T>& image, const fs::path& path) {
     labels.are_colors = in[3 * i] != in[3 * i + 1] || in[3 * i] != in[3 * i + 2];
   }
   if (labels.are_colors && !std::is_same_v<T, std::uint8_t>) {
-    throw IoError(path, "colours of labels are expected in 8 bits; save labels as integers");
+    throw IoError(path, "colors of labels are expected in 8 bits; save labels as integers");
   }
   std::int32_t* out = labels.numbers.data();
   for (std::size_t i = 0; i < count; ++i) {

@@ -71,9 +71,9 @@ struct ResampledMaps {
   std::string note;  ///< Says so; empty if nothing was done.
 };
 
-/// Resamples maps whose sides are 2 to 8 times those of the views, or as small a fraction, to the
-/// size of the views. A larger map gives each pixel the median of its valid values (the larger of
-/// the two in the middle: means would lie between surfaces). A smaller map repeats its values.
+/// Resamples maps whose sides are 2 to 8 times the sides of the views, or as small a fraction, to
+/// the size of the views. A larger map gives each pixel the median of its valid values (the larger
+/// of the two in the middle: means would lie between surfaces). A smaller map repeats its values.
 /// Values stay as they are, even if they count pixels of the map.
 [[nodiscard]] ResampledMaps resample_to(DisparityField& field, int height, int width);
 

@@ -155,7 +155,8 @@ ViewStack<T> opened_part(ViewStack<T> all, const SidecarViews& views) {
   return part;
 }
 
-/// Of maps of the whole grid those wanted: that of the center view alone, where no others are.
+/// Takes the wanted maps of the whole grid; only the map of the center view if no others are
+/// wanted.
 template <class T>
 ViewStack<T> wanted_part(ViewStack<T> whole, const SidecarViews& views) {
   ViewStack<T> all = opened_part(std::move(whole), views);

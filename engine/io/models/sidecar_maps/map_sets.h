@@ -64,7 +64,7 @@ struct SetOutcome {
 void require_view_size(const std::filesystem::path& path, int height, int width,
                        const SidecarViews& views);
 
-/// The entries to read: all, or that of the center view alone, or of the first.
+/// The entries to read: all, or the one of the center view or of the first view.
 [[nodiscard]] std::vector<MapSet::Entry> entries_to_read(const MapSet& set,
                                                          const SidecarViews& views);
 

@@ -112,7 +112,7 @@ SidecarLabels read_sidecar_labels(const std::vector<MapSet>& sets, const Sidecar
     if (found.maps.are_colors) {
       auto named = name_colors(found.maps.numbers);
       if (!named) {
-        notes.account.leave_out(found.set->files(), "pictures of more than 256 colours");
+        notes.account.leave_out(found.set->files(), "pictures of more than 256 colors");
         std::erase(ranked.fit, found.set);
         continue;
       }
@@ -270,7 +270,7 @@ std::optional<LabelMeaning> name_colors(ViewStack<std::int32_t>& labels) {
   ids[kNoMap] = 0;
   replace_by(labels, ids);
   if (is_urban) meaning.infos = urban_infos();
-  meaning.kind = is_urban ? kUrbanKind : "coloured label maps";
+  meaning.kind = is_urban ? kUrbanKind : "colored label maps";
   return meaning;
 }
 

@@ -18,7 +18,7 @@ namespace episcope::io {
 /// Labels found beside views, ids from 1 on, 0 = none, in the stored order of views.
 struct SidecarLabels {
   ViewStack<std::int32_t> labels;  ///< Of all views or of one; empty = none.
-  std::vector<LabelInfo> infos;    ///< Names and colors, as far as they are known.
+  std::vector<LabelInfo> infos;    ///< Names and colors, if known.
 };
 
 /// Reads labels from arrays, images of integers, or pictures with a color for each label. If there
@@ -31,7 +31,7 @@ struct SidecarLabels {
 
 /// Labels as the engine has them: ids from 1 on, 0 = none.
 struct LabelMeaning {
-  std::vector<LabelInfo> infos;     ///< Names and colors, as far as they are known, by id.
+  std::vector<LabelInfo> infos;     ///< Names and colors by id, if known.
   bool raised = false;              ///< Stored ids began at 0 and were raised by one.
   std::string kind = "label maps";  ///< Or "UrbanLF label maps", "colored label maps".
 };

@@ -51,7 +51,7 @@ std::optional<MapUnit> stated_unit(const fs::path& folder, FileUsage& account) {
   const std::optional<double> baseline = number_after(text, "base_x");
   if (!baseline || *baseline <= 0) return std::nullopt;
   account.use(path, "parameter files");
-  return MapUnit{*baseline, fmt::format("px for a baseline of 1; that of neighbouring views is {} "
+  return MapUnit{*baseline, fmt::format("px for a baseline of 1; that of neighboring views is {} "
                                         "({})",
                                         *baseline, kBaselineFile)};
 }
@@ -94,7 +94,7 @@ std::string grey(double error) {
 
 std::string warp_text(const SettledUnit& settled) {
   const Explanation& found = settled.explanation;
-  std::string text = "mean grey error of neighbouring views after warping " + grey(found.error) +
+  std::string text = "mean grey error of neighboring views after warping " + grey(found.error) +
                      ", unwarped " + grey(found.unwarped);
   if (settled.unit.factor != 1 && settled.first.error != found.error) {
     text += ", with the values as stored " + grey(settled.first.error);
@@ -280,7 +280,7 @@ SidecarDisparity from_depth(const RankedSets& sets, const SidecarViews& views,
 }
 
 /// Reads disparity maps, else depth maps where the camera is known. Unit and sign are checked: by
-/// warping views next to the center (`settle_unit`), by what hides what (`find_occlusion_order`),
+/// warping views next to the center (`settle_unit`), by occlusion (`find_occlusion_order`),
 /// and by depth maps; what was found, with the numbers, goes to `units` and `units_check` of the
 /// report. Maps that are damaged or do not fit are left out with a warning. Throws Cancelled.
 SidecarDisparity read_sidecar_disparity(const std::vector<MapSet>& sets, const SidecarViews& views,
@@ -316,7 +316,7 @@ SidecarDisparity read_sidecar_disparity(const std::vector<MapSet>& sets, const S
 }
 
 Image<std::uint8_t> read_fitting_mask(const fs::path& path, const SidecarViews& views) {
-  Image<std::uint8_t> mask = read_mask(path);
+  Image<std::uint8_t> mask = io::read_mask(path);
   require_view_size(path, mask.height(), mask.width(), views);
   return mask;
 }

@@ -15,7 +15,7 @@ namespace episcope::io {
 /// Truth that lies beside views, in their stored order.
 struct SidecarMaps {
   GroundTruth truth;
-  std::vector<LabelInfo> label_infos;  ///< Names and colors of its labels, as far as known.
+  std::vector<LabelInfo> label_infos;  ///< Names and colors of its labels, if known.
   CameraGrid camera;                   ///< As given, or what disparity and depth say together.
   bool is_sign_assumed = false;        ///< Nothing tells near from far in the disparity.
 };

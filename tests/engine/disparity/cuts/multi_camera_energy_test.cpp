@@ -22,7 +22,7 @@ LightField random_light_field(GridShape grid, int height, int width, unsigned se
 }
 
 Interactions interactions_of(const LightField& lf, const std::vector<float>& labels,
-                             Comparison comparison = Comparison::WholePixels) {
+                             PixelComparison comparison = PixelComparison::WholePixels) {
   return {lf,
           lf.center(),
           side_views(lf.grid(), lf.center(), 1, labels),
@@ -109,7 +109,8 @@ void MultiCameraEnergyTest::expansions_neverRaiseTheEnergy_data() {
   QTest::addColumn<int>("comparison");
   QTest::addColumn<int>("rows");
   QTest::addColumn<int>("columns");
-  for (const Comparison comparison : {Comparison::WholePixels, Comparison::BetweenPixels}) {
+  for (const PixelComparison comparison :
+       {PixelComparison::WholePixels, PixelComparison::BetweenPixels}) {
     const std::string name = name_of(comparison);
     QTest::addRow("%s 3x3", name.c_str()) << static_cast<int>(comparison) << 3 << 3;
     QTest::addRow("%s 1x3", name.c_str()) << static_cast<int>(comparison) << 1 << 3;
@@ -124,7 +125,7 @@ void MultiCameraEnergyTest::expansions_neverRaiseTheEnergy() {
   const Scene scene = render("objects", 40, 44, {rows, columns}, 4);
   const std::vector<float> labels = equidistant_labels({-4, 4}, 9);
   const Interactions interactions =
-      interactions_of(*scene.light_field, labels, static_cast<Comparison>(comparison));
+      interactions_of(*scene.light_field, labels, static_cast<PixelComparison>(comparison));
   const MultiCameraEnergy energy(interactions, {50, 3});
   LabelExpansion expansion(energy, energy.farthest());
   std::int64_t before = energy.of(expansion.labels()).value();

@@ -40,7 +40,7 @@ double mean_error(const Scene& scene, const Estimate& estimate) {
 
 Estimate chosen(const Scene& scene, int shift, const Progress& progress = Progress()) {
   Estimate estimate = shifted_truth(scene, shift);
-  choose_carried_sides(pack_views(*scene.light_field, progress), kCap, estimate, progress);
+  choose_propagated_sides(pack_views(*scene.light_field, progress), kCap, estimate, progress);
   return estimate;
 }
 

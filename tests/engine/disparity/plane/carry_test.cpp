@@ -53,7 +53,7 @@ void CarryTest::surfaces_moveAndHide() {
   std::vector<Estimate> maps;
   maps.push_back(bar({0, 1}));
 
-  const CarriedMaps all = carry_to_views(maps, {{}, {1, 3}}, Progress());
+  const PropagatedMaps all = propagate_to_views(maps, {{}, {1, 3}}, Progress());
 
   const ImageView<const float> right = all.disparity.view({0, 2});
   QCOMPARE(right.at(3, 4), 2.0F);  // Two px to the left, one step to the right,
@@ -67,7 +67,7 @@ void CarryTest::surfaces_moveAndHide() {
 }
 
 void CarryTest::withoutMaps_isRefused() {
-  QVERIFY_THROWS_EXCEPTION(InvalidInput, carry_to_views({}, {{}, {1, 3}}, Progress()));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, propagate_to_views({}, {{}, {1, 3}}, Progress()));
 }
 
 void CarryTest::allViews_areCloseAndInOrder() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/formats/write_arrays.h"
-#include "tests/engine/io/arrays/array_files.h"
 #include "tests/engine/io/broken/broken.h"
+#include "tests/engine/io/formats/array_files.h"
 #include "tests/engine/io/synthetic_scene.h"
 
 #include <zlib.h>

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/npy.h"
+#include "engine/io/open.h"
+#include "tests/engine/io/models/sidecar_maps/layered_folder.h"
+#include "tests/engine/io/synthetic_scene.h"
+#include "tests/test_main.h"
+
+#include <QTemporaryDir>
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace episcope::in_unknown_unit_test {
+
+using namespace episcope::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A slanted plane with a square before it, which hides other parts of it in each view.
+Scene plane_behind_square() {
+  constexpr float kNear = 1.8F;
+  const Scene plane = plane_scene();
+  ViewStack<std::uint8_t> views = bytes_of(plane).clone();
+  auto truth = std::make_shared<GroundTruth>();
+  truth->field.disparity = plane.truth->field.disparity.clone();
+  const ViewIndex center = views.grid().center();
+  for (int i = 0; i < views.grid().count(); ++i) {
+    const ViewIndex view = views.view_at(i);
+    for (int y = 0; y < views.height(); ++y) {
+      for (int x = 0; x < views.width(); ++x) {
+        const double cx = x + kNear * static_cast<float>(view.u - center.u);
+        const double cy = y + kNear * static_cast<float>(view.v - center.v);
+        if (cx < 20 || cx > 50 || cy < 16 || cy > 46) continue;
+        const double grey = 128 + 60 * std::sin(0.9 * cx + 0.3 * cy) * std::cos(0.7 * cy);
+        for (int c = 0; c < 3; ++c) {
+          views.view(view).at(y, x, c) = static_cast<std::uint8_t>(std::lround(grey));
+        }
+        truth->field.disparity.view(view).at(y, x) = kNear;
+      }
+    }
+  }
+  Scene scene;
+  scene.light_field = std::make_shared<LightField>(std::move(views), plane.light_field->info());
+  scene.truth = std::move(truth);
+  return scene;
+}
+
+}  // namespace
+
+/// Maps of the centre view whose numbers nothing explains but the views.
+class UnknownUnitTest : public QObject {
+  Q_OBJECT
+
+ private:
+  using Number = std::function<double(double disparity)>;
+
+  std::unique_ptr<QTemporaryDir> folder_;
+  Scene scene_ = plane_behind_square();
+
+  fs::path path(const std::string& name = {}) const {
+    return fs::path(folder_->path().toStdString()) / name;
+  }
+  ImageView<const float> disparity() const {
+    return scene_.truth->field.disparity.view(scene_.light_field->grid().center());
+  }
+  void write_views() const {
+    const ViewStack<std::uint8_t>& views = bytes_of(scene_);
+    for (int i = 0; i < views.grid().count(); ++i) {
+      const ViewIndex view = views.view_at(i);
+      io::write_png(path(fmt::format("{}_{}.png", view.v, view.u)), views.view(view));
+    }
+  }
+  /// With a gap between them and 0.
+  void use_positive_disparities() {
+    PlaneOptions options;
+    options.d0 = 1.5;
+    scene_ = plane_scene(options);
+    write_views();
+  }
+  Scene open() const { return io::open_scene(path(), {}, Progress(2)); }
+
+  template <class T>
+  void write_picture(const std::string& name, const Number& number) const {
+    Image<T> picture(disparity().height, disparity().width);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      picture.data()[i] = static_cast<T>(std::lround(number(disparity().data[i])));
+    }
+    io::write_png(path(name), picture.view());
+  }
+  void write_array(const std::string& name, ImageView<const float> map) const {
+    const std::vector<float> values(map.data, map.data + map.size());
+    io::write_npy<float>(
+        path(name), {static_cast<std::size_t>(map.height), static_cast<std::size_t>(map.width)},
+        values);
+  }
+  /// Of the centre view, where both know the disparity; infinite if there is none.
+  double error(const Scene& scene) const {
+    if (!scene.truth->has_disparity()) return std::numeric_limits<double>::infinity();
+    const DisparityView found = scene.truth->field.view(scene.light_field->grid().center());
+    double largest = 0;
+    for (int y = 0; y < disparity().height; ++y) {
+      for (int x = 0; x < disparity().width; ++x) {
+        if (!found.is_valid(y, x)) continue;
+        const double difference = found.disparity.at(y, x) - disparity().at(y, x);
+        largest = std::max(largest, std::abs(difference));
+      }
+    }
+    return largest;
+  }
+
+ private slots:
+  void init() {
+    folder_ = std::make_unique<QTemporaryDir>();
+    scene_ = plane_behind_square();
+    write_views();
+  }
+
+  void picture_isUnderstoodByTheViews_data() {
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<double>("scale");
+    QTest::addColumn<double>("offset");
+    QTest::newRow("16 bit") << "disparity.png" << 10000.0 << 2.0;
+    QTest::newRow("nearer is darker") << "disp_center.png" << -10000.0 << -2.0;
+    QTest::newRow("depth map, nearer is brighter") << "depth.png" << 5000.0 << 3.0;
+  }
+  void picture_isUnderstoodByTheViews() {
+    QFETCH(QString, name);
+    QFETCH(double, scale);
+    QFETCH(double, offset);
+    write_picture<std::uint16_t>(name.toStdString(),
+                                 [&](double d) { return scale * (d + offset); });
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 0.03, describe(scene.convention).c_str());
+    QVERIFY2(warns_of(scene, "comparing them with the views"), describe(scene.convention).c_str());
+    QVERIFY2(has_same_samples(scene, scene_), scene.convention.order.c_str());
+  }
+
+  void pictureOfEightBits_isUnderstood() {
+    write_picture<std::uint8_t>("disparity.png", [](double d) { return 50 * (d + 1.5); });
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 0.04, describe(scene.convention).c_str());
+  }
+
+  void depthWithoutACamera_givesDisparityAndCamera() {
+    Image<float> depth(disparity().height, disparity().width);
+    std::transform(disparity().data, disparity().data + disparity().size(), depth.data(),
+                   [](float d) { return 60 / (d + 5); });
+    write_array("depth.npy", depth.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 0.03, describe(scene.convention).c_str());
+    const CameraGrid& camera = scene.light_field->info().camera;
+    QVERIFY(std::abs(camera.baseline * camera.focal_length - 60) < 2);
+    QVERIFY(std::abs(camera.shift - 5) < 0.2);
+  }
+
+  void integersOfATiffFile_areUnderstood() {
+    cv::Mat picture(disparity().height, disparity().width, CV_16U);
+    std::transform(disparity().data, disparity().data + disparity().size(), picture.begin<ushort>(),
+                   [](float d) { return static_cast<ushort>(std::lround(1000 * (d + 3))); });
+    cv::imwrite(path("disparity.tiff").string(), picture);
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 0.03, describe(scene.convention).c_str());
+  }
+
+  void depthBesideExchangedViews_isUnderstood() {
+    fs::remove_all(path());
+    fs::create_directory(path());
+    const ViewStack<std::uint8_t>& views = bytes_of(scene_);
+    for (int i = 0; i < views.grid().count(); ++i) {
+      const ViewIndex view = views.view_at(i);
+      io::write_png(path(fmt::format("{}_{}.png", view.u, view.v)), views.view(view));
+    }
+    write_picture<std::uint16_t>("depth.png", [](double d) { return 20000 / (d + 3); });
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 0.03, describe(scene.convention).c_str());
+  }
+
+  void roundScale_isTakenExactly() {
+    use_positive_disparities();
+    write_picture<std::uint16_t>("disparity.png", [](double d) { return 256 * d; });
+
+    const Scene scene = open();
+
+    QVERIFY2(scene.convention.units.find("value/256") != std::string::npos,
+             scene.convention.units.c_str());
+    QVERIFY(error(scene) < 0.5 / 256 + 1e-5);
+  }
+
+  void pictureOfAnotherQuantity_isLeftOut_data() {
+    QTest::addColumn<double>("exponent");
+    QTest::newRow("a power of the disparity") << 0.25;
+    QTest::newRow("one value") << 0.0;
+  }
+  void pictureOfAnotherQuantity_isLeftOut() {
+    QFETCH(double, exponent);
+    write_picture<std::uint8_t>("disparity.png", [&](double d) {
+      return 250 * std::pow(std::clamp((d + 0.9) / 3, 0.0, 1.0), exponent);
+    });
+
+    const Scene scene = open();
+
+    QVERIFY2(!scene.truth->has_disparity(), describe(scene.convention).c_str());
+    QCOMPARE(count_unused(scene, "pictures of disparity, of unknown scale"), 1);
+  }
+
+  void coloursAreNoNumbers() {
+    Image<std::uint8_t> picture(disparity().height, disparity().width, 3);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const double level = 60 * (disparity().data[i / 3] + 1.5);
+      picture.data()[i] = static_cast<std::uint8_t>(i % 3 == 0 ? 255 - level : level);
+    }
+    io::write_png(path("disparity.png"), picture.view());
+
+    const Scene scene = open();
+
+    QVERIFY(!scene.truth->has_disparity());
+    QCOMPARE(count_unused(scene, "pictures of disparity, of unknown scale"), 1);
+  }
+
+  /// A plane hides nothing.
+  void signThatNothingTells_leavesTheViewsInOrder() {
+    use_positive_disparities();
+    Image<float> map(disparity().height, disparity().width);
+    std::transform(disparity().data, disparity().data + disparity().size(), map.data(),
+                   std::negate<>());
+    write_array("disparity.npy", map.view());
+
+    const Scene scene = open();
+
+    QCOMPARE(error(scene), 0.0);
+    QVERIFY2(has_same_samples(scene, scene_), scene.convention.order.c_str());
+    QVERIFY2(scene.convention.units_check.find("no depth edges") != std::string::npos,
+             scene.convention.units_check.c_str());
+  }
+
+  void zerosThatTheViewsContradict_areNotKnown() {
+    use_positive_disparities();
+    Image<float> map(disparity().height, disparity().width);
+    std::copy_n(disparity().data, disparity().size(), map.data());
+    for (int y = 20; y < 40; ++y) std::fill_n(map.row(y) + 30, 20, 0.0F);
+    write_array("disparity.npy", map.view());
+
+    const Scene scene = open();
+
+    QCOMPARE(error(scene), 0.0);
+    QVERIFY(!scene.truth->field.view({2, 2}).is_valid(30, 40));
+    QVERIFY2(warns_of(scene, "which the views contradict"), describe(scene.convention).c_str());
+  }
+
+  void valueOfUnknownDepth_isLeftOut_data() {
+    QTest::addColumn<float>("unknown");
+    QTest::newRow("the largest of 16 bits") << 65535.0F;
+    QTest::newRow("infinitely far") << 1e10F;
+    QTest::newRow("a negative number") << -1.0F;
+  }
+  void valueOfUnknownDepth_isLeftOut() {
+    QFETCH(float, unknown);
+    Image<float> depth(disparity().height, disparity().width);
+    std::transform(disparity().data, disparity().data + disparity().size(), depth.data(),
+                   [](float d) { return 60000 / (d + 5); });
+    for (int y = 20; y < 50; ++y) std::fill_n(depth.row(y) + 40, 40, unknown);
+    write_array("depth.npy", depth.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 0.03, describe(scene.convention).c_str());
+    QVERIFY(!scene.truth->field.view({2, 2}).is_valid(30, 60));
+    QVERIFY(scene.truth->field.view({2, 2}).is_valid(10, 10));
+  }
+
+  void valueOfUnknownDisparity_isLeftOut_data() {
+    QTest::addColumn<float>("unknown");
+    QTest::addColumn<float>("factor");
+    for (const float factor : {1.0F, 4.0F}) {
+      QTest::addRow("too far, %.0f", factor) << -999.0F << factor;
+      QTest::addRow("too near, %.0f", factor) << 1000.0F << factor;
+      QTest::addRow("-1, %.0f", factor) << -1.0F << factor;
+    }
+  }
+  /// Also where the values are those of the whole baseline of five views.
+  void valueOfUnknownDisparity_isLeftOut() {
+    QFETCH(float, unknown);
+    QFETCH(float, factor);
+    use_positive_disparities();
+    Image<float> map(disparity().height, disparity().width);
+    std::transform(disparity().data, disparity().data + disparity().size(), map.data(),
+                   [&](float d) { return factor * d; });
+    for (int y = 20; y < 40; ++y) std::fill_n(map.row(y) + 30, 20, unknown);
+    write_array("disparity.npy", map.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 1e-6, describe(scene.convention).c_str());
+    QVERIFY(!scene.truth->field.view({2, 2}).is_valid(30, 40));
+    QVERIFY2(warns_of(scene, "which the views contradict"), describe(scene.convention).c_str());
+  }
+
+  void mirroredDisparity_isPutRight_data() {
+    QTest::addColumn<float>("factor");
+    QTest::newRow("px per view step") << 1.0F;
+    QTest::newRow("of the whole baseline, nearer is smaller") << -4.0F;
+  }
+  void mirroredDisparity_isPutRight() {
+    QFETCH(float, factor);
+    Image<float> map(disparity().height, disparity().width);
+    for (int y = 0; y < map.height(); ++y) {
+      std::transform(disparity().row(y), disparity().row(y) + map.width(), map.row(y),
+                     [&](float d) { return factor * d; });
+      std::reverse(map.row(y), map.row(y) + map.width());
+    }
+    write_array("disparity.npy", map.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 1e-6, describe(scene.convention).c_str());
+    QVERIFY2(has_same_samples(scene, scene_), scene.convention.order.c_str());
+    QVERIFY2(warns_of(scene, "columns from right to left"), describe(scene.convention).c_str());
+  }
+
+  void depthUpsideDown_isPutRight() {
+    Image<float> depth(disparity().height, disparity().width);
+    for (int y = 0; y < depth.height(); ++y) {
+      const float* from = disparity().row(depth.height() - 1 - y);
+      std::transform(from, from + depth.width(), depth.row(y),
+                     [](float d) { return 60 / (d + 5); });
+    }
+    write_array("depth.npy", depth.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(error(scene) < 0.03, describe(scene.convention).c_str());
+    QVERIFY2(warns_of(scene, "rows from bottom to top"), describe(scene.convention).c_str());
+  }
+
+  void mapWithoutItsBorder_isPutIntoTheMiddle() {
+    Image<float> map(disparity().height - 8, disparity().width - 8);
+    for (int y = 0; y < map.height(); ++y) {
+      std::copy_n(disparity().row(y + 4) + 4, map.width(), map.row(y));
+    }
+    write_array("disparity.npy", map.view());
+
+    const Scene scene = open();
+
+    QCOMPARE(error(scene), 0.0);
+    const DisparityView found = scene.truth->field.view({2, 2});
+    QVERIFY(found.is_valid(4, 4) && !found.is_valid(3, 40) && !found.is_valid(40, 3));
+    QVERIFY2(warns_of(scene, "taken for the middle"), describe(scene.convention).c_str());
+  }
+};
+
+}  // namespace episcope::in_unknown_unit_test
+
+EPISCOPE_TEST(unknown_unit_test, UnknownUnitTest)
+#include "unknown_unit_test.moc"
