@@ -12,12 +12,14 @@ usage() {
   echo "FILE is a light field: an lf.h5, a scene folder, a folder of images, demo or demo:SCENE."
 }
 
-# build PRESET TARGET…: configures what is not configured yet, and builds.
+# build PRESET TARGET…: configures what is not configured yet, and builds. Several sources are compiled
+# as one (unity build), which takes half the time and suits those who build once.
 build() {
   preset=$1
   shift
   if [ ! -f "$here/build/$preset/build.ninja" ]; then
-    (cd "$here" && cmake --preset "$preset" -DEPISCOPE_TESTS=OFF -DEPISCOPE_BENCH=OFF >/dev/null)
+    (cd "$here" && cmake --preset "$preset" -DEPISCOPE_TESTS=OFF -DEPISCOPE_BENCH=OFF \
+      -DCMAKE_UNITY_BUILD=ON >/dev/null)
   fi
   cmake --build "$here/build/$preset" --target "$@"
 }

@@ -78,10 +78,10 @@ started=$(date +%s)
 # shellcheck disable=SC2086 # One word a package.
 install_missing $ENGINE_PACKAGES $WINDOW_PACKAGES $TEST_PACKAGES ${packages:+$PACKAGING_PACKAGES} \
   ${fuzz:+$FUZZ_PACKAGES}
-# run.sh leaves the tests out of a build that it configures.
+# run.sh leaves the tests out of a build that it configures, and joins sources.
 # Packages are for machines without CUDA; and one of the presets proves that all is well without.
-check_preset release -DEPISCOPE_TESTS=ON -DEPISCOPE_BENCH=ON ${packages:+-DEPISCOPE_CUDA=OFF}
-check_preset headless -DEPISCOPE_TESTS=ON -DEPISCOPE_CUDA=OFF
+check_preset release -DEPISCOPE_TESTS=ON -DEPISCOPE_BENCH=ON -DCMAKE_UNITY_BUILD=OFF ${packages:+-DEPISCOPE_CUDA=OFF}
+check_preset headless -DEPISCOPE_TESTS=ON -DEPISCOPE_CUDA=OFF -DCMAKE_UNITY_BUILD=OFF
 if [ -n "$sanitize" ]; then
   check_preset dev
   check_preset tsan

@@ -16,6 +16,11 @@ if(EPISCOPE_WERROR)
   target_compile_options(episcope_options
                          INTERFACE $<$<COMPILE_LANGUAGE:CXX>:$<BUILD_INTERFACE:-Werror>>)
 endif()
+if(CMAKE_UNITY_BUILD)
+  # Classes whose hidden part has types of an unnamed namespace: GCC takes their source for a header.
+  target_compile_options(episcope_options INTERFACE
+    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:$<BUILD_INTERFACE:-Wno-subobject-linkage>>)
+endif()
 if(EPISCOPE_SANITIZE)
   target_compile_options(
     episcope_options INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${EPISCOPE_SANITIZE}>"
@@ -23,23 +28,6 @@ if(EPISCOPE_SANITIZE)
     $<$<COMPILE_LANGUAGE:CXX>:-fno-sanitize-recover=all>)
   target_link_options(episcope_options INTERFACE "-fsanitize=${EPISCOPE_SANITIZE}")
 endif()
-
-# episcope_precompile(target): saves a third of the time of a first build. Not with tests, which prove
-# that headers stand alone, nor with ccache, which saves more.
-function(episcope_precompile target)
-  if(EPISCOPE_TESTS OR EPISCOPE_CCACHE)
-    return()
-  endif()
-  set(headers <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional>
-              <span> <string> <variant> <vector>)
-  get_target_property(links ${target} LINK_LIBRARIES)
-  if(links MATCHES "Qt6::Widgets")
-    list(APPEND headers <QAction> <QLayout> <QString> <QWidget>)
-  endif()
-  target_precompile_headers(${target} PRIVATE ${headers})
-  # GCC 12 warns wrongly of std::string, and of precompiled system headers as if they were ours.
-  target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict)
-endfunction()
 
 # episcope_add_library(name [LIGHT] [LINK public targets] [PRIVATE_LINK …]): a library without sources
 # yet; episcope_units brings them. A light one leaves heavy work to others, and is optimised little: that
@@ -52,7 +40,6 @@ function(episcope_add_library name)
   if(ARG_LIGHT)
     target_compile_options(${name} PRIVATE -O1)
   endif()
-  episcope_precompile(${name})
 endfunction()
 
 # episcope_units(library [UNITS a room/b …] [KERNELS c …]): the units of a library. A unit is a.h, a.cpp
@@ -138,6 +125,7 @@ function(episcope_add_kernels library)
   foreach(isa ${isas})
     set(objects ${library}_kernels_${isa})
     add_library(${objects} OBJECT ${ARGN})
+    set_target_properties(${objects} PROPERTIES UNITY_BUILD OFF)
     target_link_libraries(${objects} PRIVATE episcope_options)
     target_compile_options(${objects} PRIVATE -O3 -fno-math-errno -fno-trapping-math
                            -fno-signed-zeros -ffp-contract=fast -Wno-psabi ${flags_${isa}})
