@@ -12,7 +12,7 @@ struct DepthGrid {
   int height = 0;
   int width = 0;
   CameraGrid camera;  ///< With its pinhole; `baseline` = step of the gantry in the unit of the
-                      ///< mesh, `focal_length` = that of the pinhole in px.
+                      ///< mesh, `focal_length` = the pinhole's in px.
 };
 
 struct DepthOptions {

@@ -20,9 +20,9 @@ struct DeviceLabeling {
 [[nodiscard]] bool is_for_device(const RayLabelingInput& input,
                                  const RayLabelingParameters& parameters);
 
-/// Computes labels of all views on the GPU (engine/cuda/ray_labels.h): what solve_views with
-/// own costs, or with those of the nearest views' rays, and votes give on the CPU, but for
-/// rounding. Labels are ids. Throws DeviceFailure, Cancelled.
+/// Computes labels of all views on the GPU (engine/cuda/ray_labels.h): the result
+/// of solve_views and votes on the CPU, but for rounding. Labels are ids. Throws DeviceFailure,
+/// Cancelled.
 [[nodiscard]] RayLabeling label_on_device(const RayLabelingInput& input,
                                           const RayLabelingParameters& parameters,
                                           const DeviceLabeling& labeling, const Progress& progress);

@@ -11,8 +11,8 @@ struct SurfaceRow {
   int width = 0;
   int pitch = 0;  ///< Labels, rounded up to whole vectors of the widest kind.
   const float* disparity = nullptr;
-  const float* doubt = nullptr;     ///< Variance of each disparity, added to that of the surface.
-  const float* is_known = nullptr;  ///< 0 = the misfit is that of half of the most;
+  const float* doubt = nullptr;     ///< Variance of each disparity, added to the surface's.
+  const float* is_known = nullptr;  ///< 0 = the misfit is half of `most`;
   const float* middle = nullptr;    ///< otherwise the surface is at
   const float* at = nullptr;        ///< at + across·dx,
   const float* across = nullptr;    ///< and its variance is
@@ -41,7 +41,7 @@ struct LabelWeightsKernel {
   /// `[x][label]`.
   void (*misfits)(const SurfaceRow&, float* out);
   /// Multiplies each by exp(−strength · what speaks against it more than against the best one), and
-  /// makes those of a pixel sum to 1 unless all are 0.
+  /// normalizes the sum of each pixel to 1 unless all are 0.
   void (*weigh)(const WeighedRow&, float* probabilities);
 };
 

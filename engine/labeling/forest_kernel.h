@@ -5,8 +5,8 @@
 
 namespace episcope {
 
-/// A node of a flattened tree. A pixel goes on to node `next + (value > threshold)` of the tree; a
-/// leaf has an infinite threshold and leads to itself.
+/// A node of a flattened tree. A pixel continues at node `next + (value > threshold)` of the tree;
+/// a leaf has an infinite threshold and leads to itself.
 struct ForestNode {
   float threshold;
   unsigned short feature;

@@ -47,7 +47,7 @@ struct LabelProbabilities {
                                                        const std::vector<std::int32_t>& ids);
 
 /// Uncertainty of the labels of each pixel, `[y][x]` in [0, 1]: the entropy of its probabilities
-/// relative to that of equal ones. 0 with a single label.
+/// relative to the entropy of equal ones. 0 with a single label.
 [[nodiscard]] Image<float> label_uncertainty(VolumeView<const std::uint8_t> probabilities);
 
 }  // namespace episcope

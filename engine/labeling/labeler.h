@@ -112,7 +112,7 @@ class Labeler {
 
   /// Labels of all views from probabilities that are known already: what `label` does after the
   /// forest. `features` of the parameters says whether disparity makes edges.
-  /// Throws InvalidInput if they are not those of all views, or if rays are to be joined without
+  /// Throws InvalidInput if they do not cover all views, or if rays are to be joined without
   /// disparity; Cancelled.
   [[nodiscard]] Labeling smooth(LabelProbabilities probabilities,
                                 const LabelerParameters& parameters, const Progress& progress);

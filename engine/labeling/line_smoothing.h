@@ -16,7 +16,7 @@ namespace episcope {
 /// line of a horizontal or vertical EPI on which the label changes from one view to the next
 /// (μ (J_xs + J_yt)), where the point is visible in both (`RayLines`). Relaxed to the simplex and
 /// solved with a bound for the whole (engine/solvers/linked_labeling.h), to
-/// `parameters.gap_joint`. Energy and bound are those of the whole. Throws Cancelled.
+/// `parameters.gap_joint`. Energy and bound belong to the joint problem. Throws Cancelled.
 ///
 /// 16 bytes a ray and label and 46 a ray: 5.5 GB for 9×9×512×512 with 13 labels.
 [[nodiscard]] RayLabeling smooth_lines(const RayLabelingInput& input,

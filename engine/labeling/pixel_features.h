@@ -52,7 +52,7 @@ inline constexpr int kDisparitySlopeLayer = 23;
 /// `disparity` of the view moves places to the center view in either set; if it is empty, places
 /// are not moved. Invalid pixels take the disparity of their neighbors in the row.
 ///
-/// The feature groups are those of the archive, "without" and "with depth" [WSG13]; the exact list
+/// The feature groups follow the archive, "without" and "with depth" [WSG13]; the exact list
 /// was not recovered. The usual Gaussian features of wide scales are left out: beside an outline
 /// they resemble nothing in the middle of an object, where people paint, and cause halos of other
 /// labels (tests/accuracy/tuning.md).
@@ -61,8 +61,8 @@ inline constexpr int kDisparitySlopeLayer = 23;
                                                    const DisparityView& disparity,
                                                    PixelFeatureSet set, const Progress& progress);
 
-/// The disparity of a view without holes: an invalid pixel takes that of the nearest valid one of
-/// its row, else of the row above; 0 if there is none at all.
+/// The disparity of a view without holes: an invalid pixel takes the disparity of the nearest valid
+/// one in its row, else of the row above; 0 if there is none at all.
 [[nodiscard]] Image<float> filled_disparity(const DisparityView& disparity);
 
 /// How a surface is inclined, in px of disparity per px along each image axis, `[y][x]`.
@@ -73,15 +73,15 @@ struct DisparitySlopes {
 
 /// Slopes of a map without holes, positive where disparity grows with x or y. Of the differences to
 /// the pixels 3 and 6 px away on either side the one of least magnitude counts, so that a pixel
-/// beside a jump has the slope of its own surface; what is narrower than 3 px has that of the jump.
-/// A map smaller than that along an axis has slope 0 along it.
+/// beside a jump has the slope of its own surface; a part narrower than 3 px has the slope of the
+/// jump. A map smaller than that along an axis has slope 0 along it.
 [[nodiscard]] DisparitySlopes disparity_slopes(ImageView<const float> disparity);
 
 /// L*a*b* (CIE 1976, white D65) divided by 100 of samples in [0, 1] of one channel or three, 32-bit
 /// floats; three channels of the same size.
 [[nodiscard]] cv::Mat lab_colors(const cv::Mat& samples);
 
-/// Samples of one channel as three that are equal; those of three as they are.
+/// Repeats samples of one channel three times; returns three channels unchanged.
 [[nodiscard]] cv::Mat rgb_colors(const cv::Mat& samples);
 
 /// Three channels of color, `[y][x]` each.

@@ -20,7 +20,7 @@ struct RayRow {
   float tolerance = 0;  ///< Most by which disparities of one point differ.
 };
 
-/// Costs of the labels of one view, to be added to those of a row of rays that arrive in it.
+/// Costs of the labels of one view, to be added to the costs of a row of rays that arrive in it.
 struct RayCosts {
   const std::uint8_t* codes = nullptr;  ///< `[y][label][x]`, `size` of them,
   long size = 0;
@@ -30,7 +30,7 @@ struct RayCosts {
   const float* trusts = nullptr;          ///< Of each ray, 0 = it does not count.
 };
 
-/// Rays of a row whose colors are compared with those of the pixels in which they arrive.
+/// Rays of a row, whose colors are compared with the colors of the pixels in which they arrive.
 struct RayTrusts {
   int begin = 0, end = 0;                 ///< Columns of the rays,
   int width = 0;                          ///< of so many of the row.
@@ -39,7 +39,7 @@ struct RayTrusts {
   std::int32_t last = 0;                  ///< and its last pixel.
   const std::int32_t* targets = nullptr;  ///< −1 = the ray arrives nowhere.
   const float* table = nullptr;           ///< Trust of each squared difference from 0 to `most`,
-  int most = 0;                           ///< of larger ones that of `most`.
+  int most = 0;                           ///< larger differences count as `most`.
 };
 
 /// The kernel's entry points, one set for each instruction set, all with the same bits.

@@ -38,7 +38,7 @@ struct RegularizerInfo {
                                      const RayLabelingParameters& parameters,
                                      const Progress& progress);
 
-/// Labels of one view, from its probabilities and those of other views where available: for an
+/// Labels of one view, from its probabilities and other views' where available: for an
 /// answer while the user paints. Throws as `label_rays`.
 [[nodiscard]] RayLabeling label_view(const RayLabelingInput& input, ViewIndex view,
                                      Regularizer regularizer,

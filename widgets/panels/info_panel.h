@@ -18,7 +18,7 @@ class ElidedLabel;
 struct InfoRow {
   QString key;
   QString value;
-  QString check;  ///< "checked against truth: …", drawn quietly below the value; may be empty.
+  QString check{};  ///< "checked against truth: …", drawn quietly below the value; may be empty.
   QString id{};   ///< "order": the value is the object "info.order"; may be empty.
   QAction* action = nullptr;  ///< A command that changes it, as a link below; may be null.
   QString tip{};              ///< Long form of the value; may be empty.

@@ -130,7 +130,7 @@ MotionPictures::MotionPictures(const Image<float>& grey) {
   scales = {band_passed(middle_of(grey, 256)), band_passed(small), band_passed(reduced(grey, 40))};
 }
 
-double picture_correlation(const Image<float>& a, const Image<float>& b) {
+double correlation(const Image<float>& a, const Image<float>& b) {
   double sum = 0;
   for (int y = 0; y < a.height(); ++y) {
     float row = 0;

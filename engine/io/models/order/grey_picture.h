@@ -41,6 +41,6 @@ struct MotionPictures {
 };
 
 /// Correlation of two pictures of one scale, at the same places: 1 for equal pictures.
-[[nodiscard]] double picture_correlation(const Image<float>& a, const Image<float>& b);
+[[nodiscard]] double correlation(const Image<float>& a, const Image<float>& b);
 
 }  // namespace episcope::io

@@ -201,7 +201,7 @@ Unlikeness unlikeness(const ListPictures& pictures, std::size_t scale, const Pro
   parallel_for(static_cast<int>(found.pairs.size()), progress, [&](int i) {
     const auto& [a, b] = found.pairs[static_cast<std::size_t>(i)];
     found.values[static_cast<std::size_t>(i)] =
-        1 - picture_correlation(pictures.at(a).scales[scale], pictures.at(b).scales[scale]);
+        1 - io::correlation(pictures.at(a).scales[scale], pictures.at(b).scales[scale]);
   });
   const double least = std::ranges::min(found.values);
   const double most = least + kSaturation * std::max(1 - least, 0.0);

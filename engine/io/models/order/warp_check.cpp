@@ -58,7 +58,7 @@ float sample(const Image<float>& image, double y, double x) {
 /// The value that counts as white: of 16-bit samples what as many bits hold as the view at the
 /// center uses, since cameras give 10, 12 or 14 of them.
 template <class T>
-float white_level(const ViewStack<T>& stack) {
+float white_of_views(const ViewStack<T>& stack) {
   if constexpr (std::is_same_v<T, float>) return 1;
   if constexpr (std::is_same_v<T, std::uint8_t>) return 255;
   constexpr std::size_t kStride = 7;
@@ -215,7 +215,7 @@ Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view,
   return std::visit(
       [&]<class T>(const ViewStack<T>& stack) {
         const auto image = stack.view(view);
-        const float scale = 255.0F / white_level(stack) / static_cast<float>(image.channels);
+        const float scale = 255.0F / white_of_views(stack) / static_cast<float>(image.channels);
         Image<float> grey(part.y1 - part.y0, part.x1 - part.x0);
         for (int y = 0; y < grey.height(); ++y) {
           const T* const row = image.row(part.y0 + y) + part.x0 * image.channels;
