@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/command_line.h"
 
-#include "app/session/run_estimator.h"
+#include "engine/disparity/registry.h"
 #include "engine/io/models/open_options.h"
 
 #include <fmt/format.h>

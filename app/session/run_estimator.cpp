@@ -36,13 +36,6 @@ FinishedEstimate run_estimator(const LightField& light_field, const EstimateRequ
   return run_estimator(light_field, find_estimator(request.method), request, progress);
 }
 
-const Estimator* known_estimator(const std::string& id) {
-  const std::vector<Estimator>& methods = registered_estimators();
-  const auto found =
-      std::ranges::find(methods, id, [](const Estimator& each) { return each.info.id; });
-  return found == methods.end() ? nullptr : &*found;
-}
-
 bool was_taken_early(const Estimate& estimate) {
   return std::ranges::find(estimate.notes, kTakenEarly) != estimate.notes.end();
 }

@@ -31,9 +31,6 @@ inline constexpr const char* kTakenEarly = "ended early";
 /// Whether it has that note.
 [[nodiscard]] bool was_taken_early(const Estimate& estimate);
 
-/// The method of this id; null if this program does not have it.
-[[nodiscard]] const Estimator* known_estimator(const std::string& id);
-
 /// Runs a method of the registry. What was ended early (Progress::finish_requested) says so
 /// in its notes. Throws what the method throws, Unavailable for an unknown one.
 [[nodiscard]] FinishedEstimate run_estimator(const LightField& light_field,

@@ -2,9 +2,9 @@
 #include "app/session/session.h"
 
 #include "app/session/known_files.h"
-#include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/text.h"
+#include "engine/disparity/registry.h"
 
 #include <algorithm>
 #include <iterator>

@@ -3,6 +3,7 @@
 
 #include "engine/core/volume.h"
 #include "engine/cuda/device.cuh"
+#include "engine/solvers/shared_constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,20 +15,16 @@
 namespace episcope::cuda {
 namespace {
 
-// As of engine/solvers/layered_kernel.h.
-constexpr int kLiftedPairs = 4;
-constexpr int kLiftedThresholdCount = 3;
-
 // The unknowns of the solver and what they are held against, for kernels. φ, `ahead` and each
 // pair's duals are `[y][layer][x]`, the limits of each pair `[y][x]`.
 struct LiftedFields {
   VolumeView<const float> cost;  // One layer more.
   float* phi = nullptr;
   float* ahead = nullptr;
-  float* duals[kLiftedPairs] = {};
-  float* limits[kLiftedPairs] = {};
-  int* cuts[kLiftedThresholdCount] = {};  // Labels at each threshold, `[y][x]`.
-  int steps = 0;                          // Layers of φ: labels − 1.
+  float* duals[kPairKinds] = {};
+  float* limits[kPairKinds] = {};
+  int* cuts[kLiftedCuts] = {};  // Labels at each threshold, `[y][x]`.
+  int steps = 0;                // Layers of φ: labels − 1.
   float primal_step = 0, dual_step = 0;
 
   [[nodiscard]] __host__ __device__ int height() const { return cost.height; }
@@ -45,10 +42,10 @@ struct LiftedFields {
 };
 
 // Sums that a check of the gap needs: of a bound and of the energy of each cut.
-constexpr int kLiftedSums = 1 + kLiftedThresholdCount;
+constexpr int kLiftedSums = 1 + kLiftedCuts;
 
 constexpr int kThreads = 128;
-__constant__ const float kThresholds[kLiftedThresholdCount] = {0.25F, 0.5F, 0.75F};
+__constant__ const LiftedThresholds kThresholds = kLiftedThresholds;
 
 // Adds up what the threads of a block have, by halves, into its part.
 __device__ void store_part(double own, double* parts) {
@@ -100,16 +97,16 @@ __global__ void cut_and_bound(LiftedFields fields, double* bounds) {
   const int y = static_cast<int>(blockIdx.y);
   double own = 0;
   if (x < fields.width()) {
-    int labels[kLiftedThresholdCount] = {};
+    int labels[kLiftedCuts] = {};
     const float* const phi = fields.phi + fields.unknown(y, x);
 #pragma unroll 4
     for (int l = 0; l < fields.steps; ++l) {
       const float value = phi[static_cast<long>(l) * fields.width()];
 #pragma unroll
-      for (int k = 0; k < kLiftedThresholdCount; ++k) labels[k] += value >= kThresholds[k] ? 1 : 0;
+      for (int k = 0; k < kLiftedCuts; ++k) labels[k] += value >= kThresholds.at[k] ? 1 : 0;
     }
 #pragma unroll
-    for (int k = 0; k < kLiftedThresholdCount; ++k) {
+    for (int k = 0; k < kLiftedCuts; ++k) {
       fields.cuts[k][fields.pixel(y, x)] = labels[k];
     }
     own = bound_at(fields, y, x);
@@ -122,7 +119,7 @@ __global__ void sum_energies(LiftedFields fields, double* sums) {
   const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   const int y = static_cast<int>(blockIdx.y);
   const int right = min(x + 1, fields.width() - 1), below = min(y + 1, fields.height() - 1);
-  for (int k = 0; k < kLiftedThresholdCount; ++k) {
+  for (int k = 0; k < kLiftedCuts; ++k) {
     double own = 0;
     if (x < fields.width()) {
       const int* const labels = fields.cuts[k];
@@ -165,18 +162,17 @@ void measure_energies(const LiftedFields& fields, double* parts, const DeviceStr
          [&] { sum_energies<<<grid_of(fields), kThreads, 0, stream.get()>>>(fields, parts); });
 }
 
-constexpr float kRelaxation = 1.9F;
 // Of shared memory, what the columns of a block may take.
 constexpr int kBlockBytes = 64 << 10;
 
 // Duals at the pixels around one, of its layers; 0 beyond the border.
 struct Around {
-  const float* here[kLiftedPairs];
-  const float* above[kLiftedPairs];
+  const float* here[kPairKinds];
+  const float* above[kPairKinds];
   bool has_left, has_above;
 
   __device__ Around(const LiftedFields& fields, int y, int x) : has_left(x > 0), has_above(y > 0) {
-    for (int k = 0; k < kLiftedPairs; ++k) {
+    for (int k = 0; k < kPairKinds; ++k) {
       here[k] = fields.duals[k] + fields.unknown(y, x);
       above[k] = fields.duals[k] + fields.unknown(has_above ? y - 1 : y, x);
     }
@@ -269,7 +265,7 @@ __global__ void move_primal(LiftedFields fields) {
     const float projected = l < summits.full ? 1.0F : l < summits.empty ? within : 0.0F;
     const float old = phi[i];
     ahead[i] = 2.0F * projected - old;
-    phi[i] = old + kRelaxation * (projected - old);
+    phi[i] = old + kOverRelaxation * (projected - old);
   }
 }
 
@@ -280,9 +276,9 @@ __global__ void move_duals(LiftedFields fields) {
   const int right = x + 1 < width ? 1 : 0;
   const float* const ahead = fields.ahead + fields.unknown(y, x);
   const float* const below = fields.ahead + fields.unknown(min(y + 1, fields.height() - 1), x);
-  float limits[kLiftedPairs];
-  float* duals[kLiftedPairs];
-  for (int k = 0; k < kLiftedPairs; ++k) {
+  float limits[kPairKinds];
+  float* duals[kPairKinds];
+  for (int k = 0; k < kPairKinds; ++k) {
     limits[k] = fields.limits[k][fields.pixel(y, x)];
     duals[k] = fields.duals[k] + fields.unknown(y, x);
   }
@@ -291,13 +287,13 @@ __global__ void move_duals(LiftedFields fields) {
     const long i = static_cast<long>(l) * width;
     const float at = ahead[i], beside = ahead[i + right];
     const float down = below[i], across = below[i + right];
-    const float differences[kLiftedPairs] = {beside - at, down - at, across - at, down - beside};
+    const float differences[kPairKinds] = {beside - at, down - at, across - at, down - beside};
 #pragma unroll
-    for (int k = 0; k < kLiftedPairs; ++k) {
+    for (int k = 0; k < kPairKinds; ++k) {
       const float old = duals[k][i];
       const float next =
           fmaxf(fminf(old + fields.dual_step * differences[k], limits[k]), -limits[k]);
-      duals[k][i] = old + kRelaxation * (next - old);
+      duals[k][i] = old + kOverRelaxation * (next - old);
     }
   }
 }
@@ -324,16 +320,17 @@ __global__ void start(LiftedFields fields) {
 
 // As PairLimits.
 __global__ void limit(LiftedFields fields, const float* g, float weight) {
-  constexpr float kSide = 1.41421356F - 1, kDiagonal = 1 - 0.70710678F;  // √2 − 1, 1 − √½
   const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   const int y = static_cast<int>(blockIdx.y);
   if (x >= fields.width()) return;
   const bool down = y + 1 < fields.height(), right = x + 1 < fields.width();
-  const float along = kSide + kDiagonal * static_cast<float>((y == 0 ? 1 : 0) + (down ? 0 : 1));
-  const float aside = kSide + kDiagonal * static_cast<float>((x == 0 ? 1 : 0) + (right ? 0 : 1));
+  const float along =
+      kPairSide + kPairDiagonal * static_cast<float>((y == 0 ? 1 : 0) + (down ? 0 : 1));
+  const float aside =
+      kPairSide + kPairDiagonal * static_cast<float>((x == 0 ? 1 : 0) + (right ? 0 : 1));
   const long at = fields.pixel(y, x);
   const float here = weight * g[at];
-  const float diagonal = right && down ? here * kDiagonal : 0.0F;
+  const float diagonal = right && down ? here * kPairDiagonal : 0.0F;
   fields.limits[0][at] = right ? here * along : 0.0F;
   fields.limits[1][at] = down ? here * aside : 0.0F;
   fields.limits[2][at] = diagonal;
@@ -410,16 +407,16 @@ Lifting::Lifting(const LiftedTask& task, const Progress& progress) {
   fields_.steps = fields_.cost.layers - 1;
   pixels_ = static_cast<std::size_t>(fields_.height()) * fields_.width();
   const std::size_t size = pixels_ * fields_.steps;
-  unknowns_ = DeviceArray<float>((2 + kLiftedPairs) * size, stream_);
-  limits_ = DeviceArray<float>(kLiftedPairs * pixels_, stream_);
-  labels_ = DeviceArray<int>((kLiftedThresholdCount + 1) * pixels_, stream_);
+  unknowns_ = DeviceArray<float>((2 + kPairKinds) * size, stream_);
+  limits_ = DeviceArray<float>(kPairKinds * pixels_, stream_);
+  labels_ = DeviceArray<int>((kLiftedCuts + 1) * pixels_, stream_);
   fields_.phi = unknowns_.data();
   fields_.ahead = unknowns_.data() + size;
-  for (int k = 0; k < kLiftedPairs; ++k) {
+  for (int k = 0; k < kPairKinds; ++k) {
     fields_.duals[k] = unknowns_.data() + (2 + k) * size;
     fields_.limits[k] = limits_.data() + k * pixels_;
   }
-  for (int k = 0; k < kLiftedThresholdCount; ++k) fields_.cuts[k] = labels_.data() + k * pixels_;
+  for (int k = 0; k < kLiftedCuts; ++k) fields_.cuts[k] = labels_.data() + k * pixels_;
   // Each pixel is in 8 pairs, so |K|² ≤ 16; φ moves within [0, 1], the duals within about Λ.
   fields_.primal_step = static_cast<float>(1 / (4 * task.smoothness));
   fields_.dual_step = static_cast<float>(task.smoothness / 4);
@@ -452,18 +449,18 @@ void Lifting::measure(LiftedLabels& result) {
 void Lifting::compare_cuts(LiftedLabels& result) {
   measure_energies(fields_, sums_.data() + lifted_parts(fields_), stream_);
   download_sums();
-  for (int k = 0; k < kLiftedThresholdCount; ++k) {
+  for (int k = 0; k < kLiftedCuts; ++k) {
     const double energy = total(1 + k);
     if (energy >= result.energy) continue;
     result.energy = energy;
-    check(cudaMemcpyAsync(labels_.data() + kLiftedThresholdCount * pixels_, fields_.cuts[k],
+    check(cudaMemcpyAsync(labels_.data() + kLiftedCuts * pixels_, fields_.cuts[k],
                           pixels_ * sizeof(int), cudaMemcpyDeviceToDevice, stream_.get()));
   }
 }
 
 void Lifting::unload(LiftedLabels& result, const Progress& progress) {
   result.labels = Image<int>(fields_.height(), fields_.width());
-  download_bytes(result.labels.data(), labels_.data() + kLiftedThresholdCount * pixels_,
+  download_bytes(result.labels.data(), labels_.data() + kLiftedCuts * pixels_,
                  pixels_ * sizeof(int), stream_, progress);
 }
 

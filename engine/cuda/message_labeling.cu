@@ -2,6 +2,7 @@
 #include "engine/cuda/message_labeling.h"
 
 #include "engine/cuda/device.cuh"
+#include "engine/solvers/shared_constants.h"
 
 #include <cuda_pipeline.h>
 
@@ -402,8 +403,7 @@ void sweep_up(const DeviceStream& stream, const MessageField& field, float* hand
   run_sweep<false>(stream, field, handed, gains);
 }
 
-constexpr float kNever = 1e6F;  // of labels that only fill a warp
-constexpr int kChunk = 8;       // labels of the row above that are read together
+constexpr int kChunk = 8;  // labels of the row above that are read together
 
 __device__ float jump_cost(const MessageField& field, int from, int to) {
   return fminf(field.slope * static_cast<float>(abs(from - to)), field.most);
@@ -547,8 +547,8 @@ __global__ void turn(const float* volume, int layers, MessageField field, float*
   for (int i = part; i < kWarp; i += static_cast<int>(blockDim.y)) {
     const int label = first_l + i, x = first_x + lane;
     const bool is_inside = label < layers && x < field.width;
-    tile[i][lane] =
-        is_inside ? volume[(static_cast<long>(y) * layers + label) * field.width + x] : kNever;
+    tile[i][lane] = is_inside ? volume[(static_cast<long>(y) * layers + label) * field.width + x]
+                              : kMessageFiller;
   }
   __syncthreads();
   const int slot = field.slot(first_l + lane);

@@ -3,6 +3,7 @@
 
 #include "engine/cuda/device.cuh"
 #include "engine/cuda/simplex_moves.cuh"
+#include "engine/solvers/shared_constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +98,7 @@ __global__ void gather(SimplexFields from, const std::int32_t* places, SimplexFi
   for (int l = 0; l < to.layers; ++l) {
     const long layer = static_cast<long>(l) * width;
     to.u[target + layer] = from.u[source + layer];
-    for (int k = 0; k < kSimplexPairs; ++k) {
+    for (int k = 0; k < kPairKinds; ++k) {
       to.duals[k][target + layer] = from.duals[k][source + layer];
     }
   }
@@ -256,11 +257,8 @@ void move_labels(const SimplexFields& fields, const std::int32_t* labels,
 
 namespace {
 
-// As in simplex_labeling.cpp.
-constexpr int kMinSide = 16;
-constexpr int kCoarseIterations = 30;
 // Floats of each unknown: costs, ahead, u and its duals; what is taken over is u and duals.
-constexpr std::size_t kKeptFloats = 1 + kSimplexPairs;
+constexpr std::size_t kKeptFloats = 1 + kPairKinds;
 constexpr std::size_t kFloats = 2 + kKeptFloats;
 
 double gap_of(const SimplexAnswer& answer) {
@@ -271,7 +269,7 @@ double gap_of(const SimplexAnswer& answer) {
 // u and duals lie one after the other, `size` apart.
 void place_unknowns(float* memory, std::size_t size, SimplexFields& fields) {
   fields.u = memory;
-  for (std::size_t k = 0; k < kSimplexPairs; ++k) fields.duals[k] = memory + (k + 1) * size;
+  for (std::size_t k = 0; k < kPairKinds; ++k) fields.duals[k] = memory + (k + 1) * size;
 }
 
 }  // namespace
@@ -303,7 +301,7 @@ SimplexBatch::SimplexBatch(int problems, int height, int layers, int width,
                            const DeviceStream& stream)
     : stream_(stream) {
   levels_.emplace_back(problems, height, layers, width, stream);
-  while (std::min(height, width) >= 2 * kMinSide) {
+  while (std::min(height, width) >= 2 * kSimplexMinSide) {
     height = (height + 1) / 2;
     width = (width + 1) / 2;
     levels_.emplace_back(problems, height, layers, width, stream);
@@ -334,7 +332,7 @@ void SimplexBatch::start(double smoothness) {
   for (std::size_t k = levels_.size(); k-- > 1;) {
     SimplexFields& fields = levels_[k].fields;
     set_steps(std::ldexp(smoothness, -static_cast<int>(k)), fields);
-    for (int i = 0; i < kCoarseIterations; ++i) move_simplex(fields, 0, nullptr, stream_);
+    for (int i = 0; i < kSimplexCoarseMoves; ++i) move_simplex(fields, 0, nullptr, stream_);
     begin_from_coarse(fields, levels_[k - 1].fields, stream_);
   }
 }

@@ -179,17 +179,15 @@ void measure_simplex(const SimplexFields& fields, SolvedMask solved, std::int32_
 
 namespace {
 
-constexpr float kRelaxation = 1.9F;
-
 // Duals at a pixel and before it, of its layers.
 struct Around {
-  const float* here[kSimplexPairs];
+  const float* here[kPairKinds];
   bool has_left, has_above;
   long row;
 
   __device__ Around(const SimplexFields& fields, long at, int y, int x)
       : has_left(x > 0), has_above(y > 0), row(fields.row()) {
-    for (int k = 0; k < kSimplexPairs; ++k) here[k] = fields.duals[k] + at;
+    for (int k = 0; k < kPairKinds; ++k) here[k] = fields.duals[k] + at;
   }
   // What leaves the pixel less what enters it.
   [[nodiscard]] __device__ float divergence(long i) const {
@@ -242,14 +240,14 @@ __global__ void move_primal(SimplexFields fields, SolvedMask solved, SimplexRace
     const float projected = fmaxf(values[k * stride] - theta, 0.0F);
     const float old = u[i];
     ahead[i] = 2.0F * projected - old;
-    u[i] = old + kRelaxation * (projected - old);
+    u[i] = old + kOverRelaxation * (projected - old);
   }
 }
 
 __device__ inline void move_dual(float* dual, float step, float limit) {
   const float old = *dual;
   const float next = fminf(fmaxf(old + step, -limit), limit);
-  *dual = old + kRelaxation * (next - old);
+  *dual = old + kOverRelaxation * (next - old);
 }
 
 template <bool kRaces>

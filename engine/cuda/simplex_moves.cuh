@@ -2,15 +2,13 @@
 #pragma once
 
 #include "engine/cuda/device.cuh"
+#include "engine/solvers/shared_constants.h"
 
 #include <cstddef>
 #include <cstdint>
 
 namespace episcope::cuda {
 
-/// Pairs of neighbors of a pixel's cell: right, down, down-right, and its right with its lower
-/// neighbor (engine/solvers/layered_kernel.h).
-inline constexpr int kSimplexPairs = 4;
 /// Of shared memory, what the columns of a block may take.
 inline constexpr int kColumnBytes = 48 << 10;
 
@@ -23,7 +21,7 @@ inline constexpr int kColumnBytes = 48 << 10;
 struct SimplexFields {
   int problems = 0, height = 0, layers = 0, width = 0;
   float *cost = nullptr, *weights = nullptr;  ///< g, `[problem][y][x]`
-  float *u = nullptr, *ahead = nullptr, *duals[kSimplexPairs] = {};
+  float *u = nullptr, *ahead = nullptr, *duals[kPairKinds] = {};
   float limit = 0;  ///< λ/2, the largest size of a dual where g and the pair's share are 1.
   float primal_step = 0, dual_step = 0;
 
@@ -46,18 +44,17 @@ struct SimplexFields {
 
 /// The largest size of the duals of the pairs that begin at a pixel, as PairLimits; 0 outside.
 struct SimplexLimits {
-  float of[kSimplexPairs];
+  float of[kPairKinds];
 
   __device__ SimplexLimits(const SimplexFields& fields, int problem, int y, int x) {
-    constexpr float kSide = 1.41421356F - 1.0F, kDiagonal = 1.0F - 0.70710678F;
     const bool inside = y >= 0 && x >= 0;
     const bool down = y + 1 < fields.height, right = x + 1 < fields.width;
     const float here = inside ? fields.limit * fields.weights[fields.pixel(problem, y, x)] : 0.0F;
-    const float along = kSide + kDiagonal * static_cast<float>((y == 0 ? 1 : 0) + (down ? 0 : 1));
-    const float aside = kSide + kDiagonal * static_cast<float>((x == 0 ? 1 : 0) + (right ? 0 : 1));
+    const float along = kPairSide + kPairDiagonal * static_cast<float>((y == 0 ? 1 : 0) + (down ? 0 : 1));
+    const float aside = kPairSide + kPairDiagonal * static_cast<float>((x == 0 ? 1 : 0) + (right ? 0 : 1));
     of[0] = right ? here * along : 0;
     of[1] = down ? here * aside : 0;
-    of[2] = of[3] = right && down ? here * kDiagonal : 0;
+    of[2] = of[3] = right && down ? here * kPairDiagonal : 0;
   }
 };
 

@@ -2,11 +2,11 @@
 #include "engine/cuda/tgv_l2.h"
 
 #include "engine/cuda/device.cuh"
+#include "engine/solvers/shared_constants.h"
 
 namespace episcope::cuda {
 namespace {
 
-constexpr float kStep = 0.28867513F;  // 1/√12
 // Iterations between two looks whether the run is to end.
 constexpr int kCheckEvery = 25;
 
@@ -38,16 +38,16 @@ __global__ void move_duals(Planes planes, float bend) {
   const float here = planes.ahead_u[at];
   const float px = planes.ahead_px[at], py = planes.ahead_py[at];
   float qx = planes.qx[at], qy = planes.qy[at];
-  if (place.x + 1 < planes.width) qx += kStep * (planes.ahead_u[at + 1] - here - px);
-  if (place.y + 1 < planes.height) qy += kStep * (planes.ahead_u[at + width] - here - py);
+  if (place.x + 1 < planes.width) qx += kTgvStep * (planes.ahead_u[at + 1] - here - px);
+  if (place.y + 1 < planes.height) qy += kTgvStep * (planes.ahead_u[at + width] - here - py);
   const float shrink = 1 / fmaxf(1.0F, sqrtf(qx * qx + qy * qy) / limit);
   planes.qx[at] = qx * shrink;
   planes.qy[at] = qy * shrink;
   const long left = place.x > 0 ? at - 1 : at, above = place.y > 0 ? at - width : at;
-  const float xx = planes.rxx[at] + kStep * (px - planes.ahead_px[left]);
-  const float yy = planes.ryy[at] + kStep * (py - planes.ahead_py[above]);
+  const float xx = planes.rxx[at] + kTgvStep * (px - planes.ahead_px[left]);
+  const float yy = planes.ryy[at] + kTgvStep * (py - planes.ahead_py[above]);
   const float xy =
-      planes.rxy[at] + kStep * 0.5F * (px - planes.ahead_px[above] + py - planes.ahead_py[left]);
+      planes.rxy[at] + kTgvStep * 0.5F * (px - planes.ahead_px[above] + py - planes.ahead_py[left]);
   const float size = sqrtf(xx * xx + yy * yy + 2 * xy * xy);
   const float shrink_r = 1 / fmaxf(1.0F, size / (bend * limit));
   planes.rxx[at] = xx * shrink_r;
@@ -66,8 +66,8 @@ __global__ void move_unknowns(Planes planes, float inverse_lambda) {
   if (has_left) divergence -= planes.qx[at - 1];
   divergence += qy;
   if (has_above) divergence -= planes.qy[at - width];
-  const float c = kStep * inverse_lambda * planes.w[at], u = planes.u[at];
-  const float moved = (u + kStep * divergence + c * planes.f[at]) / (1 + c);
+  const float c = kTgvStep * inverse_lambda * planes.w[at], u = planes.u[at];
+  const float moved = (u + kTgvStep * divergence + c * planes.f[at]) / (1 + c);
   planes.ahead_u[at] = 2 * moved - u;
   planes.u[at] = moved;
   // Of r, minus the adjoint of ℰ: backward differences, none across the first row and column.
@@ -78,8 +78,8 @@ __global__ void move_unknowns(Planes planes, float inverse_lambda) {
     return (has_below ? r[at + width] : 0.0F) - (has_above ? r[at] : 0.0F);
   };
   const float old_x = planes.px[at], old_y = planes.py[at];
-  const float px = old_x + kStep * (qx + (along(planes.rxx) + down(planes.rxy)));
-  const float py = old_y + kStep * (qy + (along(planes.rxy) + down(planes.ryy)));
+  const float px = old_x + kTgvStep * (qx + (along(planes.rxx) + down(planes.rxy)));
+  const float py = old_y + kTgvStep * (qy + (along(planes.rxy) + down(planes.ryy)));
   planes.ahead_px[at] = 2 * px - old_x;
   planes.ahead_py[at] = 2 * py - old_y;
   planes.px[at] = px;

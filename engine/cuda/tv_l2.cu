@@ -9,6 +9,8 @@
 #include "engine/cuda/tv_l2_multigrid.cuh"
 #include "engine/cuda/tv_l2_steps.cuh"
 #include "engine/disparity/kernels/shared_constants.h"
+#include "engine/solvers/shared_constants.h"
+#include "engine/solvers/tv_l2.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +19,7 @@
 namespace episcope::cuda {
 namespace {
 
-// As engine/solvers/tv_l2.cpp.
-constexpr float kMinWeight = 1e-4F;
-constexpr int kCoarseIterations = 20;
-constexpr int kPenaltyEvery = 10;
-constexpr int kCheckEvery = 10;
-constexpr float kPenaltyScale = 5.0F;
-constexpr float kPenaltyKnee = 0.07F;
-constexpr float kSafePace = 1.0F;
+constexpr int kCheckEvery = TvL2Options{}.check_every;
 
 // The data term from images `[view][y][x]`.
 struct Load {
@@ -39,10 +34,10 @@ struct Load {
       const float value = images.f[from];
       const bool known = isfinite(value);
       const float weight = known ? (images.w ? images.w[from] : 1.0F) : 0.0F;
-      const float c = fmaxf(weight, kMinWeight) * inverse_lambda;
+      const float c = fmaxf(weight, kTvL2MinWeight) * inverse_lambda;
       level.of(TvL2Plane::C, view)[to] = c;
       level.of(TvL2Plane::Cf, view)[to] = known ? c * value : 0.0F;
-      level.of(TvL2Plane::G, view)[to] = images.g ? fmaxf(images.g[from], kMinWeight) : 1.0F;
+      level.of(TvL2Plane::G, view)[to] = images.g ? fmaxf(images.g[from], kTvL2MinWeight) : 1.0F;
     });
   }
 };
@@ -131,8 +126,8 @@ void TvL2DeviceSolver::center() {
     const double mean = sums[1] / sums[0], variance = sums[2] / sums[0] - mean * mean;
     const float spread = variance > 1e-12 ? static_cast<float>(std::sqrt(variance)) : 1.0F;
     views_[v].offset = static_cast<float>(mean);
-    views_[v].scale = kPenaltyScale / spread;
-    views_[v].knee = kPenaltyKnee * spread;
+    views_[v].scale = kTvL2PenaltyScale / spread;
+    views_[v].knee = kTvL2PenaltyKnee * spread;
   }
   grids_.set_views(views_, stream_);
   run("tv_l2: center", Center{level(0, 0), grids_.of_views()}, level(0, 0), 6, 4);
@@ -171,7 +166,7 @@ void TvL2DeviceSolver::correct(int stage) {
 
 void TvL2DeviceSolver::iterate(int stage, int iteration, const Progress& progress) {
   progress.check();
-  if (iteration % kPenaltyEvery == 0) renew_penalty(stage, iteration == 0);
+  if (iteration % kTvL2PenaltyEvery == 0) renew_penalty(stage, iteration == 0);
   if (iteration > 0) correct(stage);
   const TvL2Level solved = level(stage, stage);
   const auto run = has_enough_strips(solved, grids_.views()) ? iterate_by_strips : iterate_by_tiles;
@@ -183,14 +178,14 @@ void TvL2DeviceSolver::iterate(int stage, int iteration, const Progress& progres
 void TvL2DeviceSolver::climb(const Progress& progress) {
   const int count = grids_.levels().count;
   climb_tail(stream_, {grids_.levels(), first_of_tail_, grids_.views(), grids_.of_views()},
-             kCoarseIterations, kPenaltyEvery);
+             kTvL2CoarseCycles, kTvL2PenaltyEvery);
   // Of a tail that is the single pixel alone, nothing was solved.
   int stage = std::min(first_of_tail_, count - 2);
   if (stage < first_of_tail_)
     run("tv_l2: start", StartFromData{level(stage, stage)}, level(stage, stage), 12, 2);
   for (; stage > 0; --stage) {
     if (stage < first_of_tail_) {
-      for (int i = 0; i < kCoarseIterations; ++i) iterate(stage, i, progress);
+      for (int i = 0; i < kTvL2CoarseCycles; ++i) iterate(stage, i, progress);
       run("tv_l2: project", Project{level(stage, stage)}, level(stage, stage), 10, 14);
     }
     const TvL2Level fine = level(stage - 1, stage - 1);
@@ -217,7 +212,7 @@ void TvL2DeviceSolver::judge(double gap, std::vector<double>& gaps_before) {
     outcome.converged = outcome.gap <= gap * energy;
     if (outcome.converged) views_[v].is_active = 0;
     if (outcome.gap > 2 * gaps_before[v]) {
-      views_[v].coarse_edge = views_[v].relaxation = kSafePace;
+      views_[v].coarse_edge = views_[v].relaxation = kTvL2SafePace;
     }
     gaps_before[v] = outcome.gap;
   }
@@ -424,9 +419,8 @@ void fill_weights(const DeviceSamples& samples, const MappedViews& views, int fi
 
 namespace {
 
-// As TvL2Options.
-constexpr int kIterations = 30;
-constexpr double kGap = 1e-4;
+constexpr int kIterations = TvL2Options{}.max_iterations;
+constexpr double kGap = TvL2Options{}.gap;
 
 }  // namespace
 

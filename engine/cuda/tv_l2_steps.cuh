@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/cuda/device.cuh"
+#include "engine/solvers/shared_constants.h"
 
 #include <cstdint>
 #include <utility>
@@ -243,8 +244,6 @@ struct RenewAndRelax {
 
 namespace episcope::cuda {
 
-inline constexpr float kTvL2Spread = 16;  ///< Of the penalty.
-
 /// The gradient of u where there are edges, else 0.
 struct TvL2Gradient {
   float x = 0, y = 0;
@@ -267,7 +266,7 @@ struct Penalize {
     const TvL2Gradient gradient = gradient_at(level, view, at, right);
     const float square = gradient.x * gradient.x + gradient.y * gradient.y + 1e-16F;
     const float ratio = views[view].knee * rsqrtf(square);
-    const float bent = fminf(fmaxf(sqrtf(fmaxf(ratio, 0.0F)), 1 / kTvL2Spread), kTvL2Spread);
+    const float bent = fminf(fmaxf(sqrtf(fmaxf(ratio, 0.0F)), 1 / kTvL2PenaltySpread), kTvL2PenaltySpread);
     const float g = level.of(TvL2Plane::G, view)[at];
     const float next = views[view].scale * g * bent;
     float& rx = level.of(TvL2Plane::Rx, view)[at];

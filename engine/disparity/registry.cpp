@@ -43,11 +43,15 @@ const Estimator* known_estimator(const std::string& id) {
   return found != all.end() ? &*found : nullptr;
 }
 
-const Estimator& find_estimator(const std::string& id) {
-  if (const Estimator* const known = known_estimator(id)) return *known;
+std::vector<std::string> estimator_ids() {
   std::vector<std::string> ids;
   for (const Estimator& each : registered_estimators()) ids.push_back(each.info.id);
-  throw Unavailable(no_such_name("method", id, ids));
+  return ids;
+}
+
+const Estimator& find_estimator(const std::string& id) {
+  if (const Estimator* const known = known_estimator(id)) return *known;
+  throw Unavailable(no_such_name("method", id, estimator_ids()));
 }
 
 }  // namespace episcope

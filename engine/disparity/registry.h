@@ -14,6 +14,8 @@ namespace episcope {
 
 /// The estimator of that id, as on the command line; null if this build has none.
 [[nodiscard]] const Estimator* known_estimator(const std::string& id);
+/// The ids of all estimators.
+[[nodiscard]] std::vector<std::string> estimator_ids();
 /// Throws Unavailable for an unknown id, naming the nearest.
 [[nodiscard]] const Estimator& find_estimator(const std::string& id);
 

@@ -229,7 +229,7 @@ void cut_lifted(const LayeredShape& shape, const float* phi, int* const labels[k
         const Vec value = load(phi + l * shape.pitch + x);
         for (int k = 0; k < kLiftedCuts; ++k) {
           float* const count = counts[k] + x - begin;
-          store(count, load(count) + choose(value >= kLiftedThresholds[k], splat(1), splat(0)));
+          store(count, load(count) + choose(value >= kLiftedThresholds.at[k], splat(1), splat(0)));
         }
       }
     }

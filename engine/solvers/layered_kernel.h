@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/isa.h"
+#include "engine/solvers/shared_constants.h"
 
 #include <cstdint>
 
@@ -9,9 +10,6 @@ namespace episcope {
 
 /// Floats that a row is padded to, the widest vector.
 inline constexpr long kLayerRowUnit = 16;
-/// Pairs of neighbours of a pixel's cell: right, down, down-right, and its right with its lower
-/// neighbour.
-inline constexpr int kPairKinds = 4;
 
 /// Shape of the rows of a problem on layers (levels, labels). `steps` is the number of
 /// layers of the unknown φ; rows of φ, of its duals and of `ahead` are `[step][x]`, `pitch` apart,
@@ -23,9 +21,6 @@ struct LayeredShape {
   float primal_step = 0, dual_step = 0;
   float relaxation = 1;
 };
-
-/// Over-relaxation of the steps of all problems on layers (tests/accuracy/tuning.md).
-inline constexpr float kOverRelaxation = 1.9F;
 
 /// Columns walked through all layers before the next ones: what is kept of each fits the first
 /// cache, and a run within a layer is long enough for the prefetcher.
@@ -55,9 +50,6 @@ struct PairDuals {
 };
 
 inline constexpr int kMaxLiftedLayers = 512;
-/// Thresholds of φ that a labeling is read from.
-inline constexpr float kLiftedThresholds[] = {0.25F, 0.5F, 0.75F};
-inline constexpr int kLiftedCuts = 3;
 
 /// The kernel's entry points, one set for each instruction set.
 struct LiftedKernel {

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/solvers/message_kernel.h"
+#include "engine/solvers/shared_constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,6 @@ namespace episcope {
 namespace {
 
 constexpr int kTile = 32;
-// Of the labels that only fill a register.
-constexpr float kNever = 1e6F;
 
 void check(const MessageProblem& problem) {
   const auto& cost = problem.cost;
@@ -134,7 +133,7 @@ class Passing {
                   std::min(width_, (column + 1) * kTile),
                   row * columns + column,
                   {}};
-        tile.costs.assign(static_cast<std::size_t>(kTile) * padded_, kNever);
+        tile.costs.assign(static_cast<std::size_t>(kTile) * padded_, kMessageFiller);
         work(tile);
       });
     }

@@ -6,6 +6,7 @@
 #include "engine/solvers/layered_kernel.h"
 #include "engine/solvers/layered_sweep.h"
 #include "engine/solvers/pair_limits.h"
+#include "engine/solvers/shared_constants.h"
 
 #include <fmt/format.h>
 
@@ -22,11 +23,9 @@ namespace episcope {
 namespace {
 
 // Levels are halved down to this side; iterations on each below the finest.
-constexpr int kMinSide = 16;
-constexpr int kCoarseMoves = 30;
 // Iterations taken through the image at once: what they work on fits a cache.
 constexpr int kTogether = 5;
-static_assert(kCoarseMoves % kTogether == 0);
+static_assert(kSimplexCoarseMoves % kTogether == 0);
 
 void check_problem(const SimplexProblem& problem, int height, int layers, int width) {
   const auto& cost = problem.cost;
@@ -132,7 +131,7 @@ SimplexSolver::State::State(int height, int layers, int width, Isa isa)
       sweep(height, layers, width),
       racing(height, layers, width),
       rounded(height, width) {
-  while (std::min(height, width) >= 2 * kMinSide) {
+  while (std::min(height, width) >= 2 * kSimplexMinSide) {
     height = (height + 1) / 2;
     width = (width + 1) / 2;
     coarse.emplace_back(height, layers, width);
@@ -172,7 +171,7 @@ void SimplexSolver::State::climb(const SimplexProblem& problem, const Progress& 
     const PairLimits limits(level.cost.height(), level.cost.width(), smoothness / 2,
                             problem.g.empty() ? ImageView<const float>{} : level.g);
     set_steps(smoothness, level.sweep.shape());
-    for (int i = 0; i < kCoarseMoves; i += kTogether) {
+    for (int i = 0; i < kSimplexCoarseMoves; i += kTogether) {
       level.sweep.iterate({level.cost.view(), limits, moves}, kTogether, progress);
     }
     begin_from(level.sweep, progress, k > 0 ? coarse[k - 1].sweep : sweep);

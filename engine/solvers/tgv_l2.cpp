@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/solvers/shared_constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@
 namespace episcope {
 namespace {
 
-constexpr float kStep = 0.28867513F;  // 1/√12
 constexpr int kBandRows = 16;
 
 void check_shape(ImageView<const float> image, ImageView<const float> f) {
@@ -115,13 +115,13 @@ class Iteration {
     for (int x = 0; x < width_; ++x) {
       const float limit = weight_of_variation(y, x);
       const Gradient slope = slope_left(ahead_u_, ahead_p_, y, x);
-      const float qx = q[x] + kStep * slope.x, qy = q[width_ + x] + kStep * slope.y;
+      const float qx = q[x] + kTgvStep * slope.x, qy = q[width_ + x] + kTgvStep * slope.y;
       const float shrink = 1 / std::max(1.0F, std::sqrt(qx * qx + qy * qy) / limit);
       q[x] = qx * shrink;
       q[width_ + x] = qy * shrink;
       const Bend b = bend(ahead_p_, y, x);
-      const float xx = r[x] + kStep * b.xx, yy = r[width_ + x] + kStep * b.yy;
-      const float xy = r[2 * width_ + x] + kStep * b.xy;
+      const float xx = r[x] + kTgvStep * b.xx, yy = r[width_ + x] + kTgvStep * b.yy;
+      const float xy = r[2 * width_ + x] + kTgvStep * b.xy;
       const float size = std::sqrt(xx * xx + yy * yy + 2 * xy * xy);
       const float shrink_r = 1 / std::max(1.0F, size / (kappa * limit));
       r[x] = xx * shrink_r;
@@ -159,13 +159,13 @@ class Iteration {
     float* const p = p_.row(y);
     const float* const q = q_.row(y);
     for (int x = 0; x < width_; ++x) {
-      const float c = kStep * inverse_lambda * weight_of_data(y, x);
-      const float moved = (u[x] + kStep * divergence(y, x) + c * problem_.f.at(y, x)) / (1 + c);
+      const float c = kTgvStep * inverse_lambda * weight_of_data(y, x);
+      const float moved = (u[x] + kTgvStep * divergence(y, x) + c * problem_.f.at(y, x)) / (1 + c);
       ahead_u_.at(y, x) = 2 * moved - u[x];
       u[x] = moved;
       const Gradient b = divergence_of_bend(y, x);
-      const float px = p[x] + kStep * ((x + 1 < width_ ? q[x] : 0) + b.x);
-      const float py = p[width_ + x] + kStep * ((y + 1 < height_ ? q[width_ + x] : 0) + b.y);
+      const float px = p[x] + kTgvStep * ((x + 1 < width_ ? q[x] : 0) + b.x);
+      const float py = p[width_ + x] + kTgvStep * ((y + 1 < height_ ? q[width_ + x] : 0) + b.y);
       ahead_p_.at(y, x) = 2 * px - p[x];
       ahead_p_.at(y, width_ + x) = 2 * py - p[width_ + x];
       p[x] = px;

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/solvers/shared_constants.h"
 #include "engine/solvers/tv_l2_grid.h"
 #include "engine/solvers/tv_l2_kernel.h"
 
@@ -16,26 +17,16 @@
 #include <vector>
 
 namespace episcope {
-namespace {
-
-constexpr float kMinWeight = 1e-4F;
-// Iterations on each level below the finest, and between two fits of the penalty.
-constexpr int kCoarseCycles = 20;
-constexpr int kPenaltyEvery = 10;
-
 // Between Galerkin's coarse edges (1, always stable) and those right for smooth corrections (½),
 // and ADMM's over-relaxation. Should the gap grow, the safe values take their place.
 struct Pace {
   float coarse_edge = 0.75F;
   float relaxation = 1.7F;
 };
-constexpr Pace kSafePace = {1.0F, 1.0F};
 
-// The penalty, in units of the spread of f; found on structure-tensor disparities of several
-// scenes. A weaker one leaves u, not the dual, behind: it stays uneven where the solution is flat.
-constexpr float kPenaltyScale = 5.0F;
-constexpr float kPenaltyKnee = 0.07F;
-constexpr float kPenaltySpread = 16.0F;
+namespace {
+
+constexpr Pace kSafePace = {kTvL2SafePace, kTvL2SafePace};
 
 template <class T>
 void require_shape(const ImageView<T>& image, int height, int width, const char* what) {
@@ -122,9 +113,9 @@ void TvL2Solver::State::load(const TvL2Problem& problem) {
         const float value = f[2 * i + odd];
         const bool known = std::abs(value) <= std::numeric_limits<float>::max();
         const float weight = known ? (w != nullptr ? w[2 * i + odd] : 1.0F) : 0.0F;
-        level.c[at + i] = std::max(weight, kMinWeight) * inverse_lambda;
+        level.c[at + i] = std::max(weight, kTvL2MinWeight) * inverse_lambda;
         level.cf[at + i] = known ? level.c[at + i] * value : 0.0F;
-        level.g[at + i] = g != nullptr ? std::max(g[2 * i + odd], kMinWeight) : 1.0F;
+        level.g[at + i] = g != nullptr ? std::max(g[2 * i + odd], kTvL2MinWeight) : 1.0F;
       }
       moments.add(level.c + at, level.cf + at, count);
     }
@@ -148,7 +139,7 @@ void TvL2Solver::State::centre(const Moments& moments) {
       }
     }
   }
-  penalty = {kPenaltyScale / spread, kPenaltyKnee * spread, kPenaltySpread, false};
+  penalty = {kTvL2PenaltyScale / spread, kTvL2PenaltyKnee * spread, kTvL2PenaltySpread, false};
 }
 
 void TvL2Solver::State::renew_penalty(std::size_t stage, bool first) {
@@ -177,9 +168,9 @@ void TvL2Solver::State::correct(std::size_t stage) {
 void TvL2Solver::State::iterate(std::size_t stage, int iteration, bool pauses,
                                 const Progress& progress) {
   progress.check();
-  if (iteration % kPenaltyEvery == 0) renew_penalty(stage, iteration == 0);
+  if (iteration % kTvL2PenaltyEvery == 0) renew_penalty(stage, iteration == 0);
   if (iteration > 0) correct(stage);
-  pauses = pauses || (iteration + 1) % kPenaltyEvery == 0;
+  pauses = pauses || (iteration + 1) % kTvL2PenaltyEvery == 0;
   kernel.iterate(grids[stage].level, grids[stage + 1].level,
                  {pace.relaxation, iteration == 0, !paused, pauses, grids[stage].row});
   paused = pauses;
@@ -193,8 +184,8 @@ void TvL2Solver::State::climb(const Progress& progress) {
   std::size_t stage = grids.size() - 2;
   start_from_data(grids[stage].level);
   for (; stage > 0; --stage) {
-    for (int i = 0; i < kCoarseCycles; ++i) {
-      iterate(stage, i, i + 1 == kCoarseCycles, progress);
+    for (int i = 0; i < kTvL2CoarseCycles; ++i) {
+      iterate(stage, i, i + 1 == kTvL2CoarseCycles, progress);
     }
     penalties.project(grids[stage].level);
     prolong(grids[stage].level, grids[stage - 1].level);

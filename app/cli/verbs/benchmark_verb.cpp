@@ -81,19 +81,14 @@ std::vector<E> all_values() {
 
 /// Estimators by their ids, each once.
 std::vector<Estimator> methods_named(const std::string& list) {
-  const std::vector<Estimator>& all = registered_estimators();
-  if (list == "all") return all;
-  std::vector<std::string> ids;
-  for (const Estimator& each : all) ids.push_back(each.info.id);
+  if (list == "all") return registered_estimators();
   std::vector<Estimator> chosen;
   std::istringstream names(list);
   for (std::string name; std::getline(names, name, ',');) {
-    const auto known = std::find(ids.begin(), ids.end(), name);
-    if (known == ids.end()) throw unknown_name("method", name, ids);
+    const Estimator* const known = known_estimator(name);
+    if (known == nullptr) throw unknown_name("method", name, estimator_ids());
     const auto is_same = [&](const Estimator& each) { return each.info.id == name; };
-    if (std::none_of(chosen.begin(), chosen.end(), is_same)) {
-      chosen.push_back(all[known - ids.begin()]);
-    }
+    if (std::none_of(chosen.begin(), chosen.end(), is_same)) chosen.push_back(*known);
   }
   if (chosen.empty()) throw UsageError("--methods is empty; name ids of methods, or all");
   return chosen;

@@ -39,30 +39,21 @@ struct EstimateArguments {
   ReadOptions read;
 };
 
-const Estimator* find(const std::vector<Estimator>& estimators, const std::string& id) {
-  const auto found = std::find_if(estimators.begin(), estimators.end(),
-                                  [&](const Estimator& each) { return each.info.id == id; });
-  return found == estimators.end() ? nullptr : &*found;
-}
-
 /// The method must be known before its options can be: the first argument that names one.
-const Estimator* method_among(const VerbArguments& arguments,
-                              const std::vector<Estimator>& estimators) {
+const Estimator* method_among(const VerbArguments& arguments) {
   for (const auto& argument : arguments) {
-    if (const Estimator* estimator = find(estimators, argument)) return estimator;
+    if (const Estimator* estimator = known_estimator(argument)) return estimator;
   }
   return nullptr;
 }
 
 /// Without a known method its options cannot be judged: says so first.
-void require_method(const VerbArguments& arguments, const std::vector<Estimator>& estimators) {
+void require_method(const VerbArguments& arguments) {
   if (std::any_of(arguments.begin(), arguments.end(), asks_for_help)) return;
   const auto name = std::find_if(arguments.begin(), arguments.end(),
                                  [](const std::string& each) { return !each.starts_with("-"); });
   if (name == arguments.end()) return;
-  std::vector<std::string> ids;
-  for (const auto& estimator : estimators) ids.push_back(estimator.info.id);
-  throw unknown_name("method", *name, ids);
+  throw unknown_name("method", *name, estimator_ids());
 }
 
 /// With the parameters of `estimator` among the options, if it is known.
@@ -103,15 +94,14 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
   return parser.parse(arguments);
 }
 
-bool parse(const VerbArguments& arguments, const std::vector<Estimator>& estimators,
-           EstimateArguments& request) {
-  const Estimator* first = method_among(arguments, estimators);
-  if (!first) require_method(arguments, estimators);
+bool parse(const VerbArguments& arguments, EstimateArguments& request) {
+  const Estimator* first = method_among(arguments);
+  if (!first) require_method(arguments);
   if (!parse_as(first, arguments, request)) return false;
-  request.estimator = find(estimators, request.method);
+  request.estimator = known_estimator(request.method);
   if (request.estimator && request.estimator == first) return true;
   // Another argument, like the name of the output, is an id as well.
-  if (!request.estimator) require_method({request.method}, estimators);
+  if (!request.estimator) require_method({request.method});
   const Estimator* named = request.estimator;
   request = {};
   request.estimator = named;
@@ -381,9 +371,8 @@ bool wants_many(const EstimateArguments& request, const Progress& progress) {
 }  // namespace
 
 void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
-  const std::vector<Estimator>& estimators = registered_estimators();
   EstimateArguments request;
-  if (!parse(arguments, estimators, request)) return;
+  if (!parse(arguments, request)) return;
   Runner runner(request, std::move(stop));
   if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner);
   const std::vector<SceneInput> scenes = scene_inputs_and_failed(
