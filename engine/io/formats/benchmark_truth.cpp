@@ -154,7 +154,7 @@ class Files {
     }
   }
   [[nodiscard]] bool has_read_any() const { return !outcome_.read.empty(); }
-  void tell(const std::string& kind, const BesideNotes& notes) const { outcome_.tell(kind, notes); }
+  void tell(const std::string& kind, const SidecarNotes& notes) const { outcome_.tell(kind, notes); }
 
  private:
   SetOutcome outcome_;
@@ -173,7 +173,7 @@ void store(const Image<float>& map, ViewIndex view, DisparityField& field) {
   }
 }
 
-Image<float> read_map(const fs::path& path, const BesideViews& views) {
+Image<float> read_map(const fs::path& path, const SidecarViews& views) {
   Image<float> map = read_pfm_map(path);
   require_view_size(path, map.height(), map.width(), views);
   return map;
@@ -194,7 +194,7 @@ void depth_to_disparity(const CameraGrid& camera, Image<float>& map) {
 }
 
 /// A field of views without a valid pixel.
-DisparityField invalid_field(const BesideViews& views, GridShape part, ViewIndex first) {
+DisparityField invalid_field(const SidecarViews& views, GridShape part, ViewIndex first) {
   DisparityField field{ViewStack<float>(part, views.height(), views.width(), 1, first),
                        ViewStack<std::uint8_t>(part, views.height(), views.width(), 1, first)};
   std::fill_n(field.disparity.data(), field.disparity.size(), 0.0F);
@@ -209,8 +209,8 @@ std::string disparity_file_of(ViewIndex view, const ViewFiles& views) {
 }
 
 /// Of every view, or of the centre view alone where that is all that is asked for.
-DisparityField read_of_all_views(const fs::path& folder, const BesideViews& views,
-                                 const BesideNotes& notes, const Progress& progress) {
+DisparityField read_of_all_views(const fs::path& folder, const SidecarViews& views,
+                                 const SidecarNotes& notes, const Progress& progress) {
   const GridShape grid = views.grid();
   const bool all = views.map_views == MapViews::All;
   const GridShape part = all ? grid : GridShape{1, 1};
@@ -230,7 +230,7 @@ DisparityField read_of_all_views(const fs::path& folder, const BesideViews& view
 
 /// Of the centre view; `convert` makes disparity of what is stored.
 DisparityField read_of_center(const fs::path& file, const std::string& kind,
-                              const BesideViews& views, const BesideNotes& notes,
+                              const SidecarViews& views, const SidecarNotes& notes,
                               const std::function<void(Image<float>&)>& convert) {
   const ViewIndex center = *views.files.whole_center();
   DisparityField field = invalid_field(views, {1, 1}, center);
@@ -245,8 +245,8 @@ DisparityField read_of_center(const fs::path& file, const std::string& kind,
 }
 
 /// Of the map in high resolution the value in the middle of each pixel of the centre view.
-DisparityField read_reduced(const HighResFiles& high_res, const BesideViews& views,
-                            const BesideNotes& notes) {
+DisparityField read_reduced(const HighResFiles& high_res, const SidecarViews& views,
+                            const SidecarNotes& notes) {
   const ViewIndex center = *views.files.whole_center();
   DisparityField field = invalid_field(views, {1, 1}, center);
   Files files;
@@ -267,8 +267,8 @@ DisparityField read_reduced(const HighResFiles& high_res, const BesideViews& vie
 }
 
 /// Truth of the centre of the whole grid, which must be one of the views.
-DisparityField read_stored_center(const fs::path& folder, const BesideViews& views,
-                                  const BesideNotes& notes) {
+DisparityField read_stored_center(const fs::path& folder, const SidecarViews& views,
+                                  const SidecarNotes& notes) {
   std::string& units = notes.report.units;
   const fs::path disparity = folder / kCenterDisparity;
   if (is_there(disparity)) {
@@ -294,8 +294,8 @@ DisparityField read_stored_center(const fs::path& folder, const BesideViews& vie
   return {};
 }
 
-DisparityField read_stored(const fs::path& folder, const BesideViews& views,
-                           const BesideNotes& notes, const Progress& progress) {
+DisparityField read_stored(const fs::path& folder, const SidecarViews& views,
+                           const SidecarNotes& notes, const Progress& progress) {
   bool has_all = true;
   for (int i = 0; i < views.grid().count() && has_all; ++i) {
     has_all = is_there(folder / disparity_file_of(views.grid().view_at(i), views.files));
@@ -335,7 +335,7 @@ void correct_values(const LightField::Samples& samples, DisparityField& field,
   drop_unknown(samples, at, field, report);
   const Explanation explanation = explain_views(samples, at, field.view(at), 1);
   if (!explanation.is_good()) return;
-  const NearSide side = find_near_side(samples, at, field.view(at), 1, explanation);
+  const OcclusionOrder side = find_occlusion_order(samples, at, field.view(at), 1, explanation);
   if (!side.is_decided() || side.larger_is_nearer()) return;
   std::transform(field.disparity.data(), field.disparity.data() + field.disparity.size(),
                  field.disparity.data(), std::negate<>());
@@ -346,7 +346,7 @@ void correct_values(const LightField::Samples& samples, DisparityField& field,
       side.smaller, side.larger, side.points);
 }
 
-void read_regions(const fs::path& folder, const BesideViews& views, const BesideNotes& notes,
+void read_regions(const fs::path& folder, const SidecarViews& views, const SidecarNotes& notes,
                   GroundTruth& truth) {
   std::set<fs::path> paths;
   for (const auto& entry : fs::directory_iterator(folder)) paths.insert(entry.path());
@@ -368,7 +368,7 @@ void read_regions(const fs::path& folder, const BesideViews& views, const Beside
   files.tell("region masks", notes);
 }
 
-void find_high_res(const fs::path& folder, const BesideViews& views, const BesideNotes& notes,
+void find_high_res(const fs::path& folder, const SidecarViews& views, const SidecarNotes& notes,
                    GroundTruth& truth) {
   const HighResFiles files = find_high_res_files(folder);
   truth.high_res = high_res_truth(files, views.height(), views.width());
@@ -377,7 +377,7 @@ void find_high_res(const fs::path& folder, const BesideViews& views, const Besid
   notes.account.use(files.masks, "region masks in high resolution");
 }
 
-void read_object_ids(const fs::path& folder, const BesideViews& views, const BesideNotes& notes,
+void read_object_ids(const fs::path& folder, const SidecarViews& views, const SidecarNotes& notes,
                      GroundTruth& truth) {
   const fs::path path = folder / kObjectIds;
   if (!is_there(path)) return;
@@ -394,15 +394,15 @@ void read_object_ids(const fs::path& folder, const BesideViews& views, const Bes
 
 }  // namespace
 
-DisparityField read_benchmark_disparity(const fs::path& folder, const BesideViews& views,
-                                        const BesideNotes& notes, const Progress& progress) {
+DisparityField read_benchmark_disparity(const fs::path& folder, const SidecarViews& views,
+                                        const SidecarNotes& notes, const Progress& progress) {
   DisparityField field = read_stored(folder, views, notes, progress);
   correct_values(views.samples, field, notes.report);
   return field;
 }
 
-void read_benchmark_masks(const fs::path& folder, const BesideViews& views,
-                          const BesideNotes& notes, GroundTruth& truth) {
+void read_benchmark_masks(const fs::path& folder, const SidecarViews& views,
+                          const SidecarNotes& notes, GroundTruth& truth) {
   if (views.files.whole_center()) read_object_ids(folder, views, notes, truth);
   if (views.files.whole_center() != views.grid().center()) return;  // they are of another view
   read_regions(folder, views, notes, truth);

@@ -130,11 +130,11 @@ bool settle_stored(const LightField::Samples& samples, NamedValues values,
   const GridShape grid = grid_of(samples);
   const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
   const ViewIndex at = values.at(grid);
-  const SettledUnit settled = settle_values(samples, common_units(grid, width), values, report);
+  const SettledUnit settled = infer_units(samples, common_units(grid, width), values, report);
   const double factor = settled.unit.factor;
-  NearSide side;
+  OcclusionOrder side;
   if (settled.explanation.is_good()) {
-    side = find_near_side(samples, at, field.view(at), factor, settled.explanation);
+    side = find_occlusion_order(samples, at, field.view(at), factor, settled.explanation);
   }
   const TruthSign sign = find_truth_sign(samples, side, settled.explanation);
   scale_values(field, sign.is_negated ? -factor : factor);
@@ -206,7 +206,7 @@ void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, Dispa
     maps.is_sign_assumed = !settle_stored(samples, {field, maps.disparity_text()}, report);
     return;
   }
-  const auto meaning = settle_unknown_values(samples, {ValueForm::Inverse, ValueForm::Linear},
+  const auto meaning = infer_unknown_units(samples, {ValueForm::Inverse, ValueForm::Linear},
                                              {field, maps.disparity_name}, report);
   if (!meaning) {
     field = {};

@@ -10,7 +10,7 @@ namespace episcope::io {
 namespace fs = std::filesystem;
 
 bool Reader::has_option(std::string_view key) const {
-  const bool is_of_all = key == "equalise" || key == "no-equalise";  // assemble_scene.h
+  const bool is_of_all = key == "equalize" || key == "no-equalize";  // assemble_scene.h
   return is_of_all || std::ranges::find(options, key) != options.end();
 }
 
