@@ -74,7 +74,7 @@ def real_inputs(name, conv):
 
 def architecture(net):
     return dict(
-        sectors=views.SECTORS, views_per_sector=12, evidence=dict(floor=.003, add=4.2, scale=.8, none=1.5),
+        sectors=views.SECTORS, views_per_sector=12, rounds=2, evidence=dict(floor=.003, add=4.2, scale=.8, none=1.5),
         guide=dict(colour_minus=.4, gradient_times=4), leaky_slope=network.SLOPE, labels=dict(step=.1, least=32, most=64, multiple=8),
         peak=network.PEAK, apart=network.APART, near=network.NEAR, steps=network.STEPS, offsets=network.OFFSETS, reach=1.5,
         difference_times=4, hypotheses=['own', 'max 5', 'min 5', 'median 5', 'max 9 of median 5', 'min 9 of median 5',
