@@ -12,8 +12,12 @@
 #include <array>
 #include <cassert>
 #include <cerrno>
+#include <condition_variable>
 #include <cstring>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 
 namespace episcope::io {
@@ -136,6 +140,84 @@ IoError not_a_log(const std::filesystem::path& path) {
 
 }  // namespace
 
+/// Flushes an open file to the disk soon after each write, on a thread of its own, so that the
+/// writer never waits for a disk. The file must outlive it.
+class BackgroundFlush {
+ public:
+  /// Whether the present contents of the file and its name are on the disk.
+  enum class Start { Flushed, Unflushed };
+
+  BackgroundFlush(int descriptor, std::filesystem::path path, Start start);
+  /// Flushes first.
+  ~BackgroundFlush();
+  BackgroundFlush(const BackgroundFlush&) = delete;
+  BackgroundFlush& operator=(const BackgroundFlush&) = delete;
+
+  /// Announces that something was written.
+  void request();
+  /// Waits until everything written is on the disk, or until a flush fails.
+  void wait();
+  /// `errno` of a flush that failed; 0 = none did.
+  [[nodiscard]] int error() const;
+
+ private:
+  void run(const std::stop_token& stop);
+
+  const int descriptor_;
+  const std::filesystem::path path_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::uint64_t written_ = 0;  ///< Counts requests,
+  std::uint64_t flushed_ = 0;  ///< and those fulfilled.
+  bool is_named_;              ///< Whether the name is on the disk.
+  int error_ = 0;
+  std::jthread thread_;
+};
+
+BackgroundFlush::BackgroundFlush(int descriptor, std::filesystem::path path, Start start)
+    : descriptor_(descriptor),
+      path_(std::move(path)),
+      written_(start == Start::Unflushed ? 1 : 0),
+      is_named_(start == Start::Flushed),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+BackgroundFlush::~BackgroundFlush() {
+  thread_.request_stop();
+  thread_.join();
+}
+
+void BackgroundFlush::request() {
+  const std::scoped_lock lock(mutex_);
+  ++written_;
+  changed_.notify_all();
+}
+
+void BackgroundFlush::wait() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return flushed_ == written_ || error_ != 0; });
+}
+
+int BackgroundFlush::error() const {
+  const std::scoped_lock lock(mutex_);
+  return error_;
+}
+
+void BackgroundFlush::run(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, stop, [this] { return flushed_ != written_; });
+    if (flushed_ == written_) return;
+    const std::uint64_t reached = written_;
+    lock.unlock();
+    const int error = ::fdatasync(descriptor_) == 0 ? 0 : errno;
+    if (!std::exchange(is_named_, true)) flush_folder(path_);
+    lock.lock();
+    flushed_ = reached;
+    if (error != 0) error_ = error;
+    changed_.notify_all();
+  }
+}
+
 AppendLog::AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush)
     : path_(path), framing_(framing) {
   errno = 0;
@@ -146,7 +228,7 @@ AppendLog::AppendLog(const std::filesystem::path& path, LogFraming framing, LogF
         path, "another program is writing it; wait until it has finished or name another folder");
   }
   read_records();
-  start_flush(flush, BackgroundFlush::Start::Unflushed);
+  start_flush(flush, false);
 }
 
 AppendLog::AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush,
@@ -164,15 +246,20 @@ AppendLog::AppendLog(const std::filesystem::path& path, LogFraming framing, LogF
   std::error_code ignored;
   if (flush == LogFlush::AtOnce || std::filesystem::exists(path, ignored)) {
     target.commit();  // a loss of power must not cost the records that are there
-    start_flush(flush, BackgroundFlush::Start::Flushed);
+    start_flush(flush, true);
   } else {
     target.commit_unflushed();
-    start_flush(flush, BackgroundFlush::Start::Unflushed);
+    start_flush(flush, false);
   }
 }
 
-void AppendLog::start_flush(LogFlush flush, BackgroundFlush::Start start) {
-  if (flush == LogFlush::InBackground) flush_.emplace(file_.id(), path_, start);
+AppendLog::~AppendLog() = default;
+
+void AppendLog::start_flush(LogFlush flush, bool is_flushed) {
+  if (flush == LogFlush::AtOnce) return;
+  const auto start =
+      is_flushed ? BackgroundFlush::Start::Flushed : BackgroundFlush::Start::Unflushed;
+  flush_ = std::make_unique<BackgroundFlush>(file_.id(), path_, start);
 }
 
 void AppendLog::read_records() {
@@ -252,50 +339,6 @@ std::vector<LogRecord> read_log(const std::filesystem::path& path, LogFraming fr
 bool is_held(const std::filesystem::path& path) {
   const FileDescriptor file(path, O_RDONLY);
   return file.ok() && ::flock(file.id(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-}
-
-BackgroundFlush::BackgroundFlush(int descriptor, std::filesystem::path path, Start start)
-    : descriptor_(descriptor),
-      path_(std::move(path)),
-      written_(start == Start::Unflushed ? 1 : 0),
-      is_named_(start == Start::Flushed),
-      thread_([this](const std::stop_token& stop) { run(stop); }) {}
-
-BackgroundFlush::~BackgroundFlush() {
-  thread_.request_stop();
-  thread_.join();
-}
-
-void BackgroundFlush::request() {
-  const std::scoped_lock lock(mutex_);
-  ++written_;
-  changed_.notify_all();
-}
-
-void BackgroundFlush::wait() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return flushed_ == written_ || error_ != 0; });
-}
-
-int BackgroundFlush::error() const {
-  const std::scoped_lock lock(mutex_);
-  return error_;
-}
-
-void BackgroundFlush::run(const std::stop_token& stop) {
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    changed_.wait(lock, stop, [this] { return flushed_ != written_; });
-    if (flushed_ == written_) return;
-    const std::uint64_t reached = written_;
-    lock.unlock();
-    const int error = ::fdatasync(descriptor_) == 0 ? 0 : errno;
-    if (!std::exchange(is_named_, true)) flush_folder(path_);
-    lock.lock();
-    flushed_ = reached;
-    if (error != 0) error_ = error;
-    changed_.notify_all();
-  }
 }
 
 }  // namespace episcope::io

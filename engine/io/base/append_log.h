@@ -3,51 +3,14 @@
 
 #include "engine/io/base/files.h"
 
-#include <condition_variable>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 namespace episcope::io {
-
-/// Flushes an open file to the disk soon after each write, on a thread of its own, so that the
-/// writer never waits for a disk. The file must outlive it.
-class BackgroundFlush {
- public:
-  /// Whether the present contents of the file and its name are on the disk.
-  enum class Start { Flushed, Unflushed };
-
-  BackgroundFlush(int descriptor, std::filesystem::path path, Start start);
-  /// Flushes first.
-  ~BackgroundFlush();
-  BackgroundFlush(const BackgroundFlush&) = delete;
-  BackgroundFlush& operator=(const BackgroundFlush&) = delete;
-
-  /// Announces that something was written.
-  void request();
-  /// Waits until everything written is on the disk, or until a flush fails.
-  void wait();
-  /// `errno` of a flush that failed; 0 = none did.
-  [[nodiscard]] int error() const;
-
- private:
-  void run(const std::stop_token& stop);
-
-  const int descriptor_;
-  const std::filesystem::path path_;
-  mutable std::mutex mutex_;
-  std::condition_variable_any changed_;
-  std::uint64_t written_ = 0;  ///< Counts requests,
-  std::uint64_t flushed_ = 0;  ///< and those fulfilled.
-  bool is_named_;              ///< Whether the name is on the disk.
-  int error_ = 0;
-  std::jthread thread_;
-};
 
 using LogRecord = std::vector<std::uint8_t>;
 
@@ -63,6 +26,8 @@ enum class LogFlush {
   InBackground,  ///< Soon after, so that the caller never waits for a disk.
 };
 
+class BackgroundFlush;
+
 /// A file that grows by whole records. A record is in the file when `append` returns; it survives
 /// any end of the program. No other process can hold the log while it is open. The system releases
 /// it when the program ends.
@@ -76,6 +41,7 @@ class AppendLog {
   /// an existing one only when it is on the disk as well. Throws IoError.
   AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush,
             std::span<const LogRecord> records);
+  ~AppendLog();
 
   /// Records found when the log was opened.
   [[nodiscard]] const std::vector<LogRecord>& records() const { return records_; }
@@ -93,7 +59,7 @@ class AppendLog {
 
  private:
   void read_records();
-  void start_flush(LogFlush flush, BackgroundFlush::Start start);
+  void start_flush(LogFlush flush, bool is_flushed);
   void require_sound();
   void write(std::span<const std::uint8_t> bytes);
 
@@ -103,7 +69,7 @@ class AppendLog {
   std::vector<LogRecord> records_;
   std::uintmax_t bytes_ = 0;
   bool is_broken_ = false;
-  std::optional<BackgroundFlush> flush_;  ///< None: at once.
+  std::unique_ptr<BackgroundFlush> flush_;  ///< Null: at once.
 };
 
 /// Reads a log that another process may hold, without changing the file. Throws IoError if it

@@ -28,7 +28,7 @@ bool can_be_pixels(std::size_t a, std::size_t b) {
   return least >= kFewestPixels && most <= kMostViewSide;
 }
 
-/// Whether the lengths are those of a grid of views and of the pixels of each.
+/// Whether the lengths can be a grid of views and the pixels of a view.
 bool can_be_views(std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
   const std::size_t most = std::max(a, b);
   return std::min(a, b) > 0 && most > 1 && most <= kMostArrayViews && can_be_pixels(c, d) &&

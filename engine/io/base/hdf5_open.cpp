@@ -74,7 +74,7 @@ Listing list_group(hid_t file, const std::string& name) {
   return listing;
 }
 
-/// Datasets of a group ("" for the root), then those of its groups.
+/// Adds datasets of a group ("" for the root), then datasets of its groups.
 void add_datasets(hid_t file, const std::string& group, int depth,
                   std::vector<std::string>& names) {
   const Listing listing = list_group(file, group.empty() ? "." : group);

@@ -64,7 +64,7 @@ void apply_chosen(LightField::Samples& samples, const Interval& levels, Conventi
 }
 
 /// White of 16-bit samples of fewer bits; nothing if they fill their range, or are all 0.
-std::optional<int> white_level(const ViewStack<std::uint16_t>& stack) {
+std::optional<int> stored_white(const ViewStack<std::uint16_t>& stack) {
   const std::uint16_t* begin = stack.data();
   const std::uint16_t* end = begin + stack.size();
   const int largest = *std::max_element(begin, end);
@@ -86,7 +86,7 @@ ViewStack<std::uint8_t> as_bytes(const ViewStack<std::uint16_t>& stack) {
 void settle_words(LightField::Samples& samples, ConventionReport& report) {
   auto* stack = std::get_if<ViewStack<std::uint16_t>>(&samples);
   if (stack == nullptr || stack->empty() || stack->kind() == LargeKind::File) return;
-  const auto white = white_level(*stack);
+  const auto white = stored_white(*stack);
   if (!white) return;
   report.samples =
       fmt::format("uint16, taken as gamma-encoded samples of {} bits; estimators see value/{}",

@@ -40,7 +40,7 @@ std::string archive_group(const Hdf5Input& file) {
   return is_one ? groups.front() : std::string();
 }
 
-std::shared_ptr<const Hdf5Input> open_archive(const std::filesystem::path& path) {
+std::shared_ptr<const Hdf5Input> open_archive_file(const std::filesystem::path& path) {
   auto file = std::make_shared<const Hdf5Input>(path);
   const std::string group = archive_group(*file);
   return group.empty() ? file : std::make_shared<const Hdf5Input>(path, group);
@@ -155,7 +155,7 @@ ExpectedOrder expected_order(const Hdf5Input& file) {
 }
 
 SceneProbe probe_archive(const fs::path& path, const OpenOptions&) {
-  const std::shared_ptr<const Hdf5Input> input = open_archive(path);
+  const std::shared_ptr<const Hdf5Input> input = open_archive_file(path);
   const Hdf5Input& file = *input;
   if (!file.has(kArchiveLightField)) throw NoLightField(path, "this file holds no light field");
   const ArchiveLayout layout = archive_layout(file);

@@ -17,7 +17,7 @@ namespace episcope::io {
 [[nodiscard]] std::string archive_group(const Hdf5Input& file);
 
 /// Opens a file of the archive, with that group in place of the root. Throws IoError.
-[[nodiscard]] std::shared_ptr<const Hdf5Input> open_archive(const std::filesystem::path& path);
+[[nodiscard]] std::shared_ptr<const Hdf5Input> open_archive_file(const std::filesystem::path& path);
 
 /// The dataset of an archive file that holds the views.
 inline constexpr const char* kArchiveLightField = "LF";

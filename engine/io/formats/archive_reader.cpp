@@ -265,7 +265,7 @@ std::string group_text(const Hdf5Input& file) {
 
 Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
                    const Progress& progress) {
-  const auto input = open_archive(path);
+  const auto input = open_archive_file(path);
   const Hdf5Input& file = *input;
   const ArchiveLayout layout = archive_layout(file);
   const GridShape grid = layout.shape.grid;

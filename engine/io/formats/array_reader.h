@@ -2,16 +2,12 @@
 #pragma once
 
 #include "engine/core/progress.h"
-#include "engine/core/scene.h"
-#include "engine/io/models/array_file.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/reader.h"
 
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 
 namespace episcope::io {

@@ -188,7 +188,7 @@ std::optional<Interval> promised_range(const ConfigFile& config) {
   return Interval{*min, *max};
 }
 
-/// A range that holds the truth only with the other sign is that of disparities of the other sign.
+/// A range that holds the truth only with the other sign has the other sign.
 void correct_promise(const DisparityField& truth, std::optional<Interval>& promised,
                      ConventionReport& report) {
   if (truth.empty() || !promised) return;
@@ -226,7 +226,7 @@ struct ViewSize {
   int width = 0;
 };
 
-/// The size in the file only repeats that of the views, which counts.
+/// The size in the file only repeats the size of the views, which counts.
 void compare_size(const ConfigFile& config, ViewSize size, ConventionReport& report) {
   const auto compare = [&](const char* key, int length) {
     const auto stated = config.number(key);

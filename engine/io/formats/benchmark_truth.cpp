@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDisparity = "gt_disp_highres.pfm";
 constexpr const char* kHighResMaskSuffix = "_highres.png";
-/// What the map of one scene may take: those of the benchmark take 100 MiB.
+/// Largest size of a map of one scene; maps of the benchmark take 100 MiB.
 constexpr std::uintmax_t kGrantedMiB = 512;
 
 template <class T>

@@ -278,7 +278,7 @@ Scene read_blender(const fs::path& folder, const OpenOptions& options, const Pro
   return scene;
 }
 
-/// The folder itself, that of its manifest, or that of one of its views.
+/// The folder itself, or the folder of its manifest or of one of its views.
 fs::path find_blender(const fs::path& path, const OpenOptions& options) {
   if (wants_image_grid(options)) return {};
   if (fs::is_directory(path)) return has_render_manifest(path) ? path : fs::path();

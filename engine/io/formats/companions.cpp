@@ -41,7 +41,7 @@ Hdf5Shape stack_shape(const LightField& field) {
           view[0], view[1]};
 }
 
-/// The axis left when those of the views and pixels are taken away.
+/// The axis left besides the axes of views and pixels.
 std::optional<std::size_t> label_axis(const Hdf5Shape& shape, const LightField& field) {
   for (std::size_t axis = shape.size(); axis-- > 0;) {
     Hdf5Shape others = shape;

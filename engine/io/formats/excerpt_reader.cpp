@@ -51,7 +51,8 @@ ViewStack<float> read_depth(const fs::path& path, int height, int width, ViewInd
   return depth;
 }
 
-ViewStack<std::uint8_t> read_mask(const fs::path& path, int height, int width, ViewIndex center) {
+ViewStack<std::uint8_t> read_excerpt_mask(const fs::path& path, int height, int width,
+                                          ViewIndex center) {
   if (!is_there(path)) return {};
   const Image<std::int32_t> numbers = decode_numbers(path);
   if (numbers.height() != height || numbers.width() != width) {
@@ -95,9 +96,9 @@ Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Pro
     return std::visit(
         [&](const auto& stack) {
           const ViewIndex center = stack.grid().center();
-          DepthMaps maps{"depth.bin",
-                         read_depth(folder / "depth.bin", stack.height(), stack.width(), center),
-                         read_mask(folder / "mask.png", stack.height(), stack.width(), center)};
+          DepthMaps maps{
+              "depth.bin", read_depth(folder / "depth.bin", stack.height(), stack.width(), center),
+              read_excerpt_mask(folder / "mask.png", stack.height(), stack.width(), center)};
           camera = settle_units(maps, samples, camera, options.units, report);
           return disparity_from_depth(std::move(maps), camera, report, Progress(1));
         },

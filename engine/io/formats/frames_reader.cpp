@@ -293,7 +293,7 @@ PageAxes axes_of_ome(std::string_view text) {
   return axes;
 }
 
-/// Of a shape, the axes before those of a page.
+/// Axes of a shape before the axes of a page.
 PageAxes axes_of_shape(const std::vector<int>& shape, const std::string& letters, int pages) {
   PageAxes axes;
   std::int64_t product = 1;

@@ -19,6 +19,8 @@
 namespace episcope::io {
 namespace {
 
+enum class LineAxis { X, Y };
+
 constexpr int kMostLines = 400;
 
 /// Not a multiple of the distance of two lines, or all of them would show the same part of
@@ -34,21 +36,21 @@ float brightness(const T* pixel, int channels) {
   return sum / static_cast<float>(channels);
 }
 
-/// Brightness along up to 400 rows (Axis::X) or columns (Axis::Y) spread over a picture: a line a
-/// row, in units of the samples, the mean of the channels.
-Image<float> picture_lines(const AnyImage& picture, Axis axis) {
+/// Brightness along up to 400 rows (LineAxis::X) or columns (LineAxis::Y) spread over a picture: a
+/// line a row, in units of the samples, the mean of the channels.
+Image<float> picture_lines(const AnyImage& picture, LineAxis axis) {
   return std::visit(
       [axis](const auto& image) {
-        const int across = axis == Axis::X ? image.height() : image.width();
-        const int along = axis == Axis::X ? image.width() : image.height();
+        const int across = axis == LineAxis::X ? image.height() : image.width();
+        const int along = axis == LineAxis::X ? image.width() : image.height();
         Image<float> lines(std::min(across, kMostLines), along);
         // Row by row of the picture in both cases, as it lies in memory.
-        for (int i = 0; i < (axis == Axis::X ? lines.height() : along); ++i) {
-          const auto* row = image.row(axis == Axis::X ? spread(i, lines.height(), across) : i);
-          for (int k = 0; k < (axis == Axis::X ? along : lines.height()); ++k) {
-            const int x = axis == Axis::X ? k : spread(k, lines.height(), across);
+        for (int i = 0; i < (axis == LineAxis::X ? lines.height() : along); ++i) {
+          const auto* row = image.row(axis == LineAxis::X ? spread(i, lines.height(), across) : i);
+          for (int k = 0; k < (axis == LineAxis::X ? along : lines.height()); ++k) {
+            const int x = axis == LineAxis::X ? k : spread(k, lines.height(), across);
             const float value = brightness(row + x * image.channels(), image.channels());
-            (axis == Axis::X ? lines.at(i, k) : lines.at(k, i)) = value;
+            (axis == LineAxis::X ? lines.at(i, k) : lines.at(k, i)) = value;
           }
         }
         return lines;
@@ -435,9 +437,14 @@ ImageSize size_of(const AnyImage& picture) {
 Question question_of(const AnyImage& picture, ImageSize size, const fs::path& path,
                      const OpenOptions& options) {
   const MosaicName name = mosaic_name(path);
-  return {
-      path,        name,       stated_kind(options, name),      stated_grid(options),
-      size.height, size.width, picture_lines(picture, Axis::X), picture_lines(picture, Axis::Y)};
+  return {path,
+          name,
+          stated_kind(options, name),
+          stated_grid(options),
+          size.height,
+          size.width,
+          picture_lines(picture, LineAxis::X),
+          picture_lines(picture, LineAxis::Y)};
 }
 
 }  // namespace
@@ -504,7 +511,7 @@ std::vector<Run> runs_of_one_colour(const Image<float>& lines) {
 }
 
 /// Nothing if the runs are not at equal distances.
-std::optional<TileGaps> gaps_along(const AnyImage& picture, Axis axis) {
+std::optional<TileGaps> gaps_along(const AnyImage& picture, LineAxis axis) {
   const Image<float> lines = picture_lines(picture, axis);
   if (lines.empty()) return std::nullopt;
   std::vector<Run> runs = runs_of_one_colour(lines);
@@ -542,9 +549,9 @@ std::string ContactSheet::text() const {
 }
 
 std::optional<ContactSheet> find_contact_sheet(const AnyImage& picture) {
-  const auto x = gaps_along(picture, Axis::X);
+  const auto x = gaps_along(picture, LineAxis::X);
   if (!x) return std::nullopt;
-  const auto y = gaps_along(picture, Axis::Y);
+  const auto y = gaps_along(picture, LineAxis::Y);
   if (!y || x->count * y->count == 1) return std::nullopt;
   const auto [height, width] = std::visit(
       [](const auto& image) { return std::pair(image.height(), image.width()); }, picture);

@@ -53,8 +53,6 @@ struct MosaicLayout {
                                                      const std::filesystem::path& path,
                                                      const OpenOptions& options);
 
-enum class Axis { X, Y };
-
 /// Equal tiles along one axis of a picture, with equal lines of one color between them.
 struct TileGaps {
   int first = 0;  ///< Where the first tile begins, in px; a margin may come before it,

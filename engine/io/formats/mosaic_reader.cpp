@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/image.h"
+#include "engine/core/scene.h"
 #include "engine/core/text.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
@@ -14,6 +15,7 @@
 #include "engine/io/models/file_usage.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/open_options.h"
+#include "engine/io/models/names/views_folder.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/scene.h"
 #include "engine/io/base/hdf5_file.h"
-#include "engine/io/base/image_file.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/reader.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace episcope::io {
 

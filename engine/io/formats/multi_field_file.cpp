@@ -46,8 +46,8 @@ Image<float> halved(const Image<float>& picture) {
 }
 
 /// Size without sign; nothing where one of the two does not vary.
-std::optional<double> correlation(const Image<float>& a, const Image<float>& b, int top, int left,
-                                  int height, int width) {
+std::optional<double> part_correlation(const Image<float>& a, const Image<float>& b, int top,
+                                       int left, int height, int width) {
   double sum_a = 0, sum_b = 0, aa = 0, bb = 0, ab = 0;
   for (int y = top; y < top + height; ++y) {
     for (int x = left; x < left + width; ++x) {
@@ -77,7 +77,7 @@ void for_squares(const Image<float>& picture, int margin, const Use& use) {
 double median_correlation(const Image<float>& a, const Image<float>& b) {
   std::vector<float> all;
   for_squares(a, 0, [&](int y, int x) {
-    if (const auto one = correlation(a, b, y, x, kSquare_px, kSquare_px)) {
+    if (const auto one = part_correlation(a, b, y, x, kSquare_px, kSquare_px)) {
       all.push_back(static_cast<float>(*one));
     }
   });
@@ -121,7 +121,7 @@ bool move_differently(const std::vector<float>& a, const std::vector<float>& b) 
 }
 
 bool are_correlated(const Image<float>& a, const Image<float>& b) {
-  const auto whole = correlation(a, b, 0, 0, a.height(), a.width());
+  const auto whole = part_correlation(a, b, 0, 0, a.height(), a.width());
   return !whole || *whole > kUnlike || median_correlation(a, b) > kUnlike;
 }
 

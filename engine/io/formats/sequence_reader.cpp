@@ -118,7 +118,7 @@ NumberedFrames numbered_frames(const fs::path& folder) {
 
 namespace {
 
-/// Likewise the images of `folder`.
+/// Finds numbered images of `folder`, as `numbered_frames` does.
 NumberedFrames numbered_images(const fs::path& folder) {
   return frames_among(list_images(folder), Others::LeftOut);
 }

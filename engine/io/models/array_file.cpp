@@ -122,7 +122,7 @@ void add_axes(ArrayEntry& whole, GridShape grid) {
                      {static_cast<std::size_t>(grid.v), static_cast<std::size_t>(grid.u)});
 }
 
-/// The whole of a series, whose places are sorted; nothing if they are not those of views.
+/// Joins a series with sorted places; nothing if these are no places of views.
 std::optional<ArrayEntry> whole_of(const std::vector<ArrayEntry>& entries,
                                    const std::vector<NumberedEntry>& series, std::string name) {
   ArrayEntry whole = entries[series.front().at];

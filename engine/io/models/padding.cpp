@@ -88,7 +88,7 @@ int frame_width(const DisparityView& map) {
   return share_of(map, width, value) <= few ? width : 0;
 }
 
-/// The same frame in every map, or 0.
+/// Width of the frame that is equal in every map, or 0.
 int common_frame(const DisparityField& field) {
   const ViewStack<float>& maps = field.disparity;
   const int first = frame_width(field.view(maps.view_at(0)));
