@@ -59,7 +59,7 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
     return disparity_of(std::make_shared<const Estimate>(std::move(estimate)), name);
   }
   return disparity_of(
-      run_estimator(lf, {kLabelingEstimator, {}, {.device = device}}, progress).estimate,
+      run_estimator(scene, {kLabelingEstimator, {}, {.device = device}}, progress).estimate,
       kLabelingEstimator);
 }
 

@@ -143,64 +143,71 @@ Estimate in_whole_views(const Estimate& estimate, const LivePart& part, int fact
 
 }  // namespace
 
+/// A light field, and its equalized views once a method needs them.
+struct LiveViews {
+  LightFieldPtr light_field;
+  std::shared_ptr<EvenViews> even = std::make_shared<EvenViews>();
+};
+
 /// A light field as live estimates read it; what one of them made is kept for the next. For one
 /// thread at a time. All functions throw Cancelled.
 class LiveSource {
  public:
-  explicit LiveSource(LightFieldPtr light_field) : light_field_(std::move(light_field)) {}
+  explicit LiveSource(LiveViews views) : views_(std::move(views)) {}
 
-  [[nodiscard]] const LightFieldPtr& light_field() const { return light_field_; }
+  [[nodiscard]] const LightFieldPtr& light_field() const { return views_.light_field; }
   /// The range that a method would search if its parameter were `wanted` (`search_range`).
   [[nodiscard]] Interval range(const IntervalOrAuto& wanted, const Progress& progress);
   /// The pixels `part` of all views; the whole light field is not copied.
-  [[nodiscard]] LightFieldPtr full(const PixelRect& part, const Progress& progress);
+  [[nodiscard]] LiveViews full(const PixelRect& part, const Progress& progress);
   /// The same at a quarter of the size (`kLiveFactor`): all facts but the range of disparities are
   /// those of the light field. Precondition: `part` begins at multiples of it.
-  [[nodiscard]] LightFieldPtr coarse(const PixelRect& part, const Progress& progress);
+  [[nodiscard]] LiveViews coarse(const PixelRect& part, const Progress& progress);
 
  private:
-  LightFieldPtr light_field_;
-  LightFieldPtr smaller_;          // the whole
-  LightFieldPtr part_;             // the one cut out last,
+  LiveViews views_;
+  LiveViews smaller_;              // the whole
+  LiveViews part_;                 // the one cut out last,
   PixelRect cut_;                  // which is this
   std::optional<Interval> found_;  // whatever files promise
 };
 
 Interval LiveSource::range(const IntervalOrAuto& wanted, const Progress& progress) {
-  if (range_source(*light_field_, wanted) != RangeSource::Found) {
-    return search_range(*light_field_, wanted, progress);
+  if (range_source(*light_field(), wanted) != RangeSource::Found) {
+    return search_range(*light_field(), wanted, progress);
   }
-  if (!found_) found_ = search_range(*light_field_, wanted, progress);
+  if (!found_) found_ = search_range(*light_field(), wanted, progress);
   return *found_;
 }
 
-LightFieldPtr LiveSource::full(const PixelRect& part, const Progress& progress) {
-  if (part == whole(*light_field_)) {
-    part_.reset();
-    return light_field_;
+LiveViews LiveSource::full(const PixelRect& part, const Progress& progress) {
+  if (part == whole(*light_field())) {
+    part_ = {};
+    return views_;
   }
-  if (!part_ || cut_ != part) {
-    part_ = std::make_shared<const LightField>(cropped(*light_field_, part, progress));
+  if (!part_.light_field || cut_ != part) {
+    part_ = {std::make_shared<const LightField>(cropped(*light_field(), part, progress))};
     cut_ = part;
   }
   return part_;
 }
 
-LightFieldPtr LiveSource::coarse(const PixelRect& part, const Progress& progress) {
-  if (!smaller_) {
-    LightFieldInfo info = light_field_->info();
+LiveViews LiveSource::coarse(const PixelRect& part, const Progress& progress) {
+  const LightFieldPtr& small = smaller_.light_field;
+  if (!small) {
+    LightFieldInfo info = light_field()->info();
     info.disparity_range.reset();
-    smaller_ = std::make_shared<const LightField>(
-        smaller_views(*light_field_, kLiveFactor, progress.part(0, 0.8), ReducedViews::All),
+    smaller_.light_field = std::make_shared<const LightField>(
+        smaller_views(*light_field(), kLiveFactor, progress.part(0, 0.8), ReducedViews::All),
         std::move(info));
   }
-  if (part == whole(*light_field_)) return smaller_;
+  if (part == whole(*light_field())) return smaller_;
   const auto ceiled = [](int n, int most) {
     return std::min((n + kLiveFactor - 1) / kLiveFactor, most);
   };
   const PixelRect inside{part.y0 / kLiveFactor, part.x0 / kLiveFactor,
-                         ceiled(part.y1, smaller_->height()), ceiled(part.x1, smaller_->width())};
-  return std::make_shared<const LightField>(cropped(*smaller_, inside, progress.part(0.8, 1)));
+                         ceiled(part.y1, small->height()), ceiled(part.x1, small->width())};
+  return {std::make_shared<const LightField>(cropped(*small, inside, progress.part(0.8, 1)))};
 }
 
 namespace {
@@ -284,22 +291,23 @@ LiveMap map_of(Estimate estimate, const LiveRun& run, const LightField& light_fi
 }
 
 // Without the hash of the samples, which nobody asks a live map for.
-Estimate run_on(const LightField& light_field, const Estimator& estimator,
-                const EstimateRequest& request, const Progress& progress) {
-  Estimate estimate = estimator.run(light_field, request.parameters, request.options, progress);
+Estimate run_on(const LiveViews& views, const Estimator& estimator, const EstimateRequest& request,
+                const Progress& progress) {
+  Estimate estimate =
+      estimator.run(*views.light_field, *views.even, request.parameters, request.options, progress);
   progress.check();
   return estimate;
 }
 
 std::optional<LiveMap> coarse_map(LiveSource& source, const LiveRun& run, ViewIndex view,
                                   const Progress& progress) {
-  const LightFieldPtr small = source.coarse(run.part.read, progress.part(0, 0.3));
-  if (std::min(small->height(), small->width()) < kLeastCoarse) return {};
+  const LiveViews small = source.coarse(run.part.read, progress.part(0, 0.3));
+  if (std::min(small.light_field->height(), small.light_field->width()) < kLeastCoarse) return {};
   EstimateRequest request = run.request;
   set_value(request.parameters, kRange,
             IntervalOrAuto(Interval{run.range.min / kLiveFactor, run.range.max / kLiveFactor}));
   try {
-    const Estimate found = run_on(*small, run.estimator, request, progress.part(0.3, 1));
+    const Estimate found = run_on(small, run.estimator, request, progress.part(0.3, 1));
     LiveMap map = map_of(in_whole_views(found, run.part, kLiveFactor, *source.light_field(),
                                         run.view.value_or(view)),
                          run, *source.light_field());
@@ -313,11 +321,11 @@ std::optional<LiveMap> coarse_map(LiveSource& source, const LiveRun& run, ViewIn
 }
 
 LiveMap full_map(LiveSource& source, const LiveRun& run, const Progress& progress) {
-  const LightFieldPtr light_field = source.full(run.part.read, progress.part(0, 0.05));
-  Estimate found = run_on(*light_field, run.estimator, run.request, progress.part(0.05, 1));
+  const LiveViews views = source.full(run.part.read, progress.part(0, 0.05));
+  Estimate found = run_on(views, run.estimator, run.request, progress.part(0.05, 1));
   const Interval range = display_range(found);
   const LightField& whole = *source.light_field();
-  const bool is_whole = light_field == source.light_field();
+  const bool is_whole = views.light_field == source.light_field();
   LiveMap map = map_of(is_whole ? std::move(found) : in_whole_views(found, run.part, 1, whole, {}),
                        run, whole);
   map.display_range = range;
@@ -375,7 +383,9 @@ void LiveEstimator::request(const LiveRequest& request) {
   if (is_answered(request)) return;
   drop();
   if (!asked_ || asked_->light_field != request.light_field) {
-    source_ = std::make_shared<LiveSource>(request.light_field);
+    LiveViews views{request.light_field};
+    if (request.even) views.even = request.even;
+    source_ = std::make_shared<LiveSource>(std::move(views));
     map_.reset();
   }
   asked_ = request;

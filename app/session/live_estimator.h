@@ -3,6 +3,7 @@
 
 #include "app/session/run_estimator.h"
 #include "engine/core/estimate.h"
+#include "engine/core/even_views.h"
 #include "engine/core/indices.h"
 #include "engine/core/jobs.h"
 #include "engine/core/light_field.h"
@@ -26,6 +27,7 @@ struct LiveRequest {
   ParameterSet parameters;
   ViewIndex view;
   PixelRect in_sight{};  ///< Of the view; empty = all of it.
+  std::shared_ptr<EvenViews> even = nullptr;  ///< Of the scene; null: a new one.
   friend bool operator==(const LiveRequest&, const LiveRequest&) = default;
 };
 

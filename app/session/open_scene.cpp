@@ -32,7 +32,7 @@ std::size_t byte_size(const OpenScene& scene) {
     const GroundTruth& truth = *scene.scene->truth;
     const LightField& light_field = *scene.scene->light_field;
     if (!light_field.is_on_disk()) bytes += light_field.byte_size();
-    bytes += light_field.beside().bytes();
+    bytes += scene.scene->even->bytes();
     bytes += bytes_of(truth.field) + bytes_of(truth.foreground) + bytes_of(truth.background) +
              bytes_of(truth.labels);
   }

@@ -31,19 +31,20 @@ std::string range_warning(const LightField& light_field, const Estimate& estimat
 
 }  // namespace
 
-FinishedEstimate run_estimator(const LightField& light_field, const EstimateRequest& request,
+FinishedEstimate run_estimator(const Scene& scene, const EstimateRequest& request,
                                const Progress& progress) {
-  return run_estimator(light_field, find_estimator(request.method), request, progress);
+  return run_estimator(scene, find_estimator(request.method), request, progress);
 }
 
 bool was_taken_early(const Estimate& estimate) {
   return std::ranges::find(estimate.notes, kTakenEarly) != estimate.notes.end();
 }
 
-FinishedEstimate run_estimator(const LightField& light_field, const Estimator& estimator,
+FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
                                const EstimateRequest& request, const Progress& progress) {
+  const LightField& light_field = *scene.light_field;
   auto estimate = std::make_shared<Estimate>(
-      estimator.run(light_field, request.parameters, request.options, progress));
+      estimator.run(light_field, *scene.even, request.parameters, request.options, progress));
   estimate->source_hash = light_field.sample_hash();
   if (progress.finish_requested() && estimator.info.iterative) {
     estimate->notes.push_back(kTakenEarly);
@@ -138,10 +139,11 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   progress.step("identifying the samples");
   const std::uint64_t hash = lf.sample_hash();
   const Progress limited = progress.limited_to(request.run.options.threads);
-  BlockwiseRun run = estimator.in_blocks(lf, request.run.parameters, request.run.options,
+  EvenViews even;
+  BlockwiseRun run = estimator.in_blocks(lf, even, request.run.parameters, request.run.options,
                                          limited.part(0.02, 0.06));
   lf.forget_samples();
-  const BlockMemory memory = without(request.memory, lf.beside().bytes());
+  const BlockMemory memory = without(request.memory, even.bytes());
   require_memory(run, memory);  // before what another run left is replaced
   run.provenance.source_hash = hash;
   io::ResultDraft draft(request.output, {run.maps, !lf.valid().empty(), run.has_layers, run.kept},

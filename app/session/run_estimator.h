@@ -3,6 +3,7 @@
 
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
+#include "engine/core/scene.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/run_blocks.h"
 
@@ -31,14 +32,13 @@ inline constexpr const char* kTakenEarly = "ended early";
 /// Whether it has that note.
 [[nodiscard]] bool was_taken_early(const Estimate& estimate);
 
-/// Runs a method of the registry. What was ended early (Progress::finish_requested) says so
-/// in its notes. Throws what the method throws, Unavailable for an unknown one.
-[[nodiscard]] FinishedEstimate run_estimator(const LightField& light_field,
-                                             const EstimateRequest& request,
+/// Runs a method of the registry on a scene, which keeps its equalized views (Scene::even). What
+/// was ended early (Progress::finish_requested) says so in its notes. Throws what the method
+/// throws, Unavailable for an unknown one.
+[[nodiscard]] FinishedEstimate run_estimator(const Scene& scene, const EstimateRequest& request,
                                              const Progress& progress);
 /// Runs a method that need not be in the registry.
-[[nodiscard]] FinishedEstimate run_estimator(const LightField& light_field,
-                                             const Estimator& estimator,
+[[nodiscard]] FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
                                              const EstimateRequest& request,
                                              const Progress& progress);
 

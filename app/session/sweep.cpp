@@ -35,8 +35,7 @@ std::optional<double> median_change(const DisparityView& a, const DisparityView&
 
 void fill(const Scene& scene, const EstimateRequest& request, const Estimate* reference,
           const Progress& progress, SweepPoint& point) {
-  const FinishedEstimate finished =
-      run_estimator(*scene.light_field, request, progress.part(0, 0.97));
+  const FinishedEstimate finished = run_estimator(scene, request, progress.part(0, 0.97));
   point.estimate = finished.estimate;
   point.display_range = finished.display_range;
   point.seconds = finished.estimate->seconds;

@@ -8,13 +8,10 @@
 #include "engine/core/view_stack.h"
 
 #include <algorithm>
-#include <any>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -23,32 +20,6 @@
 #include <vector>
 
 namespace episcope {
-
-/// One value that is computed on first use and kept for the lifetime of its owner. Thread-safe. Not
-/// copyable.
-class LazyCache {
- public:
-  /// Returns the kept value; on first use calls `make()`, which returns the value and its bytes,
-  /// while other callers wait. Nothing is kept if it throws. All callers ask for the same T.
-  template <class T, class Make>
-  [[nodiscard]] std::shared_ptr<const T> get(const Make& make) {
-    const std::lock_guard lock(lock_);
-    if (!thing_.has_value()) {
-      std::pair<T, std::size_t> made = make();
-      thing_ = std::make_shared<const T>(std::move(made.first));
-      bytes_ = made.second;
-    }
-    return std::any_cast<const std::shared_ptr<const T>&>(thing_);
-  }
-
-  /// Bytes of the kept value.
-  [[nodiscard]] std::size_t bytes() const { return bytes_; }
-
- private:
-  std::mutex lock_;
-  std::any thing_;
-  std::atomic<std::size_t> bytes_{0};
-};
 
 enum class SampleType { UInt8, UInt16, Float32 };
 
@@ -132,8 +103,6 @@ class LightField {
   /// Number of this light field, unique in the program and kept when it is moved. Copies of the
   /// samples on a device use it to tell whether they are still valid.
   [[nodiscard]] std::uint64_t identity() const { return identity_; }
-  /// Cache of the samples as methods see them (even_brightness).
-  [[nodiscard]] LazyCache& beside() const { return *beside_; }
   /// Whether samples are in a file that the system reads when they are looked at.
   [[nodiscard]] bool is_on_disk() const;
   /// Starts reading rows [first_row, end_row) of a view from disk, without waiting. Call it for all
@@ -168,7 +137,6 @@ class LightField {
   int width_ = 0;
   int channels_ = 1;
   std::uint64_t identity_ = 0;
-  std::unique_ptr<LazyCache> beside_ = std::make_unique<LazyCache>();
 };
 
 /// The grid that views cover.

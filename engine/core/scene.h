@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/even_views.h"
 #include "engine/core/ground_truth.h"
 #include "engine/core/label_info.h"
 #include "engine/core/light_field.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -106,6 +108,8 @@ struct Scene {
   std::vector<Companion> companions;
   ConventionReport convention;
   FrameOfSequence sequence{};
+  /// The views as most methods see them; shared by copies of the scene.
+  std::shared_ptr<EvenViews> even = std::make_shared<EvenViews>();
 
   /// The first companion of this kind; null if there is none.
   [[nodiscard]] const Companion* find_companion(CompanionKind kind) const {

@@ -10,9 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <optional>
-#include <type_traits>
 #include <variant>
 
 namespace episcope {
@@ -282,75 +280,122 @@ void settle(int center, const std::vector<Ratio>& ratios, std::vector<double>& l
 
 }  // namespace
 
-ViewIndex ViewGains::most_different() const {
-  ViewIndex worst = grid.center();
-  double difference = 0;
-  for (int i = 0; i < grid.count(); ++i) {
-    const double other = std::abs(overall[i] - 1);
-    if (!(other > difference)) continue;
-    difference = other;
-    worst = grid.view_at(i);
-  }
-  return worst;
-}
-
-ViewGains measure_view_gains(const LightField::Samples& samples,
-                             const ViewStack<std::uint8_t>& valid, const Progress& progress,
-                             GainBlocks blocks) {
-  ViewGains gains;
-  std::visit(
-      [&gains](const auto& stack) {
-        gains.grid = stack.grid();
-        gains.channels = stack.channels();
-      },
-      samples);
-  const GridShape grid = gains.grid;
-  const int channels = gains.channels;
+PhotometricCorrection measure_view_gains(const LightField::Samples& samples,
+                                         const ViewStack<std::uint8_t>& valid,
+                                         const Progress& progress, GainBlocks blocks) {
+  const GridShape grid = grid_of(samples);
+  const int channels = std::visit([](const auto& stack) { return stack.channels(); }, samples);
   const Ratios all = find_ratios(samples, valid, progress, blocks);
   const int center = grid.center().v * grid.u + grid.center().u;
-  gains.channel.resize(static_cast<std::size_t>(grid.count()) * channels);
-  gains.overall.resize(grid.count());
+  PhotometricCorrection correction{.grid = grid};
+  correction.gains.resize(grid.count());
+  correction.overall.resize(grid.count());
   for (int quantity = 0; quantity <= channels; ++quantity) {
     const std::vector<Ratio>& ratios = all[quantity];
     std::vector<double> logs = spread_from(center, grid.count(), ratios);
     settle(center, ratios, logs);
     for (int i = 0; i < grid.count(); ++i) {
-      double& gain = quantity < channels
-                         ? gains.channel[static_cast<std::size_t>(i) * channels + quantity]
-                         : gains.overall[i];
+      double& gain = quantity < channels ? correction.gains[i][quantity] : correction.overall[i];
       gain = std::exp(logs[i]);
     }
   }
+  if (channels == 1) {
+    for (auto& gain : correction.gains) gain.fill(gain[0]);
+  }
+  return correction;
+}
+
+namespace {
+
+// Means of views that differ by less speak for gains that do, too.
+constexpr double kNotableMeans = 0.01;
+constexpr int kPixelStep = 8;  // of the means
+constexpr double kUnlikelyMeans = 0.005;
+
+template <class T>
+double mean_of(const ViewStack<T>& stack, ViewIndex index) {
+  const auto view = stack.view(index);
+  double sum = 0;
+  int count = 0;
+  for (int y = kPixelStep / 2; y < view.height; y += kPixelStep) {
+    for (int x = kPixelStep / 2; x < view.width; x += kPixelStep, ++count) {
+      for (int c = 0; c < view.channels; ++c) sum += view.at(y, x, c);
+    }
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+// Root mean square of log gains against the mean of the views on both sides, as a multiple of
+// what independent gains have: objects that come into views change their means steadily.
+double unsteadiness(const PhotometricCorrection& correction) {
+  double sum = 0;
+  int count = 0;
+  const GridShape grid = correction.grid;
+  for (int i = 0; i < grid.count(); ++i) {
+    if (i % grid.u == 0 || i % grid.u == grid.u - 1) continue;
+    for (int c = 0; c < 3; ++c, ++count) {
+      const auto log = [&](int view) { return std::log(correction.gains[view][c]); };
+      const double off = log(i) - 0.5 * (log(i - 1) + log(i + 1));
+      sum += off * off / 1.5;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+// Of a view to another, `here`, over the pixels that are valid in both; 1 where nothing is known.
+std::array<double, 3> ratios_of_means(const LightField& lf, ViewIndex view, ViewIndex reference,
+                                      const Image<float>& here) {
+  const Image<float> there = lf.view_as_float(view);
+  std::array<double, 3> sums{}, sums_here{}, gains{1, 1, 1};
+  for (int y = 0; y < lf.height(); ++y) {
+    for (int x = 0; x < lf.width(); ++x) {
+      if (!lf.is_valid(view, y, x) || !lf.is_valid(reference, y, x)) continue;
+      for (int c = 0; c < lf.channels(); ++c) {
+        sums[c] += there.at(y, x, c);
+        sums_here[c] += here.at(y, x, c);
+      }
+    }
+  }
+  for (int c = 0; c < lf.channels(); ++c) {
+    if (sums[c] > 0 && sums_here[c] > 0) gains[c] = sums[c] / sums_here[c];
+  }
+  if (lf.channels() == 1) gains.fill(gains[0]);
   return gains;
 }
 
-double divide_by_gains(LightField::Samples& samples, const ViewGains& gains,
-                       const Progress& progress) {
+}  // namespace
+
+bool have_notable_means(const LightField& lf, const Progress& progress) {
   return std::visit(
-      [&]<class T>(ViewStack<T>& stack) {
-        std::vector<std::size_t> clipped(stack.grid().count());
-        parallel_for(stack.grid().count(), progress, [&](int i) {
-          T* const view = stack.view(stack.view_at(i)).data;
-          const double* const gain = &gains.channel[static_cast<std::size_t>(i) * gains.channels];
-          for (int c = 0; c < gains.channels; ++c) {
-            if (!(gain[c] > 0)) continue;
-            const auto factor = static_cast<float>(1 / gain[c]);
-            for (std::size_t n = c; n < stack.view_size(); n += gains.channels) {
-              if constexpr (std::is_integral_v<T>) {
-                constexpr auto kLargest = static_cast<float>(std::numeric_limits<T>::max());
-                const float value = factor * static_cast<float>(view[n]) + 0.5F;
-                clipped[i] += value >= kLargest + 1 ? 1 : 0;
-                view[n] = static_cast<T>(std::min(value, kLargest));
-              } else {
-                view[n] *= factor;
-              }
-            }
-          }
-        });
-        const auto sum = std::accumulate(clipped.begin(), clipped.end(), std::size_t{0});
-        return static_cast<double>(sum) / static_cast<double>(stack.size());
+      [&](const auto& stack) {
+        const double center = mean_of(stack, lf.center());
+        for (int i = 0; i < lf.grid().count(); ++i) {
+          progress.check();
+          // The disk reads while the view before is looked at.
+          if (i + 1 < lf.grid().count()) lf.fetch_samples(lf.grid().view_at(i + 1), 0, lf.height());
+          const double mean = mean_of(stack, lf.grid().view_at(i));
+          forget_view(stack, lf.grid().view_at(i));
+          if (!(std::abs(mean - center) <= kNotableMeans * center)) return true;
+        }
+        return false;
       },
-      samples);
+      lf.samples());
+}
+
+PhotometricCorrection gains_of_means(const LightField& lf, ViewIndex reference,
+                                     const Progress& progress) {
+  const GridShape grid = lf.grid();
+  PhotometricCorrection correction{.grid = grid};
+  correction.gains.assign(grid.count(), {1, 1, 1});
+  const Image<float> here = lf.view_as_float(reference);
+  parallel_for(grid.count(), progress, [&](int i) {
+    correction.gains[i] = ratios_of_means(lf, grid.view_at(i), reference, here);
+    lf.forget_samples();
+  });
+  if (unsteadiness(correction) < kUnlikelyMeans) {
+    correction.gains.assign(grid.count(), {1, 1, 1});
+  }
+  return correction;
 }
 
 }  // namespace episcope

@@ -2,30 +2,12 @@
 #pragma once
 
 #include "engine/core/light_field.h"
+#include "engine/core/photometric_correction.h"
 #include "engine/core/progress.h"
 
-#include <cstddef>
-#include <vector>
+#include <cstdint>
 
 namespace episcope {
-
-/// Gains of views that differ by more than this from 1 are warned of, and evened out for methods.
-inline constexpr double kNotableGain = 0.02;
-
-/// Brightness of each view as a multiple of the centre view, by channel and of their sum.
-struct ViewGains {
-  GridShape grid;
-  int channels = 1;
-  std::vector<double> channel{};  ///< [v][u][c]; NaN where it could not be measured.
-  std::vector<double> overall{};  ///< [v][u]; likewise.
-
-  /// The view whose brightness differs most from the centre view; the centre view if nothing was
-  /// measured.
-  [[nodiscard]] ViewIndex most_different() const;
-  [[nodiscard]] double of(ViewIndex view) const {
-    return overall[static_cast<std::size_t>(view.v) * grid.u + view.u];
-  }
-};
 
 /// Blocks of two views that are compared. One of four takes a quarter of the time and is enough for
 /// a report on many views; all are compared if too few of them can be.
@@ -39,15 +21,20 @@ enum class GainBlocks { All, OneOfFour };
 /// ratio varies least from pixel to pixel, which does not depend on the gain. Invalid, dark and
 /// clipped pixels do not count. Offsets are not measured: parallax would be mistaken for them.
 /// `valid`: as LightField::valid. 36 pixels of each block are looked at. Throws Cancelled.
-[[nodiscard]] ViewGains measure_view_gains(const LightField::Samples& samples,
-                                           const ViewStack<std::uint8_t>& valid,
-                                           const Progress& progress,
-                                           GainBlocks blocks = GainBlocks::All);
+[[nodiscard]] PhotometricCorrection measure_view_gains(const LightField::Samples& samples,
+                                                       const ViewStack<std::uint8_t>& valid,
+                                                       const Progress& progress,
+                                                       GainBlocks blocks = GainBlocks::All);
 
-/// Divides the samples of each view by its gains, channel by channel, in their stored type; views
-/// without a gain stay. Returns the share in [0, 1] of samples that were clipped at the largest
-/// number of their type. Throws Cancelled.
-double divide_by_gains(LightField::Samples& samples, const ViewGains& gains,
-                       const Progress& progress);
+/// A quick look, at one of 64 pixels: whether the mean of a view differs by more than 1 % from the
+/// mean of the center view. Views whose means are alike have gains that are, too. Throws Cancelled.
+[[nodiscard]] bool have_notable_means(const LightField& light_field, const Progress& progress);
+
+/// Gains by the means of whole views alone, before anything is known of their disparity. Objects
+/// that come into a view change its mean as well, but steadily from view to view: where means are
+/// off the mean of their neighbours' in a row by no more than 0.5 % gains would explain, all gains
+/// are 1. Throws Cancelled.
+[[nodiscard]] PhotometricCorrection gains_of_means(const LightField& light_field,
+                                                   ViewIndex reference, const Progress& progress);
 
 }  // namespace episcope

@@ -7,13 +7,11 @@
 #include "engine/core/view_places.h"
 #include "engine/cuda/device.h"
 #include "engine/disparity/disparity_range.h"
-#include "engine/disparity/even_brightness.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 namespace episcope {
 
@@ -185,36 +183,23 @@ Estimate estimate_on_device(Device device, const EstimatorInfo& info,
   }
 }
 
-// The light field that a method sees: one of even brightness, or the given one if there is none.
-class SeenViews {
- public:
-  SeenViews(const EstimatorInfo& info, const LightField& given, const Progress& progress)
-      : given_(given) {
-    if (info.sees_even_views) even_ = even_brightness(given, progress);
-  }
+using EvenLightFieldPtr = std::shared_ptr<const EvenLightField>;
 
-  [[nodiscard]] bool are_evened() const { return even_ && *even_; }
-  [[nodiscard]] const LightField& light_field() const {
-    return are_evened() ? (*even_)->light_field : given_;
-  }
-  void add_note(std::vector<std::string>& notes) const {
-    if (are_evened()) notes.push_back((*even_)->note);
-  }
+// What a method sees instead of the light field; null if it sees that.
+EvenLightFieldPtr equalized_for(const EstimatorInfo& info, const LightField& light_field,
+                                EvenViews& even, const Progress& progress) {
+  return info.sees_even_views ? even.of(light_field, progress) : nullptr;
+}
 
- private:
-  const LightField& given_;
-  std::shared_ptr<const std::optional<EvenLightField>> even_;
-};
-
-// A pass refers to the light field that it sees, which lives as long as the pass, and of which it
+// A pass refers to the equalized light field, which lives as long as the pass, and of which it
 // holds nothing between blocks.
-BlockPass forgetting(const SeenViews& seen, BlockPass pass) {
+BlockPass forgetting(const EvenLightFieldPtr& seen, BlockPass pass) {
   if (pass.prepare) {
     pass.prepare = [seen, prepare = std::move(pass.prepare)](const ReadBlock& read,
                                                              const std::vector<double>& facts,
                                                              const Progress& progress) {
       std::vector<double> found = prepare(read, facts, progress);
-      seen.light_field().forget_samples();
+      seen->light_field.forget_samples();
       return found;
     };
   }
@@ -222,7 +207,7 @@ BlockPass forgetting(const SeenViews& seen, BlockPass pass) {
                      const MapBlock& block, const ReadBlock& read, const std::vector<double>& facts,
                      const Progress& progress) {
     FinishedBlock made = compute(block, read, facts, progress);
-    seen.light_field().forget_samples();
+    seen->light_field.forget_samples();
     return made;
   };
   return pass;
@@ -230,32 +215,34 @@ BlockPass forgetting(const SeenViews& seen, BlockPass pass) {
 
 }  // namespace
 
-Estimate Estimator::run(const LightField& given, const ParameterSet& values,
+Estimate Estimator::run(const LightField& given, EvenViews& even, const ParameterSet& values,
                         const RunOptions& options, const Progress& progress) const {
   require_device(options.device, info);
   const Progress limited = progress.limited_to(options.threads);
-  const SeenViews seen(info, given, limited);
-  const LightField& light_field = seen.light_field();
+  const EvenLightFieldPtr equalized = equalized_for(info, given, even, limited);
+  const LightField& light_field = equalized ? equalized->light_field : given;
   const Stopwatch watch;
   Estimate result = estimate_on_device(options.device, info, [&](Device device) {
     return estimate(light_field, values, options.views, limited, device);
   });
   mark_invalid(light_field, result);
   complete_provenance(result, info.id, light_field, watch.seconds());
-  seen.add_note(result.notes);
+  if (equalized) result.notes.push_back(equalized->note);
   return result;
 }
 
-BlockwiseRun Estimator::in_blocks(const LightField& given, const ParameterSet& values,
-                                  const RunOptions& options, const Progress& progress) const {
+BlockwiseRun Estimator::in_blocks(const LightField& given, EvenViews& even,
+                                  const ParameterSet& values, const RunOptions& options,
+                                  const Progress& progress) const {
   require_device(options.device, info);
   const Progress limited = progress.limited_to(options.threads);
-  const SeenViews seen(info, given, limited);
-  BlockwiseRun run = blocks(seen.light_field(), values, options.views, limited);
-  complete_provenance(run.provenance, info.id, seen.light_field(), 0);
-  seen.add_note(run.provenance.notes);
-  if (!seen.are_evened()) return run;
-  for (BlockPass& pass : run.passes) pass = forgetting(seen, std::move(pass));
+  const EvenLightFieldPtr equalized = equalized_for(info, given, even, limited);
+  const LightField& light_field = equalized ? equalized->light_field : given;
+  BlockwiseRun run = blocks(light_field, values, options.views, limited);
+  complete_provenance(run.provenance, info.id, light_field, 0);
+  if (!equalized) return run;
+  run.provenance.notes.push_back(equalized->note);
+  for (BlockPass& pass : run.passes) pass = forgetting(equalized, std::move(pass));
   return run;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/estimate.h"
+#include "engine/core/even_views.h"
 #include "engine/core/isa.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
@@ -126,7 +127,7 @@ struct EstimatorInfo {
   bool iterative = false;  ///< Ends early with what it has (Progress::finish_requested).
   int revision = 1;  ///< Grows whenever results change: kept benchmark results are then renewed.
   std::vector<Device> devices = {Device::Cpu};  ///< Where it can compute.
-  /// Views are brought to one brightness before it runs (even_brightness); else it does so itself.
+  /// Views are equalized before it runs (EvenViews); else it does so itself.
   bool sees_even_views = true;
 };
 
@@ -154,19 +155,33 @@ struct Estimator {
                              const Progress&)>
       blocks;
 
-  /// Evens the brightness of the views, estimates with `values` over the defaults on the chosen
+  /// Equalizes the views (EvenViews), estimates with `values` over the defaults on the chosen
   /// device, marks invalid pixels and completes the provenance: every field of Estimate but
   /// `source_hash`. If a device that was not demanded fails, or has too little memory, the CPU
   /// takes over. Throws Unavailable as `require_device`, InvalidInput for bad parameters or a light
   /// field that the method cannot use, Cancelled on a stop request (within 200 ms).
+  /// `even` keeps the equalized views for further runs.
+  [[nodiscard]] Estimate run(const LightField& light_field, EvenViews& even,
+                             const ParameterSet& values, const RunOptions& options,
+                             const Progress& progress) const;
+  /// Keeps nothing for further runs.
   [[nodiscard]] Estimate run(const LightField& light_field, const ParameterSet& values,
-                             const RunOptions& options, const Progress& progress) const;
+                             const RunOptions& options, const Progress& progress) const {
+    EvenViews even;
+    return run(light_field, even, values, options, progress);
+  }
 
   [[nodiscard]] bool can_run_in_blocks() const { return static_cast<bool>(blocks); }
   /// As `run`, block by block: finds what blocks have in common, and throws likewise. The run
   /// refers to the light field. Precondition: can_run_in_blocks().
+  [[nodiscard]] BlockwiseRun in_blocks(const LightField& light_field, EvenViews& even,
+                                       const ParameterSet& values, const RunOptions& options,
+                                       const Progress& progress) const;
   [[nodiscard]] BlockwiseRun in_blocks(const LightField& light_field, const ParameterSet& values,
-                                       const RunOptions& options, const Progress& progress) const;
+                                       const RunOptions& options, const Progress& progress) const {
+    EvenViews even;
+    return in_blocks(light_field, even, values, options, progress);
+  }
 };
 
 /// Adapts a typed method to the interface. `method(light_field, P, ViewSelection, Progress)`,

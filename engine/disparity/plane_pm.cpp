@@ -4,11 +4,13 @@
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/memory.h"
+#include "engine/core/photometric_correction.h"
 #include "engine/core/progress.h"
+#include "engine/core/view_gain.h"
+#include "engine/disparity/correction_of_points.h"
 #include "engine/disparity/cost_volume.h"
 #include "engine/disparity/denoise.h"
 #include "engine/disparity/estimator.h"
-#include "engine/disparity/photometric_correction.h"
 #include "engine/disparity/plane_labeling.h"
 #include "engine/disparity/propagate_planes.h"
 #include "engine/disparity/stereo_costs.h"
@@ -35,9 +37,9 @@ struct MapOfView {
 
 // A light field as its views are compared, without differences in brightness, and the data term of
 // one view. Refers to light field and parameters. Members throw DeviceFailure, Cancelled.
-class EvenedViews {
+class EqualizedViews {
  public:
-  EvenedViews(const LightField& light_field, const PlaneParameters& parameters, Device device);
+  EqualizedViews(const LightField& light_field, const PlaneParameters& parameters, Device device);
 
   // The evened one, or the given one if its views are alike.
   [[nodiscard]] const LightField& light_field() const { return even_ ? *even_ : lf_; }
@@ -56,13 +58,13 @@ class EvenedViews {
   void restore(const std::vector<double>& evened, const Progress& progress);
 
  private:
-  void use(const Brightness& brightness, const Progress& progress);
+  void use(const PhotometricCorrection& correction, const Progress& progress);
   void prepare(const StereoCostParameters& matching, const Progress& progress);
 
   const LightField& lf_;
   const PlaneParameters& parameters_;
   Device device_;
-  Brightness brightness_;
+  PhotometricCorrection correction_;
   std::optional<LightField> even_;
   StereoCosts stereo_;
   std::string note_;
@@ -71,60 +73,61 @@ class EvenedViews {
 // Brightness is taken from a map of which so many pixels are sure.
 constexpr double kLeastSure = 0.1;
 
-EvenedViews::EvenedViews(const LightField& lf, const PlaneParameters& parameters, Device device)
+EqualizedViews::EqualizedViews(const LightField& lf, const PlaneParameters& parameters,
+                               Device device)
     : lf_(lf), parameters_(parameters), device_(device) {}
 
-void EvenedViews::begin(const Progress& progress) {
+void EqualizedViews::begin(const Progress& progress) {
   const ViewIndex view = parameters_.matching.view.value_or(lf_.center());
   if (parameters_.even && lf_.grid().contains(view)) {
-    use(brightness_of_means(lf_, view, progress.part(0, 0.2)), progress.part(0.2, 0.4));
+    use(gains_of_means(lf_, view, progress.part(0, 0.2)), progress.part(0.2, 0.4));
   }
   prepare(parameters_.matching, progress.part(0.4, 1));
 }
 
-void EvenedViews::improve(const MapOfView& map, const Progress& progress) {
+void EqualizedViews::improve(const MapOfView& map, const Progress& progress) {
   const Image<float> sure =
       sure_surfaces(map.disparity, map.confidence, parameters_.visibility.least_trust);
   const auto known = std::ranges::count_if(sure, [](float d) { return d > kNothingNear; });
   if (!parameters_.even) return;
-  Brightness brightness;
+  PhotometricCorrection correction;
   if (known >= kLeastSure * static_cast<double>(sure.size())) {
-    brightness = brightness_of_points(lf_, stereo_.view, sure, progress.part(0, 0.4));
+    correction = correction_of_points(lf_, stereo_.view, sure, progress.part(0, 0.4));
   }
-  if (!even_ && !brightness.is_uneven()) return;
-  use(brightness, progress.part(0.4, 0.6));
+  if (!even_ && !correction.is_uneven()) return;
+  use(correction, progress.part(0.4, 0.6));
   StereoCostParameters matching = parameters_.matching;
   matching.range = stereo_.range;
   prepare(matching, progress.part(0.6, 1));
   if (even_) {
-    note_ = fmt::format("brightness of the views evened: fall-off {:.3f}", brightness.fall_off);
+    note_ = fmt::format("brightness of the views evened: fall-off {:.3f}", correction.fall_off);
   }
 }
 
-std::vector<double> EvenedViews::evened() const {
-  std::vector<double> numbers{brightness_.fall_off};
-  for (const auto& gain : brightness_.gains)
+std::vector<double> EqualizedViews::evened() const {
+  std::vector<double> numbers{correction_.fall_off};
+  for (const auto& gain : correction_.gains)
     numbers.insert(numbers.end(), gain.begin(), gain.end());
   return numbers;
 }
 
-void EvenedViews::restore(const std::vector<double>& evened, const Progress& progress) {
-  Brightness brightness;
-  brightness.fall_off = evened.front();
+void EqualizedViews::restore(const std::vector<double>& evened, const Progress& progress) {
+  PhotometricCorrection correction;
+  correction.fall_off = evened.front();
   for (std::size_t i = 1; i + 2 < evened.size(); i += 3) {
-    brightness.gains.push_back({evened[i], evened[i + 1], evened[i + 2]});
+    correction.gains.push_back({evened[i], evened[i + 1], evened[i + 2]});
   }
   stereo_ = {};
-  use(brightness, progress);
+  use(correction, progress);
 }
 
-void EvenedViews::use(const Brightness& brightness, const Progress& progress) {
-  brightness_ = brightness;
+void EqualizedViews::use(const PhotometricCorrection& correction, const Progress& progress) {
+  correction_ = correction;
   even_.reset();
-  if (brightness.is_uneven()) even_.emplace(even_views(lf_, brightness, progress));
+  if (correction.is_uneven()) even_.emplace(corrected(lf_, correction, progress));
 }
 
-void EvenedViews::prepare(const StereoCostParameters& matching, const Progress& progress) {
+void EqualizedViews::prepare(const StereoCostParameters& matching, const Progress& progress) {
   stereo_ =
       prepare_stereo(light_field(), MatchedViews::All, matching, progress.part(0, 0.9), device_);
   set_local_caps(light_field(), parameters_.visibility, progress.part(0.9, 1), stereo_);
@@ -168,8 +171,8 @@ void run_round(const LightField& lf, const PlaneParameters& parameters, const St
 // occludes from the start; without data if nothing is known. What the first round tells of the
 // brightness of the views goes into `data`. At `progress.finish_requested()` the map of the last
 // round that was finished. Throws DeviceFailure, Cancelled.
-Estimate estimate_view(EvenedViews& data, const PlaneParameters& parameters, const MapOfView& known,
-                       const Progress& progress) {
+Estimate estimate_view(EqualizedViews& data, const PlaneParameters& parameters,
+                       const MapOfView& known, const Progress& progress) {
   const VisibilityParameters& visibility = parameters.visibility;
   Estimate estimate;
   estimate.range = data.stereo().range;
@@ -205,7 +208,7 @@ Estimate estimate_next_view(const LightField& lf, const PlaneParameters& paramet
   own.even = false;
   own.visibility.rounds = 0;
   const PropagatedMaps carried = propagate_to_views(maps, {view, {1, 1}}, progress.part(0, 0.01));
-  EvenedViews data(lf, own, device);
+  EqualizedViews data(lf, own, device);
   data.begin(progress.part(0.01, 0.06));
   return estimate_view(data, own, {carried.disparity.view(view), carried.confidence.view(view)},
                        progress.part(0.06, 1));
@@ -413,7 +416,7 @@ class PlaneBlocks {
 
   const LightField& lf_;
   PlaneParameters parameters_;
-  EvenedViews data_;
+  EqualizedViews data_;
   ViewIndex from_;
   int threads_;
   Interval range_;
@@ -531,7 +534,7 @@ Schema<PlaneParameters> plane_pm_schema() {
 Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters,
                          ViewSelection views, const Progress& progress, Device device) {
   if (views == ViewSelection::Center || lf.grid().count() == 1) {
-    EvenedViews data(lf, parameters, device);
+    EqualizedViews data(lf, parameters, device);
     data.begin(progress.part(0, 0.06));
     return estimate_view(data, parameters, {}, progress.part(0.06, 1));
   }
@@ -539,7 +542,7 @@ Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters
   const std::vector<ViewIndex> corners = outermost_views(lf.grid(), from);
   const double share = 0.9 / static_cast<double>(corners.size() + 1);
   std::vector<Estimate> maps;
-  EvenedViews data(lf, parameters, device);
+  EqualizedViews data(lf, parameters, device);
   data.begin(progress.part(0, 0.06 * share));
   maps.push_back(estimate_view(data, parameters, {}, progress.part(0.06 * share, share)));
   for (std::size_t i = 0; i < corners.size() && !progress.finish_requested(); ++i) {

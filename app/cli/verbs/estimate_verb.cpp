@@ -211,32 +211,35 @@ class Runner {
   }
 
   [[nodiscard]] Answer run(const Task& task, const Progress& progress) {
-    const LightFieldPtr light_field = load(task, progress.part(0, 0.3));
+    const Scene scene = load(task, progress.part(0, 0.3));
     const EstimateRequest run{request_.estimator->info.id, request_.parameters.values(), options_};
     const bool in_blocks = !request_.is_submission &&
-                           should_run_in_blocks(*light_field, *request_.estimator, options_);
+                           should_run_in_blocks(*scene.light_field, *request_.estimator, options_);
     if (request_.memory > 0 && !request_.is_submission && !in_blocks) {
       note(task, run.method +
                      " runs at once: what does not fit is put on disk, and an interrupted "
                      "run begins again");
     }
-    Answer answer = in_blocks ? run_blocks(task, run, *light_field, progress.part(0.3, 1))
-                              : run_at_once(task, run, *light_field, progress.part(0.3, 1));
+    Answer answer = in_blocks ? run_blocks(task, run, *scene.light_field, progress.part(0.3, 1))
+                              : run_at_once(task, run, scene, progress.part(0.3, 1));
     for (const auto& sentence : answer.provenance.notes) note(task, sentence);
     return answer;
   }
 
  private:
   /// The light field alone: truth and labels of all views would double the memory that is held.
-  [[nodiscard]] LightFieldPtr load(const Task& task, const Progress& progress) {
+  [[nodiscard]] Scene load(const Task& task, const Progress& progress) {
     io::OpenOptions open = io::open_schema().parse(request_.read.options.values());
     open.frame = task.frame.value_or(open.frame);
-    const Scene scene = load_input(task.input, std::move(open), false, progress);
+    Scene scene = load_input(task.input, std::move(open), false, progress);
     for (const auto& warning : scene.convention.warnings) note(task, warning);
     if (const std::string warning = sign_warning(scene.convention); !warning.empty()) {
       note(task, warning);
     }
-    return scene.light_field;
+    Scene bare;
+    bare.light_field = std::move(scene.light_field);
+    bare.truth = std::make_shared<const GroundTruth>();
+    return bare;
   }
 
   [[nodiscard]] Answer run_blocks(const Task& task, const EstimateRequest& run,
@@ -253,18 +256,18 @@ class Runner {
     return {task.output, std::move(made.provenance), made.maps, light_field.center()};
   }
 
-  [[nodiscard]] Answer run_at_once(const Task& task, const EstimateRequest& run,
-                                   const LightField& light_field, const Progress& progress) {
+  [[nodiscard]] Answer run_at_once(const Task& task, const EstimateRequest& run, const Scene& scene,
+                                   const Progress& progress) {
+    const ViewIndex center = scene.light_field->center();
     const EstimatePtr estimate =
-        run_estimator(light_field, *request_.estimator, run, progress.part(0, 0.85)).estimate;
+        run_estimator(scene, *request_.estimator, run, progress.part(0, 0.85)).estimate;
     progress.step("writing " + task.output);
     if (request_.is_submission) {
-      submit(task, *estimate, light_field.center());
+      submit(task, *estimate, center);
     } else {
       save_result(task.output, *estimate, task.input, progress.part(0.85, 1));
     }
-    return {task.output, estimate->provenance(), geometry_of(estimate->field.disparity),
-            light_field.center()};
+    return {task.output, estimate->provenance(), geometry_of(estimate->field.disparity), center};
   }
 
   void submit(const Task& task, const Estimate& estimate, ViewIndex center) {

@@ -91,17 +91,17 @@ bool LabelingSource::isComing() const {
 }
 
 void LabelingSource::provide() {
-  const LightFieldPtr light_field = session_.light_field();
+  const std::shared_ptr<const Scene> scene = session_.scene();
   const std::uint64_t generation = session_.generation();
-  if (!light_field || choice_ != Automatic || automatic().field || own_.contains(generation) ||
+  if (!scene || choice_ != Automatic || automatic().field || own_.contains(generation) ||
       jobs_.count(Lane::Estimate) > 0) {
     return;
   }
   own_[generation] = {};
   const quint64 job = jobs_.start<FinishedEstimate>(
       Lane::Estimate, job_title(tr("Disparity for labels"), session_),
-      [light_field](const Progress& progress) {
-        return run_estimator(*light_field, {kQuickEstimator, {}, {}}, progress);
+      [scene](const Progress& progress) {
+        return run_estimator(*scene, {kQuickEstimator, {}, {}}, progress);
       },
       [this, generation](const FinishedEstimate& finished) {
         const auto own = own_.find(generation);

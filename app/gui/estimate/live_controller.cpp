@@ -94,8 +94,12 @@ std::optional<LiveRequest> LiveController::request() const {
   const PixelRect in_sight{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};
   const LightFieldPtr light_field = session.light_field();
   const PixelRect all{0, 0, light_field->height(), light_field->width()};
-  return LiveRequest{light_field, form.method, form.values, session.view(),
-                     seen.isEmpty() || in_sight == all ? PixelRect{} : in_sight};
+  return LiveRequest{light_field,
+                     form.method,
+                     form.values,
+                     session.view(),
+                     seen.isEmpty() || in_sight == all ? PixelRect{} : in_sight,
+                     session.scene()->even};
 }
 
 void LiveController::follow() {

@@ -36,11 +36,8 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
   const QString method = QString::fromStdString(info.name);
   const quint64 job = bench_.jobs.start<FinishedEstimate>(
       Lane::Estimate, job_title(method, scene),
-      [request,
-       source = scene_source(scene, bench_.opener.cacheFolder(), false)](const Progress& progress) {
-        const LightFieldPtr light_field = source(progress)->light_field;
-        return run_estimator(*light_field, request, progress);
-      },
+      [request, source = scene_source(scene, bench_.opener.cacheFolder(), false)](
+          const Progress& progress) { return run_estimator(*source(progress), request, progress); },
       [this, id = scene.id](const FinishedEstimate& finished) {
         bench_.session.add_estimate(finished.estimate, finished.display_range, id);
         if (finished.warning.empty()) return;

@@ -284,8 +284,8 @@ void SweepController::runAgain(SweepPlace place) {
                                 sweep.base.options};
   const quint64 job = bench_.jobs.start<FinishedEstimate>(
       Lane::Estimate, QString::fromStdString(name_of(sweep, point)),
-      [light_field = bench_.session.light_field(), request](const Progress& progress) {
-        return run_estimator(*light_field, request, progress);
+      [scene = bench_.session.scene(), request](const Progress& progress) {
+        return run_estimator(*scene, request, progress);
       },
       [this, place, id = current_,
        scene = sweep.scenes[place.scene].scene](const FinishedEstimate& finished) {

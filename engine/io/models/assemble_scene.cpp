@@ -2,6 +2,7 @@
 #include "engine/io/models/assemble_scene.h"
 
 #include "engine/core/indices.h"
+#include "engine/core/photometric_correction.h"
 #include "engine/core/view_gain.h"
 #include "engine/core/view_stack.h"
 #include "engine/io/base/sample_range.h"
@@ -129,26 +130,17 @@ void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionRep
 constexpr double kMeasurableGain = 0.01;
 constexpr double kShownGain = 0.0005;  ///< Less is 0.0 % in a sentence.
 
-std::string difference_text(const ViewGains& gains) {
+std::string difference_text(const PhotometricCorrection& gains) {
   const ViewIndex view = gains.most_different();
   return fmt::format("up to {:.1f} % (view {}: {:.3f})", 100 * std::abs(gains.of(view) - 1),
                      view_text(view), gains.of(view));
-}
-
-/// Of any channel.
-double largest_difference(const ViewGains& gains) {
-  double largest = 0;
-  for (const double gain : gains.channel) {
-    if (!std::isnan(gain)) largest = std::max(largest, std::abs(gain - 1));
-  }
-  return largest;
 }
 
 bool is_mapped(const LightField::Samples& samples) {
   return std::visit([](const auto& stack) { return stack.kind() == LargeKind::File; }, samples);
 }
 
-int count_unknown(const ViewGains& gains) {
+int count_unknown(const PhotometricCorrection& gains) {
   int unknown = 0;
   for (const double gain : gains.overall) unknown += std::isnan(gain) ? 1 : 0;
   return unknown;
@@ -167,7 +159,7 @@ void equalize_views(SceneParts& parts, const OpenOptions& options, ConventionRep
   }
   // What is divided by gains needs them as exactly as can be; a report does not.
   const bool is_quick = !is_wanted && has_many_views(grid_of(parts.samples));
-  const ViewGains gains =
+  const PhotometricCorrection gains =
       measure_view_gains(parts.samples, parts.valid, progress.part(0, is_wanted ? 0.5 : 1),
                          is_quick ? GainBlocks::OneOfFour : GainBlocks::All);
   const int views = gains.grid.count();
@@ -177,8 +169,7 @@ void equalize_views(SceneParts& parts, const OpenOptions& options, ConventionRep
     report.gain = "not known: the views are too dark, too bright or too small to compare";
     return;
   }
-  const bool is_notable = std::abs(gains.of(gains.most_different()) - 1) > kNotableGain;
-  if (is_wanted && largest_difference(gains) > kMeasurableGain) {
+  if (is_wanted && gains.largest_difference() > kMeasurableGain) {
     const double clipped = divide_by_gains(parts.samples, gains, progress.part(0.5, 1));
     report.gain = "evened out; it differed by " + difference_text(gains);
     if (clipped > 0) report.gain += fmt::format("; {:.2g} % of the samples clipped", 100 * clipped);
@@ -188,7 +179,7 @@ void equalize_views(SceneParts& parts, const OpenOptions& options, ConventionRep
     if (is_wanted && !is_same) report.gain += "; too little to even it out";
   }
   if (unknown > 0) report.gain += fmt::format("; of {} views not known", unknown);
-  if (is_wanted || !is_notable) return;
+  if (is_wanted || !gains.is_notable()) return;
   report.warnings.push_back(
       "The brightness of the views differs by " + difference_text(gains) +
       (options.keep_brightness

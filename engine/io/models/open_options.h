@@ -47,7 +47,7 @@ struct OpenOptions {
   int frame = 0;          ///< Sequences of light fields: which one, from 0.
   std::string levels{};   ///< Samples that are black and white, as stored: "0,1023"; empty = found.
   bool equalize = false;  ///< Bring all views to the brightness of the center view.
-  /// Have methods use the brightness of the views as it is (even_brightness.h).
+  /// Have methods use the brightness of the views as it is (EvenViews).
   bool keep_brightness = false;
   bool snake = false;   ///< Image grids: every second row was captured right to left.
   double focus_px = 0;  ///< Focus plane to bake in after reading (shear.h), px per view step.

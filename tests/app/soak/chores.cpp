@@ -73,7 +73,7 @@ void Chores::estimate(int round) const {
   for (const Estimator& method : registered_estimators()) {
     EstimateRequest request{.method = method.info.id, .parameters = {}};
     request.options.threads = 1 + round % 2;
-    const FinishedEstimate made = run_estimator(lf, request, Progress());
+    const FinishedEstimate made = run_estimator(*scene_, request, Progress());
     const fs::path path = folder_ / (method.info.id + ".h5");
     save_result(path, *made.estimate, "demo:edge", Progress());
     const Estimate read = read_result_of(lf, path);
@@ -98,7 +98,7 @@ void Chores::cancel_a_run() const {
   stop.request_stop();
   try {
     const EstimateRequest request{.method = "epi_c", .parameters = {}};
-    static_cast<void>(run_estimator(*scene_->light_field, request, Progress(stop.get_token(), {})));
+    static_cast<void>(run_estimator(*scene_, request, Progress(stop.get_token(), {})));
     require(false, "a run was not cancelled");
   } catch (const Cancelled&) {
   }

@@ -53,12 +53,11 @@ double no_gain(ViewIndex, int) {
   return 1;
 }
 
-double largest_error(const ViewGains& gains, const Gain& truth) {
+double largest_error(const PhotometricCorrection& gains, const Gain& truth) {
   double largest = 0;
   for (int i = 0; i < kGrid.count(); ++i) {
     for (int c = 0; c < 3; ++c) {
-      const double off =
-          gains.channel[static_cast<std::size_t>(i) * 3 + c] / truth(kGrid.view_at(i), c) - 1;
+      const double off = gains.gains[i][c] / truth(kGrid.view_at(i), c) - 1;
       largest = std::isnan(off) ? 1e9 : std::max(largest, std::abs(off));
     }
   }
@@ -72,7 +71,7 @@ class ViewGainTest : public QObject {
 
  private slots:
   void gains_areRecovered() {
-    const ViewGains gains = measure_view_gains(views(some_gain), {}, Progress(2));
+    const PhotometricCorrection gains = measure_view_gains(views(some_gain), {}, Progress(2));
 
     QVERIFY2(largest_error(gains, some_gain) < 0.01,
              qPrintable(QString::number(largest_error(gains, some_gain))));
@@ -81,13 +80,14 @@ class ViewGainTest : public QObject {
 
   void gains_areRecoveredFromAQuarterOfTheBlocks() {
     const LightField::Samples samples = views(some_gain);
-    const ViewGains of_all = measure_view_gains(samples, {}, Progress(2));
+    const PhotometricCorrection of_all = measure_view_gains(samples, {}, Progress(2));
 
-    const ViewGains gains = measure_view_gains(samples, {}, Progress(2), GainBlocks::OneOfFour);
+    const PhotometricCorrection gains =
+        measure_view_gains(samples, {}, Progress(2), GainBlocks::OneOfFour);
 
     QVERIFY2(largest_error(gains, some_gain) < 0.01,
              qPrintable(QString::number(largest_error(gains, some_gain))));
-    QVERIFY(gains.channel != of_all.channel);
+    QVERIFY(gains.gains != of_all.gains);
   }
 
   void allBlocks_areComparedWhereAQuarterIsTooFew() {
@@ -100,14 +100,15 @@ class ViewGainTest : public QObject {
       }
     }
 
-    const ViewGains gains = measure_view_gains(samples, valid, Progress(2), GainBlocks::OneOfFour);
+    const PhotometricCorrection gains =
+        measure_view_gains(samples, valid, Progress(2), GainBlocks::OneOfFour);
 
     QVERIFY(largest_error(gains, some_gain) < 0.01);
-    QVERIFY(gains.channel == measure_view_gains(samples, valid, Progress(2)).channel);
+    QVERIFY(gains.gains == measure_view_gains(samples, valid, Progress(2)).gains);
   }
 
   void equalViews_haveGainOne() {
-    const ViewGains gains = measure_view_gains(views(no_gain), {}, Progress(2));
+    const PhotometricCorrection gains = measure_view_gains(views(no_gain), {}, Progress(2));
 
     QVERIFY2(largest_error(gains, no_gain) < 0.01,
              qPrintable(QString::number(largest_error(gains, no_gain))));
@@ -115,7 +116,7 @@ class ViewGainTest : public QObject {
 
   void clippedPixels_doNotCount() {
     // A third of the pixels is cut off in the brightest views.
-    const ViewGains gains = measure_view_gains(views(some_gain, 1.7), {}, Progress(2));
+    const PhotometricCorrection gains = measure_view_gains(views(some_gain, 1.7), {}, Progress(2));
 
     QVERIFY2(largest_error(gains, some_gain) < 0.01,
              qPrintable(QString::number(largest_error(gains, some_gain))));
@@ -137,7 +138,7 @@ class ViewGainTest : public QObject {
       }
     }
 
-    const ViewGains gains = measure_view_gains(samples, valid, Progress(2));
+    const PhotometricCorrection gains = measure_view_gains(samples, valid, Progress(2));
 
     QVERIFY2(largest_error(gains, some_gain) < 0.01,
              qPrintable(QString::number(largest_error(gains, some_gain))));
@@ -146,7 +147,7 @@ class ViewGainTest : public QObject {
   void darkView_hasNoGain() {
     const ViewIndex dark{0, 6};
 
-    const ViewGains gains = measure_view_gains(
+    const PhotometricCorrection gains = measure_view_gains(
         views([&](ViewIndex view, int) { return view == dark ? 0.0 : 1.0; }), {}, Progress(2));
 
     QVERIFY(std::isnan(gains.of(dark)));
@@ -156,7 +157,7 @@ class ViewGainTest : public QObject {
   void mostDifferentView_isFound() {
     const ViewIndex odd{4, 1};
 
-    const ViewGains gains = measure_view_gains(
+    const PhotometricCorrection gains = measure_view_gains(
         views([&](ViewIndex view, int) { return view == odd ? 0.9 : 1.0; }), {}, Progress(2));
 
     QCOMPARE(gains.most_different(), odd);
@@ -165,9 +166,10 @@ class ViewGainTest : public QObject {
   void division_bringsTheViewsTogether() {
     LightField::Samples samples = views(some_gain);
     const LightField::Samples even = views(no_gain);
-    ViewGains gains{kGrid, 3};
+    PhotometricCorrection gains{.grid = kGrid};
     for (int i = 0; i < kGrid.count(); ++i) {
-      for (int c = 0; c < 3; ++c) gains.channel.push_back(some_gain(kGrid.view_at(i), c));
+      const ViewIndex view = kGrid.view_at(i);
+      gains.gains.push_back({some_gain(view, 0), some_gain(view, 1), some_gain(view, 2)});
     }
 
     const double clipped = divide_by_gains(samples, gains, Progress(2));
@@ -184,7 +186,9 @@ class ViewGainTest : public QObject {
     stack.view({0, 0}).at(1, 1) = 100;
     LightField::Samples samples = std::move(stack);
 
-    const double clipped = divide_by_gains(samples, {{1, 2}, 1, {0.5, 1}, {0.5, 1}}, Progress(1));
+    const PhotometricCorrection gains{.grid = {1, 2}, .gains = {{0.5, 0.5, 0.5}, {1, 1, 1}}};
+
+    const double clipped = divide_by_gains(samples, gains, Progress(1));
 
     QCOMPARE(clipped, 3.0 / 8);
     const auto& divided = std::get<ViewStack<std::uint8_t>>(samples);

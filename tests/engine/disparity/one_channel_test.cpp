@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One channel counts as three equal ones (channel_weight): gray scenes have no color to tell
 // surfaces apart, but no threshold is another there.
+#include "engine/core/view_gain.h"
 #include "engine/disparity/denoise.h"
-#include "engine/disparity/photometric_correction.h"
 #include "engine/disparity/plane_labeling.h"
 #include "engine/disparity/registry.h"
 #include "engine/disparity/visible_costs.h"
@@ -104,8 +104,8 @@ void OneChannelTest::gains_areThoseOfThree() {
   });
   const Pair pair = pair_of(uneven);
 
-  const Brightness one = brightness_of_means(pair.one, pair.one.center(), Progress());
-  const Brightness three = brightness_of_means(pair.three, pair.three.center(), Progress());
+  const PhotometricCorrection one = gains_of_means(pair.one, pair.one.center(), Progress());
+  const PhotometricCorrection three = gains_of_means(pair.three, pair.three.center(), Progress());
 
   QVERIFY(three.is_uneven());
   QVERIFY(one.is_uneven());

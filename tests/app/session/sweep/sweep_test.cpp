@@ -87,8 +87,7 @@ class SweepTest : public QObject {
     QVERIFY(other.change_px > 0);
     QCOMPARE(other.estimate->field.disparity.grid().count(), 1);
     const auto judged =
-        judge(*run_estimator(*scene->light_field, {"epi_l", {{"inner_scale", 1.2}}, {}}, Progress())
-                   .estimate,
+        judge(*run_estimator(*scene, {"epi_l", {{"inner_scale", 1.2}}, {}}, Progress()).estimate,
               *scene, {});
     QCOMPARE(measure_of(other, SweepMeasure::MseTimes100), find_metric(judged.metrics, "mse_100"));
     QVERIFY(measure_of(other, SweepMeasure::BadPix007).has_value());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/even_brightness.h"
+#include "engine/core/even_views.h"
 
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
@@ -55,10 +55,9 @@ class EvenBrightnessTest : public QObject {
   }
 
   void gains_areTakenOut() {
-    const auto kept = even_brightness(*uneven_, Progress());
-    const std::optional<EvenLightField>& even = *kept;
+    const auto even = EvenViews().of(*uneven_, Progress());
 
-    QVERIFY(even.has_value());
+    QVERIFY(even);
     QVERIFY2(even->note.find("evened out") != std::string::npos, even->note.c_str());
     for (int i = 0; i < 25; ++i) {
       const ViewIndex view = uneven_->grid().view_at(i);
@@ -70,33 +69,35 @@ class EvenBrightnessTest : public QObject {
 
   // Live runs a method at every change of a parameter.
   void evenViews_areMadeOnce_andCounted() {
-    const auto kept = even_brightness(*uneven_, Progress());
+    EvenViews views;
+    const auto kept = views.of(*uneven_, Progress());
 
-    QCOMPARE(even_brightness(*uneven_, Progress()).get(), kept.get());
-    QCOMPARE(uneven_->beside().bytes(), (*kept)->light_field.byte_size());
-    QCOMPARE(scene_.light_field->beside().bytes(), std::size_t{0});
+    QCOMPARE(views.of(*uneven_, Progress()).get(), kept.get());
+    QCOMPARE(views.bytes(), kept->light_field.byte_size());
+    QCOMPARE(scene_.even->bytes(), std::size_t{0});
   }
 
   // What was begun and stopped is begun anew.
   void stoppedMeasurement_isNotKept() {
     const LightField other = uneven(*scene_.light_field);
+    EvenViews views;
     std::stop_source stop;
     stop.request_stop();
     const Progress stopped(stop.get_token(), {}, 1);
 
-    QVERIFY_THROWS_EXCEPTION(Cancelled, (void)even_brightness(other, stopped));
+    QVERIFY_THROWS_EXCEPTION(Cancelled, (void)views.of(other, stopped));
 
-    QVERIFY(even_brightness(other, Progress())->has_value());
+    QVERIFY(views.of(other, Progress()));
   }
 
-  void viewsOfOneBrightness_stay() { QVERIFY(!*even_brightness(*scene_.light_field, Progress())); }
+  void viewsOfOneBrightness_stay() { QVERIFY(!scene_.even->of(*scene_.light_field, Progress())); }
 
   void whoKeepsThem_hasThemLeft() {
     LightFieldInfo info = uneven_->info();
     info.reading.options = {{kKeepBrightness, true}};
     LightField copy = uneven(*scene_.light_field);
 
-    QVERIFY(!*even_brightness(LightField(std::move(copy), std::move(info)), Progress()));
+    QVERIFY(!EvenViews().of(LightField(std::move(copy), std::move(info)), Progress()));
   }
 
   // Without, EPI methods lose most: a gain is a slope of all lines.

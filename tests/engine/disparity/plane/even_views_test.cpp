@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/photometric_correction.h"
+#include "engine/disparity/correction_of_points.h"
 
+#include "engine/core/view_gain.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 
@@ -49,7 +50,8 @@ void EvenViewsTest::gainsAndFallOff_areFound() {
   const LightField lf = uneven(scene);
   const DisparityView truth = scene.truth->field.view(lf.center());
 
-  const Brightness found = brightness_of_points(lf, lf.center(), truth.disparity, Progress());
+  const PhotometricCorrection found =
+      correction_of_points(lf, lf.center(), truth.disparity, Progress());
 
   QVERIFY(found.is_uneven());
   QVERIFY2(std::abs(found.fall_off - kFallOff) < 0.05, qPrintable(QString::number(found.fall_off)));
@@ -64,20 +66,20 @@ void EvenViewsTest::evenLightField_isKnownAsSuch() {
   const LightField& lf = *scene.light_field;
   const DisparityView truth = scene.truth->field.view(lf.center());
 
-  QVERIFY(!brightness_of_means(lf, lf.center(), Progress()).is_uneven());
-  QVERIFY(!brightness_of_points(lf, lf.center(), truth.disparity, Progress()).is_uneven());
+  QVERIFY(!gains_of_means(lf, lf.center(), Progress()).is_uneven());
+  QVERIFY(!correction_of_points(lf, lf.center(), truth.disparity, Progress()).is_uneven());
 }
 
 void EvenViewsTest::evenedViews_areAlike() {
   const Scene scene = render("fronto", 48, 48, {3, 3});
   const ViewStack<float> samples = float_samples(*scene.light_field);
-  Brightness brightness;
-  brightness.gains.assign(9, {0.5, 0.5, 0.5});
+  PhotometricCorrection correction;
+  correction.gains.assign(9, {0.5, 0.5, 0.5});
   const LightField dim = like(*scene.light_field, [&](ViewIndex view, int y, int x, int c) {
     return 0.5F * samples.view(view).at(y, x, c);
   });
 
-  const LightField evened = even_views(dim, brightness, Progress());
+  const LightField evened = corrected(dim, correction, Progress());
 
   QVERIFY(largest_difference(evened.view_as_float({0, 2}).view(), samples.view({0, 2})) < 1e-4);
 }

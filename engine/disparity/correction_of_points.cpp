@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/photometric_correction.h"
+#include "engine/disparity/correction_of_points.h"
 
 #include "engine/core/memory.h"
 #include "engine/core/numbers.h"
@@ -14,9 +14,6 @@
 namespace episcope {
 namespace {
 
-constexpr double kWorthwhileGain = 0.005;
-constexpr double kWorthwhileFallOff = 0.1;
-constexpr double kUnlikelyMeans = 0.005;
 // Samples that count: beyond, noise and saturation decide.
 constexpr float kDarkest = 0.04F, kBrightest = 0.97F;
 // Pixels between those that are looked at, and of a view about so many at most.
@@ -28,44 +25,6 @@ constexpr double kSmallStep = 1e-4;
 // Of log ratios, in medians of their size.
 constexpr float kRatioTolerance = 3, kLeastTolerance = 0.05F;
 constexpr double kMostFallOff = 0.9;
-
-double spread_of_gains(const Brightness& brightness) {
-  if (brightness.gains.empty()) return 0;
-  double sum = 0;
-  for (const auto& gain : brightness.gains) {
-    for (const double g : gain) sum += std::log(g) * std::log(g);
-  }
-  return std::sqrt(sum / (3.0 * static_cast<double>(brightness.gains.size())));
-}
-
-// Root mean square of log gains against the mean of the views on both sides, in that of gains
-// drawn one by one: what comes into views changes their means steadily.
-double unsteadiness(const Brightness& brightness, GridShape grid) {
-  double sum = 0;
-  int count = 0;
-  for (int i = 0; i < grid.count(); ++i) {
-    if (i % grid.u == 0 || i % grid.u == grid.u - 1) continue;
-    for (int c = 0; c < 3; ++c, ++count) {
-      const auto log = [&](int view) { return std::log(brightness.gains[view][c]); };
-      const double off = log(i) - 0.5 * (log(i - 1) + log(i + 1));
-      sum += off * off / 1.5;
-    }
-  }
-  return count > 0 ? std::sqrt(sum / count) : 0;
-}
-
-// r², 1 in the corners.
-class Radius {
- public:
-  Radius(int height, int width)
-      : y_(0.5 * (height - 1)), x_(0.5 * (width - 1)), corner_(std::max(1.0, x_ * x_ + y_ * y_)) {}
-  [[nodiscard]] double squared(double y, double x) const {
-    return ((y - y_) * (y - y_) + (x - x_) * (x - x_)) / corner_;
-  }
-
- private:
-  double y_, x_, corner_;
-};
 
 // What a point says of one view and channel: log of the ratio, and r² here and there.
 struct Ratio {
@@ -134,7 +93,7 @@ class Points {
     for (int c = 0; c < lf_.channels(); ++c) room[c] = ratios.room(first + c);
     std::array<std::size_t, 3> sizes{};
     const Image<float> there = lf_.view_as_float(view);
-    const Radius radius(lf_.height(), lf_.width());
+    const CornerRadius radius(lf_.height(), lf_.width());
     for (int y = 1; y < lf_.height(); y += stride_) {
       for (int x = 1; x < lf_.width(); x += stride_) {
         if (!lf_.is_valid(reference_, y, x)) continue;
@@ -240,50 +199,11 @@ double better_fall_off(const Ratios& ratios, const Logs& logs, double k, const P
   return std::clamp(k + sum.product / sum.square, -kMostFallOff, kMostFallOff);
 }
 
-// Of a view to another, `here`, over the pixels that are valid in both; 1 where nothing is known.
-std::array<double, 3> gains_of_means(const LightField& lf, ViewIndex view, ViewIndex reference,
-                                     const Image<float>& here) {
-  const Image<float> there = lf.view_as_float(view);
-  std::array<double, 3> sums{}, sums_here{}, gains{1, 1, 1};
-  for (int y = 0; y < lf.height(); ++y) {
-    for (int x = 0; x < lf.width(); ++x) {
-      if (!lf.is_valid(view, y, x) || !lf.is_valid(reference, y, x)) continue;
-      for (int c = 0; c < lf.channels(); ++c) {
-        sums[c] += there.at(y, x, c);
-        sums_here[c] += here.at(y, x, c);
-      }
-    }
-  }
-  for (int c = 0; c < lf.channels(); ++c) {
-    if (sums[c] > 0 && sums_here[c] > 0) gains[c] = sums[c] / sums_here[c];
-  }
-  if (lf.channels() == 1) gains.fill(gains[0]);
-  return gains;
-}
-
 }  // namespace
 
-bool Brightness::is_uneven() const {
-  return spread_of_gains(*this) > kWorthwhileGain || std::abs(fall_off) > kWorthwhileFallOff;
-}
-
-Brightness brightness_of_means(const LightField& lf, ViewIndex reference,
-                               const Progress& progress) {
-  const GridShape grid = lf.grid();
-  Brightness brightness;
-  brightness.gains.assign(grid.count(), {1, 1, 1});
-  const Image<float> here = lf.view_as_float(reference);
-  parallel_for(grid.count(), progress, [&](int i) {
-    brightness.gains[i] = gains_of_means(lf, grid.view_at(i), reference, here);
-    lf.forget_samples();
-  });
-  if (unsteadiness(brightness, grid) < kUnlikelyMeans)
-    brightness.gains.assign(grid.count(), {1, 1, 1});
-  return brightness;
-}
-
-Brightness brightness_of_points(const LightField& lf, ViewIndex reference,
-                                ImageView<const float> disparity, const Progress& progress) {
+PhotometricCorrection correction_of_points(const LightField& lf, ViewIndex reference,
+                                           ImageView<const float> disparity,
+                                           const Progress& progress) {
   const GridShape grid = lf.grid();
   const int channels = lf.channels();
   const Points points(lf, reference, disparity);
@@ -293,47 +213,23 @@ Brightness brightness_of_points(const LightField& lf, ViewIndex reference,
     points.add_ratios(grid.view_at(i), static_cast<std::size_t>(i) * channels, ratios);
     lf.forget_samples();
   });
-  Brightness brightness;
-  Logs corrected(ratios.channels(), ratios.most());
-  remove_fall_off(ratios, 0, progress, corrected);
+  PhotometricCorrection correction{.grid = grid};
+  Logs evened(ratios.channels(), ratios.most());
+  remove_fall_off(ratios, 0, progress, evened);
   for (int i = 0; i < kRounds; ++i) {
-    const double before = brightness.fall_off;
-    brightness.fall_off = better_fall_off(ratios, corrected, before, progress);
-    remove_fall_off(ratios, brightness.fall_off, progress, corrected);
-    if (std::abs(brightness.fall_off - before) < kSmallStep) break;
+    const double before = correction.fall_off;
+    correction.fall_off = better_fall_off(ratios, evened, before, progress);
+    remove_fall_off(ratios, correction.fall_off, progress, evened);
+    if (std::abs(correction.fall_off - before) < kSmallStep) break;
   }
-  const std::vector<double> logs = medians(corrected, progress);
-  brightness.gains.assign(grid.count(), {1, 1, 1});
+  const std::vector<double> logs = medians(evened, progress);
+  correction.gains.assign(grid.count(), {1, 1, 1});
   for (int i = 0; i < grid.count(); ++i) {
     for (int c = 0; c < 3; ++c) {
-      brightness.gains[i][c] = std::exp(logs[i * channels + std::min(c, channels - 1)]);
+      correction.gains[i][c] = std::exp(logs[i * channels + std::min(c, channels - 1)]);
     }
   }
-  return brightness;
-}
-
-LightField even_views(const LightField& lf, const Brightness& brightness,
-                      const Progress& progress) {
-  ViewStack<std::uint16_t> samples(lf.grid(), lf.height(), lf.width(), lf.channels());
-  const Radius radius(lf.height(), lf.width());
-  parallel_for(lf.grid().count(), progress, [&](int i) {
-    const ViewIndex view = lf.grid().view_at(i);
-    const ImageView<std::uint16_t> out = samples.view(view);
-    std::vector<float> row(static_cast<std::size_t>(lf.width()) * lf.channels());
-    for (int y = 0; y < lf.height(); ++y) {
-      lf.read_row(view, y, 0, lf.width(), row.data());
-      std::size_t k = 0;
-      for (int x = 0; x < lf.width(); ++x) {
-        const double light = 1 - brightness.fall_off * radius.squared(y, x);
-        for (int c = 0; c < lf.channels(); ++c, ++k) {
-          const auto factor = static_cast<float>(1 / (light * brightness.gains[i][c]));
-          out.row(y)[k] = to_word_sample(row[k] * factor);
-        }
-      }
-    }
-    lf.forget_samples();
-  });
-  return {std::move(samples), lf.info(), lf.valid().clone()};
+  return correction;
 }
 
 }  // namespace episcope
