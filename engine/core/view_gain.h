@@ -15,7 +15,7 @@ enum class GainBlocks { All, OneOfFour };
 
 /// Measures the gains of views against each other.
 ///
-/// The brightness of blocks of a tenth of the image is compared in every two neighbouring views.
+/// The brightness of blocks of a tenth of the image is compared in every two neighboring views.
 /// The median of the ratios of a pair is its gain; the gains of the views fit those of all pairs
 /// best (least squares of logarithms). A block is compared at the shift of up to 6 px at which the
 /// ratio varies least from pixel to pixel, which does not depend on the gain. Invalid, dark and
@@ -32,7 +32,7 @@ enum class GainBlocks { All, OneOfFour };
 
 /// Gains by the means of whole views alone, before anything is known of their disparity. Objects
 /// that come into a view change its mean as well, but steadily from view to view: where means are
-/// off the mean of their neighbours' in a row by no more than 0.5 % gains would explain, all gains
+/// off the mean of their neighbors' in a row by no more than 0.5 % gains would explain, all gains
 /// are 1. Throws Cancelled.
 [[nodiscard]] PhotometricCorrection gains_of_means(const LightField& light_field,
                                                    ViewIndex reference, const Progress& progress);

@@ -79,7 +79,7 @@ LabelingDisparity disparity_for(const PaintedScene& painted, FeatureSet features
       source.kept.empty() || features == FeatureSet::ImageTruth ? "" : kept_file(painted, source);
   if (features != FeatureSet::ImageTruth && (file.empty() || !std::filesystem::exists(file))) {
     const EstimatePtr estimate =
-        run_estimator(*painted.scene.light_field, {source.method, {}, {}}, Progress()).estimate;
+        run_estimator(painted.scene, {source.method, {}, {}}, Progress()).estimate;
     if (!file.empty()) io::write_result(file, *estimate, Progress());
     return {{estimate, &estimate->field}, source.method, estimate};
   }
