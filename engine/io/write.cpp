@@ -251,7 +251,7 @@ void compare_camera(const LightFieldInfo& info, const FormContents& holds, Losse
 
 }  // namespace
 
-std::vector<std::string> left_out(const Writer& writer, const Scene& scene) {
+std::vector<std::string> unsupported_parts(const Writer& writer, const Scene& scene) {
   const LightField& field = *scene.light_field;
   const GroundTruth& truth = *scene.truth;
   const FormContents& holds = writer.holds;

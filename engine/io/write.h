@@ -68,7 +68,7 @@ struct Writer {
 [[nodiscard]] const Writer* writer_of(const std::filesystem::path& path);
 
 /// Lists the parts of a scene that the form cannot hold, a sentence for each kind.
-[[nodiscard]] std::vector<std::string> left_out(const Writer& writer, const Scene& scene);
+[[nodiscard]] std::vector<std::string> unsupported_parts(const Writer& writer, const Scene& scene);
 
 /// Writes the views as one PNG of lenslets: pixel (x, y) of view (v, u) at (x·columns + u,
 /// y·rows + v), 8 or 16 bit as they are. Truth, labels and the camera have no place in it. Atomic.

@@ -160,7 +160,7 @@ void write(ConvertSubject& subject, const ConvertRequest& request, const Target&
   progress.step("writing " + request.output);
   if (target.writer == nullptr) return write_map(subject, request, target.map);
   const Scene scene = scene_to_write(subject);
-  for (const std::string& sentence : io::left_out(*target.writer, scene)) job.note(sentence);
+  for (const std::string& sentence : io::unsupported_parts(*target.writer, scene)) job.note(sentence);
   target.writer->write(request.output, scene, progress);
 }
 

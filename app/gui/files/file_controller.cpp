@@ -485,7 +485,7 @@ void save_light_field(const Workbench& bench, const io::Writer& writer, const QS
       Lane::Export, SaveFormsText::tr("Writing %1").arg(QFileInfo(path).fileName()),
       [scene, file, &writer](const Progress& progress) {
         writer.write(file, *scene, progress);
-        return io::left_out(writer, *scene);
+        return io::unsupported_parts(writer, *scene);
       },
       [&messages = bench.messages, path](const std::vector<std::string>& losses) {
         if (losses.empty()) return messages.written(path);

@@ -71,7 +71,7 @@ class RoundTripTest : public QObject {
       const std::string found = difference(scene, writer.holds, read);
       QVERIFY2(found.empty(), (found + " | " + describe(read.convention)).c_str());
       // What is read back, the form holds: nothing more is left out.
-      QCOMPARE(io::left_out(writer, read).size(), std::size_t{0});
+      QCOMPARE(io::unsupported_parts(writer, read).size(), std::size_t{0});
     } catch (const Error& error) {
       QFAIL(error.what());
     }
@@ -118,7 +118,7 @@ class RoundTripTest : public QObject {
   void whatAFormCannotHold_isSaidOncePerKind() {
     Scene scene = round_trip_scenes()[4].make();  // float, with a mask
 
-    const auto sentences = io::left_out(*io::writer_named("benchmark"), scene);
+    const auto sentences = io::unsupported_parts(*io::writer_named("benchmark"), scene);
 
     QCOMPARE(sentences.size(), std::size_t{4});
     const char* expected[] = {"The benchmark form holds no float samples; they are rounded",

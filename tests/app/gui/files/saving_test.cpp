@@ -48,7 +48,7 @@ void SavingTest::everyForm_isWritten() {
   QTRY_VERIFY2_WITH_TIMEOUT(message(f).startsWith("Written: "), qPrintable(message(f)), kPatience);
   const Scene scene = io::open_scene(name.toStdString(), {}, Progress());
   QCOMPARE(scene.light_field->sample_hash(), f.window.bench().session.light_field()->sample_hash());
-  const auto losses = io::left_out(writer, *f.window.bench().session.scene());
+  const auto losses = io::unsupported_parts(writer, *f.window.bench().session.scene());
   for (const std::string& sentence : losses) {
     QVERIFY2(message(f).contains(QString::fromStdString(sentence)), qPrintable(message(f)));
   }
