@@ -5,7 +5,7 @@
 #include "app/session/run_estimator.h"
 #include "app/session/scheduling.h"
 #include "engine/core/error.h"
-#include "engine/labeling/pixel_features.h"
+#include "engine/labeling/labeler.h"
 
 #include <algorithm>
 #include <utility>

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <set>
 #include <utility>
 
 namespace episcope {
@@ -81,6 +82,17 @@ bool covers(const ViewStack<float>& maps, ViewRectangle views) {
   return maps.contains(views.first) && maps.contains(views.grid.view_at(last, views.first));
 }
 
+void require_fit(const ViewScribbles& painted, const LightField& lf) {
+  if (lf.grid().contains(painted.view) && painted.labels.height() == lf.height() &&
+      painted.labels.width() == lf.width()) {
+    return;
+  }
+  throw InvalidInput(fmt::format(
+      "scribbles of {}×{} px on view {} do not fit the light field {} of {}×{} views of {}×{} px",
+      painted.labels.width(), painted.labels.height(), view_text(painted.view), lf.info().name,
+      lf.grid().v, lf.grid().u, lf.width(), lf.height()));
+}
+
 /// What was learned from strokes; borrows it.
 struct Learned {
   const Scribbles& scribbles;
@@ -90,6 +102,26 @@ struct Learned {
 };
 
 }  // namespace
+
+std::vector<std::int32_t> painted_labels(const Scribbles& scribbles, const LightField& lf) {
+  std::set<std::int32_t> found;
+  for (const ViewScribbles& painted : scribbles.views) {
+    require_fit(painted, lf);
+    std::int32_t last = 0;
+    for (const std::int32_t label : painted.labels) {
+      if (label != last && label > 0) found.insert(label);
+      last = label;
+    }
+  }
+  if (found.empty()) {
+    throw InvalidInput("nothing is painted yet; paint strokes of at least two labels");
+  }
+  if (found.size() == 1) {
+    throw InvalidInput(
+        fmt::format("only label {} is painted; paint a second one as well", *found.begin()));
+  }
+  return {found.begin(), found.end()};
+}
 
 struct Labeler::State {
   LightFieldPtr light_field;

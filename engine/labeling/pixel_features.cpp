@@ -15,7 +15,6 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -391,41 +390,6 @@ ColorPlanes filter_surfaces(const ColorPlanes& colors, const SurfaceFilter& filt
     };
   });
   return out;
-}
-
-namespace {
-
-void require_fit(const ViewScribbles& painted, const LightField& lf) {
-  if (lf.grid().contains(painted.view) && painted.labels.height() == lf.height() &&
-      painted.labels.width() == lf.width()) {
-    return;
-  }
-  throw InvalidInput(fmt::format(
-      "scribbles of {}×{} px on view {} do not fit the light field {} of {}×{} views of {}×{} px",
-      painted.labels.width(), painted.labels.height(), view_text(painted.view), lf.info().name,
-      lf.grid().v, lf.grid().u, lf.width(), lf.height()));
-}
-
-}  // namespace
-
-std::vector<std::int32_t> painted_labels(const Scribbles& scribbles, const LightField& lf) {
-  std::set<std::int32_t> found;
-  for (const ViewScribbles& painted : scribbles.views) {
-    require_fit(painted, lf);
-    std::int32_t last = 0;
-    for (const std::int32_t label : painted.labels) {
-      if (label != last && label > 0) found.insert(label);
-      last = label;
-    }
-  }
-  if (found.empty()) {
-    throw InvalidInput("nothing is painted yet; paint strokes of at least two labels");
-  }
-  if (found.size() == 1) {
-    throw InvalidInput(
-        fmt::format("only label {} is painted; paint a second one as well", *found.begin()));
-  }
-  return {found.begin(), found.end()};
 }
 
 void append_samples(const ViewScribbles& painted, VolumeView<const float> features,

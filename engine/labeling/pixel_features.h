@@ -100,11 +100,6 @@ struct SurfaceFilter {
 [[nodiscard]] ColorPlanes filter_surfaces(const ColorPlanes& colors, const SurfaceFilter& filter,
                                           const Progress& progress);
 
-/// Ids that are painted on any view, ascending. Throws InvalidInput if nothing or only one label is
-/// painted, or if scribbles do not fit the light field.
-[[nodiscard]] std::vector<std::int32_t> painted_labels(const Scribbles& scribbles,
-                                                       const LightField& light_field);
-
 /// Appends the painted pixels of a view; `ids` (ascending) gives the index of each label.
 /// Occasional features are the place, because short strokes say little about where the rest of a
 /// label is, and the slope of disparity, because strokes lie in the middle of objects, but all of a
