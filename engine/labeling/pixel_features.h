@@ -10,12 +10,14 @@
 #include "engine/core/volume.h"
 #include "engine/labeling/forest.h"
 
-#include <opencv2/core.hpp>
-
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+namespace cv {
+class Mat;
+}
 
 namespace episcope {
 

@@ -5,6 +5,8 @@
 #include "engine/labeling/pixel_features.h"
 #include "engine/labeling/regularizer.h"
 
+#include <opencv2/core.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
