@@ -11,8 +11,8 @@ ENGINE_PACKAGES="g++ cmake ninja-build libcli11-dev $LIBRARY_PACKAGES"
 WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev qt6-l10n-tools libvtk9-dev
   libgl1-mesa-dri"
 WAYLAND_PACKAGES="qt6-wayland"
-TEST_PACKAGES="ccache libbenchmark-dev libopencv-contrib-dev xvfb xauth"
-# What making the manual takes, beside a display.
+TEST_PACKAGES="ccache libbenchmark-dev libopencv-contrib-dev mkdocs xvfb xauth"
+# What making the manual as web pages takes.
 MANUAL_PACKAGES="mkdocs doxygen"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
 # What making and trying packages takes.
