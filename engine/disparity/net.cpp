@@ -1,0 +1,520 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/net.h"
+
+#include "engine/core/error.h"
+#include "engine/core/isa.h"
+#include "engine/core/parallel.h"
+#include "engine/core/volume.h"
+#include "engine/disparity/kernels/net_kernel.h"
+#include "engine/disparity/net_evidence.h"
+#include "engine/disparity/net_layers.h"
+#include "engine/disparity/net_windows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace episcope {
+
+namespace {
+
+// Constants of the network: resources/training/README.md.
+constexpr double kLabelStep = 0.1;
+constexpr int kPeak = 2;        // Labels on either side that a mode is made of,
+constexpr int kApart = 3;       // and how far the second mode is at least.
+constexpr float kNear = 0.1F;   // Hypotheses so near count as one.
+constexpr float kOther = 0.3F;  // A second hypothesis is so far at least.
+constexpr float kLeastLog = -12;
+constexpr int kReduced = 8;  // Numbers that evidence of one disparity is reduced to.
+constexpr int kOffsets = 5;
+constexpr float kOffset[kOffsets] = {0, -1, -0.5F, 0.5F, 1};  // In steps of a refinement.
+constexpr float kSteps[2] = {0.25F, 0.06F};
+constexpr float kReach = 1.5F;  // Steps that a refinement moves at most.
+
+// A view, its guide and what the network knows by heart.
+struct Scene {
+  const LightField& light_field;
+  ViewIndex view;
+  const NetWeights& weights;
+  Image<float> guide;
+
+  [[nodiscard]] int height() const { return light_field.height(); }
+  [[nodiscard]] int width() const { return light_field.width(); }
+  [[nodiscard]] NetShape shape(int channels, int depth = 1) const {
+    return {channels, depth, height(), width()};
+  }
+};
+
+// The labels of the volume and what it makes of them.
+struct Labels {
+  float first = 0;
+  float step = 0;
+  int count = 0;
+};
+
+struct Beliefs {
+  Labels labels;
+  Volume<float> log;  // Log-probabilities.
+  Image<float> own;
+  Image<float> second;
+};
+
+struct Selected {
+  Image<float> mode;
+  Image<float> probability;
+  Image<float> second;
+  Image<float> second_probability;
+  Image<float> to_mean;  // From the mode to the mean of all hypotheses.
+};
+
+Interval range_of(const Image<float>& map) {
+  const auto [least, most] = std::minmax_element(map.begin(), map.end());
+  return {*least, *most};
+}
+
+// Layers one after the other.
+int add_chain(NetStream& stream, const NetWeights& weights, int input,
+              std::initializer_list<std::string> names) {
+  for (const std::string& name : names) {
+    input = stream.add_convolution(weights.layer(name), input);
+  }
+  return input;
+}
+
+// A layer of 1×1, then its output twice as large plus another, then a layer of it.
+int add_ascent(NetStream& stream, const NetWeights& weights, int input, int plus,
+               const std::array<std::string, 2>& names) {
+  const int reduced = stream.add_convolution(weights.layer(names[0]), input);
+  const int sum = stream.add_enlarged(reduced, plus);
+  return stream.add_convolution(weights.layer(names[1]), sum);
+}
+
+// Volume.
+
+int add_volume(NetStream& stream, const NetWeights& weights, int evidence, int image) {
+  const std::string v = "volume.";
+  const int map = add_chain(stream, weights, image, {v + "image.0", v + "image.1", v + "image.2"});
+  const int input = stream.add_convolution(weights.layer(v + "input"), evidence, {map, -1});
+  const int x0 = stream.add_convolution(weights.layer(v + "e0"), input, {-1, input});
+  const int x1 = add_chain(stream, weights, x0, {v + "d1", v + "e1"});
+  const int x2 = add_chain(stream, weights, x1, {v + "d2", v + "e2.0", v + "e2.1"});
+  const int x3 = add_chain(stream, weights, x2, {v + "d3", v + "e3.0", v + "e3.1"});
+  const int y2 = add_ascent(stream, weights, x3, x2, {v + "u2", v + "f2"});
+  const int y1 = add_ascent(stream, weights, y2, x1, {v + "u1", v + "f1"});
+  const int y0 = add_ascent(stream, weights, y1, x0, {v + "u0", v + "f0"});
+  return stream.add_convolution(weights.layer(v + "head"), y0);
+}
+
+// The disparity of the labels around one of them, weighted by their probabilities.
+float peak_at(std::span<const float> probabilities, int at, const Labels& labels) {
+  const int begin = std::max(at - kPeak, 0), end = std::min(at + kPeak + 1, labels.count);
+  float sum = 0, weighted = 0;
+  for (int i = begin; i < end; ++i) {
+    sum += probabilities[i];
+    weighted += probabilities[i] * static_cast<float>(i);
+  }
+  return labels.first + weighted / sum * labels.step;
+}
+
+// Softmax and modes of one pixel; `logits` become log-probabilities.
+void find_modes(std::span<float> logits, std::span<float> probabilities, const Labels& labels,
+                float& own, float& second) {
+  const float most = *std::ranges::max_element(logits);
+  float sum = 0;
+  for (int i = 0; i < labels.count; ++i) sum += probabilities[i] = std::exp(logits[i] - most);
+  const float log_sum = std::log(sum);
+  for (float& logit : logits) logit = logit - most - log_sum;
+  const int first = static_cast<int>(std::ranges::max_element(logits) - logits.begin());
+  int other = -1;
+  for (int i = 0; i < labels.count; ++i) {
+    if (std::abs(i - first) > kApart && (other < 0 || logits[i] > logits[other])) other = i;
+  }
+  own = peak_at(probabilities, first, labels);
+  second = peak_at(probabilities, other, labels);
+}
+
+void take_logits(const NetRows& rows, int y, Beliefs& beliefs) {
+  const int count = beliefs.labels.count;
+  std::vector<float> logits(count), probabilities(count);
+  const VolumeView<float> log = beliefs.log.view();
+  for (int x = 0; x < log.width; ++x) {
+    for (int i = 0; i < count; ++i) logits[i] = rows.at(y, i)[x * rows.step()];
+    find_modes(logits, probabilities, beliefs.labels, beliefs.own.at(y, x),
+               beliefs.second.at(y, x));
+    for (int i = 0; i < count; ++i) log.at(y, i, x) = logits[i];
+  }
+}
+
+Beliefs run_volume(const Scene& scene, Interval range, const Progress& progress) {
+  progress.step("volume");
+  const int count = net_label_count(range);
+  const auto first = static_cast<float>(range.min), last = static_cast<float>(range.max);
+  Beliefs beliefs{{first, (last - first) / static_cast<float>(count - 1), count},
+                  Volume<float>(scene.height(), count, scene.width()),
+                  Image<float>(scene.height(), scene.width()),
+                  Image<float>(scene.height(), scene.width())};
+  NetEvidence evidence(scene.light_field, scene.view, range);
+  const auto label = [&](int i) {
+    return first + (last - first) * (static_cast<float>(i) / static_cast<float>(count - 1));
+  };
+  NetStream stream;
+  const int volume = stream.add_source(
+      scene.shape(kNetEvidence, count),
+      [&](int y, int z, float* out) { evidence.compute(y, label(z), out, kNetEvidence); },
+      [&](int begin, int end, const Progress& part) { evidence.hold(begin, end, part); });
+  const int image = stream.add_source(scene.shape(kNetGuide), [&](int y, int, float* out) {
+    for (int x = 0; x < scene.width(); ++x) {
+      std::copy_n(&scene.guide.at(y, x), kNetGuide, out + x * kNetGroup);
+    }
+  });
+  stream.run(
+      add_volume(stream, scene.weights, volume, image), kNetBand,
+      [&](int y, const NetRows& rows) { take_logits(rows, y, beliefs); }, progress);
+  return beliefs;
+}
+
+// Log-probability of a disparity, linear between labels.
+float log_at(const Beliefs& beliefs, int y, int x, float disparity) {
+  const Labels& labels = beliefs.labels;
+  const float at = std::clamp((disparity - labels.first) / labels.step, 0.0F,
+                              static_cast<float>(labels.count - 1));
+  const int i = std::min(static_cast<int>(at), labels.count - 2);
+  const float part = at - static_cast<float>(i);
+  const VolumeView<const float> log = beliefs.log.view();
+  return log.at(y, i, x) * (1 - part) + log.at(y, i + 1, x) * part;
+}
+
+// Selection and refinement.
+
+float squash(float disparity) {
+  return std::copysign(0.4F * std::log1p(std::abs(disparity) / 0.05F), disparity);
+}
+
+// The two layers of 1×1 that reduce evidence at a pixel, row by row.
+class Reduction {
+ public:
+  Reduction(const NetWeights& weights, const std::string& name, int width)
+      : first_(weights.layer(name + "reduce.a")),
+        second_(weights.layer(name + "reduce.b")),
+        width_(width),
+        inner_(static_cast<std::size_t>(width) * kNetGroup),
+        reduced_(inner_.size()) {}
+
+  // kReduced numbers for each pixel into `out`, `step` apart.
+  void operator()(const float* evidence, float* out, int step) {
+    convolve(first_, evidence, inner_.data());
+    convolve(second_, inner_.data(), reduced_.data());
+    for (int x = 0; x < width_; ++x) {
+      std::copy_n(&reduced_[static_cast<std::size_t>(x) * kNetGroup], kReduced,
+                  out + static_cast<long>(x) * step);
+    }
+  }
+
+ private:
+  void convolve(const NetLayer& layer, const float* from, float* to) const {
+    NetConvolutionRow row;
+    row.taps[0] = {from, layer.weights_data()};
+    row.tap_count = 1;
+    row.inputs = layer.form.inputs;
+    row.columns = width_;
+    row.outputs = whole_groups(layer.form.outputs);
+    row.group_stride = layer.group_stride();
+    row.bias = layer.bias_data();
+    row.is_leaky = true;
+    row.out = to;
+    EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel).convolve(row);
+  }
+
+  const NetLayer& first_;
+  const NetLayer& second_;
+  int width_;
+  std::vector<float> inner_;
+  std::vector<float> reduced_;
+};
+
+using Hypotheses = std::array<Image<float>, kNetHypotheses>;
+
+constexpr int kSelectionInputs = kNetHypotheses * (kReduced + 2) + kNetGuide;
+
+// Inputs of the selection besides the evidence, at one pixel.
+void write_hypotheses(const Scene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
+                      int y, int x, float* out) {
+  for (int i = 0; i < kNetHypotheses; ++i) {
+    const float log = beliefs ? log_at(*beliefs, y, x, hypotheses[i].at(y, x)) : 0;
+    *out++ = std::clamp(log, kLeastLog, 0.0F) / 4;
+  }
+  for (int i = 1; i < kNetHypotheses; ++i) {
+    *out++ = squash(hypotheses[i].at(y, x) - hypotheses[0].at(y, x));
+  }
+  *out++ = beliefs ? 1 : 0;
+  std::copy_n(&scene.guide.at(y, x), kNetGuide, out);
+}
+
+int add_selection(NetStream& stream, const NetWeights& weights, int input) {
+  const std::string s = "selection.";
+  const int x0 = add_chain(stream, weights, input, {s + "i.0", s + "i.1"});
+  const int x1 = add_chain(stream, weights, x0, {s + "d1.0", s + "d1.1"});
+  const int x2 = add_chain(stream, weights, x1, {s + "d2.0", s + "d2.1", s + "d2.2", s + "d2.3"});
+  const int y1 = add_ascent(stream, weights, x2, x1, {s + "u1", s + "f1"});
+  const int y0 = add_ascent(stream, weights, y1, x0, {s + "u0", s + "f0"});
+  return stream.add_convolution(weights.layer(s + "head"), y0);
+}
+
+float kernel_of(float distance) {
+  return std::exp(-(distance / kNear) * (distance / kNear));
+}
+
+// Decides for one pixel by the logits of its hypotheses.
+void decide(const float* logits, const std::array<float, kNetHypotheses>& h, Selected& selected,
+            int y, int x) {
+  std::array<float, kNetHypotheses> weight, score{};
+  const float most = *std::max_element(logits, logits + kNetHypotheses);
+  float sum = 0, mean = 0;
+  for (int i = 0; i < kNetHypotheses; ++i) sum += weight[i] = std::exp(logits[i] - most);
+  for (int i = 0; i < kNetHypotheses; ++i) {
+    weight[i] /= sum;
+    mean += weight[i] * h[i];
+  }
+  for (int i = 0; i < kNetHypotheses; ++i) {
+    for (int j = 0; j < kNetHypotheses; ++j) score[i] += kernel_of(h[i] - h[j]) * weight[j];
+  }
+  const auto best = std::ranges::max_element(score) - score.begin();
+  float near = 0, weighted = 0;
+  int other = -1;
+  for (int i = 0; i < kNetHypotheses; ++i) {
+    const float share = weight[i] * kernel_of(h[i] - h[best]);
+    near += share;
+    weighted += share * h[i];
+    const bool is_far = !(std::abs(h[i] - h[best]) < kOther);
+    if (is_far && (other < 0 || score[i] > score[other])) other = i;
+  }
+  const float mode = weighted / std::max(near, 1e-9F);
+  const bool has_other = other >= 0 && score[other] > 0;
+  selected.mode.at(y, x) = mode;
+  selected.probability.at(y, x) = std::min(score[best], 1.0F);
+  selected.second.at(y, x) = has_other ? h[other] : mode;
+  selected.second_probability.at(y, x) = has_other ? std::min(score[other], 1.0F) : 0;
+  selected.to_mean.at(y, x) = mean - mode;
+}
+
+void take_selection(const NetRows& rows, int y, const Hypotheses& hypotheses, Selected& selected) {
+  for (int x = 0; x < selected.mode.width(); ++x) {
+    std::array<float, kNetHypotheses> h;
+    for (int i = 0; i < kNetHypotheses; ++i) h[i] = hypotheses[i].at(y, x);
+    decide(rows.at(y, 0) + x * rows.step(), h, selected, y, x);
+  }
+}
+
+Interval range_of(const Hypotheses& hypotheses) {
+  Interval all = range_of(hypotheses[0]);
+  for (const Image<float>& map : hypotheses) {
+    const Interval one = range_of(map);
+    all = {std::min(all.min, one.min), std::max(all.max, one.max)};
+  }
+  return all;
+}
+
+Selected run_selection(const Scene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
+                       const Progress& progress) {
+  progress.step("selection");
+  const Image<float> blank(scene.height(), scene.width());
+  Selected selected{blank, blank, blank, blank, blank};
+  NetEvidence evidence(scene.light_field, scene.view, range_of(hypotheses));
+  NetStream stream;
+  const int step = whole_groups(kSelectionInputs);
+  const int input = stream.add_source(
+      scene.shape(kSelectionInputs),
+      [&](int y, int, float* out) {
+        Reduction reduce(scene.weights, "selection.", scene.width());
+        std::vector<float> row(static_cast<std::size_t>(scene.width()) * kNetEvidence);
+        for (int i = 0; i < kNetHypotheses; ++i) {
+          evidence.compute(y, hypotheses[i].row(y), row.data(), kNetEvidence);
+          reduce(row.data(), out + i * kReduced, step);
+        }
+        for (int x = 0; x < scene.width(); ++x) {
+          write_hypotheses(scene, hypotheses, beliefs, y, x,
+                           out + x * step + kNetHypotheses * kReduced);
+        }
+      },
+      [&](int begin, int end, const Progress& part) { evidence.hold(begin, end, part); });
+  stream.run(
+      add_selection(stream, scene.weights, input), kNetBand,
+      [&](int y, const NetRows& rows) { take_selection(rows, y, hypotheses, selected); }, progress);
+  return selected;
+}
+
+constexpr int kWindows = 3;
+constexpr int kRefinementInputs = kOffsets * kReduced + kWindows + 1 + kNetGuide;
+
+struct Refined {
+  Image<float> disparity;
+  Image<float> confidence;
+};
+
+// What a refinement begins with.
+struct Unrefined {
+  const Image<float>& disparity;
+  const Image<float>& probability;
+  std::array<Image<float>, kWindows> windows;
+};
+
+// Evidence of a row at offsets from its disparities, the first as it is, others less the first.
+class OffsetEvidence {
+ public:
+  OffsetEvidence(const Scene& scene, const NetEvidence& evidence, const std::string& name)
+      : evidence_(evidence),
+        reduce_(scene.weights, name, scene.width()),
+        disparities_(scene.width()),
+        first_(static_cast<std::size_t>(scene.width()) * kNetEvidence),
+        other_(first_.size()) {}
+
+  void write(const float* disparities, int y, float step, float* out, int out_step) {
+    evidence_.compute(y, disparities, first_.data(), kNetEvidence);
+    reduce_(first_.data(), out, out_step);
+    for (int i = 1; i < kOffsets; ++i) {
+      for (std::size_t x = 0; x < disparities_.size(); ++x) {
+        disparities_[x] = disparities[x] + kOffset[i] * step;
+      }
+      evidence_.compute(y, disparities_.data(), other_.data(), kNetEvidence);
+      for (std::size_t j = 0; j < other_.size(); ++j) other_[j] = (other_[j] - first_[j]) * 4;
+      reduce_(other_.data(), out + i * kReduced, out_step);
+    }
+  }
+
+ private:
+  const NetEvidence& evidence_;
+  Reduction reduce_;
+  std::vector<float> disparities_;
+  std::vector<float> first_;
+  std::vector<float> other_;
+};
+
+int add_refinement(NetStream& stream, const NetWeights& weights, int input, const std::string& r) {
+  const int x0 = add_chain(stream, weights, input, {r + "i.0", r + "i.1"});
+  const int y =
+      add_chain(stream, weights, x0, {r + "d1.0", r + "d1.1", r + "d1.2", r + "d1.3", r + "u0"});
+  return add_chain(stream, weights, stream.add_enlarged(y, x0),
+                   {r + "f0.0", r + "f0.1", r + "head"});
+}
+
+void write_surroundings(const Scene& scene, const Unrefined& from, int y, int x, float* out) {
+  for (const Image<float>& window : from.windows) {
+    *out++ = squash(window.at(y, x) - from.disparity.at(y, x));
+  }
+  *out++ = from.probability.at(y, x);
+  std::copy_n(&scene.guide.at(y, x), kNetGuide, out);
+}
+
+void take_refined(const NetRows& rows, int y, float step, const Image<float>& from,
+                  Refined& refined) {
+  for (int x = 0; x < from.width(); ++x) {
+    const float* const out = rows.at(y, 0) + x * rows.step();
+    refined.disparity.at(y, x) = from.at(y, x) + step * kReach * std::tanh(out[0]);
+    refined.confidence.at(y, x) = 1 / (1 + std::exp(-out[1]));
+  }
+}
+
+Refined run_refinement(const Scene& scene, int number, const Image<float>& disparity,
+                       const Image<float>& probability, const Progress& progress) {
+  progress.step("refinement");
+  const std::string name = "refinement." + std::to_string(number) + ".";
+  const float step = kSteps[number];
+  const Unrefined from{disparity,
+                       probability,
+                       {window_most(disparity, 5, progress.part(0, 0)),
+                        window_least(disparity, 5, progress.part(0, 0)),
+                        window_median(disparity, 1, progress.part(0, 0))}};
+  const Interval range = range_of(disparity);
+  NetEvidence evidence(scene.light_field, scene.view, {range.min - step, range.max + step});
+  Refined refined{disparity, disparity};
+  NetStream stream;
+  const int out_step = whole_groups(kRefinementInputs);
+  const int input = stream.add_source(
+      scene.shape(kRefinementInputs),
+      [&](int y, int, float* out) {
+        OffsetEvidence(scene, evidence, name).write(disparity.row(y), y, step, out, out_step);
+        for (int x = 0; x < scene.width(); ++x) {
+          write_surroundings(scene, from, y, x, out + x * out_step + kOffsets * kReduced);
+        }
+      },
+      [&](int begin, int end, const Progress& part) { evidence.hold(begin, end, part); });
+  stream.run(
+      add_refinement(stream, scene.weights, input, name), kNetBand,
+      [&](int y, const NetRows& rows) { take_refined(rows, y, step, disparity, refined); },
+      progress);
+  return refined;
+}
+
+NetMaps refine(const Scene& scene, Selected selected, Silhouettes silhouettes,
+               const Progress& progress) {
+  const Refined coarse =
+      run_refinement(scene, 0, selected.mode, selected.probability, progress.part(0, 0.5));
+  Refined fine =
+      run_refinement(scene, 1, coarse.disparity, selected.probability, progress.part(0.5, 1));
+  if (silhouettes == Silhouettes::Mean) {
+    std::transform(fine.disparity.begin(), fine.disparity.end(), selected.to_mean.begin(),
+                   fine.disparity.begin(), std::plus<>());
+  }
+  return {std::move(fine.disparity), std::move(fine.confidence), std::move(selected.second),
+          std::move(selected.second_probability)};
+}
+
+void require_views(const LightField& light_field, ViewIndex view) {
+  const GridShape grid = light_field.grid();
+  if (!grid.contains(view)) {
+    throw InvalidInput(
+        fmt::format("view {} is not in the grid of {}×{} views", view_text(view), grid.v, grid.u));
+  }
+  if (grid.count() < 2) throw InvalidInput("net compares views, but there is only one");
+}
+
+}  // namespace
+
+int net_label_count(Interval range) {
+  const double steps = std::min(std::ceil(range.length() / kLabelStep - 1e-6), 63.0);
+  return std::clamp((static_cast<int>(steps) + 1 + 7) / 8 * 8, 32, 64);
+}
+
+NetMaps estimate_net(const LightField& light_field, ViewIndex view, const NetWeights& weights,
+                     const NetParameters& parameters, const Progress& progress) {
+  require_views(light_field, view);
+  if (!(parameters.range.length() > 0) || parameters.rounds < 1) {
+    throw InvalidInput(
+        fmt::format("net needs a range of disparities and at least one round, but "
+                    "was given {} to {} px and {}",
+                    parameters.range.min, parameters.range.max, parameters.rounds));
+  }
+  const Scene scene{light_field, view, weights, net_guide(light_field, view)};
+  Beliefs beliefs = run_volume(scene, parameters.range, progress.part(0, 0.65));
+  Selected selected;
+  for (int round = 0; round < parameters.rounds; ++round) {
+    const auto at = [&](double part) { return 0.65 + 0.25 * (round + part) / parameters.rounds; };
+    const Hypotheses hypotheses =
+        net_hypotheses(beliefs.own, beliefs.second, progress.part(at(0), at(0)));
+    selected = run_selection(scene, hypotheses, &beliefs, progress.part(at(0), at(1)));
+    beliefs.own = selected.mode;
+    beliefs.second = selected.second;
+  }
+  return refine(scene, std::move(selected), parameters.silhouettes, progress.part(0.9, 1));
+}
+
+NetMaps polish_by_net(const LightField& light_field, ViewIndex view, const Image<float>& disparity,
+                      const NetWeights& weights, const NetParameters& parameters,
+                      const Progress& progress) {
+  require_views(light_field, view);
+  if (disparity.height() != light_field.height() || disparity.width() != light_field.width()) {
+    throw InvalidInput(fmt::format("the map has {}×{} px, but views have {}×{}", disparity.width(),
+                                   disparity.height(), light_field.width(), light_field.height()));
+  }
+  const Scene scene{light_field, view, weights, net_guide(light_field, view)};
+  const Hypotheses hypotheses = net_hypotheses(disparity, disparity, progress.part(0, 0));
+  Selected selected = run_selection(scene, hypotheses, nullptr, progress.part(0, 0.5));
+  return refine(scene, std::move(selected), parameters.silhouettes, progress.part(0.5, 1));
+}
+
+}  // namespace episcope

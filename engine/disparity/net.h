@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/image.h"
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/disparity/net_weights.h"
+
+namespace episcope {
+
+/// What `net` reports where a pixel holds two surfaces: the more probable one, or the mean of both
+/// by their shares, which has the smaller squared error.
+enum class Silhouettes { Mode, Mean };
+
+struct NetParameters {
+  Interval range;  ///< Disparities that are looked for, px per view step.
+  Silhouettes silhouettes = Silhouettes::Mode;
+  int rounds = 2;  ///< Of the selection.
+};
+
+/// What `net` finds for one view, `[y][x]`.
+struct NetMaps {
+  Image<float> disparity;
+  Image<float> confidence;  ///< Probability that the disparity is right to 0.07 px.
+  Image<float> second;      ///< Another disparity that the pixel may have; else nearly the first,
+  Image<float> second_probability;  ///< and how probable it is.
+};
+
+/// Labels that the volume has for a range: a multiple of 8 from 32 to 64 of steps of up to 0.1 px.
+[[nodiscard]] int net_label_count(Interval range);
+
+/// Disparity of one view by the network `net`: a volume of evidence at equidistant disparities that
+/// convolutions filter, a network that chooses among eight hypotheses at each pixel, and two that
+/// refine the choice. Views should be of one brightness (EvenViews). Tensors are swept row by
+/// row, so memory grows with the width; log-probabilities take 4 bytes a pixel and label. Throws
+/// InvalidInput for a view outside the grid, a single view, an empty range or no round; Cancelled.
+///
+/// Source: resources/training/README.md, which states every layer; its authors are this project's.
+[[nodiscard]] NetMaps estimate_net(const LightField& light_field, ViewIndex view,
+                                   const NetWeights& weights, const NetParameters& parameters,
+                                   const Progress& progress);
+
+/// Improves a map from elsewhere by selection and refinement alone: one round, no volume, nothing
+/// of `parameters.range`.
+[[nodiscard]] NetMaps polish_by_net(const LightField& light_field, ViewIndex view,
+                                    const Image<float>& disparity, const NetWeights& weights,
+                                    const NetParameters& parameters, const Progress& progress);
+
+/// Logits of the labels of the whole volume are computed this many rows at a time.
+inline constexpr int kNetBand = 16;
+
+}  // namespace episcope

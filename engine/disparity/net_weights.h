@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/named_arrays.h"
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// Channels are stored in groups of so many, and weights are put in order for as many outputs.
+inline constexpr int kNetGroup = 16;
+
+/// Channels with those that fill the last group, which are 0.
+[[nodiscard]] constexpr int whole_groups(int channels) {
+  return (channels + kNetGroup - 1) / kNetGroup * kNetGroup;
+}
+
+/// The form of a convolution of `net`.
+struct NetLayerForm {
+  const char* name = "";
+  int dimensions = 2;  ///< 2: rows and columns; 3: labels, rows and columns.
+  int inputs = 1;
+  int outputs = 1;
+  int kernel = 3;  ///< Taps along each axis, 1 or 3; what is outside is 0.
+  int stride = 1;
+  int dilation = 1;
+  bool has_bias = true;
+  bool is_leaky = true;  ///< Followed by a leaky ReLU.
+
+  [[nodiscard]] int depth_taps() const { return dimensions == 3 ? kernel : 1; }
+  [[nodiscard]] int taps() const { return depth_taps() * kernel * kernel; }
+  /// Whether outputs are so few that inputs are what kernels work on side by side.
+  [[nodiscard]] bool is_narrow() const { return outputs <= 2; }
+};
+
+/// Numbers of one group, on a boundary that loads do not cross.
+struct alignas(64) NetGroup {
+  std::array<float, kNetGroup> values{};
+};
+
+/// A convolution as its kernels want it.
+struct NetLayer {
+  NetLayerForm form;
+  /// `[group of outputs][z][y][x][input][output of the group]`; of narrow layers
+  /// `[output][z][y][x][input]`, inputs in whole groups. Zeros fill up.
+  std::vector<NetGroup> weights;
+  std::vector<NetGroup> bias;  ///< Zeros if it has none.
+
+  [[nodiscard]] const float* weights_data() const { return weights.front().values.data(); }
+  [[nodiscard]] const float* bias_data() const { return bias.front().values.data(); }
+  /// Numbers from one tap to the next, and from one group (output, of narrow layers) to the next.
+  [[nodiscard]] long tap_stride() const {
+    return form.is_narrow() ? whole_groups(form.inputs)
+                            : static_cast<long>(form.inputs) * kNetGroup;
+  }
+  [[nodiscard]] long group_stride() const { return tap_stride() * form.taps(); }
+};
+
+/// The weights of `net`, checked, in the order of its kernels.
+class NetWeights {
+ public:
+  /// Weights as `resources/weights/net.npz` holds them: `NAME.weight` `[output][input](z)[y][x]`,
+  /// `NAME.bias`. Throws InvalidInput where an array is missing, unknown, or of another shape.
+  explicit NetWeights(const NamedArrays& arrays);
+
+  /// Precondition: the network has a layer of this name.
+  [[nodiscard]] const NetLayer& layer(const std::string& name) const { return layers_.at(name); }
+  /// What the file says of them (JSON).
+  [[nodiscard]] const std::string& record() const { return record_; }
+
+ private:
+  std::map<std::string, NetLayer> layers_;
+  std::string record_;
+};
+
+/// Puts weights `[output][input](z)[y][x]` and biases, empty if there are none, in order.
+[[nodiscard]] NetLayer make_net_layer(const NetLayerForm& form, const std::vector<float>& weights,
+                                      const std::vector<float>& bias);
+
+}  // namespace episcope
