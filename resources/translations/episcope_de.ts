@@ -929,65 +929,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
 </context>
 <context>
-    <name>episcope::LabelReviewPanel</name>
-    <message>
-        <source>Regions in doubt</source>
-        <translation>Zweifelhafte Gebiete</translation>
-    </message>
-    <message>
-        <source>Label</source>
-        <translation>Label</translation>
-    </message>
-    <message>
-        <source>or perhaps</source>
-        <translation>oder vielleicht</translation>
-    </message>
-    <message>
-        <source>Pixels</source>
-        <translation>Pixel</translation>
-    </message>
-    <message>
-        <source>Labels of this view</source>
-        <translation>Labels dieser Ansicht</translation>
-    </message>
-    <message>
-        <source>Share</source>
-        <translation>Anteil</translation>
-    </message>
-    <message>
-        <source>Mean</source>
-        <translation>Mittel</translation>
-    </message>
-    <message>
-        <source>Min</source>
-        <translation>Min</translation>
-    </message>
-    <message>
-        <source>Max</source>
-        <translation>Max</translation>
-    </message>
-    <message>
-        <source>Islands</source>
-        <translation>Inseln</translation>
-    </message>
-    <message>
-        <source>Holes</source>
-        <translation>Löcher</translation>
-    </message>
-    <message>
-        <source>Islands and holes</source>
-        <translation>Inseln und Löcher</translation>
-    </message>
-    <message>
-        <source>Kind</source>
-        <translation>Art</translation>
-    </message>
-    <message>
-        <source>Where a stroke would help most</source>
-        <translation>Wo ein Strich am meisten hilft</translation>
-    </message>
-</context>
-<context>
     <name>episcope::CloudController</name>
     <message>
         <source>3D in place of the view</source>
@@ -2742,6 +2683,148 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Lock</source>
         <translation>Sperren</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::LabelReviewController</name>
+    <message>
+        <source>Check</source>
+        <translation>Prüfen</translation>
+    </message>
+    <message>
+        <source>Check tab</source>
+        <translation>Reiter Prüfen</translation>
+    </message>
+    <message>
+        <source>Shows where labels are in doubt, their islands and holes</source>
+        <translation>Zeigt, wo Labels zweifelhaft sind, und ihre Inseln und Löcher</translation>
+    </message>
+    <message>
+        <source>“%1”</source>
+        <translation>„%1“</translation>
+    </message>
+    <message>
+        <source>Next region in doubt</source>
+        <translation>Nächstes zweifelhaftes Gebiet</translation>
+    </message>
+    <message>
+        <source>Goes to the places where a stroke decides most: large regions with another label nearly as probable</source>
+        <translation>Geht dorthin, wo ein Strich am meisten entscheidet: zu großen Gebieten, für die ein anderes Label fast ebenso wahrscheinlich ist</translation>
+    </message>
+    <message>
+        <source>Previous region in doubt</source>
+        <translation>Voriges zweifelhaftes Gebiet</translation>
+    </message>
+    <message>
+        <source>Goes back to the previous region in doubt</source>
+        <translation>Geht zum zweifelhaften Gebiet davor zurück</translation>
+    </message>
+    <message>
+        <source>Shift+J</source>
+        <translation>Shift+J</translation>
+    </message>
+    <message>
+        <source>label %1</source>
+        <translation>Label %1</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>Disparity in px per view: %1 ± %2 (mean and standard deviation), from %3 to %4</source>
+        <translation>Disparität in px je Ansicht: %1 ± %2 (Mittel und Standardabweichung), von %3 bis %4</translation>
+    </message>
+    <message>
+        <source>Nothing is segmented yet: paint two labels, then update the segmentation.</source>
+        <translation>Noch ist nichts segmentiert: zwei Labels malen, dann die Segmentierung aktualisieren.</translation>
+    </message>
+    <message>
+        <source>Islands and holes</source>
+        <translation>Inseln und Löcher</translation>
+    </message>
+    <message>
+        <source>hole</source>
+        <translation>Loch</translation>
+    </message>
+    <message>
+        <source>island</source>
+        <translation>Insel</translation>
+    </message>
+    <message>
+        <source>Islands and holes of %1</source>
+        <translation>Inseln und Löcher von %1</translation>
+    </message>
+    <message>
+        <source>No region of this view is in doubt.</source>
+        <translation>Kein Gebiet dieser Ansicht ist zweifelhaft.</translation>
+    </message>
+    <message>
+        <source>%1 of %2: %3 pixels of %4 may be %5. A stroke here decides.</source>
+        <translation>%1 von %2: %3 Pixel von %4 sind vielleicht %5. Ein Strich hier entscheidet.</translation>
+    </message>
+    <message>
+        <source>Open a light field first.</source>
+        <translation>Erst ein Lichtfeld öffnen.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::LabelReviewPanel</name>
+    <message>
+        <source>Regions in doubt</source>
+        <translation>Zweifelhafte Gebiete</translation>
+    </message>
+    <message>
+        <source>Label</source>
+        <translation>Label</translation>
+    </message>
+    <message>
+        <source>or perhaps</source>
+        <translation>oder vielleicht</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>Labels of this view</source>
+        <translation>Labels dieser Ansicht</translation>
+    </message>
+    <message>
+        <source>Share</source>
+        <translation>Anteil</translation>
+    </message>
+    <message>
+        <source>Mean</source>
+        <translation>Mittel</translation>
+    </message>
+    <message>
+        <source>Min</source>
+        <translation>Min</translation>
+    </message>
+    <message>
+        <source>Max</source>
+        <translation>Max</translation>
+    </message>
+    <message>
+        <source>Islands</source>
+        <translation>Inseln</translation>
+    </message>
+    <message>
+        <source>Holes</source>
+        <translation>Löcher</translation>
+    </message>
+    <message>
+        <source>Islands and holes</source>
+        <translation>Inseln und Löcher</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>Where a stroke would help most</source>
+        <translation>Wo ein Strich am meisten hilft</translation>
     </message>
 </context>
 <context>
@@ -4555,89 +4638,6 @@ s</translation>
     </message>
 </context>
 <context>
-    <name>episcope::LabelReviewController</name>
-    <message>
-        <source>Check</source>
-        <translation>Prüfen</translation>
-    </message>
-    <message>
-        <source>Check tab</source>
-        <translation>Reiter Prüfen</translation>
-    </message>
-    <message>
-        <source>Shows where labels are in doubt, their islands and holes</source>
-        <translation>Zeigt, wo Labels zweifelhaft sind, und ihre Inseln und Löcher</translation>
-    </message>
-    <message>
-        <source>“%1”</source>
-        <translation>„%1“</translation>
-    </message>
-    <message>
-        <source>Next region in doubt</source>
-        <translation>Nächstes zweifelhaftes Gebiet</translation>
-    </message>
-    <message>
-        <source>Goes to the places where a stroke decides most: large regions with another label nearly as probable</source>
-        <translation>Geht dorthin, wo ein Strich am meisten entscheidet: zu großen Gebieten, für die ein anderes Label fast ebenso wahrscheinlich ist</translation>
-    </message>
-    <message>
-        <source>Previous region in doubt</source>
-        <translation>Voriges zweifelhaftes Gebiet</translation>
-    </message>
-    <message>
-        <source>Goes back to the previous region in doubt</source>
-        <translation>Geht zum zweifelhaften Gebiet davor zurück</translation>
-    </message>
-    <message>
-        <source>Shift+J</source>
-        <translation>Shift+J</translation>
-    </message>
-    <message>
-        <source>label %1</source>
-        <translation>Label %1</translation>
-    </message>
-    <message>
-        <source>%1 %</source>
-        <translation>%1 %</translation>
-    </message>
-    <message>
-        <source>Disparity in px per view: %1 ± %2 (mean and standard deviation), from %3 to %4</source>
-        <translation>Disparität in px je Ansicht: %1 ± %2 (Mittel und Standardabweichung), von %3 bis %4</translation>
-    </message>
-    <message>
-        <source>Nothing is segmented yet: paint two labels, then update the segmentation.</source>
-        <translation>Noch ist nichts segmentiert: zwei Labels malen, dann die Segmentierung aktualisieren.</translation>
-    </message>
-    <message>
-        <source>Islands and holes</source>
-        <translation>Inseln und Löcher</translation>
-    </message>
-    <message>
-        <source>hole</source>
-        <translation>Loch</translation>
-    </message>
-    <message>
-        <source>island</source>
-        <translation>Insel</translation>
-    </message>
-    <message>
-        <source>Islands and holes of %1</source>
-        <translation>Inseln und Löcher von %1</translation>
-    </message>
-    <message>
-        <source>No region of this view is in doubt.</source>
-        <translation>Kein Gebiet dieser Ansicht ist zweifelhaft.</translation>
-    </message>
-    <message>
-        <source>%1 of %2: %3 pixels of %4 may be %5. A stroke here decides.</source>
-        <translation>%1 von %2: %3 Pixel von %4 sind vielleicht %5. Ein Strich hier entscheidet.</translation>
-    </message>
-    <message>
-        <source>Open a light field first.</source>
-        <translation>Erst ein Lichtfeld öffnen.</translation>
-    </message>
-</context>
-<context>
     <name>episcope::SaveForms</name>
     <message>
         <source>Archive file (HDF5)</source>
@@ -6317,6 +6317,18 @@ s</translation>
     <message>
         <source>v reversed</source>
         <translation>v umgekehrt</translation>
+    </message>
+    <message>
+        <source>refinement</source>
+        <translation>Verfeinerung</translation>
+    </message>
+    <message>
+        <source>selection</source>
+        <translation>Auswahl</translation>
+    </message>
+    <message>
+        <source>volume</source>
+        <translation>Volumen</translation>
     </message>
 </context>
 <context>
