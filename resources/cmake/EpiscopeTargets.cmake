@@ -94,7 +94,7 @@ function(episcope_check_headers library)
   endforeach()
   if(units)
     add_library(${library}_headers OBJECT ${units})
-    set_target_properties(${library}_headers PROPERTIES AUTOMOC OFF)
+    set_target_properties(${library}_headers PROPERTIES AUTOMOC OFF UNITY_BUILD OFF)
     target_link_libraries(${library}_headers PRIVATE ${library})
     target_include_directories(${library}_headers SYSTEM PRIVATE
                                $<TARGET_PROPERTY:${library},INCLUDE_DIRECTORIES>)
