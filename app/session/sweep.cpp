@@ -5,6 +5,7 @@
 #include "app/session/open_scene.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
+#include "engine/disparity/registry.h"
 #include "engine/evaluation/parameter_search.h"
 
 #include <fmt/format.h>
@@ -35,7 +36,9 @@ std::optional<double> median_change(const DisparityView& a, const DisparityView&
 
 void fill(const Scene& scene, const EstimateRequest& request, const Estimate* reference,
           const Progress& progress, SweepPoint& point) {
-  const FinishedEstimate finished = run_estimator(scene, request, progress.part(0, 0.97));
+  const FinishedEstimate finished =
+      run_estimator(scene, find_estimator(request.method), request.parameters, request.options,
+                    progress.part(0, 0.97));
   point.estimate = finished.estimate;
   point.display_range = finished.display_range;
   point.seconds = finished.estimate->seconds;

@@ -4,7 +4,6 @@
 #include "engine/core/label_info.h"
 
 #include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 

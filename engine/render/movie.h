@@ -3,7 +3,6 @@
 
 #include "engine/core/indices.h"
 
-#include <string_view>
 #include <vector>
 
 namespace episcope::render {

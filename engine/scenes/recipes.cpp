@@ -4,7 +4,6 @@
 #include "engine/scenes/stage.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <vector>

@@ -10,7 +10,6 @@
 
 #include <bitset>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace episcope {

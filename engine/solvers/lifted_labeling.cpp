@@ -15,7 +15,6 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
-#include <string>
 #include <vector>
 
 namespace episcope {

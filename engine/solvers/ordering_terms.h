@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/image.h"
-#include "engine/core/indices.h"
 
 namespace episcope {
 

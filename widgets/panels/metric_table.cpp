@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace episcope {
 namespace {

@@ -12,7 +12,6 @@
 #include <QPointer>
 #include <QString>
 
-#include <filesystem>
 #include <functional>
 #include <set>
 

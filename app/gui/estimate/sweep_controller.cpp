@@ -285,7 +285,8 @@ void SweepController::runAgain(SweepPlace place) {
   const quint64 job = bench_.jobs.start<FinishedEstimate>(
       Lane::Estimate, QString::fromStdString(name_of(sweep, point)),
       [scene = bench_.session.scene(), request](const Progress& progress) {
-        return run_estimator(*scene, request, progress);
+        return run_estimator(*scene, find_estimator(request.method), request.parameters,
+                             request.options, progress);
       },
       [this, place, id = current_,
        scene = sweep.scenes[place.scene].scene](const FinishedEstimate& finished) {

@@ -2,7 +2,7 @@
 #include "app/gui/scene/overlay.h"
 
 #include "app/gui/shell/jobs.h"
-#include "app/session/scheduling.h"
+#include "engine/core/parallel.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"

@@ -126,13 +126,8 @@ void NumpyFile::add_source(Source source, bool is_needed) {
 std::unique_ptr<ArrayInput> NumpyFile::open_stored(const ArrayEntry& entry) const {
   const auto source = std::ranges::find(sources_, entry.name, &Source::name);
   if (!source->zipped) return std::make_unique<NpyFile>(source->path);
-  const ZipEntry& zipped = *source->zipped;
-  if (!zipped.is_deflated) {
-    return std::make_unique<NpyFile>(source->path, zipped.begin, zipped.stored);
-  }
-  require_plausible_size(path(), entry.shape, entry.type, zipped.stored);
-  return std::make_unique<DeflatedNpy>(source->path, zipped,
-                                       read_zipped_header(source->path, zipped));
+  require_plausible_size(path(), entry.shape, entry.type, source->zipped->stored);
+  return open_zipped_npy(source->path, *source->zipped);
 }
 
 }  // namespace episcope::io

@@ -2,9 +2,7 @@
 #include "engine/io/models/order/flipped_truth.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
-#include <utility>
 
 namespace episcope::io {
 namespace {
