@@ -81,13 +81,9 @@ struct TvL2Levels {
   int count = 0;
 };
 
-}  // namespace episcope::cuda
-
 /// The steps of an iteration, each for one place of the half rows of one view; they can run in any
 /// order within a step. What they compute is engine/solvers/tv_l2_kernel.cpp, which tells
 /// why.
-
-namespace episcope::cuda {
 
 /// Factor that projects z to |p| ≤ g.
 __device__ inline float shrinkage(float zx, float zy, float g) {
@@ -237,12 +233,8 @@ struct RenewAndRelax {
   }
 };
 
-}  // namespace episcope::cuda
-
 /// What happens between iterations, and between levels; as tv_l2_steps.cuh, of
 /// engine/solvers/tv_l2_kernel.cpp and tv_l2_grid.cpp.
-
-namespace episcope::cuda {
 
 /// The gradient of u where there are edges, else 0.
 struct TvL2Gradient {
