@@ -193,15 +193,6 @@ void depth_to_disparity(const CameraGrid& camera, Image<float>& map) {
   }
 }
 
-/// A field of views without a valid pixel.
-DisparityField invalid_field(const SidecarViews& views, GridShape part, ViewIndex first) {
-  DisparityField field{ViewStack<float>(part, views.height(), views.width(), 1, first),
-                       ViewStack<std::uint8_t>(part, views.height(), views.width(), 1, first)};
-  std::fill_n(field.disparity.data(), field.disparity.size(), 0.0F);
-  std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{0});
-  return field;
-}
-
 /// Files are numbered as in the whole grid.
 std::string disparity_file_of(ViewIndex view, const ViewFiles& views) {
   const ViewIndex at = views.in_whole(view);
@@ -215,7 +206,7 @@ DisparityField read_of_all_views(const fs::path& folder, const SidecarViews& vie
   const bool all = views.map_views == MapViews::All;
   const GridShape part = all ? grid : GridShape{1, 1};
   const ViewIndex first = all ? ViewIndex{} : grid.center();
-  DisparityField field = invalid_field(views, part, first);
+  DisparityField field = DisparityField::unknown(part, views.height(), views.width(), first);
   Files files;
   for (int i = 0; i < part.count(); ++i) {
     progress.check();
@@ -233,7 +224,7 @@ DisparityField read_of_center(const fs::path& file, const std::string& kind,
                               const SidecarViews& views, const SidecarNotes& notes,
                               const std::function<void(Image<float>&)>& convert) {
   const ViewIndex center = *views.files.whole_center();
-  DisparityField field = invalid_field(views, {1, 1}, center);
+  DisparityField field = DisparityField::unknown({1, 1}, views.height(), views.width(), center);
   Files files;
   files.read(file, [&] {
     Image<float> map = read_map(file, views);
@@ -248,7 +239,7 @@ DisparityField read_of_center(const fs::path& file, const std::string& kind,
 DisparityField read_reduced(const HighResFiles& high_res, const SidecarViews& views,
                             const SidecarNotes& notes) {
   const ViewIndex center = *views.files.whole_center();
-  DisparityField field = invalid_field(views, {1, 1}, center);
+  DisparityField field = DisparityField::unknown({1, 1}, views.height(), views.width(), center);
   Files files;
   files.read(high_res.disparity, [&] {
     const Image<float> map =
