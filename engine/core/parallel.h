@@ -46,7 +46,7 @@ void parallel_for_workers(int count, const Progress& progress, const MakeWorker&
 
 /// Runs `body(i)` for every i in [0, count) on up to `progress.threads()` threads, and reports the
 /// finished fraction to `progress`. Items are handed out one at a time in ascending order, and what
-/// was handed out is run. An item should take between 10 µs and 100 ms: a stop request is honoured
+/// was handed out is run. An item should take between 10 µs and 100 ms: a stop request is honored
 /// between items. Results must not depend on which thread runs an item. Throws Cancelled on a stop
 /// request, or the first exception of `body`, after all threads ended.
 template <class Body>

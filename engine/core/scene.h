@@ -73,7 +73,7 @@ struct ViewScribbles {
 /// Scribbles on a light field.
 struct Scribbles {
   std::vector<ViewScribbles> views;  ///< Painted ones, in the order of the grid.
-  std::vector<LabelInfo> labels;     ///< Known names and colours, by id.
+  std::vector<LabelInfo> labels;     ///< Known names and colors, by id.
   [[nodiscard]] bool empty() const { return views.empty(); }
 };
 

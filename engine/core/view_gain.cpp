@@ -33,7 +33,7 @@ constexpr int kMaxQuantities = 4;
 
 using Quantities = std::array<float, kMaxQuantities>;
 
-// Two neighbouring views: what a block of the one shows stands some px along `way` in the other.
+// Two neighboring views: what a block of the one shows stands some px along `way` in the other.
 struct Pair {
   ViewIndex from, to;
   PixelIndex way;
@@ -187,7 +187,7 @@ std::vector<Pair> pairs_of(GridShape grid) {
   return pairs;
 }
 
-// What two neighbouring views say of a quantity: the logarithm of their ratio, and how surely.
+// What two neighboring views say of a quantity: the logarithm of their ratio, and how surely.
 struct Ratio {
   int from = 0, to = 0;
   double log_ratio = 0, weight = 0;
@@ -238,7 +238,7 @@ Ratios find_ratios(const LightField::Samples& samples, const ViewStack<std::uint
   return ratios;
 }
 
-// First values: along the ratios from the centre outwards. NaN for views that none reaches.
+// First values: along the ratios from the center outwards. NaN for views that none reaches.
 std::vector<double> spread_from(int center, int count, const std::vector<Ratio>& ratios) {
   std::vector<double> logs(count, kNan);
   logs[center] = 0;
@@ -257,7 +257,7 @@ std::vector<double> spread_from(int center, int count, const std::vector<Ratio>&
   return logs;
 }
 
-// Least squares of all ratios with the centre at 0, by Gauss and Seidel.
+// Least squares of all ratios with the center at 0, by Gauss and Seidel.
 void settle(int center, const std::vector<Ratio>& ratios, std::vector<double>& logs) {
   std::vector<double> sums(logs.size()), weights(logs.size());
   std::vector<std::vector<Ratio>> of_view(logs.size());

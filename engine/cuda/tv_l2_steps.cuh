@@ -19,7 +19,7 @@ inline constexpr int kTvL2Slots = kTvL2Planes + 4;
 
 /// One level of the grid hierarchy for all views, `[plane][view][row][half][i]`. Rows are split:
 /// first the pixels of the even columns, `odd` floats further those of the odd ones, so that the
-/// pixels of either color of a chequerboard, and their neighbors, are contiguous. One row of
+/// pixels of either color of a checkerboard, and their neighbors, are contiguous. One row of
 /// padding above and two below, padding after each half row; it is 0, and stays so because the
 /// coefficients there are 0.
 struct TvL2Level {
@@ -258,7 +258,8 @@ struct Penalize {
     const TvL2Gradient gradient = gradient_at(level, view, at, right);
     const float square = gradient.x * gradient.x + gradient.y * gradient.y + 1e-16F;
     const float ratio = views[view].knee * rsqrtf(square);
-    const float bent = fminf(fmaxf(sqrtf(fmaxf(ratio, 0.0F)), 1 / kTvL2PenaltySpread), kTvL2PenaltySpread);
+    const float bent =
+        fminf(fmaxf(sqrtf(fmaxf(ratio, 0.0F)), 1 / kTvL2PenaltySpread), kTvL2PenaltySpread);
     const float g = level.of(TvL2Plane::G, view)[at];
     const float next = views[view].scale * g * bent;
     float& rx = level.of(TvL2Plane::Rx, view)[at];

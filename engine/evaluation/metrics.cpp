@@ -143,7 +143,7 @@ std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate,
   return evaluation;
 }
 
-// The centre view: the truth covers all views or that one.
+// The center view: the truth covers all views or that one.
 ViewIndex center_of(const DisparityField& truth) {
   const ViewIndex first = truth.disparity.first(), center = truth.disparity.grid().center();
   return {first.v + center.v, first.u + center.u};

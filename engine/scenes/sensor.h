@@ -11,7 +11,7 @@ namespace episcope::scenes {
 struct Sensor {
   float exposure = 1;     ///< Factor of all samples; small = a dark scene.
   float vignetting = 0;   ///< Share of the light that is lost in the corners of a view.
-  float gain_spread = 0;  ///< Gains of the views lie within 1 ± this; the centre view has 1.
+  float gain_spread = 0;  ///< Gains of the views lie within 1 ± this; the center view has 1.
   /// Standard deviation of the noise in units of 1/255, at the top of a view and at its bottom.
   float noise_top = 0;
   float noise_bottom = 0;
@@ -32,7 +32,7 @@ class Exposure {
   };
   Exposure(const Sensor& sensor, const Format& format) : sensor_(sensor), format_(format) {}
 
-  /// Row `y` of the view `steps` away from the centre view. `rgb`: light, [x][3]; `out`: samples,
+  /// Row `y` of the view `steps` away from the center view. `rgb`: light, [x][3]; `out`: samples,
   /// [x][channels], of which the first is number `counter` of the light field.
   void write_row(ViewIndex steps, int y, const float* rgb, std::uint64_t counter,
                  std::uint8_t* out) const;

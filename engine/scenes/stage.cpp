@@ -59,7 +59,7 @@ ModelView Model::view() const {
 Texture noise_texture(double pixel_units, unsigned seed, const std::array<float, 3>& color,
                       float contrast) {
   // Finest octave with the most contrast: it carries most of what an estimator can measure. The
-  // channels differ, so that colour helps too.
+  // channels differ, so that color helps too.
   constexpr float shares[3][3] = {
       {0.42F, 0.36F, 0.40F}, {0.26F, 0.36F, 0.30F}, {0.32F, 0.28F, 0.30F}};
   constexpr double finest_px = 4.5;

@@ -30,7 +30,7 @@ using Vector3 = std::array<double, 3>;
   return scaled(a, 1 / length(a));
 }
 
-/// The cameras for which a scene is laid out. Layouts speak of disparities and pixels of the centre
+/// The cameras for which a scene is laid out. Layouts speak of disparities and pixels of the center
 /// view, so that a scene looks alike at every image size.
 struct Stage {
   int width = 0;
@@ -45,7 +45,7 @@ struct Stage {
   }
   /// Size of a pixel at a depth.
   [[nodiscard]] double pixel(double depth_units) const { return depth_units / focal_px; }
-  /// The point seen at pixel (x, y) of the centre view.
+  /// The point seen at pixel (x, y) of the center view.
   [[nodiscard]] Vector3 point(double x, double y, double depth_units) const {
     return {(x - (width - 1) / 2.0) * pixel(depth_units),
             (y - (height - 1) / 2.0) * pixel(depth_units), depth_units};
@@ -86,11 +86,11 @@ struct Radii {
 void revolve(Primitive& piece, double height, const Radii& radii);
 
 /// A pattern along `axes` with the given period, with edges as hard as pixels of size `pixel_units`
-/// allow. Its second colour is left to the caller.
+/// allow. Its second color is left to the caller.
 void set_pattern(Texture& texture, Pattern pattern, double pixel_units, double period,
                  const std::array<Vector3, 2>& axes);
 
-/// A rectangle facing the cameras between two pixels' corners of the centre view, at a disparity.
+/// A rectangle facing the cameras between two pixels' corners of the center view, at a disparity.
 struct Card {
   double left = 0;
   double top = 0;
@@ -100,7 +100,7 @@ struct Card {
 };
 [[nodiscard]] Primitive make_card(const Stage& stage, const Card& card);
 
-/// The plane on which the disparity of the centre view is `center` + `per_x`·(x − x_c) +
+/// The plane on which the disparity of the center view is `center` + `per_x`·(x − x_c) +
 /// `per_y`·(y − y_c), without end.
 struct DisparityPlane {
   double center = 0;

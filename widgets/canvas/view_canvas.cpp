@@ -461,7 +461,7 @@ void ViewCanvas::setScribbleOpacity(double opacity) {
 }
 
 void ViewCanvas::updatePixels(const QRect& pixels) {
-  // Smoothing spreads a pixel to its neighbours.
+  // Smoothing spreads a pixel to its neighbors.
   const QRectF spread = QRectF(pixels).adjusted(-1, -1, 1, 1);
   update(QRectF(transform_.to_widget(spread.topLeft(), size()),
                 transform_.to_widget(spread.bottomRight(), size()))

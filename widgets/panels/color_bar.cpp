@@ -53,7 +53,7 @@ ColorBar::ColorBar(QWidget* parent)
   title_->setTextInteractionFlags(Qt::NoTextInteraction);
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   invalid_->setObjectName("colorBar.invalid");
-  invalid_->setToolTip(tr("Colour of pixels without a value"));
+  invalid_->setToolTip(tr("Color of pixels without a value"));
   lock_->setCheckable(true);
 
   auto* foot = new QHBoxLayout;

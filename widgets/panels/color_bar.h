@@ -15,7 +15,7 @@ namespace episcope {
 class ColorRamp;
 class NumberSpin;
 
-/// Legend of an overlay: name and unit, the colour map between two editable limits, the colour of
+/// Legend of an overlay: name and unit, the color map between two editable limits, the color of
 /// invalid pixels, a lock, and a button for the automatic range. Setters never emit.
 class ColorBar : public QWidget {
   Q_OBJECT
@@ -55,7 +55,7 @@ class ColorBar : public QWidget {
   QToolButton* own_;
 };
 
-/// The colour map of a ColorBar, low to high from left to right.
+/// The color map of a ColorBar, low to high from left to right.
 class ColorRamp : public QWidget {
   Q_OBJECT
 

@@ -115,7 +115,7 @@ void LabelPalette::setLabels(const std::vector<LabelInfo>& labels) {
     item->setData(kColor, Qt::UserRole, label.id);
     item->setIcon(kColor, swatch(label.color, palette()));
     item->setSizeHint(kColor, {0, fontMetrics().height() + kLabelRowPadding});
-    item->setToolTip(kColor, tr("Click to change the colour of “%1”").arg(name));
+    item->setToolTip(kColor, tr("Click to change the color of “%1”").arg(name));
     item->setText(kId, QString::number(label.id));
     item->setTextAlignment(kId, Qt::AlignRight | Qt::AlignVCenter);
     item->setText(kLabelName, name);
@@ -243,7 +243,7 @@ void LabelPalette::showMenu(const QPoint& position) {
   menu->setObjectName("labels.menu");
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addAction(themed_icon("rename"), tr("Rename"), this, [this, id] { editName(id); });
-  menu->addAction(tr("Change colour…"), this, [this, id] { emit colorRequested(id); });
+  menu->addAction(tr("Change color…"), this, [this, id] { emit colorRequested(id); });
   menu->addSeparator();
   const bool is_hidden = hidden_.contains(id);
   const bool is_locked = locked_.contains(id);

@@ -230,7 +230,7 @@ void MetricTable::setSides(quint64 a, quint64 b) {
   fitColumns();
 }
 
-// Emphasises all ties, but not a value without others.
+// Emphasizes all ties, but not a value without others.
 void MetricTable::stressBest() {
   for (int column = 0; column < table_->columnCount(); ++column) {
     const BestValue best = columns_[static_cast<std::size_t>(column)].best;

@@ -29,7 +29,7 @@ class ViewGrid : public QWidget {
  public:
   explicit ViewGrid(QWidget* parent = nullptr);
 
-  /// Starts a light field: no thumbnails, centre view current, playing stops.
+  /// Starts a light field: no thumbnails, center view current, playing stops.
   void setGrid(GridShape grid);
   void setCurrent(ViewIndex view);
   /// Tells that a light field is being read, while there is no grid.

@@ -182,10 +182,10 @@ void SweepController::showPlan() {
     const auto count = plan.points.size();
     const auto scenes = plan.sweep.scenes.size();
     panel_->setPlan(scenes > 1
-                        ? tr("%1 runs on each of %2 centre views, the present values first")
+                        ? tr("%1 runs on each of %2 center views, the present values first")
                               .arg(count)
                               .arg(scenes)
-                        : tr("%1 runs on the centre view, the present values first").arg(count),
+                        : tr("%1 runs on the center view, the present values first").arg(count),
                     !runs_->isRunning());
   } catch (const InvalidInput& error) {
     QString sentence = with_minus(QString::fromUtf8(error.what()));

@@ -21,7 +21,7 @@ using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<f
 /// palettes. Samples of OpenEXR and Radiance are linear. TIFF files that state an orientation come
 /// upright; Exif orientation (image_orientation.h) is ignored. Throws IoError.
 [[nodiscard]] AnyImage decode_image(const std::filesystem::path& path,
-                                    PicturePart part = PicturePart::Colours);
+                                    PicturePart part = PicturePart::Colors);
 
 /// Decodes the first `count` pages of a TIFF file. Throws IoError, also if there are fewer pages.
 [[nodiscard]] std::vector<AnyImage> decode_pages(const std::filesystem::path& path, int count);

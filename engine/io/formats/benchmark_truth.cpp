@@ -154,7 +154,9 @@ class Files {
     }
   }
   [[nodiscard]] bool has_read_any() const { return !outcome_.read.empty(); }
-  void tell(const std::string& kind, const SidecarNotes& notes) const { outcome_.tell(kind, notes); }
+  void tell(const std::string& kind, const SidecarNotes& notes) const {
+    outcome_.tell(kind, notes);
+  }
 
  private:
   SetOutcome outcome_;
@@ -179,7 +181,7 @@ Image<float> read_map(const fs::path& path, const SidecarViews& views) {
   return map;
 }
 
-/// Depth of the benchmark is in metres or in millimetres, told apart by the focus distance.
+/// Depth of the benchmark is in meters or in millimeters, told apart by the focus distance.
 void depth_to_disparity(const CameraGrid& camera, Image<float>& map) {
   double nearest_difference[2] = {0, 0};
   for (const float depth : map) {
@@ -199,7 +201,7 @@ std::string disparity_file_of(ViewIndex view, const ViewFiles& views) {
   return disparity_file_name(at.v * views.whole_grid().u + at.u);
 }
 
-/// Of every view, or of the centre view alone where that is all that is asked for.
+/// Of every view, or of the center view alone where that is all that is asked for.
 DisparityField read_of_all_views(const fs::path& folder, const SidecarViews& views,
                                  const SidecarNotes& notes, const Progress& progress) {
   const GridShape grid = views.grid();
@@ -219,7 +221,7 @@ DisparityField read_of_all_views(const fs::path& folder, const SidecarViews& vie
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 
-/// Of the centre view; `convert` makes disparity of what is stored.
+/// Of the center view; `convert` makes disparity of what is stored.
 DisparityField read_of_center(const fs::path& file, const std::string& kind,
                               const SidecarViews& views, const SidecarNotes& notes,
                               const std::function<void(Image<float>&)>& convert) {
@@ -235,7 +237,7 @@ DisparityField read_of_center(const fs::path& file, const std::string& kind,
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 
-/// Of the map in high resolution the value in the middle of each pixel of the centre view.
+/// Of the map in high resolution the value in the middle of each pixel of the center view.
 DisparityField read_reduced(const HighResFiles& high_res, const SidecarViews& views,
                             const SidecarNotes& notes) {
   const ViewIndex center = *views.files.whole_center();
@@ -257,14 +259,14 @@ DisparityField read_reduced(const HighResFiles& high_res, const SidecarViews& vi
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 
-/// Truth of the centre of the whole grid, which must be one of the views.
+/// Truth of the center of the whole grid, which must be one of the views.
 DisparityField read_stored_center(const fs::path& folder, const SidecarViews& views,
                                   const SidecarNotes& notes) {
   std::string& units = notes.report.units;
   const fs::path disparity = folder / kCenterDisparity;
   if (is_there(disparity)) {
     units = "disparity as stored in gt_disp_lowres.pfm";
-    DisparityField field = read_of_center(disparity, "disparity maps of the centre view", views,
+    DisparityField field = read_of_center(disparity, "disparity maps of the center view", views,
                                           notes, [](Image<float>&) {});
     if (!field.empty()) return field;
   }
@@ -272,7 +274,7 @@ DisparityField read_stored_center(const fs::path& folder, const SidecarViews& vi
   if (is_there(depth) && views.camera.is_known() && views.camera.cam_distance) {
     units = "disparity from gt_depth_lowres.pfm and the camera of parameters.cfg";
     DisparityField field =
-        read_of_center(depth, "depth maps of the centre view", views, notes,
+        read_of_center(depth, "depth maps of the center view", views, notes,
                        [&](Image<float>& map) { depth_to_disparity(views.camera, map); });
     if (!field.empty()) return field;
   }
@@ -364,7 +366,7 @@ void find_high_res(const fs::path& folder, const SidecarViews& views, const Side
   const HighResFiles files = find_high_res_files(folder);
   truth.high_res = high_res_truth(files, views.height(), views.width());
   if (!truth.high_res) return;
-  notes.account.use(files.disparity, "disparity map of the centre view in high resolution");
+  notes.account.use(files.disparity, "disparity map of the center view in high resolution");
   notes.account.use(files.masks, "region masks in high resolution");
 }
 
@@ -380,7 +382,7 @@ void read_object_ids(const fs::path& folder, const SidecarViews& views, const Si
         ViewStack<std::int32_t>({1, 1}, ids.height(), ids.width(), 1, *views.files.whole_center());
     std::copy_n(ids.data(), ids.size(), truth.labels.data());
   });
-  files.tell("label maps of the centre view", notes);
+  files.tell("label maps of the center view", notes);
 }
 
 }  // namespace

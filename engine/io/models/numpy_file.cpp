@@ -55,7 +55,7 @@ std::vector<fs::path> arrays_in(const fs::path& folder) {
   return found;
 }
 
-/// Coloured, or grey in whole numbers: maps have one channel, and fractions mostly.
+/// Colored, or grey in whole numbers: maps have one channel, and fractions mostly.
 bool is_of_pictures(const ArrayEntry& entry) {
   if (!entry.is_of_views() || !entry.other_kind.empty() || has_other_name(entry)) return false;
   const std::size_t axes = entry.shape.size() - entry.leading.size();

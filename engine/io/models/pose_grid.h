@@ -18,7 +18,7 @@ struct PoseGrid {
   GridShape grid{};
   std::vector<std::size_t> order{};         ///< Of the poses, row by row; `kNoCamera` in gaps.
   std::vector<CameraPosition> positions{};  ///< Row by row: right and down in the cameras' view.
-  double step = 0;                          ///< Of neighbours, in units of the scene.
+  double step = 0;                          ///< Of neighbors, in units of the scene.
   double focal_widths = 0;                  ///< 0 = not stated.
   std::string evidence{};  ///< "cameras in steps of 0.1, turned by 0.01° at most, …".
   std::string problem{};   ///< Why they are no such grid, as a clause; empty if they are.

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestColmap = 1'000'000'000;  ///< In bytes: with all points.
 
-/// The pose that COLMAP states as a quaternion (w, x, y, z), which has not to be normalised, and a
+/// The pose that COLMAP states as a quaternion (w, x, y, z), which has not to be normalized, and a
 /// translation, both from the scene to the camera, whose y is down and z ahead.
 CameraPose colmap_pose(const std::array<double, 7>& numbers) {
   const auto [w, x, y, z, tx, ty, tz] = numbers;

@@ -109,7 +109,7 @@ void Chores::label() const {
   Labeler labeler(scene_->light_field, truth);
   const ViewRectangle all{{}, scene_->light_field->grid()};
   const Labeling labeling = labeler.label(scribbles, {}, all, Progress());
-  require(labeling.labels.grid() == all.grid, "not all views were labelled");
+  require(labeling.labels.grid() == all.grid, "not all views were labeled");
   io::write_scribbles(folder_ / "labels.h5", scribbles, *scene_, Progress());
   require(!io::read_scribbles(folder_ / "labels.h5", *scene_, Progress()).views.empty(),
           "no strokes were read");

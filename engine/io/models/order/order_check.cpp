@@ -156,9 +156,9 @@ void follow(ViewFlip chosen, const Checked& checked, OrderFinding& finding) {
     if (checked.is_sign_known) finding.sign_check += ", against the check " + checked.sign_text;
   }
   if (!checked.contradicts(chosen)) return;
-  finding.check = "the check favours \"" + flip_text(checked.flip) + "\": " + checked.text;
+  finding.check = "the check favors \"" + flip_text(checked.flip) + "\": " + checked.text;
   finding.warnings.push_back("The order of views was chosen by hand (" + flip_text(chosen) +
-                             "), but the check favours \"" + flip_text(checked.flip) + "\".");
+                             "), but the check favors \"" + flip_text(checked.flip) + "\".");
 }
 
 }  // namespace

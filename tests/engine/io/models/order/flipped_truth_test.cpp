@@ -21,7 +21,7 @@ class FlippedTruthTest : public QObject {
     options.slope_y = -0.02;
     return plane_scene(options);
   }
-  /// Of the centre view.
+  /// Of the center view.
   static DisparityField truth_of(const Scene& scene) {
     const ViewIndex center = scene.light_field->grid().center();
     const auto from = scene.truth->field.disparity.view(center);
