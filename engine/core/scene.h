@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/even_views.h"
+#include "engine/core/view_gain.h"
 #include "engine/core/ground_truth.h"
 #include "engine/core/label_info.h"
 #include "engine/core/light_field.h"

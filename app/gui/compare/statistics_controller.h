@@ -3,7 +3,6 @@
 
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
-#include "app/session/map_choice.h"
 #include "app/session/quantity_map.h"
 #include "engine/render/region_statistics.h"
 

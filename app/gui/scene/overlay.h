@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/scene/viewer_area.h"
-#include "app/session/map_choice.h"
+#include "app/session/quantity_map.h"
 #include "app/session/picture.h"
 #include "app/session/session.h"
 #include "engine/core/jobs.h"

@@ -5,7 +5,7 @@
 #include "engine/core/ground_truth.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/pfm.h"
-#include "engine/io/models/order/flipped_truth.h"
+#include "engine/io/models/order/order_check.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
 #include "engine/io/models/sidecar_maps/infer_units.h"

@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/image_list.h"
 #include "engine/io/base/image_orientation.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/names/view_folders.h"

@@ -5,7 +5,7 @@
 #include "engine/core/disparity_field.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
-#include "engine/io/models/order/flipped_truth.h"
+#include "engine/io/models/order/order_check.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
 
 #include <optional>

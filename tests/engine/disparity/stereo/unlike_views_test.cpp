@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stereo on views of different brightness, and of cameras that stand beside their grid.
-#include "engine/core/even_views.h"
+#include "engine/core/view_gain.h"
 #include "engine/disparity/registry.h"
 #include "engine/scenes/builtin.h"
 #include "tests/engine/disparity/light_fields.h"
