@@ -64,7 +64,4 @@ struct LiftedResult {
                                                  const LiftedOptions& options,
                                                  const Progress& progress, Isa isa = best_isa());
 
-/// E(labels). Throws InvalidInput on wrong shapes.
-[[nodiscard]] double labeling_energy(const LiftedProblem& problem, ImageView<const int> labels);
-
 }  // namespace episcope

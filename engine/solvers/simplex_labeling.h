@@ -52,8 +52,6 @@ struct SimplexResult {
 
   /// (relaxed − bound)/|relaxed|, what the method can close; ≥ 0 up to rounding.
   [[nodiscard]] double relative_gap() const;
-  /// (energy − bound)/|energy|: with more than two labels the relaxation need not be tight.
-  [[nodiscard]] double label_gap() const;
 };
 
 /// Minimizes SimplexProblem relaxed to min over u ≥ 0, Σ_l u_l = 1 of
@@ -95,8 +93,5 @@ class SimplexSolver {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// E(labels). Throws InvalidInput on wrong shapes.
-[[nodiscard]] double potts_energy(const SimplexProblem& problem, ImageView<const int> labels);
 
 }  // namespace episcope

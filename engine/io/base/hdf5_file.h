@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/indices.h"
 #include "engine/io/base/array_input.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/hdf5_drivers.h"
@@ -35,6 +36,15 @@ struct Hdf5Block {
   Hdf5Shape start;
   Hdf5Shape count;
 };
+
+/// Part of one view in a dataset whose first axes are v and u.
+[[nodiscard]] inline Hdf5Block view_block(const Hdf5Shape& shape, ViewIndex view) {
+  Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
+  block.start[0] = static_cast<std::size_t>(view.v);
+  block.start[1] = static_cast<std::size_t>(view.u);
+  block.count[0] = block.count[1] = 1;
+  return block;
+}
 
 /// Version of the loaded library: "1.10.8".
 [[nodiscard]] std::string hdf5_version();

@@ -111,10 +111,7 @@ void write_light_field(Hdf5Output& file, const LightField& field, const Progress
         for (int i = 0; i < grid.count(); ++i) {
           progress.check();
           const ViewIndex view = grid.view_at(i);
-          const Hdf5Block block{
-              {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0, 0},
-              {1, 1, shape[2], shape[3], shape[4]}};
-          file.write(std::string("LF"), block, stack.view(view).data);
+          file.write(std::string("LF"), view_block(shape, view), stack.view(view).data);
           progress.report((i + 1.0) / grid.count());
         }
       },

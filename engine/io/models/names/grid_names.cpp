@@ -10,7 +10,6 @@
 #include "engine/io/models/names/view_names.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/list_layout.h"
-#include "engine/io/models/pose_grid.h"
 #include "engine/io/models/poses.h"
 
 #include <fmt/format.h>
@@ -108,7 +107,7 @@ void refuse_poses(const fs::path& folder, const PosedViews& poses) {
 namespace {
 
 /// The views of a folder that has, or whose parent has, files of poses (read_poses.h), where these
-/// are those of a light field (pose_grid.h); not where options say how names are meant.
+/// are those of a light field (poses.h); not where options say how names are meant.
 PosedViews place_by_poses(const fs::path& folder, const OpenOptions& options) {
   if (!options.pattern.empty() || !options.grid.empty() || options.snake) return {};
   PosedViews with_gaps;
