@@ -330,7 +330,6 @@ void ViewCanvas::mouseReleaseEvent(QMouseEvent* event) {
   if (ended == Gesture::Tool) tool_->release();
   updateCursorShape();
   updateMark();
-  if (ended == Gesture::Parallax) emit parallaxFinished();
   if (ended != Gesture::Press) return;
   if (const auto pixel = pixelAt(press_position_)) {
     if (press_modifiers_ & Qt::ShiftModifier) {

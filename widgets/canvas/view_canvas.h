@@ -123,11 +123,10 @@ class ViewCanvas : public QWidget {
   void centerRequested();
   /// Pixel under the mouse, or none.
   void cursorMoved(std::optional<episcope::PixelIndex> pixel);
-  /// A left drag in browse mode: begin, movement since then, end. `views` is (du, dv), not rounded;
+  /// A left drag in browse mode: begin, movement since then. `views` is (du, dv), not rounded;
   /// points nearer than the zero plane follow the hand.
   void parallaxStarted();
   void parallaxDragged(QPointF views);
-  void parallaxFinished();
   /// The user dragged the divider to a part of the width.
   void wipeMoved(double position);
   /// Space was pressed and released without a drag. Held Space pans; shortcuts on Space do not

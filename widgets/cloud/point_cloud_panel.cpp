@@ -118,11 +118,6 @@ void CloudDisplay::showEvent(QShowEvent* event) {
   emit shown();
 }
 
-void CloudDisplay::hideEvent(QHideEvent* event) {
-  QWidget::hideEvent(event);
-  emit hidden();
-}
-
 namespace {
 
 constexpr int kStretchSteps = 50;  // Of the slider, for a factor of 10 either way.

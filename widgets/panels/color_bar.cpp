@@ -77,10 +77,7 @@ ColorBar::ColorBar(QWidget* parent)
 
   connect(min_, &NumberSpin::valueChanged, this, &ColorBar::editRange);
   connect(max_, &NumberSpin::valueChanged, this, &ColorBar::editRange);
-  connect(lock_, &QToolButton::toggled, this, [this](bool locked) {
-    setRangeLocked(locked);
-    emit rangeLockToggled(locked);
-  });
+  connect(lock_, &QToolButton::toggled, this, &ColorBar::setRangeLocked);
   connect(automatic_, &QToolButton::clicked, this, &ColorBar::automaticRangeRequested);
   connect(own_, &QToolButton::clicked, this, &ColorBar::ownRangeRequested);
 }

@@ -36,7 +36,6 @@ class ColorBar : public QWidget {
 
  signals:
   void rangeEdited(episcope::Interval range);
-  void rangeLockToggled(bool locked);
   /// The user wants a range from the data of this map.
   void automaticRangeRequested();
   /// The user wants the quantity's own range.

@@ -6,7 +6,6 @@
 #include "widgets/controls/tool_button.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
@@ -14,7 +13,6 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QTreeWidget>
-#include <QVBoxLayout>
 
 namespace episcope {
 namespace {
@@ -44,19 +42,8 @@ LabelPalette::LabelPalette(QWidget* parent)
   setUpTree();
   setUpActions();
   hint_->setObjectName("labels.hint");
-  hint_->setAlignment(Qt::AlignCenter);
-  hint_->setWordWrap(true);
   hint_->setMargin(theme::kMargin);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(2);
-  for (auto* button : {add_, rename_, remove_}) row->addWidget(button);
-  row->addStretch(1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
-  layout->addWidget(hint_, 1);
-  layout->addWidget(tree_, 1);
-  layout->addLayout(row);
+  lay_out_list(this, hint_, tree_, {add_, rename_, remove_});
   setLabels({});
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/indices.h"
-#include "engine/render/movie.h"
 
 #include <QImage>
 #include <QTimer>
@@ -50,12 +49,10 @@ class ViewGrid : public QWidget {
 
  public slots:
   void setPlaying(bool playing);
-  void setPlayPath(episcope::render::CameraPath path);
 
  signals:
   /// The user or the player requests this view.
   void viewSelected(episcope::ViewIndex view);
-  void playingChanged(bool playing);
 
  private:
   void select(ViewIndex view);
