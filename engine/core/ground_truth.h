@@ -33,8 +33,8 @@ class HighResTruth {
   virtual ~HighResTruth() = default;
 
   /// Disparity in px of the views per view step, `[y][x]`; not finite = no truth. Throws IoError,
-  /// also if it has another size than that of the views times `kHighResScale`, or takes more memory
-  /// than is granted.
+  /// also if it is not `kHighResScale` times as large as the views, or takes more memory than is
+  /// granted.
   [[nodiscard]] virtual Image<float> read_disparity() const = 0;
   /// Names of the region masks, sorted.
   [[nodiscard]] virtual std::vector<std::string> regions() const = 0;

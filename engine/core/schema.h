@@ -68,7 +68,7 @@ template <NamedEnum E>
 }
 
 /// The single description of a parameter struct `P`: keys, labels, help, units, domains; defaults
-/// are those of a value-initialised `P`. The form in the window, the options of the command line,
+/// come from a value-initialized `P`. The form in the window, the options of the command line,
 /// JSON and validation are all derived from it. A struct may be composed of others that have
 /// schemas of their own (`part`). Keys must be distinct.
 template <class P>

@@ -21,8 +21,8 @@ enum class GainBlocks { All, OneOfFour };
 /// Measures the gains of views against each other.
 ///
 /// The brightness of blocks of a tenth of the image is compared in every two neighboring views.
-/// The median of the ratios of a pair is its gain; the gains of the views fit those of all pairs
-/// best (least squares of logarithms). A block is compared at the shift of up to 6 px at which the
+/// The median of the ratios of a pair is its gain; the gains of the views fit the gains of all
+/// pairs best (least squares of logarithms). A block is compared at the shift of up to 6 px at which the
 /// ratio varies least from pixel to pixel, which does not depend on the gain. Invalid, dark and
 /// clipped pixels do not count. Offsets are not measured: parallax would be mistaken for them.
 /// `valid`: as LightField::valid. 36 pixels of each block are looked at. Throws Cancelled.

@@ -69,8 +69,8 @@ struct Lighting {
   float ground[3] = {};                 ///< and on what faces down.
   float key[3] = {};                    ///< Of the key light,
   float key_direction[3] = {0, -1, 0};  ///< towards it, of length 1.
-  /// Highlights move over the surface with the view, as on polished things; else they are those of
-  /// the center view everywhere.
+  /// Highlights move over the surface with the view, as on polished things; else all views show the
+  /// highlights of the center view.
   bool has_moving_highlights = false;
 };
 

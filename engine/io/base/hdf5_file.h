@@ -49,7 +49,7 @@ struct Hdf5Block {
 /// Version of the loaded library: "1.10.8".
 [[nodiscard]] std::string hdf5_version();
 
-/// Whether the name of a file ends as those of HDF5 files do: .h5, .hdf5.
+/// Whether the name of a file ends in .h5 or .hdf5.
 [[nodiscard]] bool has_hdf5_name(const std::filesystem::path& path);
 /// Whether the file begins with the signature of HDF5; false also if it cannot be read.
 [[nodiscard]] bool has_hdf5_signature(const std::filesystem::path& path);
