@@ -4,6 +4,7 @@
 #include "app/session/judge.h"
 #include "app/session/open_scene.h"
 #include "engine/core/error.h"
+#include "engine/core/numbers.h"
 #include "engine/core/text.h"
 #include "engine/disparity/registry.h"
 #include "engine/evaluation/parameter_search.h"
@@ -29,9 +30,7 @@ std::optional<double> median_change(const DisparityView& a, const DisparityView&
     }
   }
   if (changes.empty()) return std::nullopt;
-  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
-  std::nth_element(changes.begin(), middle, changes.end());
-  return *middle;
+  return quantile(changes, 0.5);
 }
 
 void fill(const Scene& scene, const EstimateRequest& request, const Estimate* reference,

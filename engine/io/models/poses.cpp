@@ -2,6 +2,7 @@
 #include "engine/io/models/poses.h"
 
 #include "engine/core/error.h"
+#include "engine/core/numbers.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/npy.h"
@@ -475,10 +476,9 @@ Steps steps_along(const std::vector<PlanePlace>& places, double PlanePlace::*axi
   }
   if (!distances.empty()) {
     // Where cameras are missing some distances are larger.
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::ranges::nth_element(distances, middle);
+    const double middle = quantile(distances, 0.5);
     const double extent = sorted.back() - sorted.front();
-    steps.count = 1 + static_cast<int>(std::lround(std::min(extent / *middle, kMostSteps)));
+    steps.count = 1 + static_cast<int>(std::lround(std::min(extent / middle, kMostSteps)));
     steps.step = extent / (steps.count - 1);
   }
   for (const PlanePlace& place : places) {
