@@ -18,7 +18,6 @@
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/compare/error_plot_controller.h"
 #include "app/gui/compare/metric_controller.h"
-#include "app/gui/compare/movie_export.h"
 #include "app/gui/compare/picture_export.h"
 #include "app/gui/compare/region_controller.h"
 #include "app/gui/compare/statistics_controller.h"
