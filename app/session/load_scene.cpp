@@ -265,9 +265,7 @@ std::optional<ViewStack<std::uint8_t>> SceneCache::read_samples(
     for (int i = 0; i < options.grid.count(); ++i) {
       progress.check();
       const ViewIndex view = options.grid.view_at(i);
-      const io::Hdf5Block block{{length(view.v), length(view.u), 0, 0, 0},
-                                {1, 1, shape[2], shape[3], shape[4]}};
-      file.read("LF", block, stack.view(view).data);
+      file.read("LF", io::view_block(shape, view), stack.view(view).data);
       progress.report((i + 1.0) / options.grid.count());
     }
     return stack;

@@ -17,7 +17,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <new>
 #include <utility>
 
 namespace episcope {
@@ -31,20 +30,16 @@ std::string range_warning(const LightField& light_field, const Estimate& estimat
 
 }  // namespace
 
-FinishedEstimate run_estimator(const Scene& scene, const EstimateRequest& request,
-                               const Progress& progress) {
-  return run_estimator(scene, find_estimator(request.method), request, progress);
-}
-
 bool was_taken_early(const Estimate& estimate) {
   return std::ranges::find(estimate.notes, kTakenEarly) != estimate.notes.end();
 }
 
 FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
-                               const EstimateRequest& request, const Progress& progress) {
+                               const ParameterSet& parameters, const RunOptions& options,
+                               const Progress& progress) {
   const LightField& light_field = *scene.light_field;
   auto estimate = std::make_shared<Estimate>(
-      estimator.run(light_field, *scene.even, request.parameters, request.options, progress));
+      estimator.run(light_field, *scene.even, parameters, options, progress));
   estimate->source_hash = light_field.sample_hash();
   if (progress.finish_requested() && estimator.info.iterative) {
     estimate->notes.push_back(kTakenEarly);

@@ -32,7 +32,7 @@ struct IntervalOrAuto : std::optional<Interval> {
   bool is_found = false;  ///< False if there is an interval.
 };
 
-/// A view of the camera grid, or empty for "auto": the centre.
+/// A view of the camera grid, or empty for "auto": the center.
 using ViewOrAuto = std::optional<ViewIndex>;
 
 /// Value of one parameter.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/estimate.h"
-#include "engine/core/even_views.h"
+#include "engine/core/view_gain.h"
 #include "engine/core/isa.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"

@@ -37,7 +37,7 @@ constexpr float kSteps[2] = {0.25F, 0.06F};
 constexpr float kReach = 1.5F;  // Steps that a refinement moves at most.
 
 // A view, its guide and what the network knows by heart.
-struct Scene {
+struct NetScene {
   const LightField& light_field;
   ViewIndex view;
   const NetWeights& weights;
@@ -150,7 +150,7 @@ void take_logits(const NetRows& rows, int y, Beliefs& beliefs) {
   }
 }
 
-Beliefs run_volume(const Scene& scene, Interval range, const Progress& progress) {
+Beliefs run_volume(const NetScene& scene, Interval range, const Progress& progress) {
   progress.step("volume");
   const int count = net_label_count(range);
   const auto first = static_cast<float>(range.min), last = static_cast<float>(range.max);
@@ -242,7 +242,7 @@ using Hypotheses = std::array<Image<float>, kNetHypotheses>;
 constexpr int kSelectionInputs = kNetHypotheses * (kReduced + 2) + kNetGuide;
 
 // Inputs of the selection besides the evidence, at one pixel.
-void write_hypotheses(const Scene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
+void write_hypotheses(const NetScene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
                       int y, int x, float* out) {
   for (int i = 0; i < kNetHypotheses; ++i) {
     const float log = beliefs ? log_at(*beliefs, y, x, hypotheses[i].at(y, x)) : 0;
@@ -319,7 +319,7 @@ Interval range_of(const Hypotheses& hypotheses) {
   return all;
 }
 
-Selected run_selection(const Scene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
+Selected run_selection(const NetScene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
                        const Progress& progress) {
   progress.step("selection");
   const Image<float> blank(scene.height(), scene.width());
@@ -366,7 +366,7 @@ struct Unrefined {
 // Evidence of a row at offsets from its disparities, the first as it is, others less the first.
 class OffsetEvidence {
  public:
-  OffsetEvidence(const Scene& scene, const NetEvidence& evidence, const std::string& name)
+  OffsetEvidence(const NetScene& scene, const NetEvidence& evidence, const std::string& name)
       : evidence_(evidence),
         reduce_(scene.weights, name, scene.width()),
         disparities_(scene.width()),
@@ -402,7 +402,7 @@ int add_refinement(NetStream& stream, const NetWeights& weights, int input, cons
                    {r + "f0.0", r + "f0.1", r + "head"});
 }
 
-void write_surroundings(const Scene& scene, const Unrefined& from, int y, int x, float* out) {
+void write_surroundings(const NetScene& scene, const Unrefined& from, int y, int x, float* out) {
   for (const Image<float>& window : from.windows) {
     *out++ = squash(window.at(y, x) - from.disparity.at(y, x));
   }
@@ -419,7 +419,7 @@ void take_refined(const NetRows& rows, int y, float step, const Image<float>& fr
   }
 }
 
-Refined run_refinement(const Scene& scene, int number, const Image<float>& disparity,
+Refined run_refinement(const NetScene& scene, int number, const Image<float>& disparity,
                        const Image<float>& probability, const Progress& progress) {
   progress.step("refinement");
   const std::string name = "refinement." + std::to_string(number) + ".";
@@ -450,7 +450,7 @@ Refined run_refinement(const Scene& scene, int number, const Image<float>& dispa
   return refined;
 }
 
-NetMaps refine(const Scene& scene, Selected selected, Silhouettes silhouettes,
+NetMaps refine(const NetScene& scene, Selected selected, Silhouettes silhouettes,
                const Progress& progress) {
   const Refined coarse =
       run_refinement(scene, 0, selected.mode, selected.probability, progress.part(0, 0.5));
@@ -489,7 +489,7 @@ NetMaps estimate_net(const LightField& light_field, ViewIndex view, const NetWei
                     "was given {} to {} px and {}",
                     parameters.range.min, parameters.range.max, parameters.rounds));
   }
-  const Scene scene{light_field, view, weights, net_guide(light_field, view)};
+  const NetScene scene{light_field, view, weights, net_guide(light_field, view)};
   Beliefs beliefs = run_volume(scene, parameters.range, progress.part(0, 0.65));
   Selected selected;
   for (int round = 0; round < parameters.rounds; ++round) {
@@ -511,7 +511,7 @@ NetMaps polish_by_net(const LightField& light_field, ViewIndex view, const Image
     throw InvalidInput(fmt::format("the map has {}×{} px, but views have {}×{}", disparity.width(),
                                    disparity.height(), light_field.width(), light_field.height()));
   }
-  const Scene scene{light_field, view, weights, net_guide(light_field, view)};
+  const NetScene scene{light_field, view, weights, net_guide(light_field, view)};
   const Hypotheses hypotheses = net_hypotheses(disparity, disparity, progress.part(0, 0));
   Selected selected = run_selection(scene, hypotheses, nullptr, progress.part(0, 0.5));
   return refine(scene, std::move(selected), parameters.silhouettes, progress.part(0.5, 1));

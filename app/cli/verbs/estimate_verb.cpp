@@ -260,7 +260,8 @@ class Runner {
                                    const Progress& progress) {
     const ViewIndex center = scene.light_field->center();
     const EstimatePtr estimate =
-        run_estimator(scene, *request_.estimator, run, progress.part(0, 0.85)).estimate;
+        run_estimator(scene, *request_.estimator, run.parameters, options_, progress.part(0, 0.85))
+            .estimate;
     progress.step("writing " + task.output);
     if (request_.is_submission) {
       submit(task, *estimate, center);

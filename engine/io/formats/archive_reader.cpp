@@ -21,7 +21,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <optional>
@@ -180,9 +179,9 @@ std::optional<ViewStack<T>> map_views(const Hdf5Input& file, const ArchiveLayout
 }
 
 /// The samples of an archive file in the stored order of views and in their stored type; wider
-/// integers are taken as bytes if the centre view fits. Those of a large light field
+/// integers are taken as bytes if the center view fits. Those of a large light field
 /// (is_better_mapped) stay in the file, if it stores them as an array of 8 or 16 bits that nothing
-/// asks to change: they are there at once, and read when they are looked at. Shows the centre view
+/// asks to change: they are there at once, and read when they are looked at. Shows the center view
 /// (OpenOptions::on_center_view) with `info`. Throws IoError, Cancelled.
 LightField::Samples read_archive_samples(const Hdf5Input& file, ArchiveLayout layout,
                                          const OpenOptions& options, const LightFieldInfo& info,

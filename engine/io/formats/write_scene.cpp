@@ -111,10 +111,7 @@ void write_light_field(Hdf5Output& file, const LightField& field, const Progress
         for (int i = 0; i < grid.count(); ++i) {
           progress.check();
           const ViewIndex view = grid.view_at(i);
-          const Hdf5Block block{
-              {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0, 0},
-              {1, 1, shape[2], shape[3], shape[4]}};
-          file.write(std::string("LF"), block, stack.view(view).data);
+          file.write(std::string("LF"), view_block(shape, view), stack.view(view).data);
           progress.report((i + 1.0) / grid.count());
         }
       },
@@ -122,7 +119,7 @@ void write_light_field(Hdf5Output& file, const LightField& field, const Progress
 }
 
 /// Writes a disparity field as depth, 0 where there is none, and its mask if something is missing.
-/// A single view is stored as `[y][x]` if it is the centre, else as one valid view of all.
+/// A single view is stored as `[y][x]` if it is the center, else as one valid view of all.
 void write_depth(Hdf5Output& file, const std::string& name, const DisparityField& field,
                  const Scene& scene, const CameraGrid& camera, const Progress& progress) {
   if (field.empty()) return;
@@ -167,7 +164,7 @@ void write_depth(Hdf5Output& file, const std::string& name, const DisparityField
   });
 }
 
-/// Region masks of the centre view, and which pixels of the views are valid.
+/// Region masks of the center view, and which pixels of the views are valid.
 void write_masks(Hdf5Output& file, const Scene& scene, const Progress& progress) {
   for (const auto& [name, region] : scene.truth->regions) {
     const Hdf5Shape shape{static_cast<std::size_t>(region.height()),
@@ -179,7 +176,7 @@ void write_masks(Hdf5Output& file, const Scene& scene, const Progress& progress)
   if (!valid.empty()) write_stack(file, kValid, valid, "", progress);
 }
 
-/// A part of the views that is not the centre alone is stored among all, the others as 0 = none.
+/// A part of the views that is not the center alone is stored among all, the others as 0 = none.
 void write_true_labels(Hdf5Output& file, const Scene& scene, const Progress& progress) {
   const ViewStack<std::int32_t>& labels = scene.truth->labels;
   if (labels.empty()) return;

@@ -18,7 +18,7 @@ void write_archive(const std::filesystem::path& path, const Scene& scene, const 
 /// lies beside it.
 [[nodiscard]] bool puts_labels_inside(const std::filesystem::path& path, const Scene& scene);
 
-/// Writes a folder of the 2016 benchmark form: images, cfg, PFM truth of the centre
+/// Writes a folder of the 2016 benchmark form: images, cfg, PFM truth of the center
 /// view and, where known, of all views. Throws IoError (also if the folder holds other files),
 /// Cancelled.
 void write_benchmark_folder(const std::filesystem::path& folder, const Scene& scene,
@@ -34,12 +34,12 @@ inline constexpr const char* kConventionText =
 /// Attribute of the root: x and y of the camera of each view, row by row; and their unit.
 inline constexpr const char* kPositions = "camera_positions";
 inline constexpr const char* kPositionUnit = "camera_position_unit";
-/// Attribute of the root: the pinhole of the centre view: focal length, x and y of its centre in
+/// Attribute of the root: the pinhole of the center view: focal length, x and y of its center in
 /// px.
 inline constexpr const char* kPinhole = "pinhole";
 /// Dataset `[v][h][y][x]`, uint8: 0 = the pixel holds nothing that was seen.
 inline constexpr const char* kValid = "VALID";
-/// Datasets `[y][x]`, uint8: a region mask of the centre view, whose name follows.
+/// Datasets `[y][x]`, uint8: a region mask of the center view, whose name follows.
 inline constexpr const char* kRegionPrefix = "REGION_";
 
 }  // namespace episcope::io

@@ -12,7 +12,7 @@
 namespace episcope::io {
 
 /// Reads a disparity map of another program: PFM, 32-bit float TIFF, `.npy` of two or four axes, or
-/// an HDF5 file with one 2-D or 4-D dataset of float samples. A 2-D map belongs to the centre view
+/// an HDF5 file with one 2-D or 4-D dataset of float samples. A 2-D map belongs to the center view
 /// of `grid`. Values that are not finite become invalid pixels. Throws IoError with one sentence.
 [[nodiscard]] DisparityField read_disparity_map(const std::filesystem::path& path, GridShape grid);
 

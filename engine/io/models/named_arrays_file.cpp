@@ -27,8 +27,7 @@ std::unique_ptr<ArrayInput> open_entry(const std::filesystem::path& path, const 
   if (header.is_fortran && header.shape.size() > 1) {
     throw IoError(path, entry.name + " is stored in Fortran order; save the weights in C order");
   }
-  if (entry.is_deflated) return std::make_unique<DeflatedNpy>(path, entry, header);
-  return std::make_unique<NpyFile>(path, entry.begin, entry.stored);
+  return open_zipped_npy(path, entry);
 }
 
 template <class T>
