@@ -6,7 +6,4 @@ namespace episcope {
 /// "0.1.0": the version that the top CMakeLists.txt gives the project.
 extern const char* const kVersion;
 
-/// share/episcope where this build is meant to be installed.
-extern const char* const kDataFolder;
-
 }  // namespace episcope

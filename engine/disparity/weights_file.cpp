@@ -3,7 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/hash.h"
-#include "engine/core/version.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +10,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 namespace episcope {
 
@@ -311,18 +312,23 @@ fs::path own_file() {
 }  // namespace
 
 fs::path installed_weights(std::string_view name) {
-  const fs::path place = fs::path("share/episcope/weights") / name;
-  std::error_code ignored;
+  std::vector<fs::path> data_folders;
   for (fs::path folder = own_file().parent_path(); folder.has_relative_path();
        folder = folder.parent_path()) {
+    data_folders.push_back(folder / "share");
+  }
+  const char* const given = std::getenv("XDG_DATA_DIRS");
+  std::istringstream of_system(given && *given ? given : "/usr/local/share:/usr/share");
+  for (std::string folder; std::getline(of_system, folder, ':');) data_folders.push_back(folder);
+  const fs::path place = fs::path("episcope/weights") / name;
+  for (const fs::path& folder : data_folders) {
+    std::error_code ignored;
     if (fs::is_regular_file(folder / place, ignored)) return folder / place;
   }
-  const fs::path built_for = fs::path(kDataFolder) / "weights" / name;
-  if (fs::is_regular_file(built_for, ignored)) return built_for;
-  throw Unavailable(
-      fmt::format("the weights {} are not installed with the program, in {}; install "
-                  "it anew, or name a file of weights",
-                  name, place.string()));
+  throw Unavailable(fmt::format(
+      "the weights {} are not installed with the program, in share/{}; install it anew, "
+      "or name a file of weights",
+      name, place.string()));
 }
 
 }  // namespace episcope

@@ -36,8 +36,8 @@ inline constexpr std::size_t kMostWeights = std::size_t{1} << 25;
 [[nodiscard]] NamedArrays read_named_arrays(const std::filesystem::path& path);
 
 /// The file of this name in share/episcope/weights of the nearest folder above the program or
-/// library that this code is part of, else in that folder of the place the program was built to be
-/// installed in. Throws Unavailable if neither has it.
+/// library that this code is part of, else in episcope/weights of the system's folders of data
+/// (XDG_DATA_DIRS). Throws Unavailable if none has it.
 [[nodiscard]] std::filesystem::path installed_weights(std::string_view name);
 
 }  // namespace episcope

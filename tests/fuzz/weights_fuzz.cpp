@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/net_weights.h"
+#include "engine/disparity/weights_file.h"
+#include "engine/io/base/atomic_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/base/zip.h"
 #include "tests/fuzz/harness.h"
@@ -7,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace episcope::fuzz {
