@@ -124,6 +124,7 @@ std::vector<Entry> entries_of(const Bytes& file) {
                   "this is no whole .npz archive; choose a file of weights, or copy it "
                   "again");
   }
+  (void)file.part(end, 22U + file.number<std::uint16_t>(end + 20));
   const auto count = file.number<std::uint16_t>(end + 10);
   if (count > kMostArrays) {
     throw IoError(file.path(), fmt::format("the archive holds {} files, but weights of a network "
