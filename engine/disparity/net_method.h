@@ -15,9 +15,9 @@ namespace episcope {
 struct NetMethodParameters {
   Silhouettes silhouettes = Silhouettes::Mode;
   int rounds = 2;       ///< Of the selection.
-  std::string weights;  ///< A file; empty = those that come with the program.
-  IntervalOrAuto range;
-  ViewOrAuto view;
+  std::string weights{};  ///< A file; empty = those that come with the program.
+  IntervalOrAuto range{};
+  ViewOrAuto view{};
 };
 [[nodiscard]] Schema<NetMethodParameters> net_schema();
 
