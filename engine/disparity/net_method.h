@@ -14,7 +14,7 @@ namespace episcope {
 /// Parameters of the method `net`.
 struct NetMethodParameters {
   Silhouettes silhouettes = Silhouettes::Mode;
-  int rounds = 2;       ///< Of the selection.
+  int rounds = 2;         ///< Of the selection.
   std::string weights{};  ///< A file; empty = those that come with the program.
   IntervalOrAuto range{};
   ViewOrAuto view{};
