@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/named_arrays.h"
+#include "engine/disparity/weights_file.h"
 
 #include <array>
 #include <cstddef>

@@ -23,6 +23,8 @@ episcope_install_files(cli "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d"
                        "${pages}/fish/episcope-cli.fish")
 install(DIRECTORY "${CMAKE_SOURCE_DIR}/resources/blender" DESTINATION "${CMAKE_INSTALL_DATADIR}/episcope"
         COMPONENT cli PATTERN "__pycache__" EXCLUDE)
+episcope_install_files(cli "${CMAKE_INSTALL_DATADIR}/episcope/weights"
+                       "${CMAKE_SOURCE_DIR}/resources/weights/net.npz")
 if(EPISCOPE_GUI)
   install(TARGETS episcope RUNTIME COMPONENT window)
   episcope_install_files(window "${CMAKE_INSTALL_MANDIR}/man1" "${pages}/man/episcope.1.gz")

@@ -35,6 +35,7 @@ as_user episcope-cli evaluate d.h5 --truth demo
 as_user episcope-cli synthesize objects -o lf.h5 --views 5x5 --size 96x96
 [ -s /usr/share/man/man1/episcope-cli-estimate.1.gz ]
 [ -s /usr/share/episcope/blender/episcope_light_field.py ]
+as_user episcope-cli methods net | grep -q 'SHA-256.* /usr/share/episcope/weights/net.npz'
 
 install /media/packages/episcope_*.deb
 as_user episcope --version

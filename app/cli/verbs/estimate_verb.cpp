@@ -81,7 +81,7 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
   parser.option("--memory", request.memory, bytes_value("SIZE"),
                 "Memory for program, light field and method together, such as 4G; by default two "
                 "thirds of what is free. Within it, epi_l, epi_s, epi_c, epi_two_layer, the local "
-                "and denoised stereo methods and plane_pm write their maps block by block to "
+                "and denoised stereo methods, plane_pm and net write their maps block by block to "
                 "OUT.h5.partial, and the same command continues an interrupted run; other methods "
                 "run at once and put on disk what does not fit");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
