@@ -2,9 +2,11 @@
 #include "app/session/command_line.h"
 
 #include "engine/disparity/registry.h"
+#include "engine/io/base/json.h"
 #include "engine/io/models/open_options.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -21,7 +23,47 @@ bool is_default(const std::vector<ParameterDescription>& descriptions, const std
       });
 }
 
+using Json = nlohmann::ordered_json;
+
+Json parameter_json(const ParameterDescription& parameter) {
+  Json json;
+  json["key"] = parameter.key;
+  json["label"] = parameter.label;
+  json["help"] = parameter.help;
+  json["unit"] = parameter.unit;
+  json["default"] = io::parameters_json({{"", parameter.default_value}}).at("");
+  if (!parameter.choices.empty()) json["choices"] = parameter.choices;
+  for (const Preset& preset : parameter.presets) {
+    json["presets"][preset.choice] = io::parameters_json(preset.values);
+  }
+  if (has_numeric_domain(parameter)) {
+    json["min"] = parameter.min;
+    json["max"] = parameter.max;
+  }
+  return json;
+}
+
+Json method_json(const Estimator& method) {
+  Json json;
+  json["id"] = method.info.id;
+  json["name"] = method.info.name;
+  json["summary"] = method.info.summary;
+  json["reference"] = method.info.reference;
+  json["all_views"] = method.info.all_views;
+  json["parameters"] = Json::array();
+  for (const auto& parameter : method.parameters) {
+    json["parameters"].push_back(parameter_json(parameter));
+  }
+  return json;
+}
+
 }  // namespace
+
+nlohmann::ordered_json methods_json() {
+  Json list = Json::array();
+  for (const Estimator& method : registered_estimators()) list.push_back(method_json(method));
+  return list;
+}
 
 std::string shell_quoted(const std::string& word) {
   const auto is_plain = [](char c) {

@@ -4,6 +4,8 @@
 #include "engine/core/estimate.h"
 #include "engine/disparity/estimator.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
@@ -19,6 +21,10 @@ namespace episcope {
 [[nodiscard]] std::string command_line_for(const std::string& method, const ParameterSet& values,
                                            ViewSelection views, const std::string& input,
                                            const ParameterSet& reading = {});
+
+/// Every method with its parameters, in the order of lists: what `episcope-cli methods --json`
+/// prints as "methods".
+[[nodiscard]] nlohmann::ordered_json methods_json();
 
 /// Values that are not the defaults of the method; of a method this build does not know, all.
 [[nodiscard]] ParameterSet changed_parameters(const std::string& method,

@@ -9,6 +9,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace episcope {
@@ -41,6 +42,11 @@ inline constexpr const char* kTakenEarly = "ended early";
 [[nodiscard]] FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
                                              const EstimateRequest& request,
                                              const Progress& progress);
+
+/// The views that a run covers: those that are wanted, else as many as the method can. Throws
+/// InvalidInput if all views are wanted of a method that estimates one.
+[[nodiscard]] ViewSelection views_to_estimate(const Estimator& estimator,
+                                              std::optional<ViewSelection> wanted);
 
 /// A run whose maps go to a file block by block.
 struct BlockRequest {
