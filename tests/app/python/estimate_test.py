@@ -47,14 +47,11 @@ def test_result_of_one_view_is_one_map(scene):
     assert result.view == (2, 2)
 
 
-def test_unknown_pixels_are_nan():
-    lf = episcope.LightField(
-        numpy.concatenate([episcope.demo(SCENE).views, numpy.full((5, 5, 64, 64, 1), 255, numpy.uint8)], axis=4)
-    )
-    assert lf.views.shape[4] == 3
-    masked = numpy.full((5, 5, 64, 64, 1), 255, numpy.uint8)
-    masked[:, :, :8] = 0
-    lf = episcope.LightField(numpy.concatenate([lf.views, masked], axis=4))
+def test_unknown_pixels_are_nan(scene):
+    """A fourth channel is a weight: 0 = nothing was seen there."""
+    weight = numpy.full((5, 5, 64, 64, 1), 255, numpy.uint8)
+    weight[:, :, :8] = 0
+    lf = episcope.LightField(numpy.concatenate([scene.views, weight], axis=4))
     disparity = episcope.estimate(lf, "epi_l").disparity
     assert numpy.isnan(disparity[:, :, :8]).all()
     assert not numpy.isnan(disparity[:, :, 8:]).any()
