@@ -15,7 +15,7 @@ namespace episcope::python {
 /// thread, which must hold it, waits: it looks for signals and calls `listener(fraction, step)`,
 /// None for no listener, whenever there is something new. What either of them raises, such as
 /// KeyboardInterrupt on Ctrl+C, stops the work and is thrown when it has ended; else what the work
-/// throws. `threads` 0 = as many as the machine has.
+/// throws. `work` must not touch objects of Python. `threads` 0 = as many as the machine has.
 void run_job(const pybind11::object& listener, int threads,
              const std::function<void(const Progress&)>& work);
 

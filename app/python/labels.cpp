@@ -20,11 +20,14 @@
 namespace episcope::python {
 namespace {
 
-/// Labels of all views as Python sees them.
-struct FoundLabels {
-  OpenedScene of;
+struct ScoredLabels {
   Segmentation segmentation;
   LabelingScores scores;
+};
+
+/// Labels of all views as Python sees them.
+struct FoundLabels : ScoredLabels {
+  OpenedScene of;
 };
 
 bool is_painted(const ViewScribbles& scribbles) {
@@ -81,16 +84,16 @@ LabelingDisparity disparity_for(const Scene& scene, const LabelerParameters& par
   return episcope::disparity_of(given, given->method);
 }
 
-FoundLabels label_scene(const OpenedScene& opened, const Scribbles& scribbles,
-                        const LabelerParameters& parameters, const EstimatePtr& given,
-                        Device device, const Progress& progress) {
-  const Scene& scene = *opened.scene;
+/// Touches nothing of Python, since it runs without the lock of the interpreter.
+ScoredLabels label_scene(const Scene& scene, const Scribbles& scribbles,
+                         const LabelerParameters& parameters, const EstimatePtr& given,
+                         Device device, const Progress& progress) {
   const LabelingDisparity disparity =
       disparity_for(scene, parameters, given, device, progress.part(0, 0.2));
   Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
                   disparity.confidence());
   labeler.compute_on(device);
-  FoundLabels found{opened, {}, {}};
+  ScoredLabels found;
   found.segmentation.labeling = std::make_shared<const Labeling>(labeler.label(
       scribbles, parameters, {{0, 0}, scene.light_field->grid()}, progress.part(0.2, 0.95)));
   found.segmentation.labels = scribbles.labels;
@@ -111,9 +114,10 @@ FoundLabels label(const OpenedScene& opened, const py::object& painted, const py
   const EstimatePtr estimate =
       disparity.is_none() ? nullptr : py::cast<const FoundEstimate&>(disparity).estimate;
   const Device on = run_options(device, threads).device;
-  return result_of_job(progress, threads, [&](const Progress& job) {
-    return label_scene(opened, scribbles, parameters, estimate, on, job);
+  ScoredLabels labels = result_of_job(progress, threads, [&](const Progress& job) {
+    return label_scene(*opened.scene, scribbles, parameters, estimate, on, job);
   });
+  return {std::move(labels), opened};
 }
 
 void save_labels(const FoundLabels& found, const py::object& given_path, bool probabilities) {
