@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
+import ast
 import gc
 import inspect
+import pathlib
 
 import numpy
 import pytest
@@ -103,3 +105,17 @@ def test_functions_have_signatures_and_texts():
         if not inspect.isclass(thing):
             assert inspect.signature(thing), name
     assert "progress" in inspect.signature(episcope.estimate).parameters
+
+
+def test_stubs_name_what_there_is():
+    stubs = ast.parse(pathlib.Path(episcope.__file__).with_suffix(".pyi").read_text()).body
+    named = {stub.name: stub for stub in stubs if isinstance(stub, (ast.ClassDef, ast.FunctionDef))}
+    assert set(named) == set(episcope.__all__)
+    for name, stub in named.items():
+        if isinstance(stub, ast.ClassDef):
+            members = {part.name for part in stub.body if isinstance(part, ast.FunctionDef)} - {"__init__"}
+            assert members == {part for part in vars(getattr(episcope, name)) if not part.startswith("_")}, name
+        else:
+            stated = [argument.arg for argument in stub.args.args + stub.args.kwonlyargs]
+            real = inspect.signature(getattr(episcope, name)).parameters.values()
+            assert stated == [one.name for one in real if one.kind != one.VAR_KEYWORD], name
