@@ -45,10 +45,6 @@ Json view_json(ViewIndex view) {
   return Json::array({view.v, view.u});
 }
 
-Json value_json(const ParameterValue& value) {
-  return io::parameters_json({{"value", value}}).at("value");
-}
-
 void print_json(const Json& json) {
   // Names of files may be any bytes: those that are not UTF-8 become the replacement character.
   std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';

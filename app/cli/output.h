@@ -18,8 +18,6 @@ using Json = nlohmann::ordered_json;
 /// the shortest number that reads back as the same.
 [[nodiscard]] Json interval_json(const Interval& interval);
 [[nodiscard]] Json view_json(ViewIndex view);
-/// A value as in `io::parameters_json`, which writes sets of them.
-[[nodiscard]] Json value_json(const ParameterValue& value);
 /// The one JSON object of an answer, on standard output.
 void print_json(const Json& json);
 

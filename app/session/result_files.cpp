@@ -16,6 +16,7 @@
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/formats/frames_reader.h"
 #include "engine/io/formats/mosaic_reader.h"
+#include "engine/io/models/external_result.h"
 #include "engine/io/models/padding.h"
 #include "engine/io/models/result_file.h"
 #include "engine/render/shade.h"
@@ -23,6 +24,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -104,6 +106,24 @@ bool names_result(const std::string& path) {
   return suffix == ".pfm" || io::is_result_file(path) || is_foreign_hdf5_result(path);
 }
 
+namespace {
+
+void remove_padding_of(Estimate& estimate, const LightField& light_field) {
+  if (!estimate.confidence.empty() || !estimate.layered.layers.empty()) return;
+  const std::string note =
+      io::remove_padding(estimate.field, light_field.height(), light_field.width());
+  if (!note.empty()) estimate.notes.push_back(note);
+}
+
+void find_border_of(Estimate& estimate, const LightField& light_field) {
+  const io::BareBorder border =
+      io::find_bare_border(estimate.field, light_field.height(), light_field.width());
+  estimate.border_px = border.width_px;
+  if (!border.note.empty()) estimate.notes.push_back(border.note);
+}
+
+}  // namespace
+
 Estimate read_result_of(const LightField& light_field, const fs::path& path) {
   std::error_code ignored;
   const bool is_hdf5 = fs::is_regular_file(path, ignored) && io::has_hdf5_signature(path);
@@ -112,17 +132,19 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path) {
                   "holds a light field or true depth and no estimated disparity; name a result");
   }
   Estimate estimate = io::read_result(path, light_field.grid(), light_field.info().name);
-  if (estimate.confidence.empty() && estimate.layered.layers.empty()) {
-    const std::string note =
-        io::remove_padding(estimate.field, light_field.height(), light_field.width());
-    if (!note.empty()) estimate.notes.push_back(note);
-  }
-  if (!io::is_result_file(path)) {
-    const io::BareBorder border =
-        io::find_bare_border(estimate.field, light_field.height(), light_field.width());
-    estimate.border_px = border.width_px;
-    if (!border.note.empty()) estimate.notes.push_back(border.note);
-  }
+  remove_padding_of(estimate, light_field);
+  if (!io::is_result_file(path)) find_border_of(estimate, light_field);
+  return estimate;
+}
+
+Estimate result_from_maps(const LightField& light_field, DisparityField maps,
+                          const std::string& method) {
+  Estimate estimate;
+  estimate.field = std::move(maps);
+  estimate.method = method;
+  io::mark_invalid(estimate.field);
+  remove_padding_of(estimate, light_field);
+  find_border_of(estimate, light_field);
   return estimate;
 }
 
@@ -216,7 +238,7 @@ std::string differing_options(const Estimate& estimate, const LightField& light_
 }
 
 std::string source_text(const std::string& input, const fs::path& result) {
-  if (!builtin_scene_id(input).empty()) return input;
+  if (input.empty() || !builtin_scene_id(input).empty()) return input;
   fs::path source = fs::weakly_canonical(input);
   if (!source.has_filename()) source = source.parent_path();
   const fs::path folder = fs::weakly_canonical(fs::absolute(result)).parent_path();

@@ -50,6 +50,16 @@ FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
   return {std::move(estimate), range, std::move(warning)};
 }
 
+ViewSelection views_to_estimate(const Estimator& estimator, std::optional<ViewSelection> wanted) {
+  const bool can_all = estimator.info.all_views;
+  if (!wanted) return can_all ? ViewSelection::All : ViewSelection::Center;
+  if (can_all || *wanted == ViewSelection::Center) return *wanted;
+  const bool chooses = std::ranges::count(estimator.parameters, std::string("view"),
+                                          &ParameterDescription::key) > 0;
+  throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center" +
+                     (chooses ? ", or --view V,U for another" : ""));
+}
+
 namespace {
 
 // What must be the same for a file to be continued, in one line.

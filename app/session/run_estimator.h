@@ -8,6 +8,7 @@
 #include "engine/disparity/run_blocks.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace episcope {
@@ -36,6 +37,11 @@ inline constexpr const char* kTakenEarly = "ended early";
 [[nodiscard]] FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
                                              const ParameterSet& parameters,
                                              const RunOptions& options, const Progress& progress);
+
+/// The views that a run covers: those that are wanted, else as many as the method can. Throws
+/// InvalidInput if all views are wanted of a method that estimates one.
+[[nodiscard]] ViewSelection views_to_estimate(const Estimator& estimator,
+                                              std::optional<ViewSelection> wanted);
 
 /// A run whose maps go to a file block by block.
 struct BlockRequest {

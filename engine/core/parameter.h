@@ -66,6 +66,9 @@ struct ParameterDescription {
   std::vector<Preset> presets = {};             ///< Of choices: what they mean for others.
 };
 
+/// Whether `min` and `max` of a parameter mean something.
+[[nodiscard]] bool has_numeric_domain(const ParameterDescription& description);
+
 /// The parameters with the defaults and searched values that hold once `values` choose presets.
 /// Values of parameters without presets, and unknown keys, change nothing.
 [[nodiscard]] std::vector<ParameterDescription> described_under(

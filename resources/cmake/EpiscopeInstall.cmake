@@ -1,4 +1,4 @@
-# What is installed, in three components: cli, window and dev. Included last, when every target is
+# What is installed, in components: cli, window, python and dev. Included last, when every target is
 # known.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -43,6 +43,13 @@ if(EPISCOPE_GUI)
   if(EPISCOPE_RSVG)
     install(DIRECTORY "${pages}/icons/hicolor" DESTINATION "${icons}" COMPONENT window)
   endif()
+endif()
+
+if(EPISCOPE_HAS_PYTHON)
+  set(modules lib/python3/dist-packages/episcope)  # where Debian's Python finds it, whichever its version
+  install(TARGETS episcope_python LIBRARY DESTINATION "${modules}" COMPONENT python)
+  install(DIRECTORY "${CMAKE_SOURCE_DIR}/app/python/episcope/" DESTINATION "${modules}" COMPONENT python
+          PATTERN "__pycache__" EXCLUDE)
 endif()
 
 # episcope_libraries_in(out folder): the libraries that are added in a folder and below.

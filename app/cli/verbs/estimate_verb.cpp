@@ -109,25 +109,13 @@ bool parse(const VerbArguments& arguments, EstimateArguments& request) {
 }
 
 ViewSelection selected_views(const EstimateArguments& request) {
-  const Estimator& estimator = *request.estimator;
-  const bool can_all = estimator.info.all_views;
-  if (request.is_submission) {
-    if (request.job.run.is_given("views") &&
-        request.job.run_options().views != ViewSelection::Center) {
-      throw UsageError("a submission holds center views; leave out --views");
-    }
-    return ViewSelection::Center;
+  std::optional<ViewSelection> wanted;
+  if (request.job.run.is_given("views")) wanted = request.job.run_options().views;
+  if (!request.is_submission) return views_to_estimate(*request.estimator, wanted);
+  if (wanted.value_or(ViewSelection::Center) != ViewSelection::Center) {
+    throw UsageError("a submission holds center views; leave out --views");
   }
-  if (!request.job.run.is_given("views")) {
-    return can_all ? ViewSelection::All : ViewSelection::Center;
-  }
-  const ViewSelection wanted = request.job.run_options().views;
-  if (can_all || wanted == ViewSelection::Center) return wanted;
-  const auto& parameters = estimator.parameters;
-  const bool chooses = std::any_of(parameters.begin(), parameters.end(),
-                                   [](const auto& one) { return one.key == "view"; });
-  throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center" +
-                     (chooses ? ", or --view V,U for another" : ""));
+  return ViewSelection::Center;
 }
 
 /// For JSON "all", "center" or row and column of the only view; in words for people.

@@ -3,9 +3,8 @@
 #include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
 #include "app/cli/verbs/verbs.h"
+#include "app/session/command_line.h"
 #include "engine/disparity/registry.h"
-#include "engine/disparity/weights_file.h"
-#include "engine/io/base/json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,43 +12,6 @@
 
 namespace episcope::cli {
 namespace {
-
-Json parameter_json(const ParameterDescription& parameter) {
-  Json json;
-  json["key"] = parameter.key;
-  json["label"] = parameter.label;
-  json["help"] = parameter.help;
-  json["unit"] = parameter.unit;
-  json["default"] = value_json(parameter.default_value);
-  if (!parameter.choices.empty()) json["choices"] = parameter.choices;
-  for (const Preset& preset : parameter.presets) {
-    json["presets"][preset.choice] = io::parameters_json(preset.values);
-  }
-  if (has_numeric_domain(parameter)) {
-    json["min"] = parameter.min;
-    json["max"] = parameter.max;
-  }
-  return json;
-}
-
-/// What the record of a learned method's weights says, or why they cannot be read.
-Json weights_json(const std::string& name) {
-  Json json;
-  json["file"] = name;
-  try {
-    const auto path = installed_weights(name);
-    json["file"] = path.string();
-    const auto record = io::parse_json<Json>(read_named_arrays(path).record);
-    json["version"] = record.at("version");
-    json["date"] = record.at("training").at("date");
-    json["sha256"] = record.at("sha256");
-  } catch (const Error& error) {
-    json["problem"] = error.what();
-  } catch (const Json::exception&) {
-    json["problem"] = "their record is damaged; install the program anew";
-  }
-  return json;
-}
 
 std::string weights_text(const std::string& name) {
   const Json json = weights_json(name);
@@ -59,21 +21,6 @@ std::string weights_text(const std::string& name) {
   };
   return "version " + text_of("version") + " of " + text_of("date") + ", SHA-256 " +
          text_of("sha256") + ", " + text_of("file");
-}
-
-Json method_json(const Estimator& method) {
-  Json json;
-  json["id"] = method.info.id;
-  json["name"] = method.info.name;
-  json["summary"] = method.info.summary;
-  json["reference"] = method.info.reference;
-  json["all_views"] = method.info.all_views;
-  if (!method.info.weights.empty()) json["weights"] = weights_json(method.info.weights);
-  json["parameters"] = Json::array();
-  for (const auto& parameter : method.parameters) {
-    json["parameters"].push_back(parameter_json(parameter));
-  }
-  return json;
 }
 
 void print_method(const Estimator& method) {

@@ -589,6 +589,10 @@ SceneProbe probe_numpy(const fs::path& path, const OpenOptions& options) {
 
 }  // namespace
 
+Scene read_arrays(const ArrayFile& file, const OpenOptions& options, const Progress& progress) {
+  return read_array_scene(file, kNumpyReader, options, progress);
+}
+
 Reader numpy_reader() {
   return {.id = kNumpyReader,
           .name = "a NumPy array",
