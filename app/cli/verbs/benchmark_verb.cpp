@@ -503,6 +503,16 @@ void print_answer(const BenchmarkRequest& request, const BenchmarkReport& report
             << " points searched, " << report.reused << " taken from before\n";
 }
 
+/// What is to be known of maps of other programs.
+void note_submissions(const BenchmarkReport& report, Job& job) {
+  for (const auto& result : report.results) {
+    if (!result.is_foreign) continue;
+    for (const std::string& note : result.notes) {
+      job.note(result.entry + " on " + result.scene + ": " + note);
+    }
+  }
+}
+
 // What a scene does to every method is said once.
 void note_problems(const BenchmarkReport& report, Job& job) {
   std::map<std::pair<std::string, std::string>, std::string> entries;  // by scene and problem
@@ -528,6 +538,7 @@ void require_devices(const BenchmarkOptions& options) {
 /// Writes what a benchmark found out, of whatever machines.
 void answer(const BenchmarkRequest& request, const BenchmarkReport& report, Job& job) {
   note_problems(report, job);
+  note_submissions(report, job);
   job.finish();
   require_success(report, request.output);
   print_answer(request, report);

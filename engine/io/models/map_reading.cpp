@@ -240,17 +240,40 @@ MapReading joined_reading(MapReading turned, const MapReading& valued) {
   return turned;
 }
 
+/// Pixels that a map in the upper left corner lacks at each side of the view: half of the rows
+/// below, and of as many columns on the right, that have no value or one value only. 0 if there are
+/// no such rows and columns.
+int corner_border(const DisparityView& map) {
+  const int height = map.disparity.height, width = map.disparity.width;
+  const auto is_bare = [&](int y, int x) {
+    return !map.is_valid(y, x) || map.disparity.at(y, x) == map.disparity.at(height - 1, width - 1);
+  };
+  const int widest = std::min(height, width) / 4;
+  int rows = 0, columns = 0;
+  const auto is_bare_row = [&](int y) {
+    int x = 0;
+    while (x < width && is_bare(y, x)) ++x;
+    return x == width;
+  };
+  const auto is_bare_column = [&](int x) {
+    int y = 0;
+    while (y < height && is_bare(y, x)) ++y;
+    return y == height;
+  };
+  while (rows <= widest && is_bare_row(height - 1 - rows)) ++rows;
+  while (columns <= widest && is_bare_column(width - 1 - columns)) ++columns;
+  return rows == columns && rows % 2 == 0 && rows <= widest ? rows / 2 : 0;
+}
+
 /// What may be meant, the readings that change least first; the map as read is not among them.
-std::vector<MapReading> possible_readings(const LightField& light_field, bool has_truth) {
+std::vector<MapReading> possible_readings(const DisparityView& map, const LightField& light_field,
+                                          bool has_truth) {
   const bool is_square = light_field.height() == light_field.width();
   const std::vector<MapReading> turned = turned_readings(is_square);
   const std::vector<MapReading> valued = valued_readings(light_field);
   std::vector<MapReading> readings(turned.begin() + 1, turned.end());
   readings.insert(readings.end(), valued.begin() + 1, valued.end());
-  const int widest = std::min(light_field.height(), light_field.width()) / 8;
-  for (int border = 1; border <= widest && has_truth; ++border) {
-    readings.push_back({.border_px = border});
-  }
+  if (const int border = corner_border(map)) readings.push_back({.border_px = border});
   for (std::size_t i = 1; i < turned.size(); ++i) {
     for (std::size_t k = 1; k < valued.size(); ++k) {
       const bool is_tried = has_truth || valued[k] == MapReading{.scale = -1};
@@ -385,7 +408,7 @@ std::optional<MapReading> found_by_truth(const DisparityView& map, const MapEvid
   const TruthPoints truth(evidence.truth);
   const auto error_of = [&](const MapReading& reading) { return truth.error(map, reading, target); };
   const double limit = kFarBetterByTruth * std::min(error_of({}), truth.constant_error());
-  return least_reading(possible_readings(evidence.light_field, true), limit, error_of);
+  return least_reading(possible_readings(map, evidence.light_field, true), limit, error_of);
 }
 
 std::optional<MapReading> found_by_views(const DisparityView& map, const MapEvidence& evidence,
@@ -396,7 +419,7 @@ std::optional<MapReading> found_by_views(const DisparityView& map, const MapEvid
     return errors ? errors->share() : 1.0;
   };
   const double limit = kFarBetterByViews * std::min(share_of({}), 1.0);
-  return least_reading(possible_readings(evidence.light_field, false), limit, share_of);
+  return least_reading(possible_readings(map, evidence.light_field, false), limit, share_of);
 }
 
 std::optional<double> mse_100(const DisparityView& map, const MapReading& reading,

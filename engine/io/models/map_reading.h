@@ -74,8 +74,8 @@ struct BetterReading {
 };
 
 /// Looks for a reading of a map in the ways in which people err: rows and columns exchanged,
-/// reversed, negated, another scale, depth instead of disparity, and a border that pushed the map
-/// into the upper left corner. With truth, the mean absolute error decides, over all combinations
+/// reversed, negated, another scale, depth instead of disparity, and a map without a border
+/// that lies in the upper left corner, with nothing beside it. With truth, the mean absolute error decides, over all combinations
 /// of turns and values: it must be less than half of the error as read, and of the error of the
 /// best constant. Without, the views decide alone, over turns with either sign, and values of maps
 /// that are not turned: the error of the next views must be below 0.6 of the error as read, and of

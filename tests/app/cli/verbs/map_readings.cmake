@@ -48,15 +48,16 @@ foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
 endforeach()
 
 # A submission says so in its tables.
-file(MAKE_DIRECTORY "${WORK}/theirs")
-file(COPY_FILE "${WORK}/negated.pfm" "${WORK}/theirs/lf.pfm")
-expect("benchmark a submission" 0 ARGS benchmark lf.h5 --methods epi_l --views center
-       --submission theirs -o tables --json)
-if(NOT out MATCHES "lf.pfm: the map fits the truth far better with values negated")
+file(MAKE_DIRECTORY "${WORK}/theirs" "${WORK}/objects")
+file(COPY_FILE "${WORK}/negated.pfm" "${WORK}/theirs/objects.pfm")
+file(COPY_FILE "${WORK}/lf.h5" "${WORK}/objects/lf.h5")
+set(benchmark benchmark objects --methods epi_l --views center --submission theirs -o tables --json)
+expect("benchmark a submission" 0 ERR "objects.pfm: the map fits the truth far better"
+       ARGS ${benchmark})
+if(NOT out MATCHES "objects.pfm: the map fits the truth far better with values negated")
   fail_case("the benchmark does not tell of a negated map:\n${out}")
 endif()
-expect("benchmark it as told" 0 ARGS benchmark lf.h5 --methods epi_l --views center
-       --submission theirs -o tables --json --map-scale -1)
+expect("benchmark it as told" 0 ARGS ${benchmark} --map-scale -1)
 if(out MATCHES "far better")
   fail_case("the benchmark tells of a map that is right:\n${out}")
 endif()

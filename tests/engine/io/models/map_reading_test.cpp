@@ -52,8 +52,9 @@ class MapReadingTest : public QObject {
       int column = reading.is_transposed ? y : x;
       if (reading.flip == MapFlip::Y || reading.flip == MapFlip::Both) row = kSide - 1 - row;
       if (reading.flip == MapFlip::X || reading.flip == MapFlip::Both) column = kSide - 1 - column;
-      row = std::min(row + reading.border_px, kSide - 1);
-      column = std::min(column + reading.border_px, kSide - 1);
+      row += reading.border_px;
+      column += reading.border_px;
+      if (std::max(row, column) >= kSide - reading.border_px) return 0.0;
       const double d = good(row, column);
       return (reading.values == MapValues::Depth ? camera.depth_from_disparity(d) : d) /
              reading.scale;
@@ -93,12 +94,12 @@ class MapReadingTest : public QObject {
     QTest::newRow("widths of the image") << MapReading{.scale = kSide};
     QTest::newRow("depth") << MapReading{.values = MapValues::Depth};
     QTest::newRow("transposed and negated") << MapReading{.is_transposed = true, .scale = -1};
+    QTest::newRow("without a border") << MapReading{.border_px = kBorder};
     if (!has_truth) return;
     QTest::newRow("depth in thousandths") << MapReading{.scale = 0.001, .values = MapValues::Depth};
     QTest::newRow("transposed hundredths") << MapReading{.is_transposed = true, .scale = 0.01};
     QTest::newRow("mirrored depth")
         << MapReading{.flip = MapFlip::X, .values = MapValues::Depth};
-    QTest::newRow("without a border") << MapReading{.border_px = kBorder};
   }
 
  private slots:
@@ -113,7 +114,7 @@ class MapReadingTest : public QObject {
     QCOMPARE(QString::fromStdString(io::reading_text(found->reading)),
              QString::fromStdString(io::reading_text(mistake)));
     QVERIFY(*found->better.mse_100 < 0.1);
-    QVERIFY(*found->as_read.mse_100 > 10 * *found->better.mse_100);
+    QVERIFY(*found->as_read.mse_100 > 4 * *found->better.mse_100);  // half of the errors
     QVERIFY(!found->is_contradicted());
     io::apply_reading(found->reading, scene_.light_field.get(), estimate);
     QVERIFY(error_of(estimate) < 0.05);
@@ -201,8 +202,6 @@ class MapReadingTest : public QObject {
 };
 
 }  // namespace episcope::in_map_reading_test
-
-Q_DECLARE_METATYPE(episcope::io::MapReading)
 
 EPISCOPE_TEST(map_reading_test, MapReadingTest)
 #include "map_reading_test.moc"
