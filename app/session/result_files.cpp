@@ -185,10 +185,11 @@ std::string both_numbers(const io::BetterReading& found) {
                        *found.as_read.mse_100);
   }
   if (found.better.grey_levels) {
-    text += fmt::format("{}{:.3g} instead of {} grey levels between the views",
-                        text.empty() ? "" : ", ", *found.better.grey_levels,
-                        found.as_read.grey_levels ? fmt::format("{:.3g}", *found.as_read.grey_levels)
-                                                  : "any number of");
+    text +=
+        fmt::format("{}{:.3g} instead of {} grey levels between the views",
+                    text.empty() ? "" : ", ", *found.better.grey_levels,
+                    found.as_read.grey_levels ? fmt::format("{:.3g}", *found.as_read.grey_levels)
+                                              : "any number of");
   }
   return text;
 }
@@ -201,9 +202,9 @@ std::string map_options_text(const io::MapReading& reading) {
 
 std::string better_reading_text(const io::BetterReading& found) {
   const bool is_by_truth = found.as_read.mse_100.has_value();
-  const std::string finding = fmt::format(
-      "the map {} far better with {} ({})", is_by_truth ? "fits the truth" : "explains the views",
-      io::reading_text(found.reading), both_numbers(found));
+  const std::string finding = fmt::format("the map {} far better with {} ({})",
+                                          is_by_truth ? "fits the truth" : "explains the views",
+                                          io::reading_text(found.reading), both_numbers(found));
   const std::string options = map_options_text(found.reading);
   if (!found.is_contradicted()) return finding + "; if it is stored so, add" + options;
   return finding + ", but the views fit it as it is: check the truth, or add" + options;

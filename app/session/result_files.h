@@ -21,8 +21,8 @@ namespace episcope {
 
 /// Reads a result of this light field, as a user says (`reading`) beyond what its file states.
 /// Throws IoError, also for a file that holds a light field or depth, which would else be judged as
-/// disparity, and for maps whose rows and columns are exchanged for those of the views; InvalidInput
-/// as `io::apply_reading`.
+/// disparity, and for maps whose rows and columns are exchanged for those of the views;
+/// InvalidInput as `io::apply_reading`.
 [[nodiscard]] Estimate read_result_of(const LightField& light_field,
                                       const std::filesystem::path& path,
                                       const io::MapReading& reading = {});

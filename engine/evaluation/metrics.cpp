@@ -126,12 +126,11 @@ void add_missing_values(Evaluation& evaluation, const DisparityView& truth,
   if (missing.count == 0) return;
   const PixelErrors present = sum_errors(evaluation, false);
   if (missing.count > few * (present.count + missing.count)) {
-    evaluation.notes.push_back(
-        missing_text(present, missing, farthest_disparity(truth), options));
+    evaluation.notes.push_back(missing_text(present, missing, farthest_disparity(truth), options));
   }
   if (options.invalid != InvalidEstimates::Bad || present.count == 0) return;
-  const bool is_high_res = find_metric(evaluation.metrics, std::string("mse_100") + kLowResSuffix)
-                               .has_value();
+  const bool is_high_res =
+      find_metric(evaluation.metrics, std::string("mse_100") + kLowResSuffix).has_value();
   const std::string suffix = is_high_res ? std::string("_present") + kLowResSuffix : "_present";
   evaluation.metrics.emplace_back("mse_100" + suffix, 100 * present.squares / present.count);
   if (options.protocol == Protocol::Benchmark2016) {

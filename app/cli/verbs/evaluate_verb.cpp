@@ -121,7 +121,7 @@ const char* missing_rule(InvalidEstimates invalid) {
 /// Both numbers, as read and by the options that would fit better.
 Json better_reading_json(const io::BetterReading& found) {
   Json json;
-  json["options"] = map_options_text(found.reading);
+  json["options"] = map_options_text(found.reading).substr(1);
   const auto add = [&json](const char* key, std::optional<double> value) {
     if (value) json[key] = *value;
   };
@@ -235,14 +235,21 @@ class TruthScene {
 };
 
 /// A result, and where its error map goes; empty = nowhere.
-struct ResultFile {
+struct JudgedFile {
   std::string path;
   std::filesystem::path error_map;
   io::MapReading reading;
 };
 
+/// Nothing without a path.
+void write_error_map(const std::filesystem::path& path, MapSource source) {
+  if (path.empty()) return;
+  source.quantity = render::Quantity::SignedError;
+  io::write_png(path, map_picture(*make_map(source), shading_of(source.quantity, {})).view());
+}
+
 /// Judges one result and writes its error map, if a path is given for it.
-Row judge_file(const ResultFile& result, const Scene& scene, EvaluationOptions options, Job& job) {
+Row judge_file(const JudgedFile& result, const Scene& scene, EvaluationOptions options, Job& job) {
   const std::string& file = result.path;
   options.progress = job.progress();
   job.progress().check();
@@ -264,14 +271,8 @@ Row judge_file(const ResultFile& result, const Scene& scene, EvaluationOptions o
   const auto better = find_better_reading(*estimate, scene);
   if (better) notes.push_back(better_reading_text(*better));
   for (const std::string& sentence : notes) job.note(file + ": " + sentence);
-  if (!result.error_map.empty()) {
-    const MapSource source{.quantity = render::Quantity::SignedError,
-                           .view = judged_view(scene),
-                           .estimate = estimate,
-                           .evaluation = evaluation};
-    io::write_png(result.error_map,
-                  map_picture(*make_map(source), shading_of(source.quantity, {})).view());
-  }
+  write_error_map(result.error_map,
+                  {.view = judged_view(scene), .estimate = estimate, .evaluation = evaluation});
   return {file,
           estimate->method,
           estimate->seconds,

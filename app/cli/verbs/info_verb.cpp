@@ -39,10 +39,11 @@ void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
                                   {"disparity", interval_json(summary.truth->all)}});
   }
   if (const auto& estimated = scene.truth->estimated) {
-    json["truth_estimated"] = Json::object({{"method", estimated->method},
-                                            {"parameters", io::parameters_json(estimated->parameters)},
-                                            {"source", estimated->source},
-                                            {"version", estimated->version}});
+    json["truth_estimated"] =
+        Json::object({{"method", estimated->method},
+                      {"parameters", io::parameters_json(estimated->parameters)},
+                      {"source", estimated->source},
+                      {"version", estimated->version}});
   }
   if (summary.has_layers) json["truth_layers"] = 2;
   if (!summary.label_ids.empty()) {

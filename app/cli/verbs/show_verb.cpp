@@ -122,7 +122,7 @@ struct ShowRequest {
   std::optional<int> column;
   ShadingChoice shading;
   MovieRequest movie;
-  ParameterOptions maps;  ///< Of a result.
+  ParameterOptions maps;          ///< Of a result.
   int longest_px = 0;             ///< Of a picture; 0 = as large as what it shows.
   std::optional<double> opacity;  ///< Over the view; empty = the map by itself.
   JobOptions job;

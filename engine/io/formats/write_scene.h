@@ -37,8 +37,8 @@ inline constexpr const char* kPositionUnit = "camera_position_unit";
 /// Attribute of the root: the pinhole of the centre view: focal length, x and y of its centre in
 /// px.
 inline constexpr const char* kPinhole = "pinhole";
-/// Attributes of GT_DEPTH that is no truth but a result: the method, its parameters (a JSON object),
-/// the light field it was estimated from, and the version of Episcope.
+/// Attributes of GT_DEPTH that is no truth but a result: the method, its parameters (a JSON
+/// object), the light field it was estimated from, and the version of Episcope.
 inline constexpr const char* kEstimatedBy = "estimated_by";
 inline constexpr const char* kEstimateParameters = "parameters";
 inline constexpr const char* kEstimateSource = "source";

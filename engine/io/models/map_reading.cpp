@@ -33,8 +33,8 @@ constexpr double kMostPoints = 10000;
 constexpr int kRowStride = 4;  ///< Of the rows that are warped.
 
 /// Integers that stand for fractions of a pixel: decimal, and fixed-point numbers of matchers.
-constexpr double kScales[] = {0.1, 0.01, 0.001, 1.0 / 16, 1.0 / 64, 1.0 / 255, 1.0 / 256,
-                              1.0 / 65535, 10, 100};
+constexpr double kScales[] = {0.1,       0.01,      0.001,       1.0 / 16, 1.0 / 64,
+                              1.0 / 255, 1.0 / 256, 1.0 / 65535, 10,       100};
 /// Depth in m, mm or cm where the camera has another of these units.
 constexpr double kDepthScales[] = {1, 0.001, 1000, 0.01, 100};
 
@@ -60,8 +60,8 @@ float read_at(const DisparityView& map, const MapReading& reading, const Target&
   if (reading.flip == MapFlip::Y || reading.flip == MapFlip::Both) row = height - 1 - row;
   if (reading.flip == MapFlip::X || reading.flip == MapFlip::Both) column = width - 1 - column;
   if (reading.is_transposed) std::swap(row, column);
-  const bool is_inside = row >= 0 && column >= 0 && row < map.disparity.height &&
-                         column < map.disparity.width;
+  const bool is_inside =
+      row >= 0 && column >= 0 && row < map.disparity.height && column < map.disparity.width;
   if (!is_inside || !map.is_valid(row, column)) return kNone;
   const double value = reading.scale * map.disparity.at(row, column);
   if (reading.values == MapValues::Disparity) return static_cast<float>(value);
@@ -318,8 +318,8 @@ class TruthPoints {
       sum += std::abs(value - point.disparity);
       ++count;
     }
-    const bool is_enough =
-        count > 0 && static_cast<double>(count) >= kFewestPixels * static_cast<double>(points_.size());
+    const bool is_enough = count > 0 && static_cast<double>(count) >=
+                                            kFewestPixels * static_cast<double>(points_.size());
     return is_enough ? sum / static_cast<double>(count) : std::numeric_limits<double>::infinity();
   }
 
@@ -373,7 +373,8 @@ class WarpedViews {
  private:
   [[nodiscard]] Errors errors_of(DisparityField& map) const {
     for (int y = 0; y < target_.height; ++y) {
-      if (y % kRowStride != 0) std::fill_n(map.valid.view({}).row(y), target_.width, std::uint8_t{0});
+      if (y % kRowStride != 0)
+        std::fill_n(map.valid.view({}).row(y), target_.width, std::uint8_t{0});
     }
     const WarpErrors found =
         warp_errors(evidence_.light_field.samples(), evidence_.view, map.view({}));
@@ -406,7 +407,9 @@ std::optional<MapReading> least_reading(const std::vector<MapReading>& readings,
 std::optional<MapReading> found_by_truth(const DisparityView& map, const MapEvidence& evidence,
                                          const Target& target) {
   const TruthPoints truth(evidence.truth);
-  const auto error_of = [&](const MapReading& reading) { return truth.error(map, reading, target); };
+  const auto error_of = [&](const MapReading& reading) {
+    return truth.error(map, reading, target);
+  };
   const double limit = kFarBetterByTruth * std::min(error_of({}), truth.constant_error());
   return least_reading(possible_readings(map, evidence.light_field, true), limit, error_of);
 }
@@ -451,8 +454,8 @@ std::optional<BetterReading> find_better_reading(const DisparityView& map,
   const LightField& light_field = evidence.light_field;
   const Target target{light_field.height(), light_field.width(), light_field.info().camera};
   const bool has_truth = !evidence.truth.disparity.empty();
-  const auto found = has_truth ? found_by_truth(map, evidence, target)
-                               : found_by_views(map, evidence, target);
+  const auto found =
+      has_truth ? found_by_truth(map, evidence, target) : found_by_views(map, evidence, target);
   if (!found) return std::nullopt;
   const WarpedViews views(evidence, target);
   const auto errors_of = [&](const MapReading& reading) {

@@ -75,13 +75,13 @@ struct BetterReading {
 
 /// Looks for a reading of a map in the ways in which people err: rows and columns exchanged,
 /// reversed, negated, another scale, depth instead of disparity, and a map without a border
-/// that lies in the upper left corner, with nothing beside it. With truth, the mean absolute error decides, over all combinations
-/// of turns and values: it must be less than half of the error as read, and of the error of the
-/// best constant. Without, the views decide alone, over turns with either sign, and values of maps
-/// that are not turned: the error of the next views must be below 0.6 of the error as read, and of
-/// the error without warping (as in put_truth_upright). Returns nothing if the map is best as it
-/// is. Looks at about 10,000 pixels of the truth; linear in the pixels of the views. Precondition:
-/// the map has the size of a view.
+/// that lies in the upper left corner, with nothing beside it. With truth, the mean absolute error
+/// decides, over all combinations of turns and values: it must be less than half of the error as
+/// read, and of the error of the best constant. Without, the views decide alone, over turns with
+/// either sign, and values of maps that are not turned: the error of the next views must be below
+/// 0.6 of the error as read, and of the error without warping (as in put_truth_upright). Returns
+/// nothing if the map is best as it is. Looks at about 10,000 pixels of the truth; linear in the
+/// pixels of the views. Precondition: the map has the size of a view.
 [[nodiscard]] std::optional<BetterReading> find_better_reading(const DisparityView& map,
                                                                const MapEvidence& evidence);
 

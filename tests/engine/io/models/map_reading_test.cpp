@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/io/models/map_reading.h"
+#include "engine/core/error.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
@@ -98,8 +98,7 @@ class MapReadingTest : public QObject {
     if (!has_truth) return;
     QTest::newRow("depth in thousandths") << MapReading{.scale = 0.001, .values = MapValues::Depth};
     QTest::newRow("transposed hundredths") << MapReading{.is_transposed = true, .scale = 0.01};
-    QTest::newRow("mirrored depth")
-        << MapReading{.flip = MapFlip::X, .values = MapValues::Depth};
+    QTest::newRow("mirrored depth") << MapReading{.flip = MapFlip::X, .values = MapValues::Depth};
   }
 
  private slots:
@@ -162,8 +161,7 @@ class MapReadingTest : public QObject {
     Estimate turned = spoilt({.is_transposed = true});
 
     const auto found = io::find_better_reading(
-        right.field.view(center()),
-        {*scene_.light_field, center(), turned.field.view(center())});
+        right.field.view(center()), {*scene_.light_field, center(), turned.field.view(center())});
 
     QVERIFY(found.has_value());
     QVERIFY(found->reading.is_transposed);
