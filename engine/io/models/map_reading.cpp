@@ -23,7 +23,7 @@ constexpr double kFarBetterByViews = 0.6;
 /// A reading that changes more must beat one that changes less by this.
 constexpr double kClearlyBetter = 0.9;
 /// Of the pixels that could be compared, those that must be.
-constexpr double kFewestPixels = 0.5;
+constexpr double kLeastCompared = 0.5;
 /// How much better the views must fit the map as it is to speak against another reading.
 constexpr double kContradicts = 1.1;
 
@@ -33,20 +33,20 @@ constexpr double kMostPoints = 10000;
 constexpr int kRowStride = 4;  ///< Of the rows that are warped.
 
 /// Integers that stand for fractions of a pixel: decimal, and fixed-point numbers of matchers.
-constexpr double kScales[] = {0.1,       0.01,      0.001,       1.0 / 16, 1.0 / 64,
+constexpr double kMapScales[] = {0.1,       0.01,      0.001,       1.0 / 16, 1.0 / 64,
                               1.0 / 255, 1.0 / 256, 1.0 / 65535, 10,       100};
 /// Depth in m, mm or cm where the camera has another of these units.
 constexpr double kDepthScales[] = {1, 0.001, 1000, 0.01, 100};
 
 /// Size of a view, and the camera that depth belongs to.
-struct Target {
+struct MapTarget {
   int height = 0;
   int width = 0;
   CameraGrid camera{};
 };
 
 /// The value of a map at a pixel of the view by a reading; NaN if it has none there.
-float read_at(const DisparityView& map, const MapReading& reading, const Target& target, int y,
+float value_by(const DisparityView& map, const MapReading& reading, const MapTarget& target, int y,
               int x) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   const int border = reading.border_px;
@@ -69,7 +69,7 @@ float read_at(const DisparityView& map, const MapReading& reading, const Target&
 }
 
 DisparityField read_maps_so(const DisparityField& field, const MapReading& reading,
-                            const Target& target) {
+                            const MapTarget& target) {
   const ViewStack<float>& maps = field.disparity;
   DisparityField read{
       ViewStack<float>(maps.grid(), target.height, target.width, 1, maps.first()),
@@ -79,7 +79,7 @@ DisparityField read_maps_so(const DisparityField& field, const MapReading& readi
     const DisparityView map = field.view(view);
     for (int y = 0; y < target.height; ++y) {
       for (int x = 0; x < target.width; ++x) {
-        const float value = read_at(map, reading, target, y, x);
+        const float value = value_by(map, reading, target, y, x);
         read.valid.view(view).at(y, x) = std::isfinite(value) ? 1 : 0;
         read.disparity.view(view).at(y, x) = std::isfinite(value) ? value : 0;
       }
@@ -185,7 +185,7 @@ void apply_reading(const MapReading& reading, const LightField* light_field, Est
   if (reading == MapReading{}) return;
   require_possible(reading, light_field, estimate);
   const ViewStack<float>& maps = estimate.field.disparity;
-  Target target{reading.is_transposed ? maps.width() : maps.height(),
+  MapTarget target{reading.is_transposed ? maps.width() : maps.height(),
                 reading.is_transposed ? maps.height() : maps.width()};
   if (light_field) target.camera = light_field->info().camera;
   if (reading.border_px > 0) {
@@ -222,7 +222,7 @@ std::vector<MapReading> valued_readings(const LightField& light_field) {
   for (const MapUnit& unit : common_units(light_field.grid(), light_field.width())) {
     if (unit.factor != 1) factors.insert(factors.end(), {unit.factor, 1 / unit.factor});
   }
-  factors.insert(factors.end(), std::begin(kScales), std::end(kScales));
+  factors.insert(factors.end(), std::begin(kMapScales), std::end(kMapScales));
   std::vector<MapReading> readings;
   for (const double sign : {1.0, -1.0}) {
     for (const double factor : factors) readings.push_back({.scale = sign * factor});
@@ -309,17 +309,17 @@ class TruthPoints {
 
   /// Mean absolute error by a reading; infinite if the map has values at few of the pixels.
   [[nodiscard]] double error(const DisparityView& map, const MapReading& reading,
-                             const Target& target) const {
+                             const MapTarget& target) const {
     double sum = 0;
     std::size_t count = 0;
     for (const Point& point : points_) {
-      const float value = read_at(map, reading, target, point.y, point.x);
+      const float value = value_by(map, reading, target, point.y, point.x);
       if (!std::isfinite(value)) continue;
       sum += std::abs(value - point.disparity);
       ++count;
     }
     const bool is_enough = count > 0 && static_cast<double>(count) >=
-                                            kFewestPixels * static_cast<double>(points_.size());
+                                            kLeastCompared * static_cast<double>(points_.size());
     return is_enough ? sum / static_cast<double>(count) : std::numeric_limits<double>::infinity();
   }
 
@@ -336,7 +336,7 @@ class TruthPoints {
 /// The next views of a view, warped by maps in the stored order of views.
 class WarpedViews {
  public:
-  WarpedViews(const MapEvidence& evidence, const Target& target)
+  WarpedViews(const MapEvidence& evidence, const MapTarget& target)
       : evidence_(evidence), target_(target) {
     DisparityField still{ViewStack<float>({1, 1}, target.height, target.width),
                          ViewStack<std::uint8_t>({1, 1}, target.height, target.width)};
@@ -360,13 +360,13 @@ class WarpedViews {
                         ViewStack<std::uint8_t>({1, 1}, target_.height, target_.width)};
     for (int y = 0; y < target_.height; ++y) {
       for (int x = 0; x < target_.width; ++x) {
-        const float value = read_at(map, reading, target_, y, x);
+        const float value = value_by(map, reading, target_, y, x);
         read.valid.view({}).at(y, x) = std::isfinite(value) ? 1 : 0;
         read.disparity.view({}).at(y, x) = std::isfinite(value) ? value : 0;
       }
     }
     const Errors errors = errors_of(read);
-    if (errors.pixels == 0 || errors.pixels < kFewestPixels * pixels_) return std::nullopt;
+    if (errors.pixels == 0 || errors.pixels < kLeastCompared * pixels_) return std::nullopt;
     return errors;
   }
 
@@ -385,7 +385,7 @@ class WarpedViews {
   }
 
   const MapEvidence& evidence_;
-  const Target& target_;
+  const MapTarget& target_;
   double pixels_ = 0;  ///< Of a map that moves nothing.
 };
 
@@ -405,7 +405,7 @@ std::optional<MapReading> least_reading(const std::vector<MapReading>& readings,
 }
 
 std::optional<MapReading> found_by_truth(const DisparityView& map, const MapEvidence& evidence,
-                                         const Target& target) {
+                                         const MapTarget& target) {
   const TruthPoints truth(evidence.truth);
   const auto error_of = [&](const MapReading& reading) {
     return truth.error(map, reading, target);
@@ -415,7 +415,7 @@ std::optional<MapReading> found_by_truth(const DisparityView& map, const MapEvid
 }
 
 std::optional<MapReading> found_by_views(const DisparityView& map, const MapEvidence& evidence,
-                                         const Target& target) {
+                                         const MapTarget& target) {
   const WarpedViews views(evidence, target);
   const auto share_of = [&](const MapReading& reading) {
     const auto errors = views.errors(map, reading);
@@ -426,13 +426,13 @@ std::optional<MapReading> found_by_views(const DisparityView& map, const MapEvid
 }
 
 std::optional<double> mse_100(const DisparityView& map, const MapReading& reading,
-                              const DisparityView& truth, const Target& target) {
+                              const DisparityView& truth, const MapTarget& target) {
   double sum = 0;
   std::size_t count = 0;
   for (int y = 0; y < truth.disparity.height; ++y) {
     for (int x = 0; x < truth.disparity.width; ++x) {
       if (!truth.is_valid(y, x)) continue;
-      const double error = read_at(map, reading, target, y, x) - truth.disparity.at(y, x);
+      const double error = value_by(map, reading, target, y, x) - truth.disparity.at(y, x);
       if (!std::isfinite(error)) continue;
       sum += error * error;
       ++count;
@@ -452,7 +452,7 @@ bool BetterReading::is_contradicted() const {
 std::optional<BetterReading> find_better_reading(const DisparityView& map,
                                                  const MapEvidence& evidence) {
   const LightField& light_field = evidence.light_field;
-  const Target target{light_field.height(), light_field.width(), light_field.info().camera};
+  const MapTarget target{light_field.height(), light_field.width(), light_field.info().camera};
   const bool has_truth = !evidence.truth.disparity.empty();
   const auto found =
       has_truth ? found_by_truth(map, evidence, target) : found_by_views(map, evidence, target);
