@@ -132,6 +132,7 @@ std::string report_to_json(const BenchmarkReport& report) {
   json["scenes"] = Json::array();
   for (const auto& scene : report.scenes) json["scenes"].push_back(scene_json(scene));
   if (report.has_disparities) {
+    json["missing_values"] = "the farthest true disparity, and bad";
     json["ranking"] =
         ranking_json(score_matrix(report.results, Protocol::Vmv2013, "mse_100"), "mse_100");
   }

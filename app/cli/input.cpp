@@ -8,6 +8,7 @@
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
 #include "engine/io/formats/sequence_reader.h"
+#include "engine/io/models/map_reading.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/result_file.h"
 
@@ -28,6 +29,19 @@ bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
   declare_job_options(parser, job);
   declare_read_options(parser, read);
   return parser.parse(arguments);
+}
+
+void declare_map_options(Arguments& arguments, ParameterOptions& options) {
+  arguments.heading("Maps of other programs");
+  options.declare(arguments, io::map_schema().descriptions());
+  arguments.heading("Options");
+}
+
+void require_no_map_options(const ParameterOptions& options, const std::string& input) {
+  const ParameterSet given = options.values();
+  if (given.empty()) return;
+  throw UsageError("--" + given.front().first + " is for the maps of a RESULT, but " + input +
+                   " is none; leave it out");
 }
 
 void check_builtin_scene(const std::string& id) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/image.h"
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,10 +65,15 @@ struct GroundTruth {
   HighResTruthPtr high_res{};  ///< Of the center view; null = there is none.
   /// The scene of the 2016 benchmark, if its files name one.
   StratifiedScene stratified = StratifiedScene::None;
+  /// How the disparity was estimated, if it is a result that took the place of truth.
+  std::optional<Provenance> estimated{};
 
   [[nodiscard]] bool has_disparity() const { return !field.empty(); }
   [[nodiscard]] bool has_layers() const { return !foreground.empty() && !background.empty(); }
 };
+
+/// "estimated by plane_pm from cotton/lf.h5".
+[[nodiscard]] std::string estimated_text(const Provenance& estimated);
 
 /// Whether the mask of this name tells parts of a scene of the 2016 benchmark apart by numbers.
 [[nodiscard]] inline bool is_numbered_region(const std::string& name) {

@@ -359,6 +359,7 @@ Scene sheared(const Scene& scene, double focus_px, const Progress& progress) {
   truth->regions = scene.truth->regions;  // of the center view, which stays
   truth->high_res = shifted(scene.truth->high_res, static_cast<float>(-focus_px));
   truth->stratified = scene.truth->stratified;
+  truth->estimated = scene.truth->estimated;
   result.truth = std::move(truth);
   result.scribbles = sheared(scene.scribbles, center, focus_px);
   result.convention = scene.convention;

@@ -70,6 +70,8 @@ struct Evaluation {
 ///
 /// Keys of vmv2013: mse_100 over all pixels with truth, mse_100_inset15 without a border of 15 px,
 /// density (% of the judged pixels that have a value).
+/// If some have none and count as bad, either protocol adds mse_100_present, over the others alone,
+/// and benchmark2016 badpix_0070_present; `notes` tell both numbers above 0.1 %.
 /// With `options.shown`, either protocol adds "shown" (% of the pixels with truth that are shown).
 /// Keys of benchmark2016: mse_100; badpix_0010, badpix_0030, badpix_0070 (% with |error| strictly
 /// above); q_25_100 (sorted(|error|·100)[⌊0.25·n⌋]); density; and for the regions there are:

@@ -124,6 +124,7 @@ constexpr const char* kEslfSuffixes[] = {"_eslf.png", ".png"};
 constexpr FormContents kArchive{.floats = FloatsHeld::Exactly,
                                 .disparity = MapsHeld::All,
                                 .is_depth = true,
+                                .has_origin = true,
                                 .has_layers = true,
                                 .labels = MapsHeld::All,
                                 .has_scribbles = true,
@@ -274,6 +275,8 @@ std::vector<std::string> unsupported_parts(const Writer& writer, const Scene& sc
   losses.compare_maps(truth.labels, holds.labels, "labels");
   losses.compare(!truth.regions.empty(), holds.has_regions, "region masks");
   losses.compare(truth.high_res != nullptr, false, "ground truth in high resolution");
+  losses.compare(truth.estimated && holds.disparity != MapsHeld::None, holds.has_origin,
+                 "facts on how disparities were estimated, which read as ground truth then");
   losses.compare(!scene.scribbles.empty(), holds.has_scribbles, "scribbles");
   losses.compare(!field.valid().empty(), holds.has_valid, "masks of valid pixels");
   return losses.take();

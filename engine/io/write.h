@@ -33,6 +33,7 @@ struct FormContents {
   FloatsHeld floats = FloatsHeld::None;
   MapsHeld disparity = MapsHeld::None;
   bool is_depth = false;  ///< Disparity is held as depth in float, within 2⁻²³ of d + Δx.
+  bool has_origin = false;  ///< Whether disparities that are no truth say how they were estimated.
   bool has_layers = false;
   MapsHeld labels = MapsHeld::None;
   bool has_scribbles = false;

@@ -312,6 +312,7 @@ QString truth_text(const GroundTruth& truth, GridShape grid) {
     parts << InfoPanelText::tr("disparity (%1)").arg(coverage(truth.field.disparity, grid));
   }
   if (truth.has_layers()) parts << InfoPanelText::tr("two layers");
+  if (truth.estimated) parts << QString::fromStdString(estimated_text(*truth.estimated));
   if (!truth.labels.empty()) parts << InfoPanelText::tr("labels");
   if (!truth.regions.empty()) {
     const int regions = static_cast<int>(truth.regions.size());

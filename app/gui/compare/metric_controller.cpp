@@ -339,6 +339,10 @@ constexpr PartName kParts[] = {
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Of the surface in front")},
     {"_background", QT_TRANSLATE_NOOP("episcope::MetricTable", "behind"),
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Of what is seen through it")},
+    {"_present", QT_TRANSLATE_NOOP("episcope::MetricTable", "present"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "Of the pixels that have a value; else missing values count as the farthest "
+                       "true disparity")},
     {kLowResSuffix, QT_TRANSLATE_NOOP("episcope::MetricTable", "low res."),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
                        "In the resolution of the views: the official score needs the truth of ten "

@@ -312,6 +312,26 @@ std::optional<std::string> Hdf5Input::text(const std::string& object,
   return value.substr(0, value.find('\0'));
 }
 
+std::vector<std::string> Hdf5Input::texts(const std::string& object,
+                                          const std::string& name) const {
+  const Hdf5Lock session;
+  const Hdf5Handle attribute(open_attribute(object, name), H5Aclose);
+  if (!attribute.ok()) return {};
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (count < 1 || H5Tis_variable_str(type) <= 0) return {};
+  if (!fits_file(path_, static_cast<double>(count) * static_cast<double>(H5Tget_size(type)))) {
+    return {};
+  }
+  std::vector<char*> stored(static_cast<std::size_t>(count), nullptr);
+  if (H5Aread(attribute, type, stored.data()) < 0) return {};
+  std::vector<std::string> texts;
+  for (const char* text : stored) texts.emplace_back(text ? text : "");
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, stored.data());
+  return texts;
+}
+
 namespace {
 
 herr_t add_link(hid_t, const char* name, const H5L_info_t*, void* names) {

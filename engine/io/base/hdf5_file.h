@@ -106,6 +106,9 @@ class Hdf5Input {
                                             const std::string& name) const;
   [[nodiscard]] std::optional<std::string> text(const std::string& object,
                                                 const std::string& name) const;
+  /// All elements of an attribute of texts of variable length; empty if there is none.
+  [[nodiscard]] std::vector<std::string> texts(const std::string& object,
+                                               const std::string& name) const;
 
  private:
   friend class Hdf5Output;  // Copies from here.

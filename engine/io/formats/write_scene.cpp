@@ -6,6 +6,7 @@
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/base/json.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/formats/benchmark_truth.h"
 #include "engine/io/models/label_list.h"
@@ -164,6 +165,14 @@ void write_depth(Hdf5Output& file, const std::string& name, const DisparityField
   });
 }
 
+/// Says that a map of depth is a result.
+void write_estimated(Hdf5Output& file, const std::string& name, const Provenance& estimated) {
+  file.set_text(name, kEstimatedBy, estimated.method);
+  file.set_text(name, kEstimateParameters, parameters_to_json(estimated.parameters));
+  file.set_text(name, kEstimateSource, estimated.source);
+  if (!estimated.version.empty()) file.set_text(name, kEstimateVersion, estimated.version);
+}
+
 /// Region masks of the center view, and which pixels of the views are valid.
 void write_masks(Hdf5Output& file, const Scene& scene, const Progress& progress) {
   for (const auto& [name, region] : scene.truth->regions) {
@@ -306,6 +315,7 @@ void write_archive(const std::filesystem::path& path, const Scene& scene,
   for (const auto& [name, field] : fields) {
     progress.check();
     write_depth(file, name, *field, scene, camera, progress.part(done, done + 0.08));
+    if (truth.estimated && !field->empty()) write_estimated(file, name, *truth.estimated);
     done += 0.08;
   }
   write_masks(file, scene, progress.part(0.84, 0.86));

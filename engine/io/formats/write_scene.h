@@ -37,6 +37,12 @@ inline constexpr const char* kPositionUnit = "camera_position_unit";
 /// Attribute of the root: the pinhole of the center view: focal length, x and y of its center in
 /// px.
 inline constexpr const char* kPinhole = "pinhole";
+/// Attributes of GT_DEPTH that is no truth but a result: the method, its parameters (a JSON
+/// object), the light field it was estimated from, and the version of Episcope.
+inline constexpr const char* kEstimatedBy = "estimated_by";
+inline constexpr const char* kEstimateParameters = "parameters";
+inline constexpr const char* kEstimateSource = "source";
+inline constexpr const char* kEstimateVersion = "version";
 /// Dataset `[v][h][y][x]`, uint8: 0 = the pixel holds nothing that was seen.
 inline constexpr const char* kValid = "VALID";
 /// Datasets `[y][x]`, uint8: a region mask of the center view, whose name follows.
