@@ -7,7 +7,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace episcope::cli {
 
@@ -33,13 +35,36 @@ void check_output_file(const std::filesystem::path& path);
 /// naming the verb.
 void check_hdf5_output(const std::string& verb, const std::filesystem::path& path);
 
-/// Refuses to replace anything but a result file. Throws IoError.
-void check_result_output(const std::filesystem::path& path);
+/// What a result or labels are to be made by.
+struct PlannedRun {
+  std::string method;       ///< Id of an estimator; empty for labels.
+  ParameterSet parameters;  ///< Those that are not listed have their default.
+  std::string input;        ///< As typed.
+  ParameterSet reading;     ///< Reading options that are set (io::given_options).
+};
 
-/// Refuses to replace anything but a file of labels that `label` wrote. Throws IoError.
-void check_labeling_output(const std::filesystem::path& path);
+/// Refuses to replace anything but a result file, and one of another method, other parameters,
+/// another light field or another reading of it unless that is asked for. Parameters that the file
+/// does not know count as their default. Throws IoError.
+void check_result_output(const std::filesystem::path& path, const PlannedRun& run,
+                         Overwrite overwrite);
 
-/// Refuses to replace a light field, or labels beside it that go with it, unless that is asked for,
+/// Refuses to replace anything but a file of labels that `label` wrote, and one as above. Throws
+/// IoError.
+void check_labeling_output(const std::filesystem::path& path, const PlannedRun& run,
+                           Overwrite overwrite);
+
+/// Writes a file by `write`, to which it passes the path. Unless `overwrite` says otherwise, a file
+/// that is there stays: one of the same bytes as it is, one of others makes this throw IoError. For
+/// forms that do not tell what they were made by.
+void write_output(const std::filesystem::path& path, Overwrite overwrite,
+                  const std::function<void(const std::filesystem::path&)>& write);
+
+/// Prints the line of a file of labels that was written beside the light field `output`; nothing if
+/// it is empty or `output` itself.
+void print_labels_written(const std::filesystem::path& labels, const std::filesystem::path& output);
+
+/// Refuses to replace a light field, or labels beside it that belong to it, unless that is asked for,
 /// and any other file at all. Throws IoError.
 void check_light_field_output(const std::filesystem::path& path, Overwrite overwrite);
 

@@ -231,8 +231,8 @@ Row judge_file(const std::string& file, const Scene& scene, EvaluationOptions op
                            .view = judged_view(scene),
                            .estimate = estimate,
                            .evaluation = evaluation};
-    io::write_png(error_map,
-                  map_picture(*make_map(source), shading_of(source.quantity, {})).view());
+    io::write_picture(error_map,
+                      map_picture(*make_map(source), shading_of(source.quantity, {})).view());
   }
   return {file,
           estimate->method,
