@@ -24,6 +24,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -58,6 +59,15 @@ Json view_json(ViewIndex view) {
 
 Json value_json(const ParameterValue& value) {
   return io::parameters_json({{"value", value}}).at("value");
+}
+
+std::string time_text(std::int64_t seconds) {
+  const std::time_t time = seconds;
+  std::tm parts{};
+  gmtime_r(&time, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
 }
 
 void print_json(const Json& json) {

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -22,6 +23,8 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json view_json(ViewIndex view);
 /// A value as in `io::parameters_json`, which writes sets of them.
 [[nodiscard]] Json value_json(const ParameterValue& value);
+/// "2026-11-27T22:43:23Z" of seconds since 1970.
+[[nodiscard]] std::string time_text(std::int64_t seconds);
 /// The one JSON object of an answer, on standard output.
 void print_json(const Json& json);
 

@@ -87,7 +87,7 @@ std::vector<Estimator> methods_named(const std::string& list) {
   for (std::string name; std::getline(names, name, ',');) {
     const Estimator* const known = known_estimator(name);
     if (known == nullptr) throw unknown_name("method", name, estimator_ids());
-    const auto is_same = [&](const Estimator& each) { return each.info.id == name; };
+    const auto is_same = [&](const Estimator& each) { return each.info.id == known->info.id; };
     if (std::none_of(chosen.begin(), chosen.end(), is_same)) chosen.push_back(*known);
   }
   if (chosen.empty()) throw UsageError("--methods is empty; name ids of methods, or all");

@@ -43,6 +43,7 @@ struct Row {
   ViewIndex view;
   Metrics metrics;
   std::vector<std::string> notes;
+  std::string error_map{};  ///< The picture that was written; empty = none.
 };
 
 OptionValue<Protocol> protocol_value() {
@@ -77,7 +78,7 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   parser.flag("--latex", request.format, Format::Latex, "Print a LaTeX tabular");
   parser.exclude_each_other({"--json", "--csv", "--latex"});
   parser.option("--error-map", request.error_map, text_value("OUT.png"),
-                "Write a picture of truth − estimate, one for each result");
+                "Write a picture of truth − estimate; OUT-<result>.png of several results");
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   if (!request.error_map.empty() && suffix_of(request.error_map) != ".png") {
     throw UsageError("evaluate writes error maps as PNG, but the output is " + request.error_map +
@@ -124,6 +125,7 @@ Json results_json(const EvaluateRequest& request, const std::vector<Row>& rows) 
     }
     result["all_views"] = row.has_all_views;
     if (!row.notes.empty()) result["notes"] = row.notes;
+    if (!row.error_map.empty()) result["error_map"] = row.error_map;
     json["results"].push_back(result);
   }
   return json;
@@ -176,6 +178,19 @@ void print_answer(const EvaluateRequest& request, const std::vector<Row>& rows) 
     std::cout << protocol_name(request.protocol) << " against " << request.truth << ", view "
               << view_text(rows.front().view) << "\n\n"
               << table_to_narrow_text(table);
+  }
+}
+
+/// Names the pictures that were written, where the answer itself is for programs as notes.
+void tell_error_maps(const EvaluateRequest& request, const std::vector<Row>& rows, Job& job) {
+  for (const Row& row : rows) {
+    if (row.error_map.empty() || request.format == Format::Json) continue;
+    const std::string line = row.error_map + ": error of " + row.file;
+    if (request.format == Format::Text) {
+      std::cout << line << '\n';
+    } else {
+      job.note("wrote " + line);
+    }
   }
 }
 
@@ -263,10 +278,12 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
     const std::filesystem::path map = maps.empty() ? std::filesystem::path() : maps[i];
     const Scene& scene = truth.for_result(request.files[i]);
     rows.push_back(judge_file(request.files[i], scene, options, map, job));
+    rows.back().error_map = map.string();
     job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / request.files.size());
   }
   job.finish();
   print_answer(request, rows);
+  tell_error_maps(request, rows, job);
 }
 
 }  // namespace episcope::cli

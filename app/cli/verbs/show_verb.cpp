@@ -112,7 +112,9 @@ struct What {
   std::optional<MovieKind> movie{};  ///< Of the view.
 };
 
-const What kEpi{"epi", true, Quantity::View};
+What epi() {
+  return {"epi", true, Quantity::View};
+}
 
 enum class Layer { Foreground, Background };
 
@@ -160,7 +162,7 @@ OptionValue<int> index_value(const std::string& name) {
 
 OptionValue<What> what_value() {
   std::vector<Named<What>> choices{
-      {kEpi, "epi"},
+      {epi(), "epi"},
       {{"parallax", false, Quantity::View, MovieKind::Parallax}, "parallax"},
       {{"refocus", false, Quantity::View, MovieKind::Refocus}, "refocus"}};
   for (const auto& info : render::quantities()) {
@@ -190,7 +192,7 @@ bool is_movie(const ShowRequest& request) {
 /// What follows from the options.
 void complete(ShowRequest& request) {
   while (request.output.size() > 1 && request.output.ends_with('/')) request.output.pop_back();
-  if (request.what.id.empty() && (request.row || request.column)) request.what = kEpi;
+  if (request.what.id.empty() && (request.row || request.column)) request.what = epi();
   if (request.what.movie) request.movie.kind = request.what.movie;
   if (is_movie(request) && !request.movie.kind) request.movie.kind = MovieKind::Parallax;
   request.map.needs_light_field = request.opacity.has_value();
@@ -206,13 +208,13 @@ void complete(ShowRequest& request) {
 
 /// Options that fit other pictures than the one that is asked for.
 std::vector<Arguments::Use> uses_of(const ShowRequest& request) {
-  const auto& [id, is_epi, ignored, of_view] = request.what;
+  const bool is_epi = request.what.is_epi;
   const Quantity quantity = request.map.quantity;
   const std::optional<MovieKind>& movie = request.movie.kind;
   const bool has_layers = quantity == Quantity::Truth || quantity == Quantity::TruthBackground ||
                           quantity == Quantity::Disparity || quantity == Quantity::Background;
   const bool is_map = !is_epi && quantity != Quantity::View;
-  const std::string what = "on --what " + id;
+  const std::string what = "on --what " + request.what.id;
   return {{{"--row", "--column"}, is_epi, what + "; a line is shown by --what epi"},
           {{"--label"}, quantity == Quantity::Probability, what},
           {{"--minus"}, quantity == Quantity::Difference, what + "; say --what difference"},
