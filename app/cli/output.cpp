@@ -224,6 +224,14 @@ bool is_same_scene(const std::string& source, const fs::path& file, const std::s
   return scene_place(file.parent_path() / source) == scene_place(input);
 }
 
+/// As it would be typed.
+std::string shown_source(const std::string& source, const fs::path& file) {
+  if (!builtin_scene_id(source).empty()) return source;
+  std::string text = (file.parent_path() / source).lexically_normal().string();
+  while (text.size() > 1 && text.ends_with('/')) text.pop_back();
+  return text;
+}
+
 bool is_same_reading(const Reading& stored, const ParameterSet& wanted) {
   if (stored.reader.empty()) return true;
   const auto has_all = [](const ParameterSet& some, const ParameterSet& all) {
@@ -256,7 +264,9 @@ std::string difference_of(const StoredRun& stored, const fs::path& path, const P
   if (stored.method != run.method) return "of " + stored.method;
   const auto others = other_values(descriptions, stored.parameters, run.parameters);
   if (!others.empty()) return "with " + joined(others, ", ");
-  if (!is_same_scene(stored.source, path, run.input)) return "of " + stored.source;
+  if (!is_same_scene(stored.source, path, run.input)) {
+    return "of another light field, " + shown_source(stored.source, path);
+  }
   if (!is_same_reading(stored.reading, run.reading)) return "of another reading of its views";
   return {};
 }

@@ -268,7 +268,7 @@ void add_made_by(Json& json, const MadeBy& made, const std::string& file) {
     json["reader"] = made.reading.reader;
     json["reading"] = io::parameters_json(made.reading.options);
   }
-  json["written"] = time_text(written_at(file));
+  json["date"] = time_text(written_at(file));
 }
 
 void print_made_by(const MadeBy& made, const std::string& file) {
@@ -280,7 +280,7 @@ void print_made_by(const MadeBy& made, const std::string& file) {
   const std::string gone = made.source.empty() || is_there ? "" : ", which is not there";
   print_line("source", made.source + reading_options_text(made.reading.options) + gone);
   print_line("version", made.version.empty() ? "" : "Episcope " + made.version);
-  print_line("written", time_text(written_at(file)));
+  print_line("date", time_text(written_at(file)));
 }
 
 std::string views_text(GridShape grid, ViewIndex first) {
@@ -402,8 +402,9 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
   parser.flag("--json", is_json, "Print one JSON object instead of lines");
   if (!parse_reading(parser, arguments, job_options, read)) return;
 
+  const bool is_plain = read.options.values().empty();  // else arrays and pictures are views
   if (names_labels(input)) return describe_labels(input, is_json);
-  if (names_result(input)) return describe_result(input, is_json);
+  if (is_plain && names_result(input)) return describe_result(input, is_json);
   const Scene scene = [&] {
     const Job job(std::move(stop), job_options);
     return load_input(input, read, job.progress());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/label_list.h"
 
+#include "engine/core/error.h"
 #include "engine/core/numbers.h"
 
 #include <algorithm>
