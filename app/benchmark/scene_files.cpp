@@ -18,7 +18,8 @@ std::string in_scene(const std::string& scene, const std::string& file) {
 }
 
 void write_map(const std::filesystem::path& path, const MapSource& source, Interval range) {
-  io::write_picture(path, map_picture(*make_map(source), shading_of(source.quantity, range)).view());
+  io::write_picture(path,
+                    map_picture(*make_map(source), shading_of(source.quantity, range)).view());
 }
 
 template <class T>

@@ -259,7 +259,7 @@ StoredRun stored_run(const fs::path& path, const std::string& group) {
 }
 
 /// How a file differs from what would replace it: "a result of epi_l"; empty if it does not.
-std::string difference_of(const StoredRun& stored, const fs::path& path, const PlannedRun& run,
+std::string difference_of(const StoredRun& stored, const fs::path& path, const IntendedRun& run,
                           const std::vector<ParameterDescription>& descriptions) {
   if (stored.method != run.method) return "of " + stored.method;
   const auto others = other_values(descriptions, stored.parameters, run.parameters);
@@ -280,7 +280,7 @@ void refuse_difference(const fs::path& path, const std::string& what,
 
 }  // namespace
 
-void check_result_output(const fs::path& path, const PlannedRun& run, Overwrite overwrite) {
+void check_result_output(const fs::path& path, const IntendedRun& run, Overwrite overwrite) {
   if (!holds_something(path)) return;
   if (!is_sound_result(path)) {
     throw IoError(path, "exists and is not a result file; choose another name or remove it first");
@@ -291,7 +291,7 @@ void check_result_output(const fs::path& path, const PlannedRun& run, Overwrite 
                     difference_of(stored, path, run, find_estimator(run.method).parameters));
 }
 
-void check_labeling_output(const fs::path& path, const PlannedRun& run, Overwrite overwrite) {
+void check_labeling_output(const fs::path& path, const IntendedRun& run, Overwrite overwrite) {
   if (!holds_something(path)) return;
   if (!is_sound_labeling(path)) {
     throw IoError(path,

@@ -39,7 +39,7 @@ void check_output_file(const std::filesystem::path& path);
 void check_hdf5_output(const std::string& verb, const std::filesystem::path& path);
 
 /// What a result or labels are to be made by.
-struct PlannedRun {
+struct IntendedRun {
   std::string method;       ///< Id of an estimator; empty for labels.
   ParameterSet parameters;  ///< Those that are not listed have their default.
   std::string input;        ///< As typed.
@@ -49,12 +49,12 @@ struct PlannedRun {
 /// Refuses to replace anything but a result file, and one of another method, other parameters,
 /// another light field or another reading of it unless that is asked for. Parameters that the file
 /// does not know count as their default. Throws IoError.
-void check_result_output(const std::filesystem::path& path, const PlannedRun& run,
+void check_result_output(const std::filesystem::path& path, const IntendedRun& run,
                          Overwrite overwrite);
 
 /// Refuses to replace anything but a file of labels that `label` wrote, and one as above. Throws
 /// IoError.
-void check_labeling_output(const std::filesystem::path& path, const PlannedRun& run,
+void check_labeling_output(const std::filesystem::path& path, const IntendedRun& run,
                            Overwrite overwrite);
 
 /// Writes a file by `write`, to which it passes the path. Unless `overwrite` says otherwise, a file
@@ -67,8 +67,8 @@ void write_output(const std::filesystem::path& path, Overwrite overwrite,
 /// it is empty or `output` itself.
 void print_labels_written(const std::filesystem::path& labels, const std::filesystem::path& output);
 
-/// Refuses to replace a light field, or labels beside it that belong to it, unless that is asked for,
-/// and any other file at all. Throws IoError.
+/// Refuses to replace a light field, or labels beside it that belong to it, unless that is asked
+/// for, and any other file at all. Throws IoError.
 void check_light_field_output(const std::filesystem::path& path, Overwrite overwrite);
 
 /// Refuses an output that is the input or one of its files: labels.h5 and other companions of an

@@ -194,9 +194,9 @@ Calibration calibrate(const std::vector<std::filesystem::path>& files, const Pat
   const PhotographSize usual = usual_size(sizes);
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (sizes[i].width == usual.width && sizes[i].height == usual.height) continue;
-    photographs[i].problem = fmt::format("{}×{} px, but {} of {} have {}×{}", sizes[i].width,
-                                         sizes[i].height, usual.count, files.size(), usual.width,
-                                         usual.height);
+    photographs[i].problem =
+        fmt::format("{}×{} px, but {} of {} have {}×{}", sizes[i].width, sizes[i].height,
+                    usual.count, files.size(), usual.width, usual.height);
   }
   progress.step("calibrating");
   return calibrate(std::move(photographs), usual.height, usual.width);

@@ -39,8 +39,9 @@ const std::vector<Estimator>& registered_estimators() {
 
 const Estimator* known_estimator(const std::string& id) {
   const std::vector<Estimator>& all = registered_estimators();
-  const auto found = std::ranges::find(
-      all, lower_case(id), [](const Estimator& each) -> const std::string& { return each.info.id; });
+  const auto found =
+      std::ranges::find(all, lower_case(id),
+                        [](const Estimator& each) -> const std::string& { return each.info.id; });
   return found != all.end() ? &*found : nullptr;
 }
 

@@ -156,9 +156,10 @@ void declare_what(Arguments& parser, BenchmarkRequest& request) {
   parser.optional_positionals("INPUT", request.inputs,
                               "The light fields, or folders that hold some");
   parser.required_option("-o,--output", request.output, text_value("DIR"), "Output folder");
-  parser.option("--methods", request.methods, methods_value(),
-                "Ids of estimators, separated by commas, or all (default all; none with --labels or "
-                "--submission)");
+  parser.option(
+      "--methods", request.methods, methods_value(),
+      "Ids of estimators, separated by commas, or all (default all; none with --labels or "
+      "--submission)");
   parser.flag("--labels", request.has_labels,
               "Label all views from the scribbles of each scene, with every set of features and "
               "regularizer; replaces methods unless --methods is given");

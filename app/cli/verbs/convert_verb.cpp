@@ -52,7 +52,8 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
                 "Form of the light field; by default chosen by the suffix of OUT");
   parser.option("--truth", request.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one named in its file");
-  parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field, or a map with other values");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
+              "Replace an existing light field, or a map with other values");
   return parse_reading(parser, arguments, request.job, request.read);
 }
 
@@ -168,7 +169,8 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
     return {};
   }
   const Scene scene = scene_to_write(subject);
-  for (const std::string& sentence : io::unsupported_parts(*target.writer, scene)) job.note(sentence);
+  for (const std::string& sentence : io::unsupported_parts(*target.writer, scene))
+    job.note(sentence);
   const bool is_archive = std::string(target.writer->id) == "archive";
   const std::filesystem::path labels =
       is_archive ? io::labels_place(request.output, scene, io::LabelFile::NamedAfter)
@@ -203,8 +205,7 @@ void convert_one(const ConvertRequest& request, Job& job, const Progress& progre
   }
   note_forgotten_options(subject, request, target, job);
   progress.check();
-  const std::filesystem::path labels =
-      write(subject, request, target, job, progress.part(0.5, 1));
+  const std::filesystem::path labels = write(subject, request, target, job, progress.part(0.5, 1));
   job.finish();
   std::cout << request.output << ": written\n";
   print_labels_written(labels, request.output);

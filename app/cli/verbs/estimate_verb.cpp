@@ -254,8 +254,8 @@ class Runner {
     const Scene scene = load(task, progress.part(0, 0.3));
     const EstimateRequest run{request_.estimator->info.id, request_.parameters.values(), options_};
     const bool is_file = !request_.is_submission && !map_form(task.output);
-    const bool in_blocks = is_file &&
-                           should_run_in_blocks(*scene.light_field, *request_.estimator, options_);
+    const bool in_blocks =
+        is_file && should_run_in_blocks(*scene.light_field, *request_.estimator, options_);
     if (request_.memory > 0 && is_file && !in_blocks) {
       note(task, run.method +
                      " runs at once: what does not fit is put on disk, and an interrupted "
@@ -315,9 +315,8 @@ class Runner {
       save_result(task.output, *estimate, task.input, progress.part(0.85, 1));
     }
     return {task.output, estimate->provenance(), geometry_of(estimate->field.disparity), center,
-            request_.is_submission
-                ? io::submitted_runtime_file(request_.output, task.name).string()
-                : std::string()};
+            request_.is_submission ? io::submitted_runtime_file(request_.output, task.name).string()
+                                   : std::string()};
   }
 
   void submit(const Task& task, const Estimate& estimate, ViewIndex center) {

@@ -295,8 +295,8 @@ struct MapSummary {
 };
 
 MapSummary summary_of(const DisparityField& field) {
-  MapSummary summary{{std::numeric_limits<double>::infinity(),
-                      -std::numeric_limits<double>::infinity()}};
+  MapSummary summary{
+      {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}};
   std::size_t valid = 0;
   const std::size_t size = field.disparity.size();
   for (std::size_t i = 0; i < size; ++i) {
@@ -334,9 +334,8 @@ void describe_result(const std::string& file, bool is_json) {
     return print_json(json);
   }
   print_line("result", is_own ? "of " + estimate.method : "a map of another program");
-  const std::string views =
-      is_own ? views_text(maps.grid(), maps.first())
-             : fmt::format("{}×{} views", maps.grid().v, maps.grid().u);
+  const std::string views = is_own ? views_text(maps.grid(), maps.first())
+                                   : fmt::format("{}×{} views", maps.grid().v, maps.grid().u);
   print_line("shape", fmt::format("{} of {}×{} px{}{}", views, maps.width(), maps.height(),
                                   estimate.confidence.empty() ? "" : ", with confidence",
                                   estimate.layered.foreground.empty() ? "" : ", two layers"));

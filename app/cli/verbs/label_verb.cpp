@@ -48,11 +48,11 @@ struct LabelRequest {
 };
 
 bool parse(const VerbArguments& arguments, LabelRequest& request) {
-  Arguments parser("label",
-                   {"Segments all views of a light field from scribbles on some of them, and\n"
-                    "writes a file of labels.",
-                    "episcope-cli label demo -o labels.h5 --features image\n"
-                    "  episcope-cli label demo --scribbles strokes.png --colors colors.csv -o l.h5"});
+  Arguments parser(
+      "label", {"Segments all views of a light field from scribbles on some of them, and\n"
+                "writes a file of labels.",
+                "episcope-cli label demo -o labels.h5 --features image\n"
+                "  episcope-cli label demo --scribbles strokes.png --colors colors.csv -o l.h5"});
   parser.positional("INPUT", request.input, "The light field");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "File of labels to write");
@@ -74,8 +74,9 @@ bool parse(const VerbArguments& arguments, LabelRequest& request) {
                 "into this folder, under the archive's names");
   parser.option("--write-masks", request.masks, text_value("DIR"),
                 "Also write a black and white PNG of every label in every view into this folder");
-  parser.flag("--write-probabilities", request.probabilities, StoredProbabilities::All,
-              "Also write the probabilities of all labels, which take four bytes per ray and label");
+  parser.flag(
+      "--write-probabilities", request.probabilities, StoredProbabilities::All,
+      "Also write the probabilities of all labels, which take four bytes per ray and label");
   parser.flag("--no-probabilities", request.probabilities, StoredProbabilities::None,
               "Write labels only, as is the default");
   parser.exclude_each_other({"--write-probabilities", "--no-probabilities"});
@@ -111,10 +112,9 @@ void check_output(const LabelRequest& request) {
   check_hdf5_output("label", request.output);
   const ParameterSet reading =
       io::given_options(io::open_schema().parse(request.read.options.values()));
-  check_labeling_output(
-      request.output,
-      {{}, labeler_schema().values(request.parameters), request.input, reading},
-      request.overwrite);
+  check_labeling_output(request.output,
+                        {{}, labeler_schema().values(request.parameters), request.input, reading},
+                        request.overwrite);
   protect_input(request.output, request.input);
   for (const std::string& file : {request.scribbles, request.disparity, request.given}) {
     if (!file.empty()) protect_input(request.output, file);
@@ -125,8 +125,8 @@ Scribbles load_pictures(const LabelRequest& request, const Scene& scene, Job& jo
   const LightField& lf = *scene.light_field;
   io::PictureLabels labels{.known = scene.scribbles.labels};
   if (!request.colors.empty()) labels.table = io::read_color_table(request.colors);
-  io::PictureStrokes strokes = io::read_scribble_pictures(
-      request.scribbles, {lf.grid(), lf.height(), lf.width()}, labels);
+  io::PictureStrokes strokes =
+      io::read_scribble_pictures(request.scribbles, {lf.grid(), lf.height(), lf.width()}, labels);
   for (const std::string& note : strokes.notes) job.note(note);
   return std::move(strokes.scribbles);
 }
@@ -185,9 +185,8 @@ std::vector<std::string> write_archive(const Scene& scene, const Scribbles& scri
     parameters.features = FeatureSet::ImageEstimate;
     estimate = find_labeling_disparity(scene, parameters, {}, job.progress());
   }
-  std::vector<std::string> files =
-      write_label_archive(request.archive, scene, scribbles, request.parameters, estimate,
-                          job.progress().part(1, 1));
+  std::vector<std::string> files = write_label_archive(
+      request.archive, scene, scribbles, request.parameters, estimate, job.progress().part(1, 1));
   for (std::string& file : files) file = (std::filesystem::path(request.archive) / file).string();
   return files;
 }
@@ -299,9 +298,8 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   std::ranges::move(write_archive(scene, scribbles, request, disparity, job),
                     std::back_inserter(answer.written));
   std::ranges::move(write_masks(segmentation, request, job), std::back_inserter(answer.written));
-  answer.scores =
-      judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
-                     *scene.truth, disparity.field.get(), progress.part(1, 1));
+  answer.scores = judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
+                                 *scene.truth, disparity.field.get(), progress.part(1, 1));
   job.finish();
   request.is_json ? print_json_answer(request, answer) : print_text_answer(request, answer);
 }

@@ -67,7 +67,8 @@ void print_table(const std::vector<const Estimator*>& methods) {
   for (const Estimator* each : methods) {
     const bool has_gpu = std::ranges::count(each->info.devices, Device::Cuda) > 0;
     std::cout << fmt::format("{:<{}}  {:<{}}  {}  {}  {}\n", each->info.id, longest,
-                             each->info.name, longest, each->info.all_views ? "all views" : "one view ",
+                             each->info.name, longest,
+                             each->info.all_views ? "all views" : "one view ",
                              has_gpu ? "CPU, GPU" : "CPU     ", each->info.summary);
   }
   std::cout << "\n'episcope-cli methods ID' tells reference and parameters, such as --range.\n";

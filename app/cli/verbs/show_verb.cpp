@@ -297,9 +297,8 @@ std::string write_picture(const ShowRequest& request, const LoadedMap& loaded, J
                           : picture_of(request, loaded, loaded.source);
   if (request.longest_px > 0) picture = render::fitted(picture, request.longest_px);
   job.progress().check();
-  write_output(request.output, request.overwrite, [&](const std::filesystem::path& path) {
-    io::write_picture(path, picture.view());
-  });
+  write_output(request.output, request.overwrite,
+               [&](const std::filesystem::path& path) { io::write_picture(path, picture.view()); });
   return fmt::format("{}, {}×{} px", request.what.id, picture.width(), picture.height());
 }
 

@@ -404,8 +404,7 @@ void ask_to_export_masks(const Workbench& bench, const SegmentController& segmen
                         : SegmentationExportText::tr("Folder for the masks of this view; segment "
                                                      "all views first to save all masks")},
       [bench, &segment](const QString& folder) {
-        confirm_replacing(&bench.window,
-                          QDir(folder).entryList({"labels.txt"}, QDir::Files),
+        confirm_replacing(&bench.window, QDir(folder).entryList({"labels.txt"}, QDir::Files),
                           [bench, &segment, folder] { export_masks(bench, segment, folder); });
       });
 }

@@ -631,8 +631,8 @@ std::string own_chunk() {
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift);
     return bytes;
   };
-  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(content.data()),
-                         static_cast<uInt>(content.size()));
+  const auto sum =
+      crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size()));
   return word(static_cast<std::uint32_t>(content.size() - 4)) + content +
          word(static_cast<std::uint32_t>(sum));
 }

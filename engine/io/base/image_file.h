@@ -43,7 +43,8 @@ using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<f
 
 /// A picture whose pixels stand for labels, as it is stored: numbers or colors.
 struct LabelPicture {
-  Image<std::int32_t> numbers;  ///< Gray levels, or indices of `palette`; empty for a color picture.
+  Image<std::int32_t>
+      numbers;  ///< Gray levels, or indices of `palette`; empty for a color picture.
   std::vector<std::array<std::uint8_t, 3>> palette;  ///< RGB; empty unless the picture has one.
   Image<std::uint8_t> colors;                        ///< RGB; empty for numbers.
   Image<std::uint8_t> alpha;                         ///< 255 = opaque; empty = everywhere.

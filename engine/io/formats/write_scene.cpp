@@ -216,7 +216,8 @@ std::filesystem::path label_file(const std::filesystem::path& path, LabelFile la
 }
 
 /// Whether this file of labels may be written: there is none, or it is ours of the same light
-/// field. Labels of other programs are never overwritten; ours then go into the light-field file itself.
+/// field. Labels of other programs are never overwritten; ours then go into the light-field file
+/// itself.
 bool may_write_labels(const std::filesystem::path& labels, const std::filesystem::path& file) {
   if (!std::filesystem::exists(labels)) return true;
   return has_hdf5_signature(labels) &&

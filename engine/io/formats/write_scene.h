@@ -12,9 +12,9 @@ namespace episcope::io {
 enum class LabelFile { Usual, NamedAfter };
 
 /// Writes a scene in the form of the 2013 archive: the light field and its depth to `path`, labels
-/// and scribbles to a file beside it. They go into `path` if that file is there and of another light
-/// field. Rows are in canonical order, which the attribute `convention` states. Atomic for each
-/// file. Throws IoError, Cancelled.
+/// and scribbles to a file beside it. They go into `path` if that file is there and of another
+/// light field. Rows are in canonical order, which the attribute `convention` states. Atomic for
+/// each file. Throws IoError, Cancelled.
 void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress,
                    LabelFile labels = LabelFile::Usual);
 

@@ -237,7 +237,7 @@ void for_pixels(const ReadPicture& one, bool are_painted, const Visit& visit) {
 
 /// How often each color, or each number, is painted.
 template <class Key>
-struct Census {
+struct PixelCensus {
   std::map<Key, std::size_t> counts;
   std::size_t transparent = 0;
 
@@ -316,9 +316,9 @@ void settle_kinds(std::vector<ReadPicture>& pictures, bool has_table) {
                                   count, kMostStrokeColors));
 }
 
-Census<Rgb> count_colors(const std::vector<ReadPicture>& pictures, const fs::path& path) {
+PixelCensus<Rgb> count_colors(const std::vector<ReadPicture>& pictures, const fs::path& path) {
   constexpr std::size_t kEnough = 4096;  // nobody draws so many by hand
-  Census<Rgb> census;
+  PixelCensus<Rgb> census;
   for (const ReadPicture& one : pictures) {
     for_pixels(one, true, [&](int y, int x) {
       ++census.counts[one.color(y, x)];
@@ -332,7 +332,8 @@ Census<Rgb> count_colors(const std::vector<ReadPicture>& pictures, const fs::pat
 }
 
 /// The color that is unpainted; none where pixels are transparent, or the table names it.
-std::optional<Rgb> find_ground(const Census<Rgb>& census, const std::vector<LabelInfo>& table) {
+std::optional<Rgb> find_ground(const PixelCensus<Rgb>& census,
+                               const std::vector<LabelInfo>& table) {
   const auto has_zero = std::ranges::find(table, 0, &LabelInfo::id) != table.end();
   if (census.transparent > 0 || has_zero || census.counts.empty()) return std::nullopt;
   const Rgb most = std::ranges::max_element(census.counts, {}, [](const auto& each) {
@@ -363,7 +364,7 @@ std::vector<LabelInfo> usual_labels() {
   return labels;
 }
 
-std::vector<LabelInfo> labels_of(const std::vector<Rgb>& colors, const Census<Rgb>& census,
+std::vector<LabelInfo> labels_of(const std::vector<Rgb>& colors, const PixelCensus<Rgb>& census,
                                  const PictureLabels& labels, const fs::path& path) {
   if (!labels.table.empty()) {
     if (const auto found = all_known(colors, labels.table)) return *found;
@@ -372,8 +373,8 @@ std::vector<LabelInfo> labels_of(const std::vector<Rgb>& colors, const Census<Rg
     });
     throw IoError(path, fmt::format("has {} px of the color {} ({},{},{}), which the table of "
                                     "colors lacks; add it, with id 0 if it is unpainted",
-                                    census.counts.at(*missing), color_text(*missing),
-                                    (*missing)[0], (*missing)[1], (*missing)[2]));
+                                    census.counts.at(*missing), color_text(*missing), (*missing)[0],
+                                    (*missing)[1], (*missing)[2]));
   }
   if (const auto found = all_known(colors, labels.known)) return *found;
   if (const auto found = all_known(colors, usual_labels())) return *found;
@@ -395,7 +396,7 @@ std::vector<LabelInfo> distinct(std::vector<LabelInfo> labels) {
 }
 
 /// "#ffffff, #000000 (93 % of the pixels)" of the colors that are no labels.
-std::string ground_of(const Census<Rgb>& census, const std::map<Rgb, int>& ids) {
+std::string ground_of(const PixelCensus<Rgb>& census, const std::map<Rgb, int>& ids) {
   std::vector<Rgb> unpainted;
   std::size_t pixels = 0;
   for (const auto& [color, count] : census.counts) {
@@ -409,7 +410,7 @@ std::string ground_of(const Census<Rgb>& census, const std::map<Rgb, int>& ids) 
 
 PictureStrokes strokes_of_colors(const std::vector<ReadPicture>& pictures,
                                  const PictureLabels& labels, const fs::path& path) {
-  const Census<Rgb> census = count_colors(pictures, path);
+  const PixelCensus<Rgb> census = count_colors(pictures, path);
   const std::optional<Rgb> ground = find_ground(census, labels.table);
   std::vector<Rgb> colors;
   for (const auto& [color, count] : census.counts) {
@@ -435,8 +436,8 @@ PictureStrokes strokes_of_colors(const std::vector<ReadPicture>& pictures,
 
 /// Names of the numbers that are painted: of the table, else of the light field; colors are those
 /// of the palette. Empty where none of these says anything.
-std::vector<LabelInfo> labels_of(const Census<std::int32_t>& census, const LabelPicture& picture,
-                                 const PictureLabels& labels) {
+std::vector<LabelInfo> labels_of(const PixelCensus<std::int32_t>& census,
+                                 const LabelPicture& picture, const PictureLabels& labels) {
   std::vector<LabelInfo> found;
   if (picture.palette.empty() && labels.table.empty()) return found;
   for (const auto& [id, count] : census.counts) {
@@ -459,7 +460,7 @@ std::vector<LabelInfo> labels_of(const Census<std::int32_t>& census, const Label
 PictureStrokes strokes_of_numbers(const std::vector<ReadPicture>& pictures,
                                   const PictureLabels& labels, const fs::path& path) {
   PictureStrokes strokes;
-  Census<std::int32_t> census;
+  PixelCensus<std::int32_t> census;
   for (const ReadPicture& one : pictures) {
     Image<std::int32_t> painted(one.picture.height(), one.picture.width());
     for_pixels(one, true, [&](int y, int x) {
@@ -474,11 +475,10 @@ PictureStrokes strokes_of_numbers(const std::vector<ReadPicture>& pictures,
   const bool has_palette = !first.palette.empty();
   if (!has_palette && census.transparent == 0) return strokes;
   const auto zeros = census.counts.find(0);
-  const std::string ground =
-      zeros == census.counts.end()
-          ? ""
-          : fmt::format("{} 0 ({})", has_palette ? "index" : "level",
-                        share_text(zeros->second, census.all()));
+  const std::string ground = zeros == census.counts.end()
+                                 ? ""
+                                 : fmt::format("{} 0 ({})", has_palette ? "index" : "level",
+                                               share_text(zeros->second, census.all()));
   if (has_palette) {
     strokes.notes.push_back(path.string() + ": a label is an index of the palette: " +
                             joined(strokes.scribbles.labels, ", ", label_text));

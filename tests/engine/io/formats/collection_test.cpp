@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/formats/collection.h"
 #include "engine/core/error.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/formats/collection.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/result_file.h"
 #include "tests/engine/io/synthetic_scene.h"

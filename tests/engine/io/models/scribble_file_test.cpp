@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/scribble_file.h"
 #include "engine/core/error.h"
 #include "engine/io/formats/write_scene.h"
-#include "engine/io/models/scribble_file.h"
 #include "engine/io/open.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/synthetic_scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/scribble_picture.h"
 #include "engine/core/error.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/models/scribble_picture.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>
@@ -135,8 +135,8 @@ class ScribblePictureTest : public QObject {
     const io::PictureStrokes read = io::read_scribble_pictures(path(""), kShape);
     compare(read.scribbles, scribbles);
     QVERIFY(read.notes.empty());
-    QVERIFY_THROWS_EXCEPTION(
-        IoError, (void)io::read_scribble_pictures(path(""), {{2, 5}, kHeight, kWidth}));
+    QVERIFY_THROWS_EXCEPTION(IoError,
+                             (void)io::read_scribble_pictures(path(""), {{2, 5}, kHeight, kWidth}));
     QVERIFY_THROWS_EXCEPTION(IoError,
                              (void)io::read_scribble_pictures(path(""), {{5, 5}, kHeight, 3}));
     QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_scribble_pictures(path("none"), kShape));
