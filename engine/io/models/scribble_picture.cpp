@@ -331,18 +331,6 @@ PixelCensus<Rgb> count_colors(const std::vector<ReadPicture>& pictures, const fs
   return census;
 }
 
-/// The color that is unpainted; none where pixels are transparent, or the table names it.
-std::optional<Rgb> find_ground(const PixelCensus<Rgb>& census,
-                               const std::vector<LabelInfo>& table) {
-  const auto has_zero = std::ranges::find(table, 0, &LabelInfo::id) != table.end();
-  if (census.transparent > 0 || has_zero || census.counts.empty()) return std::nullopt;
-  const Rgb most = std::ranges::max_element(census.counts, {}, [](const auto& each) {
-                     return each.second;
-                   })->first;
-  const bool is_label = std::ranges::find(table, most, &LabelInfo::color) != table.end();
-  return is_label ? std::nullopt : std::optional(most);
-}
-
 /// Labels of the colors by their ids in `list`, if it has all of them.
 std::optional<std::vector<LabelInfo>> all_known(const std::vector<Rgb>& colors,
                                                 const std::vector<LabelInfo>& list) {
@@ -362,6 +350,24 @@ std::vector<LabelInfo> usual_labels() {
     labels.push_back({id, "label " + std::to_string(id), label_color(id)});
   }
   return labels;
+}
+
+/// The color that is unpainted; none where pixels are transparent, where the table names it, and
+/// where every color is one of a known label.
+std::optional<Rgb> find_ground(const PixelCensus<Rgb>& census, const PictureLabels& labels) {
+  const std::vector<LabelInfo>& table = labels.table;
+  const auto has_zero = std::ranges::find(table, 0, &LabelInfo::id) != table.end();
+  if (census.transparent > 0 || has_zero || census.counts.empty()) return std::nullopt;
+  std::vector<Rgb> colors;
+  for (const auto& [color, count] : census.counts) colors.push_back(color);
+  const bool are_known =
+      table.empty() && (all_known(colors, labels.known) || all_known(colors, usual_labels()));
+  if (are_known) return std::nullopt;
+  const Rgb most = std::ranges::max_element(census.counts, {}, [](const auto& each) {
+                     return each.second;
+                   })->first;
+  const bool is_label = std::ranges::find(table, most, &LabelInfo::color) != table.end();
+  return is_label ? std::nullopt : std::optional(most);
 }
 
 std::vector<LabelInfo> labels_of(const std::vector<Rgb>& colors, const PixelCensus<Rgb>& census,
@@ -411,7 +417,7 @@ std::string ground_of(const PixelCensus<Rgb>& census, const std::map<Rgb, int>& 
 PictureStrokes strokes_of_colors(const std::vector<ReadPicture>& pictures,
                                  const PictureLabels& labels, const fs::path& path) {
   const PixelCensus<Rgb> census = count_colors(pictures, path);
-  const std::optional<Rgb> ground = find_ground(census, labels.table);
+  const std::optional<Rgb> ground = find_ground(census, labels);
   std::vector<Rgb> colors;
   for (const auto& [color, count] : census.counts) {
     if (color != ground) colors.push_back(color);

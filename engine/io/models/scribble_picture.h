@@ -47,8 +47,8 @@ inline constexpr std::size_t kMostStrokeColors = 64;
 /// and, besides:
 /// - of gray pictures, whose levels are ids: 0;
 /// - of pictures with a palette, whose indices are ids unless a table is given: 0;
-/// - of color pictures: those of id 0 in the table; without transparent pixels and unless the table
-///   says otherwise, the most frequent color of all pictures.
+/// - of color pictures: those of id 0 in the table; without transparent pixels, unless the table
+///   says otherwise or all colors are those of known labels, the most frequent color.
 /// A distinct color is a label: of the id that the table gives; without one, of the ids that
 /// `known`, or else `label_color`, give if they give one to each color; else counted from 1 in the
 /// order of the colors, red first.

@@ -239,6 +239,18 @@ class ScribblePictureTest : public QObject {
     QVERIFY(strokes.scribbles.labels == known);
   }
 
+  void aDrawingOfKnownColorsAlone_hasNoGround() {
+    const auto file = write(drawing(kWhite, kGreen, kBlue, 3));
+    const std::vector<LabelInfo> known{
+        {1, "paper", {255, 255, 255}}, {3, "wall", {0, 0, 200}}, {5, "plant", {0, 255, 0}}};
+
+    const io::PictureStrokes strokes = io::read_scribble_pictures(file, kShape, {.known = known});
+
+    QCOMPARE(id_at(strokes, 0), 1);
+    QVERIFY2(told(strokes).find("every pixel is painted") != std::string::npos,
+             told(strokes).c_str());
+  }
+
   void aColorThatTheTableLacks_isNamed() {
     const auto file = write(drawing(kWhite, kGreen, kBlue, 3));
     const auto colors = io::read_color_table(table("0 255 0 1 tree\n"));
