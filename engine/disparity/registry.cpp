@@ -2,6 +2,7 @@
 #include "engine/disparity/registry.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/disparity/epi_c.h"
 #include "engine/disparity/epi_g.h"
 #include "engine/disparity/epi_l.h"
@@ -40,8 +41,9 @@ const std::vector<Estimator>& registered_estimators() {
 
 const Estimator* known_estimator(const std::string& id) {
   const std::vector<Estimator>& all = registered_estimators();
-  const auto found = std::ranges::find(
-      all, id, [](const Estimator& each) -> const std::string& { return each.info.id; });
+  const auto found =
+      std::ranges::find(all, lower_case(id),
+                        [](const Estimator& each) -> const std::string& { return each.info.id; });
   return found != all.end() ? &*found : nullptr;
 }
 

@@ -152,8 +152,12 @@ constexpr FormContents kArrays{.floats = FloatsHeld::Exactly,
 
 constexpr FormContents kPicture{};
 
+void write_named_archive(const fs::path& path, const Scene& scene, const Progress& progress) {
+  write_archive(path, scene, progress, LabelFile::NamedAfter);
+}
+
 constexpr Writer kWriters[] = {
-    {"archive", "the archive form", kHdf5, kArchive, write_archive},
+    {"archive", "the archive form", kHdf5, kArchive, write_named_archive},
     {"benchmark", "the benchmark form", {}, kBenchmark, write_benchmark_folder},
     {"grid", "a grid of images", {}, kGrid, write_grid_folder},
     {"npy", "the .npy form", kNpy, kArray, write_npy},

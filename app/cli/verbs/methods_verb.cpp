@@ -6,9 +6,13 @@
 #include "app/session/command_line.h"
 #include "engine/disparity/registry.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iostream>
+#include <string>
+#include <vector>
 
 namespace episcope::cli {
 namespace {
@@ -35,18 +39,32 @@ void print_method(const Estimator& method) {
               << domain_text(parameter) << "; default " << to_text(parameter.default_value)
               << ")\n";
   }
-  std::cout << '\n';
 }
 
-/// Those of these ids, or all without any.
-std::vector<const Estimator*> methods_named(const std::vector<std::string>& ids) {
-  std::vector<const Estimator*> methods;
-  for (const std::string& id : ids) {
-    methods.push_back(known_estimator(id));
-    if (!methods.back()) throw unknown_name("method", id, estimator_ids());
+/// A line for each.
+void print_table(const std::vector<const Estimator*>& methods) {
+  std::size_t longest = 0;
+  for (const Estimator* each : methods) longest = std::max(longest, each->info.id.size());
+  for (const Estimator* each : methods) {
+    const bool has_gpu = std::ranges::count(each->info.devices, Device::Cuda) > 0;
+    std::cout << fmt::format("{:<{}}  {:<{}}  {}  {}  {}\n", each->info.id, longest,
+                             each->info.name, longest,
+                             each->info.all_views ? "all views" : "one view ",
+                             has_gpu ? "CPU, GPU" : "CPU     ", each->info.summary);
   }
-  if (!ids.empty()) return methods;
-  for (const Estimator& method : registered_estimators()) methods.push_back(&method);
+  std::cout << "\n'episcope-cli methods ID' tells reference and parameters, such as --range.\n";
+}
+
+/// Those that are named, each once; all if none is.
+std::vector<const Estimator*> methods_named(const std::vector<std::string>& names) {
+  std::vector<const Estimator*> methods;
+  for (const std::string& name : names) {
+    const Estimator* const known = known_estimator(name);
+    if (known == nullptr) throw unknown_name("method", name, estimator_ids());
+    if (std::ranges::find(methods, known) == methods.end()) methods.push_back(known);
+  }
+  if (!methods.empty()) return methods;
+  for (const Estimator& each : registered_estimators()) methods.push_back(&each);
   return methods;
 }
 
@@ -54,22 +72,23 @@ std::vector<const Estimator*> methods_named(const std::vector<std::string>& ids)
 
 void run_methods(const VerbArguments& arguments, std::stop_token) {
   bool is_json = false;
-  std::vector<std::string> ids;
-  Arguments parser("methods", {"Lists every estimator with its parameters; of a learned one also "
-                               "its weights.",
-                               "episcope-cli methods --json\n  episcope-cli methods net"});
-  parser.optional_positionals("METHOD", ids, "Only the estimators of these ids");
+  std::vector<std::string> names;
+  Arguments parser("methods",
+                   {"Lists every estimator in a line, or those that are named with reference and\n"
+                    "parameters, and of a learned one its weights. Ids are read in any case.",
+                    "episcope-cli methods\n"
+                    "  episcope-cli methods epi_l --json"});
+  parser.optional_positionals("ID", names, "Methods to tell all of");
   parser.flag("--json", is_json, "Print one JSON object instead of a table");
   if (!parser.parse(arguments)) return;
-  Json list = Json::array();
-  for (const Estimator* method : methods_named(ids)) {
-    if (is_json) {
-      list.push_back(method_json(*method));
-    } else {
-      print_method(*method);
-    }
+  const std::vector<const Estimator*> methods = methods_named(names);
+  if (is_json) {
+    Json list = Json::array();
+    for (const Estimator* each : methods) list.push_back(method_json(*each));
+    return print_json(Json::object({{"methods", list}}));
   }
-  if (is_json) print_json(Json::object({{"methods", list}}));
+  if (names.empty()) return print_table(methods);
+  for (const Estimator* each : methods) print_method(*each);
 }
 
 }  // namespace episcope::cli

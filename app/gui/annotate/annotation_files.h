@@ -40,7 +40,8 @@ class AnnotationFiles : public QObject {
   void exportDialog();
   void exportPictures(const QString& folder);
   void importDialog();
-  /// Imports an HDF5 file of labels, or the folder of an exported picture.
+  /// Imports an HDF5 file of labels, a picture of strokes, or all pictures that were exported with
+  /// one, and tells how their pixels were understood.
   void importFrom(const QString& path);
   /// Compares the segmentation with the GT_LABELS of another file.
   void compareDialog();

@@ -103,9 +103,9 @@ void save_picture(const Workbench& bench, const QString& path) {
       bench.jobs, bench.messages, path,
       [file = std::filesystem::path(path.toStdString()), picture, drawn = drawn_map(bench.overlay),
        opacity = bench.viewer_area.canvas()->overlayOpacity()](const Progress&) {
-        if (!drawn) return io::write_png(file, picture->view());
+        if (!drawn) return io::write_picture(file, picture->view());
         const RgbaImage over = overlay_picture(*make_map(drawn->source), drawn->shading);
-        io::write_png(file, blended(*picture, over, opacity).view());
+        io::write_picture(file, blended(*picture, over, opacity).view());
       });
 }
 
@@ -115,7 +115,7 @@ void save_map_picture(const Workbench& bench, const QString& path) {
   write_in_background(bench.jobs, bench.messages, path,
                       [file = std::filesystem::path(path.toStdString()), drawn](const Progress&) {
                         const QuantityMapPtr map = make_map(drawn->source);
-                        io::write_png(file, map_picture(*map, drawn->shading).view());
+                        io::write_picture(file, map_picture(*map, drawn->shading).view());
                       });
 }
 

@@ -9,6 +9,7 @@
 #include "engine/io/models/external_result.h"
 
 #include <QCoreApplication>
+#include <QFileInfo>
 
 #include <filesystem>
 #include <functional>
@@ -113,9 +114,15 @@ void ask_to_submit(const Workbench& bench, const EstimateEntry& entry) {
                   .title = ResultExportText::tr("Folder of the submission for %1")
                                .arg(QString::fromStdString(entry.name))},
                  [bench, id = entry.id](const QString& path) {
-                   if (const auto* found = bench.session.find_estimate(id)) {
-                     submit_result(bench, *found, path);
-                   }
+                   const auto map = io::submitted_map_file(
+                       path.toStdString(), bench.session.light_field()->info().name);
+                   const QString name = QString::fromStdString(map.string());
+                   confirm_replacing(&bench.window,
+                                     QFileInfo::exists(name) ? QStringList(name) : QStringList(),
+                                     [bench, id, path] {
+                                       const auto* found = bench.session.find_estimate(id);
+                                       if (found) submit_result(bench, *found, path);
+                                     });
                  });
 }
 

@@ -224,13 +224,13 @@ std::optional<Interval> stated_range(const Hdf5Input& file) {
   return Interval{*min, *max};
 }
 
-/// Labels of the file or of labels.h5 beside it, whose use is noted.
+/// Labels of the file or of the file beside it, whose use is noted.
 ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, ConventionReport& report,
                           FileUsage& account, const Progress& progress) {
   const bool has_own = file.has(kTrueLabels) || file.has("SCRIBBLES");
   ArchiveLabels own =
       has_own ? read_archive_labels(file, shape, report, progress) : ArchiveLabels();
-  const fs::path beside = file.path().parent_path() / "labels.h5";
+  const fs::path beside = labels_beside(file.path());
   if (!is_there(beside)) return own;
   const Hdf5Input labels(beside);
   // Where several light fields share a folder, labels that we wrote name theirs.

@@ -8,15 +8,21 @@
 
 namespace episcope::io {
 
-/// Writes a scene in the form of the 2013 archive: the light field and its depth to `path`, labels
-/// and scribbles to `labels.h5` beside it. They go into `path` if a `labels.h5` of another light
-/// field exists. Rows are in canonical order, which the attribute `convention` states. Atomic for
-/// each file. Throws IoError, Cancelled.
-void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
+/// File beside the light field for its labels: `labels.h5`, or one of its name (label_files_of).
+enum class LabelFile { Usual, NamedAfter };
 
-/// Whether `write_archive` puts labels into `path`, because a `labels.h5` of another light field
-/// lies beside it.
-[[nodiscard]] bool puts_labels_inside(const std::filesystem::path& path, const Scene& scene);
+/// Writes a scene in the form of the 2013 archive: the light field and its depth to `path`, labels
+/// and scribbles to a file beside it. They go into `path` if that file is there and of another
+/// light field. Rows are in canonical order, which the attribute `convention` states. Atomic for
+/// each file. Throws IoError, Cancelled.
+void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress,
+                   LabelFile labels = LabelFile::Usual);
+
+/// Where `write_archive` puts labels: `path` itself if a file of another light field lies beside
+/// it; empty if the scene has none.
+[[nodiscard]] std::filesystem::path labels_place(const std::filesystem::path& path,
+                                                 const Scene& scene,
+                                                 LabelFile labels = LabelFile::Usual);
 
 /// Writes a folder of the 2016 benchmark form: images, cfg, PFM truth of the center
 /// view and, where known, of all views. Throws IoError (also if the folder holds other files),

@@ -133,6 +133,17 @@ class CollectionTest : public QObject {
     QCOMPARE(summary(), QStringList({"lines:image_grid", "render:image_grid"}));
   }
 
+  void ownPictures_areNoLightField() {
+    write_archive("scene");
+    for (const char* name : {"disparity", "error", "confidence", "view", "labels"}) {
+      io::write_picture(made("pictures") / (std::string(name) + ".png"),
+                        bytes_of(scene_).view({0, 0}));
+    }
+    write_grid("grid");
+
+    QCOMPARE(summary(), (QStringList{"grid:image_grid", "scene:archive"}));
+  }
+
   void picturesBesideScenes_areNoLightField() {
     write_grid("a");
     write_grid("b");
