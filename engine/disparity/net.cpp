@@ -226,7 +226,7 @@ class Reduction {
     row.group_stride = layer.group_stride();
     row.bias = layer.bias_data();
     row.is_leaky = true;
-    row.out = to;
+    row.out.out = to;
     EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel).convolve(row);
   }
 

@@ -196,7 +196,7 @@ void NetEvidence::compute(int y, float disparity, float* out, int out_step) cons
   row.disparity = disparity;
   row.out = out;
   row.out_step = out_step;
-  EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel).evidence(row);
+  EPISCOPE_CHOOSE_KERNEL(best_isa(), net_evidence)(row);
 }
 
 void NetEvidence::compute(int y, const float* disparities, float* out, int out_step) const {
@@ -204,7 +204,7 @@ void NetEvidence::compute(int y, const float* disparities, float* out, int out_s
   row.disparities = disparities;
   row.out = out;
   row.out_step = out_step;
-  EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel).evidence(row);
+  EPISCOPE_CHOOSE_KERNEL(best_isa(), net_evidence)(row);
 }
 
 }  // namespace episcope

@@ -4,7 +4,7 @@
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
-#include "engine/disparity/kernels/net_kernel.h"
+#include "engine/disparity/kernels/net_evidence_kernel.h"
 
 #include <array>
 #include <vector>

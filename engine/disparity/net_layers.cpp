@@ -6,6 +6,7 @@
 #include "engine/disparity/kernels/net_kernel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <limits>
 #include <utility>
@@ -56,7 +57,9 @@ int NetStream::add_convolution(const NetLayer& layer, int input, Sums sums) {
   const NetLayerForm& form = layer.form;
   Node& source = nodes_[input];
   assert(source.shape.channels == form.inputs);
-  source.margin = std::max(source.margin, form.kernel / 2 * form.dilation);
+  // The last tile of columns begins within the row.
+  const int reach = form.is_mixed() ? kNetTile + 1 : form.kernel / 2;
+  source.margin = std::max(source.margin, reach * form.dilation);
   const NetShape& from = source.shape;
   const NetShape shape{form.outputs,
                        form.dimensions == 3 ? halved(from.depth, form.stride) : from.depth,
@@ -155,6 +158,7 @@ void NetStream::run(int output, int band, const Take& take, const Progress& prog
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     nodes_[i].rows = NetRows(nodes_[i].shape, nodes_[i].margin, plan.kept[i]);
   }
+  take_scratch(progress.threads());
   double spent = 0;
   for (const Step& step : plan.steps) {
     const double work = work_of(step);
@@ -167,11 +171,13 @@ void NetStream::run(int output, int band, const Take& take, const Progress& prog
                  [&](int i) { take(step.first + i, rows); });
   }
   for (Node& node : nodes_) node.rows = {};
+  scratch_ = {};
 }
 
 void NetStream::compute(const Step& step, const Progress& progress) {
   Node& node = nodes_[step.node];
   if (node.prepare) node.prepare(step.first, step.end, progress.part(0, 0));
+  if (node.layer != nullptr && node.layer->form.is_mixed()) return convolve_mixed(step, progress);
   const int depth = node.shape.depth;
   parallel_for((step.end - step.first) * depth, progress, [&](int i) {
     const int y = step.first + i / depth, z = i % depth;
@@ -209,31 +215,154 @@ void add_taps(const NetLayer& layer, const NetRows& input, int y, int z, NetConv
   }
 }
 
+const NetKernel& kernels() {
+  return EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel);
+}
+
 }  // namespace
 
-void NetStream::convolve_row(Node& node, int y, int z) const {
+// What all rows of a convolution have in common.
+NetConvolutionRow NetStream::row_of(const Node& node) const {
   const NetLayer& layer = *node.layer;
-  const NetRows& input = nodes_[node.input].rows;
+  const int step = nodes_[node.input].rows.step();
   const bool is_narrow = layer.form.is_narrow();
   NetConvolutionRow row;
-  add_taps(layer, input, y, z, row);
-  row.inputs = is_narrow ? input.step() : layer.form.inputs;
-  row.input_step = layer.form.stride * input.step();
+  row.inputs = is_narrow ? step : layer.form.inputs;
+  row.input_step = layer.form.stride * step;
   row.columns = node.shape.width;
   row.outputs = is_narrow ? layer.form.outputs : whole_groups(layer.form.outputs);
   row.group_stride = layer.group_stride();
   row.bias = layer.bias_data();
+  row.is_leaky = layer.form.is_leaky || node.sums.before >= 0;
+  row.out_step = node.rows.step();
+  return row;
+}
+
+NetOutput NetStream::output_of(Node& node, int y, int z) const {
   const auto added = [&](int other) -> const float* {
     if (other < 0) return nullptr;
     return nodes_[other].rows.at(y, nodes_[other].shape.depth == 1 ? 0 : z);
   };
-  row.before = added(node.sums.before);
-  row.after = added(node.sums.after);
-  row.is_leaky = layer.form.is_leaky || row.before != nullptr;
-  row.out = node.rows.at(y, z);
-  row.out_step = node.rows.step();
-  const NetKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel);
-  is_narrow ? kernel.convolve_narrow(row) : kernel.convolve(row);
+  return {node.rows.at(y, z), added(node.sums.before), added(node.sums.after)};
+}
+
+void NetStream::convolve_row(Node& node, int y, int z) const {
+  NetConvolutionRow row = row_of(node);
+  add_taps(*node.layer, nodes_[node.input].rows, y, z, row);
+  row.out = output_of(node, y, z);
+  node.layer->form.is_narrow() ? kernels().convolve_narrow(row) : kernels().convolve(row);
+}
+
+namespace {
+
+// Rows of inputs, mixed for a tile of labels, as many as outputs of a row need.
+class MixedRows {
+ public:
+  MixedRows(const NetLayerForm& form, const NetRows& input)
+      : form_(form), input_(input), held_(2 * form.dilation + 1) {
+    const int span = kNetTile * form.dilation;
+    tiles_ = (input.shape().width + span - 1) / span * form.dilation;
+    stride_ = static_cast<long>(tiles_) * input.step();
+  }
+
+  [[nodiscard]] int tiles() const { return tiles_; }
+  [[nodiscard]] long stride() const { return stride_; }
+  [[nodiscard]] std::size_t count() const {
+    return row_count() * held_.size() + kReadBehind * static_cast<std::size_t>(input_.step());
+  }
+
+  /// Goes on with labels from `z` on, in memory for `count` numbers.
+  void begin(int z, float* values) {
+    z_ = z;
+    values_ = values;
+    std::ranges::fill(held_, -1);
+  }
+
+  /// Precondition: the row is within the input.
+  const float* at(int y) {
+    const std::size_t slot = static_cast<std::size_t>(y) % held_.size();
+    float* const out = values_ + slot * row_count();
+    if (std::exchange(held_[slot], y) == y) return out;
+    NetMixing mixing{.planes = form_.mixed_planes(),
+                     .tiles = tiles_,
+                     .dilation = form_.dilation,
+                     .channels = input_.step(),
+                     .out = out,
+                     .mixed_stride = stride_};
+    for (int i = 0; i < mixing.planes; ++i) {
+      const int z = z_ + i - form_.depth_taps() / 2;
+      if (z >= 0 && z < input_.shape().depth) mixing.rows[i] = input_.at(y, z);
+    }
+    kernels().mix(mixing);
+    return out;
+  }
+
+ private:
+  static constexpr std::size_t kReadBehind = 14;  // Tiles.
+
+  [[nodiscard]] std::size_t row_count() const {
+    return static_cast<std::size_t>(stride_) * form_.mixed_planes() * kNetMixed;
+  }
+
+  const NetLayerForm& form_;
+  const NetRows& input_;
+  std::vector<int> held_;
+  int tiles_ = 0;
+  long stride_ = 0;
+  int z_ = 0;
+  float* values_ = nullptr;
+};
+
+}  // namespace
+
+// Memory for the mixed rows of each thread.
+void NetStream::take_scratch(int threads) {
+  scratch_count_ = 0;
+  for (const Node& node : nodes_) {
+    if (node.layer == nullptr || !node.layer->form.is_mixed()) continue;
+    const MixedRows mixed(node.layer->form, nodes_[node.input].rows);
+    scratch_count_ = std::max(scratch_count_, mixed.count());
+  }
+  scratch_ = make_large<float>(scratch_count_ * threads);
+}
+
+// Threads take pieces of a few rows for a tile of labels, so that a mixed row serves three rows of
+// outputs.
+void NetStream::convolve_mixed(const Step& step, const Progress& progress) {
+  Node& node = nodes_[step.node];
+  const NetLayer& layer = *node.layer;
+  const int height = layer.form.tile_planes();
+  const int tiles = (node.shape.depth + height - 1) / height;
+  const int rows = step.end - step.first;
+  const int piece = std::clamp(rows * tiles / (4 * progress.threads()), 1, rows);
+  const int pieces = (rows + piece - 1) / piece;
+  std::atomic<std::size_t> workers = 0;
+  parallel_for_workers(pieces * tiles, progress, [&] {
+    float* const scratch = scratch_.get() + workers++ * scratch_count_;
+    return [&, scratch, mixed = MixedRows(layer.form, nodes_[node.input].rows)](int i) mutable {
+      const int z = i % tiles * height, first = step.first + i / tiles * piece;
+      mixed.begin(z, scratch);
+      for (int y = first; y < std::min(first + piece, step.end); ++y) {
+        NetMixedRow row;
+        row.plain = row_of(node);
+        row.planes = layer.form.mixed_planes();
+        for (int j = -1; j <= 1; ++j) {
+          const int from = y + j * layer.form.dilation;
+          if (from < 0 || from >= node.shape.height) continue;
+          row.plain.taps[row.plain.tap_count++] = {
+              mixed.at(from), layer.weights_data() + (j + 1) * layer.tap_stride()};
+        }
+        row.tiles = mixed.tiles();
+        row.dilation = layer.form.dilation;
+        row.mixed_stride = mixed.stride();
+        row.weights_stride = 3 * layer.tap_stride();
+        for (int k = 0; k < height && z + k < node.shape.depth; ++k) {
+          row.outputs[k] = output_of(node, y, z + k);
+        }
+        kernels().convolve_mixed(row);
+      }
+    };
+  });
 }
 
 void NetStream::enlarge_row(Node& node, int y, int z) const {
@@ -251,7 +380,7 @@ void NetStream::enlarge_row(Node& node, int y, int z) const {
       .channels = source.step(),
       .plus = nodes_[node.sums.after].rows.at(y, z),
       .out = node.rows.at(y, z)};
-  EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel).enlarge(row);
+  kernels().enlarge(row);
 }
 
 }  // namespace episcope

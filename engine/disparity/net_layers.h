@@ -3,6 +3,7 @@
 
 #include "engine/core/memory.h"
 #include "engine/core/progress.h"
+#include "engine/disparity/kernels/net_kernel.h"
 #include "engine/disparity/net_weights.h"
 
 #include <functional>
@@ -106,10 +107,16 @@ class NetStream {
   [[nodiscard]] Plan plan_of(int output, int band) const;
   [[nodiscard]] double work_of(const Step& step) const;
   void compute(const Step& step, const Progress& progress);
+  void take_scratch(int threads);
+  [[nodiscard]] NetConvolutionRow row_of(const Node& node) const;
+  [[nodiscard]] NetOutput output_of(Node& node, int y, int z) const;
   void convolve_row(Node& node, int y, int z) const;
+  void convolve_mixed(const Step& step, const Progress& progress);
   void enlarge_row(Node& node, int y, int z) const;
 
   std::vector<Node> nodes_;
+  LargeArray<float> scratch_;  // Of mixed rows: so many numbers for each thread.
+  std::size_t scratch_count_ = 0;
 };
 
 }  // namespace episcope

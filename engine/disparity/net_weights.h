@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/named_arrays.h"
+#include "engine/disparity/kernels/net_kernel.h"
 
 #include <array>
 #include <cstddef>
@@ -35,6 +36,11 @@ struct NetLayerForm {
   [[nodiscard]] int taps() const { return depth_taps() * kernel * kernel; }
   /// Whether outputs are so few that inputs are what kernels work on side by side.
   [[nodiscard]] bool is_narrow() const { return outputs <= 2; }
+  /// Whether columns and labels are mixed (kNetMixed).
+  [[nodiscard]] bool is_mixed() const { return kernel == 3 && stride == 1 && !is_narrow(); }
+  /// Planes of mixed numbers, and what they are made for: planes of outputs.
+  [[nodiscard]] int mixed_planes() const { return dimensions == 3 ? kNetMixed : 1; }
+  [[nodiscard]] int tile_planes() const { return dimensions == 3 ? kNetTile : 1; }
 };
 
 /// Numbers of one group, on a boundary that loads do not cross.
@@ -45,8 +51,9 @@ struct alignas(64) NetGroup {
 /// A convolution as its kernels want it.
 struct NetLayer {
   NetLayerForm form;
-  /// `[group of outputs][z][y][x][input][output of the group]`; of narrow layers
-  /// `[output][z][y][x][input]`, inputs in whole groups. Zeros fill up.
+  /// `[group of outputs][z][y][x][input][output of the group]`; of mixed layers
+  /// `[group][mixed z][mixed x][y][input][output]`; of narrow layers `[output][z][y][x][input]`,
+  /// inputs in whole groups. Zeros fill up.
   std::vector<NetGroup> weights;
   std::vector<NetGroup> bias;  ///< Zeros if it has none.
 
@@ -57,7 +64,10 @@ struct NetLayer {
     return form.is_narrow() ? whole_groups(form.inputs)
                             : static_cast<long>(form.inputs) * kNetGroup;
   }
-  [[nodiscard]] long group_stride() const { return tap_stride() * form.taps(); }
+  [[nodiscard]] long group_stride() const {
+    return tap_stride() * (form.is_mixed() ? form.mixed_planes() * kNetMixed * form.kernel
+                                           : form.taps());
+  }
 };
 
 /// The weights of `net`, checked, in the order of its kernels.
