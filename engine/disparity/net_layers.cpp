@@ -48,8 +48,12 @@ NetRows::NetRows(NetShape shape, int margin, int kept)
           large_array<float>(allocate_large_zeros(count_of(shape, margin, kept) * sizeof(float)))) {
 }
 
-int NetStream::add_source(NetShape shape, Fill fill, Prepare prepare) {
-  nodes_.push_back({.shape = shape, .fill = std::move(fill), .prepare = std::move(prepare)});
+int NetStream::add_source(NetShape shape, Fill fill, Prepare prepare, int labels) {
+  assert(shape.depth % labels == 0);
+  nodes_.push_back({.shape = shape,
+                    .fill = std::move(fill),
+                    .prepare = std::move(prepare),
+                    .labels = labels});
   return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -178,11 +182,11 @@ void NetStream::compute(const Step& step, const Progress& progress) {
   Node& node = nodes_[step.node];
   if (node.prepare) node.prepare(step.first, step.end, progress.part(0, 0));
   if (node.layer != nullptr && node.layer->form.is_mixed()) return convolve_mixed(step, progress);
-  const int depth = node.shape.depth;
-  parallel_for((step.end - step.first) * depth, progress, [&](int i) {
-    const int y = step.first + i / depth, z = i % depth;
+  const int items = node.shape.depth / node.labels;
+  parallel_for((step.end - step.first) * items, progress, [&](int i) {
+    const int y = step.first + i / items, z = i % items * node.labels;
     if (node.fill) {
-      node.fill(y, z, node.rows.at(y, z));
+      node.fill(y, z, node.rows);
     } else if (node.layer != nullptr) {
       convolve_row(node, y, z);
     } else {

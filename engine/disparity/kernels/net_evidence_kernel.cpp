@@ -8,7 +8,129 @@
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
-// A pixel of a view is one register of eight numbers whatever the instruction set.
+constexpr int kSectors = 8;
+constexpr int kRun = 64;  // Pixels that are summed for at once, by all disparities.
+
+// Pixels [begin, end) of a row.
+struct Run {
+  const float* reference;  // Of planes the whole row, of maps from the first pixel on.
+  int begin;
+  int end;
+};
+
+// How far views of a sector are from the reference: sums over colours and over differences, and how
+// many views count.
+struct Sums {
+  float parts[3][kRun + kLanes];
+};
+
+inline Vec evidence_of(Vec sum, Vec count, float channels) {
+  constexpr float kFloor = 0.003F, kAdd = 4.2F, kScale = 0.8F, kNone = 1.5F;
+  const Vec mean = sum / (greatest(count, splat(1)) * channels);
+  const Vec value = (natural_log(mean + kFloor) + kAdd) * kScale;
+  return choose(count > 0.0F, value, splat(kNone));
+}
+
+// Evidence of one sector for a run of pixels.
+void finish_sector(Sums& sums, const Run& run, int sector, float* out) {
+  for (int i = 0; i < kRun; i += kLanes) {
+    const Vec count = load(sums.parts[2] + i);
+    store(sums.parts[0] + i, evidence_of(load(sums.parts[0] + i), count, 3));
+    store(sums.parts[1] + i, evidence_of(load(sums.parts[1] + i), count, 2));
+  }
+  out += static_cast<long>(run.begin) * 2 * kSectors + sector;
+  for (int i = 0; i < run.end - run.begin; ++i, out += 2 * kSectors) {
+    out[0] = sums.parts[0][i];
+    out[kSectors] = sums.parts[1][i];
+  }
+}
+
+// Disparities that are the same for all pixels.
+
+// The pixels around a sample of the first pixel of a row, and their weights.
+struct Corners {
+  const float* upper;  // The left ones.
+  const float* lower;
+  float weights[4];  // Of the upper left and right and the lower ones.
+};
+
+inline Vec magnitude(Vec value) {
+  return reinterpret_cast<Vec>(reinterpret_cast<IntVec>(value) & 0x7fffffff);
+}
+inline Vec where(IntVec mask, Vec value) {
+  return reinterpret_cast<Vec>(reinterpret_cast<IntVec>(value) & mask);
+}
+inline void add_to(float* sum, Vec value) {
+  store(sum, load(sum) + value);
+}
+
+// Pixels [first, last) of a run; with samples between two columns, or on one.
+template <bool kHasInvalid, bool kIsBetween>
+inline void add_columns(const Run& run, int first, int last, const Corners& from, long channel,
+                        Sums& sums) {
+  IntVec lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = i;
+  for (int x = first; x < last; x += kLanes) {
+    const auto distance = [&](int c) {
+      const long at = x + c * channel;
+      Vec off = load(from.upper + at) * from.weights[0] - load(run.reference + at);
+      if constexpr (kIsBetween) off += load(from.upper + at + 1) * from.weights[1];
+      off += load(from.lower + at) * from.weights[2];
+      if constexpr (kIsBetween) off += load(from.lower + at + 1) * from.weights[3];
+      return magnitude(off);
+    };
+    const Vec color = distance(0) + distance(1) + distance(2);
+    const Vec difference = distance(3) + distance(4);
+    IntVec counts = lanes < last - x;
+    if constexpr (kHasInvalid) counts &= color + difference == color + difference;
+    const int i = x - run.begin;
+    add_to(sums.parts[0] + i, where(counts, color));
+    add_to(sums.parts[1] + i, where(counts, difference));
+    add_to(sums.parts[2] + i, where(counts, splat(1)));
+  }
+}
+
+// Adds how far one view is from the reference, at one disparity.
+template <bool kHasInvalid>
+inline void add_plane(const NetEvidenceRow& row, const NetView& view, const Run& run, float d,
+                      Sums& sums) {
+  const float y = static_cast<float>(row.y) - d * view.dv;
+  if (!(y >= 0 && y <= static_cast<float>(row.height - 1))) return;
+  const int upper = static_cast<int>(y);
+  const int lower = upper + 1 < row.height ? upper + 1 : upper;
+  const float shift = -d * view.du;
+  const int whole = static_cast<int>(__builtin_floorf(shift));
+  const float right = shift - static_cast<float>(whole), below = y - static_cast<float>(upper);
+  // Pixels whose sample x + shift lies in [0, width − 1].
+  const int first = run.begin > -whole ? run.begin : -whole;
+  const int end_within = row.width - whole - (right > 0 ? 1 : 0);
+  const int last = run.end < end_within ? run.end : end_within;
+  if (first >= last) return;
+  const auto pixels = [&](int at) {
+    return view.pixels + (at - view.first_row) * view.row_stride + whole;
+  };
+  const Corners from{pixels(upper),
+                     pixels(lower),
+                     {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below,
+                      right * below}};
+  if (right > 0) return add_columns<kHasInvalid, true>(run, first, last, from, row.width, sums);
+  add_columns<kHasInvalid, false>(run, first, last, from, row.width, sums);
+}
+
+template <bool kHasInvalid>
+void planes_of_run(const NetEvidenceRow& row, const Run& run) {
+  for (int k = 0; k < kSectors; ++k) {
+    Sums sums[kNetAtOnce] = {};
+    for (int i = row.sector_begin[k]; i < row.sector_begin[k + 1]; ++i) {
+      for (int j = 0; j < row.count; ++j) {
+        add_plane<kHasInvalid>(row, row.views[i], run, row.disparities[j].same, sums[j]);
+      }
+    }
+    for (int j = 0; j < row.count; ++j) finish_sector(sums[j], run, k, row.disparities[j].out);
+  }
+}
+
+// Maps. A pixel of a view is one register of eight numbers whatever the instruction set.
 
 typedef float Eight __attribute__((vector_size(32)));
 typedef float LooseEight __attribute__((vector_size(32), aligned(4), may_alias));
@@ -23,80 +145,12 @@ inline Eight distance(Eight a, Eight b) {
   return reinterpret_cast<Eight>(bits);
 }
 
-template <bool kHasInvalid>
-inline Eight counted(Eight off) {
-  if constexpr (kHasInvalid) return off == off ? off : Eight{};
-  return off;
-}
-
-inline void add_to(float* sum, Eight off) {
-  *reinterpret_cast<LooseEight*>(sum) = load_pixel(sum) + off;
-}
-
-// The rows of a view around a coordinate, and the weight of the second.
-struct RowPair {
-  const float* upper;
-  const float* lower;
-  float weight;
-};
-
-// Sums of pixels [begin, end) of a row, and what is added to them.
-struct Run {
-  const float* reference;  // Of its first pixel.
-  int begin;
-  int end;
-  float* sums;
-};
-
-// Pixels [first, last) of a run, whose samples lie `part` behind the pixels at `from`.
-template <bool kHasInvalid, bool kIsBetween>
-void add_columns(const Run& run, int first, int last, const RowPair& from, float part) {
-  const auto column = [&](long at) {
-    const Eight above = load_pixel(from.upper + at);
-    return above + (load_pixel(from.lower + at) - above) * from.weight;
-  };
-  Eight left = column(first * kNetPixel);
-  for (long at = first * kNetPixel; at < last * kNetPixel; at += kNetPixel) {
-    Eight sample = kIsBetween ? left : column(at);
-    if constexpr (kIsBetween) {
-      const Eight right = column(at + kNetPixel);
-      sample += (right - left) * part;
-      left = right;
-    }
-    const long i = at - static_cast<long>(run.begin) * kNetPixel;
-    add_to(run.sums + i, counted<kHasInvalid>(distance(sample, load_pixel(run.reference + i))));
-  }
-}
-
-// Adds how far one view is from the reference, at one disparity.
-template <bool kHasInvalid>
-void add_plane(const NetEvidenceRow& row, const NetView& view, const Run& run) {
-  const float y = static_cast<float>(row.y) - row.disparity * view.dv;
-  if (!(y >= 0 && y <= static_cast<float>(row.height - 1))) return;
-  const int upper = static_cast<int>(y);
-  const int lower = upper + 1 < row.height ? upper + 1 : upper;
-  const float shift = -row.disparity * view.du;
-  const int whole = static_cast<int>(__builtin_floorf(shift));
-  const float part = shift - static_cast<float>(whole);
-  // Pixels whose sample x + shift lies in [0, width − 1].
-  const int first = run.begin > -whole ? run.begin : -whole;
-  const int end_within = row.width - whole - (part > 0 ? 1 : 0);
-  const int last = run.end < end_within ? run.end : end_within;
-  if (first >= last) return;
-  const auto pixels = [&](int at) {
-    return view.pixels + (at - view.first_row) * view.row_stride + whole * kNetPixel;
-  };
-  const RowPair from{pixels(upper), pixels(lower), y - static_cast<float>(upper)};
-  if (part > 0) return add_columns<kHasInvalid, true>(run, first, last, from, part);
-  add_columns<kHasInvalid, false>(run, first, last, from, part);
-}
-
 // Where the pixels of a run are sampled.
 struct Places {
-  int offset[kNetRun];    // Of the first of four pixels, in the rows that are held.
-  float along[kNetRun];   // Weights of the second column
-  float down[kNetRun];    // and row.
-  float within[kNetRun];  // 1 or 0
+  int offset[kRun];    // Of the first of four pixels, in the rows that are held.
+  float along[kRun];   // Weights of the second column
+  float down[kRun];    // and row.
+  float within[kRun];  // 1 or 0
 };
 
 // An axis: coordinates clamped, the first of two places, the second never outside.
@@ -114,12 +168,13 @@ inline Axis axis_at(Vec at, int size) {
   return {first, inside - convert<float>(first), is_within};
 }
 
-void find_places(const NetEvidenceRow& row, const NetView& view, const Run& run, Places& places) {
+inline void find_places(const NetEvidenceRow& row, const NetView& view, const Run& run,
+                        const float* map, Places& places) {
   IntVec column;
   for (int i = 0; i < kLanes; ++i) column[i] = run.begin + i;
-  alignas(64) float disparities[kNetRun] = {};
-  for (int i = run.begin; i < run.end; ++i) disparities[i - run.begin] = row.disparities[i];
-  for (int i = 0; i < kNetRun; i += kLanes, column += kLanes) {
+  alignas(64) float disparities[kRun] = {};
+  for (int i = run.begin; i < run.end; ++i) disparities[i - run.begin] = map[i];
+  for (int i = 0; i < kRun; i += kLanes, column += kLanes) {
     const Vec d = load(disparities + i);
     const Axis x = axis_at(convert<float>(column) - d * view.du, row.width);
     const Axis y = axis_at(static_cast<float>(row.y) - d * view.dv, row.height);
@@ -132,11 +187,11 @@ void find_places(const NetEvidenceRow& row, const NetView& view, const Run& run,
   }
 }
 
-// The same where each pixel has its own disparity.
 template <bool kHasInvalid>
-void add_map(const NetEvidenceRow& row, const NetView& view, const Run& run) {
+inline void add_map(const NetEvidenceRow& row, const NetView& view, const Run& run,
+                    const float* map, float* sums) {
   Places places;
-  find_places(row, view, run, places);
+  find_places(row, view, run, map, places);
   const long right = row.width > 1 ? kNetPixel : 0;
   const long below = row.height > 1 ? view.row_stride : 0;
   for (int i = 0; i < run.end - run.begin; ++i) {
@@ -146,63 +201,58 @@ void add_map(const NetEvidenceRow& row, const NetView& view, const Run& run) {
     const Eight first = upper + (load_pixel(from + right) - upper) * places.along[i];
     const Eight second = lower + (load_pixel(from + below + right) - lower) * places.along[i];
     const Eight sample = first + (second - first) * places.down[i];
-    const Eight off = distance(sample, load_pixel(run.reference + i * kNetPixel));
-    add_to(run.sums + i * kNetPixel, counted<kHasInvalid>(off) * places.within[i]);
+    Eight off = distance(sample, load_pixel(run.reference + i * kNetPixel));
+    if constexpr (kHasInvalid) off = off == off ? off : Eight{};
+    float* const sum = sums + i * kNetPixel;
+    *reinterpret_cast<LooseEight*>(sum) = load_pixel(sum) + off * places.within[i];
   }
 }
 
 template <bool kHasInvalid>
-inline void add_view(const NetEvidenceRow& row, const NetView& view, const Run& run) {
-  if (row.disparities == nullptr) return add_plane<kHasInvalid>(row, view, run);
-  add_map<kHasInvalid>(row, view, run);
+void maps_of_run(const NetEvidenceRow& row, const Run& run) {
+  for (int k = 0; k < kSectors; ++k) {
+    alignas(64) float pixels[kNetAtOnce][kRun * kNetPixel] = {};
+    for (int i = row.sector_begin[k]; i < row.sector_begin[k + 1]; ++i) {
+      for (int j = 0; j < row.count; ++j) {
+        add_map<kHasInvalid>(row, row.views[i], run, row.disparities[j].map, pixels[j]);
+      }
+    }
+    for (int j = 0; j < row.count; ++j) {
+      Sums sums;
+      for (int i = 0; i < kRun; ++i) {
+        const float* const sum = pixels[j] + i * kNetPixel;
+        sums.parts[0][i] = sum[0] + sum[1] + sum[2];
+        sums.parts[1][i] = sum[3] + sum[4];
+        sums.parts[2][i] = sum[5];
+      }
+      finish_sector(sums, run, k, row.disparities[j].out);
+    }
+  }
 }
 
-inline Vec evidence_of(Vec sum, Vec count, float channels) {
-  constexpr float kFloor = 0.003F, kAdd = 4.2F, kScale = 0.8F, kNone = 1.5F;
-  const Vec mean = sum / (greatest(count, splat(1)) * channels);
-  const Vec value = (natural_log(mean + kFloor) + kAdd) * kScale;
-  return choose(count > 0.0F, value, splat(kNone));
+// Runs one after the other.
+template <class OfRun>
+inline void for_runs(const NetEvidenceRow& row, long pixel_step, const OfRun& of_run) {
+  for (int begin = 0; begin < row.width; begin += kRun) {
+    const int end = begin + kRun < row.width ? begin + kRun : row.width;
+    of_run(Run{row.reference + begin * pixel_step, begin, end});
+  }
 }
 
-// Evidence of one sector from the sums of a run of pixels.
-void finish_sector(const NetEvidenceRow& row, const float* sums, int sector, int begin, int end) {
-  float parts[3][kNetRun];
-  for (int i = 0; i < kNetRun; ++i) {
-    const float* const sum = sums + i * kNetPixel;
-    parts[0][i] = sum[0] + sum[1] + sum[2];
-    parts[1][i] = sum[3] + sum[4];
-    parts[2][i] = sum[5];
-  }
-  for (int i = 0; i < kNetRun; i += kLanes) {
-    const Vec count = load(parts[2] + i);
-    store(parts[0] + i, evidence_of(load(parts[0] + i), count, 3));
-    store(parts[1] + i, evidence_of(load(parts[1] + i), count, 2));
-  }
-  for (int i = 0; i < end - begin; ++i) {
-    float* const out = row.out + static_cast<long>(begin + i) * row.out_step;
-    out[sector] = parts[0][i];
-    out[8 + sector] = parts[1][i];
-  }
+void planes(const NetEvidenceRow& row) {
+  for_runs(row, 0, [&](const Run& run) {
+    row.has_invalid ? planes_of_run<true>(row, run) : planes_of_run<false>(row, run);
+  });
+}
+
+void maps(const NetEvidenceRow& row) {
+  for_runs(row, kNetPixel, [&](const Run& run) {
+    row.has_invalid ? maps_of_run<true>(row, run) : maps_of_run<false>(row, run);
+  });
 }
 
 }  // namespace
 
-void net_evidence(const NetEvidenceRow& row) {
-  for (int begin = 0; begin < row.width; begin += kNetRun) {
-    const int end = begin + kNetRun < row.width ? begin + kNetRun : row.width;
-    for (int k = 0; k < 8; ++k) {
-      alignas(64) float sums[kNetRun * kNetPixel] = {};
-      const Run run{row.reference + static_cast<long>(begin) * kNetPixel, begin, end, sums};
-      for (int i = row.sector_begin[k]; i < row.sector_begin[k + 1]; ++i) {
-        if (row.has_invalid) {
-          add_view<true>(row, row.views[i], run);
-        } else {
-          add_view<false>(row, row.views[i], run);
-        }
-      }
-      finish_sector(row, sums, k, begin, end);
-    }
-  }
-}
+const NetEvidenceKernel kNetEvidenceKernel = {planes, maps};
 
 }  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE
