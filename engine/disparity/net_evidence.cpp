@@ -157,21 +157,21 @@ void NetEvidence::hold(int first, int end, const Progress& progress) {
     const double lowest = std::clamp(std::floor(first + least) - 1, 0.0, height() - 1.0);
     const double highest = std::clamp(std::floor(end - 1 + most) + 2, 0.0, height() - 1.0);
     move_window(window, static_cast<int>(lowest), static_cast<int>(highest) + 1);
-    views_[i] = {window.pixels.data(), window.first, row_stride(),
+    views_[i] = {window.data(), window.first, row_pixels() * kNetPixel,
                  static_cast<float>(window.view.u - reference_.u), static_cast<float>(window.dv)};
   });
 }
 
 void NetEvidence::move_window(Window& window, int first, int end) const {
-  const long row = row_stride();
+  const long row = row_pixels();
   const int kept_from = std::clamp(first, window.first, window.end);
-  std::vector<float>& pixels = window.pixels;
+  std::vector<Pixel>& pixels = window.pixels;
   const int kept = window.end - kept_from;
   pixels.erase(pixels.begin(), pixels.begin() + (kept_from - window.first) * row);
   window.first = kept == 0 ? first : kept_from;
   const int from = kept == 0 ? first : window.end;
   window.end = std::max(from, end);
-  pixels.resize((window.end - window.first) * row + kNetReadBehind);
+  pixels.resize((window.end - window.first) * row + kNetReadBehind / kNetPixel);
   if (from < window.end) read_rows(window, from);
 }
 
@@ -185,7 +185,7 @@ void NetEvidence::read_rows(Window& window, int first) const {
   read(first, rows[1]);
   for (int y = first; y < window.end; ++y) {
     read(y + 1, rows[2]);
-    float* const out = window.pixels.data() + (y - window.first) * row_stride();
+    float* const out = window.data() + (y - window.first) * row_pixels() * kNetPixel;
     const PixelWriter writer{rows, window.view == reference_ ? 0.0F : 1.0F};
     kind_ == NetEvidenceOf::Planes ? writer.write_rows(out) : writer.write_pixels(out);
     if (!light_field_.valid().empty()) mark_invalid_pixels(window.view, y, out);
@@ -206,9 +206,10 @@ void NetEvidence::mark_invalid_pixels(ViewIndex view, int y, float* out) const {
   }
 }
 
-long NetEvidence::row_stride() const {
-  return static_cast<long>(width()) *
-         (kind_ == NetEvidenceOf::Planes ? kNetPixelRows : kNetPixel);
+// Of memory that a row takes.
+long NetEvidence::row_pixels() const {
+  if (kind_ == NetEvidenceOf::Maps) return width();
+  return (static_cast<long>(width()) * kNetPixelRows + kNetPixel - 1) / kNetPixel;
 }
 
 void NetEvidence::compute(int y, std::span<const NetDisparity> disparities) const {

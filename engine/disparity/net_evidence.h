@@ -56,19 +56,25 @@ class NetEvidence {
   [[nodiscard]] int width() const { return light_field_.width(); }
 
  private:
+  // Numbers of a pixel, on a boundary that loads do not cross.
+  struct alignas(4 * kNetPixel) Pixel {
+    std::array<float, kNetPixel> values;
+  };
   // Some rows of a view.
   struct Window {
     ViewIndex view;
     int dv = 0;
     int first = 0;
     int end = 0;
-    std::vector<float> pixels;
+    std::vector<Pixel> pixels;
+
+    [[nodiscard]] float* data() { return pixels.front().values.data(); }
   };
 
   void move_window(Window& window, int first, int end) const;
   void read_rows(Window& window, int first) const;
   void mark_invalid_pixels(ViewIndex view, int y, float* out) const;
-  [[nodiscard]] long row_stride() const;
+  [[nodiscard]] long row_pixels() const;
 
   const LightField& light_field_;
   ViewIndex reference_;
