@@ -266,7 +266,8 @@ class MixedRows {
       : form_(form), input_(input), held_(2 * form.dilation + 1) {
     const int span = kNetTile * form.dilation;
     tiles_ = (input.shape().width + span - 1) / span * form.dilation;
-    stride_ = static_cast<long>(tiles_) * input.step();
+    // Not a power of two, where the cache would hold no more than a few kinds.
+    stride_ = static_cast<long>(tiles_) * input.step() + kNetGroup;
   }
 
   [[nodiscard]] int tiles() const { return tiles_; }

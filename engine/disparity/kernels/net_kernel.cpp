@@ -235,7 +235,7 @@ inline void finish_mixed(const NetMixedRow& row, const float* products, long str
 template <int kPlanes, int kGroups, int kStep>
 void convolve_mixed_groups(const NetMixedRow& row, int group) {
   constexpr int kVecs = kGroups * kGroupVecs, kKinds = kPlanes * kNetMixed;
-  alignas(64) float products[kKinds][kBlock][kVecs * kLanes];
+  alignas(64) float products[kKinds][kBlock + 1][kVecs * kLanes];  // Not a power of two.
   for (int begin = 0; begin < row.tiles; begin += kBlock) {
     const int count = begin + kBlock < row.tiles ? kBlock : row.tiles - begin;
     for (int kind = 0; kind < kKinds; ++kind) {
@@ -251,7 +251,7 @@ void convolve_mixed_groups(const NetMixedRow& row, int group) {
     }
     for (int tile = 0; tile < count; ++tile) {
       for (int c = 0; c < kVecs * kLanes; c += kLanes) {
-        finish_mixed<kPlanes>(row, products[0][tile] + c, kBlock * kVecs * kLanes, begin + tile,
+        finish_mixed<kPlanes>(row, products[0][tile] + c, (kBlock + 1) * kVecs * kLanes, begin + tile,
                               group * kGroup + c);
       }
     }
