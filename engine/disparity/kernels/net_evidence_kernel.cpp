@@ -181,6 +181,10 @@ inline void find_places(const NetEvidenceRow& row, const NetView& view, const Ru
     const IntVec offset =
         (y.first - view.first_row) * static_cast<int>(view.row_stride) + x.first * kNetPixel;
     __builtin_memcpy(places.offset + i, &offset, sizeof offset);
+    for (int j = 0; j < kLanes; j += 2) {
+      __builtin_prefetch(view.pixels + offset[j]);
+      __builtin_prefetch(view.pixels + offset[j] + view.row_stride);
+    }
     store(places.along + i, x.weight);
     store(places.down + i, y.weight);
     store(places.within + i, choose(x.is_within & y.is_within, splat(1), Vec{}));
@@ -189,9 +193,7 @@ inline void find_places(const NetEvidenceRow& row, const NetView& view, const Ru
 
 template <bool kHasInvalid>
 inline void add_map(const NetEvidenceRow& row, const NetView& view, const Run& run,
-                    const float* map, float* sums) {
-  Places places;
-  find_places(row, view, run, map, places);
+                    const Places& places, float* sums) {
   const long right = row.width > 1 ? kNetPixel : 0;
   const long below = row.height > 1 ? view.row_stride : 0;
   for (int i = 0; i < run.end - run.begin; ++i) {
@@ -208,15 +210,30 @@ inline void add_map(const NetEvidenceRow& row, const NetView& view, const Run& r
   }
 }
 
+// All views of a sector and all maps. Places are found one step ahead, so that pixels can be fetched.
+template <bool kHasInvalid>
+void add_sector(const NetEvidenceRow& row, const Run& run, int sector,
+                float (&pixels)[kNetAtOnce][kRun * kNetPixel]) {
+  const int end = row.sector_begin[sector + 1] * row.count;
+  Places places[2];
+  const auto find = [&](int step) {
+    if (step == end) return;
+    find_places(row, row.views[step / row.count], run, row.disparities[step % row.count].map,
+                places[step % 2]);
+  };
+  int step = row.sector_begin[sector] * row.count;
+  for (find(step); step < end; ++step) {
+    find(step + 1);
+    add_map<kHasInvalid>(row, row.views[step / row.count], run, places[step % 2],
+                         pixels[step % row.count]);
+  }
+}
+
 template <bool kHasInvalid>
 void maps_of_run(const NetEvidenceRow& row, const Run& run) {
   for (int k = 0; k < kSectors; ++k) {
     alignas(64) float pixels[kNetAtOnce][kRun * kNetPixel] = {};
-    for (int i = row.sector_begin[k]; i < row.sector_begin[k + 1]; ++i) {
-      for (int j = 0; j < row.count; ++j) {
-        add_map<kHasInvalid>(row, row.views[i], run, row.disparities[j].map, pixels[j]);
-      }
-    }
+    add_sector<kHasInvalid>(row, run, k, pixels);
     for (int j = 0; j < row.count; ++j) {
       Sums sums;
       for (int i = 0; i < kRun; ++i) {
