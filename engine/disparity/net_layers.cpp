@@ -99,6 +99,9 @@ std::pair<int, int> NetStream::needed(int node, int input, int first, int end) c
   if (input == one.input && one.layer != nullptr) {
     const NetLayerForm& form = one.layer->form;
     const int reach = form.kernel / 2 * form.dilation;
+    const int tile = form.mixes_rows() ? kNetTile : 1;
+    first = first / tile * tile;
+    end = (end + tile - 1) / tile * tile;
     include(first * form.stride - reach, (end - 1) * form.stride + reach + 1);
   } else if (input == one.input) {
     include(first / 2 - 1, (end - 1) / 2 + 2);
@@ -257,114 +260,127 @@ void NetStream::convolve_row(Node& node, int y, int z) const {
   node.layer->form.is_narrow() ? kernels().convolve_narrow(row) : kernels().convolve(row);
 }
 
-namespace {
-
-// Rows of inputs, mixed for a tile of labels, as many as outputs of a row need.
-class MixedRows {
+// Mixed inputs of a block of columns, as many rows as outputs of a row need.
+class NetStream::MixedInputs {
  public:
-  MixedRows(const NetLayerForm& form, const NetRows& input)
-      : form_(form), input_(input), held_(2 * form.dilation + 1) {
-    const int span = kNetTile * form.dilation;
-    tiles_ = (input.shape().width + span - 1) / span * form.dilation;
-    // Not a power of two, where the cache would hold no more than a few kinds.
-    stride_ = static_cast<long>(tiles_) * input.step() + kNetGroup;
-  }
+  MixedInputs(const NetLayerForm& form, const NetRows& input)
+      : form_(form), input_(input), held_((form.plain_taps() - 1) * form.dilation + 1) {}
 
-  [[nodiscard]] int tiles() const { return tiles_; }
-  [[nodiscard]] long stride() const { return stride_; }
-  [[nodiscard]] std::size_t count() const {
-    return row_count() * held_.size() + kReadBehind * static_cast<std::size_t>(input_.step());
+  /// Tiles of a whole row.
+  [[nodiscard]] int tiles() const {
+    const int span = kNetTile * form_.dilation;
+    return (input_.shape().width + span - 1) / span * form_.dilation;
   }
+  /// From kind to kind: not a power of two, of which the cache would hold but a few.
+  [[nodiscard]] long stride() const {
+    return static_cast<long>(kNetBlock) * input_.step() + kNetGroup;
+  }
+  [[nodiscard]] const NetBlock& block() const { return block_; }
+  [[nodiscard]] int first_label() const { return z_; }
+  /// Numbers that they take.
+  [[nodiscard]] std::size_t count() const { return row_count() * held_.size(); }
 
-  /// Goes on with labels from `z` on, in memory for `count` numbers.
-  void begin(int z, float* values) {
+  /// Goes on with another block and labels from `z` on, in memory for `count` numbers.
+  void begin(const NetBlock& block, int z, float* values) {
+    block_ = block;
     z_ = z;
     values_ = values;
     std::ranges::fill(held_, -1);
   }
 
-  /// Precondition: the row is within the input.
+  /// What a tap of a row reads, or taps of the rows from there on that are mixed.
   const float* at(int y) {
     const std::size_t slot = static_cast<std::size_t>(y) % held_.size();
     float* const out = values_ + slot * row_count();
     if (std::exchange(held_[slot], y) == y) return out;
-    NetMixing mixing{.planes = form_.mixed_planes(),
-                     .tiles = tiles_,
-                     .dilation = form_.dilation,
+    NetMixing mixing{.rows = {},
+                     .planes = form_.mixed_planes(),
+                     .block = block_,
                      .channels = input_.step(),
                      .out = out,
-                     .mixed_stride = stride_};
+                     .mixed_stride = stride()};
     for (int i = 0; i < mixing.planes; ++i) {
-      const int z = z_ + i - form_.depth_taps() / 2;
-      if (z >= 0 && z < input_.shape().depth) mixing.rows[i] = input_.at(y, z);
+      const int z = form_.mixes_labels() ? z_ + i - 1 : z_;
+      const int from = form_.mixes_rows() ? y + i - 1 : y;
+      const bool is_within =
+          z >= 0 && z < input_.shape().depth && from >= 0 && from < input_.shape().height;
+      if (is_within) mixing.rows[i] = input_.at(from, z);
     }
     kernels().mix(mixing);
     return out;
   }
 
  private:
-  static constexpr std::size_t kReadBehind = 14;  // Tiles.
-
   [[nodiscard]] std::size_t row_count() const {
-    return static_cast<std::size_t>(stride_) * form_.mixed_planes() * kNetMixed;
+    return static_cast<std::size_t>(stride()) * form_.mixed_planes() * kNetMixed;
   }
 
   const NetLayerForm& form_;
   const NetRows& input_;
   std::vector<int> held_;
-  int tiles_ = 0;
-  long stride_ = 0;
+  NetBlock block_;
   int z_ = 0;
   float* values_ = nullptr;
 };
 
-}  // namespace
-
-// Memory for the mixed rows of each thread.
+// Memory for the mixed inputs of each thread.
 void NetStream::take_scratch(int threads) {
   scratch_count_ = 0;
   for (const Node& node : nodes_) {
     if (node.layer == nullptr || !node.layer->form.is_mixed()) continue;
-    const MixedRows mixed(node.layer->form, nodes_[node.input].rows);
-    scratch_count_ = std::max(scratch_count_, mixed.count());
+    const MixedInputs inputs(node.layer->form, nodes_[node.input].rows);
+    scratch_count_ = std::max(scratch_count_, inputs.count());
   }
   scratch_ = make_large<float>(scratch_count_ * threads);
 }
 
-// Threads take pieces of a few rows for a tile of labels, so that a mixed row serves three rows of
-// outputs.
-void NetStream::convolve_mixed(const Step& step, const Progress& progress) {
+// A block of row y, or of the rows from there on that are mixed.
+void NetStream::convolve_block(const Step& step, int y, MixedInputs& inputs) {
   Node& node = nodes_[step.node];
   const NetLayer& layer = *node.layer;
-  const int height = layer.form.tile_planes();
-  const int tiles = (node.shape.depth + height - 1) / height;
-  const int rows = step.end - step.first;
-  const int piece = std::clamp(rows * tiles / (4 * progress.threads()), 1, rows);
-  const int pieces = (rows + piece - 1) / piece;
+  const NetLayerForm& form = layer.form;
+  NetMixedRow row;
+  row.plain = row_of(node);
+  row.block = inputs.block();
+  row.planes = form.mixed_planes();
+  row.mixed_stride = inputs.stride();
+  row.weights_stride = form.plain_taps() * layer.tap_stride();
+  for (int i = 0; i < form.plain_taps(); ++i) {
+    const int from = y + (i - form.plain_taps() / 2) * form.dilation;
+    if (from < 0 || from >= node.shape.height) continue;
+    row.plain.taps[row.plain.tap_count++] = {inputs.at(from),
+                                             layer.weights_data() + i * layer.tap_stride()};
+  }
+  for (int i = 0; i < (row.planes == 1 ? 1 : kNetTile); ++i) {
+    const int to_y = form.mixes_rows() ? y + i : y;
+    const int to_z = inputs.first_label() + (form.mixes_labels() ? i : 0);
+    if (to_y < step.first || to_y >= step.end || to_z >= node.shape.depth) continue;
+    row.outputs[i] = output_of(node, to_y, to_z);
+  }
+  kernels().convolve_mixed(row);
+}
+
+// Threads take blocks of several rows, so that mixed inputs serve as many rows as they have taps.
+void NetStream::convolve_mixed(const Step& step, const Progress& progress) {
+  const Node& node = nodes_[step.node];
+  const NetLayerForm& form = node.layer->form;
+  const auto parts = [](int count, int size) { return (count + size - 1) / size; };
+  const int row_step = form.mixes_rows() ? kNetTile : 1;
+  const int label_step = form.mixes_labels() ? kNetTile : 1;
+  const int first = step.first / row_step * row_step;
+  const int rows = parts(step.end - first, row_step), labels = parts(node.shape.depth, label_step);
+  const int tiles = MixedInputs(form, nodes_[node.input].rows).tiles();
+  const int blocks = parts(tiles, kNetBlock) * labels;
+  const int piece = std::clamp(rows * blocks / (4 * progress.threads()), 1, rows);
   std::atomic<std::size_t> workers = 0;
-  parallel_for_workers(pieces * tiles, progress, [&] {
+  parallel_for_workers(parts(rows, piece) * blocks, progress, [&] {
     float* const scratch = scratch_.get() + workers++ * scratch_count_;
-    return [&, scratch, mixed = MixedRows(layer.form, nodes_[node.input].rows)](int i) mutable {
-      const int z = i % tiles * height, first = step.first + i / tiles * piece;
-      mixed.begin(z, scratch);
-      for (int y = first; y < std::min(first + piece, step.end); ++y) {
-        NetMixedRow row;
-        row.plain = row_of(node);
-        row.planes = layer.form.mixed_planes();
-        for (int j = -1; j <= 1; ++j) {
-          const int from = y + j * layer.form.dilation;
-          if (from < 0 || from >= node.shape.height) continue;
-          row.plain.taps[row.plain.tap_count++] = {
-              mixed.at(from), layer.weights_data() + (j + 1) * layer.tap_stride()};
-        }
-        row.tiles = mixed.tiles();
-        row.dilation = layer.form.dilation;
-        row.mixed_stride = mixed.stride();
-        row.weights_stride = 3 * layer.tap_stride();
-        for (int k = 0; k < height && z + k < node.shape.depth; ++k) {
-          row.outputs[k] = output_of(node, y, z + k);
-        }
-        kernels().convolve_mixed(row);
+    return [&, scratch, inputs = MixedInputs(form, nodes_[node.input].rows)](int i) mutable {
+      const int block = i % blocks / labels * kNetBlock, begin = i / blocks * piece;
+      inputs.begin({block, std::min(kNetBlock, tiles - block), form.dilation},
+                   i % labels * label_step, scratch);
+      for (int row = begin; row < std::min(begin + piece, rows); ++row) {
+        convolve_block(step, first + row * row_step, inputs);
       }
     };
   });

@@ -80,6 +80,7 @@ class NetStream {
   [[nodiscard]] double bytes(int output, int band) const;
 
  private:
+  class MixedInputs;
   struct Node {
     NetShape shape;
     Fill fill{};
@@ -113,6 +114,7 @@ class NetStream {
   [[nodiscard]] NetConvolutionRow row_of(const Node& node) const;
   [[nodiscard]] NetOutput output_of(Node& node, int y, int z) const;
   void convolve_row(Node& node, int y, int z) const;
+  void convolve_block(const Step& step, int y, MixedInputs& inputs);
   void convolve_mixed(const Step& step, const Progress& progress);
   void enlarge_row(Node& node, int y, int z) const;
 

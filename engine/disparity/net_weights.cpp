@@ -139,21 +139,20 @@ std::array<double, kNetMixed> mixed_weights(double first, double second, double 
           third};
 }
 
-// All taps of an output and an input in the order of a mixed layer, `[mixed z][mixed x][y]`.
+// All taps of an output and an input in the order of a mixed layer, `[mixed z or y][mixed x][y]`.
 std::vector<double> mixed_taps(const NetLayerForm& form, const float* taps) {
-  std::vector<double> mixed(static_cast<std::size_t>(form.mixed_planes()) * kNetMixed * 3);
-  for (int y = 0; y < 3; ++y) {
-    std::array<std::array<double, kNetMixed>, 3> planes;
-    for (int z = 0; z < form.depth_taps(); ++z) {
-      const float* const row = taps + (z * 3 + y) * 3;
-      planes[z] = mixed_weights(row[0], row[1], row[2]);
+  const int planes = form.mixed_planes(), rows = form.plain_taps();
+  std::vector<double> mixed(static_cast<std::size_t>(planes) * kNetMixed * rows);
+  for (int y = 0; y < rows; ++y) {
+    std::array<std::array<double, kNetMixed>, 3> columns{};
+    for (int z = 0; z < (planes == 1 ? 1 : 3); ++z) {
+      const float* const row = taps + (z * rows + y) * 3;
+      columns[z] = mixed_weights(row[0], row[1], row[2]);
     }
     for (int x = 0; x < kNetMixed; ++x) {
-      std::array<double, kNetMixed> column{planes[0][x]};
-      if (form.dimensions == 3) column = mixed_weights(planes[0][x], planes[1][x], planes[2][x]);
-      for (int z = 0; z < form.mixed_planes(); ++z) {
-        mixed[(z * kNetMixed + x) * 3 + y] = column[z];
-      }
+      std::array<double, kNetMixed> column{columns[0][x]};
+      if (planes > 1) column = mixed_weights(columns[0][x], columns[1][x], columns[2][x]);
+      for (int z = 0; z < planes; ++z) mixed[(z * kNetMixed + x) * rows + y] = column[z];
     }
   }
   return mixed;

@@ -36,11 +36,14 @@ struct NetLayerForm {
   [[nodiscard]] int taps() const { return depth_taps() * kernel * kernel; }
   /// Whether outputs are so few that inputs are what kernels work on side by side.
   [[nodiscard]] bool is_narrow() const { return outputs <= 2; }
-  /// Whether columns and labels are mixed (kNetMixed).
+  /// Whether it is computed by mixed columns (kNetMixed) and by mixed labels or rows, which rows
+  /// that are far apart are not.
   [[nodiscard]] bool is_mixed() const { return kernel == 3 && stride == 1 && !is_narrow(); }
-  /// Planes of mixed numbers, and what they are made for: planes of outputs.
-  [[nodiscard]] int mixed_planes() const { return dimensions == 3 ? kNetMixed : 1; }
-  [[nodiscard]] int tile_planes() const { return dimensions == 3 ? kNetTile : 1; }
+  [[nodiscard]] bool mixes_labels() const { return is_mixed() && dimensions == 3; }
+  [[nodiscard]] bool mixes_rows() const { return is_mixed() && dimensions == 2 && dilation == 1; }
+  [[nodiscard]] int mixed_planes() const { return mixes_labels() || mixes_rows() ? kNetMixed : 1; }
+  /// Taps that are left of a mixed layer: rows.
+  [[nodiscard]] int plain_taps() const { return mixes_rows() ? 1 : kernel; }
 };
 
 /// Numbers of one group, on a boundary that loads do not cross.
@@ -52,7 +55,7 @@ struct alignas(64) NetGroup {
 struct NetLayer {
   NetLayerForm form;
   /// `[group of outputs][z][y][x][input][output of the group]`; of mixed layers
-  /// `[group][mixed z][mixed x][y][input][output]`; of narrow layers `[output][z][y][x][input]`,
+  /// `[group][mixed z or y][mixed x][y][input][output]`; of narrow layers `[output][z][y][x][input]`,
   /// inputs in whole groups. Zeros fill up.
   std::vector<NetGroup> weights;
   std::vector<NetGroup> bias;  ///< Zeros if it has none.
@@ -65,7 +68,7 @@ struct NetLayer {
                             : static_cast<long>(form.inputs) * kNetGroup;
   }
   [[nodiscard]] long group_stride() const {
-    return tap_stride() * (form.is_mixed() ? form.mixed_planes() * kNetMixed * form.kernel
+    return tap_stride() * (form.is_mixed() ? form.mixed_planes() * kNetMixed * form.plain_taps()
                                            : form.taps());
   }
 };

@@ -137,7 +137,6 @@ void convolve(const NetConvolutionRow& row) {
 
 // Mixed convolutions.
 
-constexpr int kBlock = 24;  // Tiles whose products are kept: a multiple of kMixedColumns.
 constexpr float kRootOfHalf = 0.70710678F;
 constexpr float kRootOfTwo = 1.41421356F;
 
@@ -161,14 +160,15 @@ inline void unmix_six(const Vec (&m)[kNetMixed], Vec (&sums)[kNetTile]) {
   sums[3] = odd * 0.5F + wide_odd * 2.0F + m[5];
 }
 
-inline int first_column(int tile, int dilation) {
-  return tile / dilation * kNetTile * dilation + tile % dilation;
+inline int first_column(const NetBlock& block, int tile) {
+  const int at = block.first + tile;
+  return at / block.dilation * kNetTile * block.dilation + at % block.dilation;
 }
 
 template <int kPlanes>
 inline void mix_tile(const NetMixing& mixing, int tile, int channel) {
-  const long step = static_cast<long>(mixing.dilation) * mixing.channels;
-  const long first = static_cast<long>(first_column(tile, mixing.dilation)) * mixing.channels - step;
+  const long step = static_cast<long>(mixing.block.dilation) * mixing.channels;
+  const long first = static_cast<long>(first_column(mixing.block, tile)) * mixing.channels - step;
   Vec planes[kPlanes][kNetMixed];
   for (int z = 0; z < kPlanes; ++z) {
     Vec row[kNetMixed] = {};
@@ -194,7 +194,7 @@ inline void mix_tile(const NetMixing& mixing, int tile, int channel) {
 
 template <int kPlanes>
 void mix_tiles(const NetMixing& mixing) {
-  for (int tile = 0; tile < mixing.tiles; ++tile) {
+  for (int tile = 0; tile < mixing.block.count; ++tile) {
     for (int c = 0; c < mixing.channels; c += kLanes) mix_tile<kPlanes>(mixing, tile, c);
   }
 }
@@ -215,8 +215,8 @@ inline void finish_mixed(const NetMixedRow& row, const float* products, long str
     unmix_six(mixed, columns[z]);
   }
   const Vec bias = load(row.plain.bias + channel);
-  int x = first_column(tile, row.dilation);
-  for (int i = 0; i < kNetTile && x < row.plain.columns; ++i, x += row.dilation) {
+  int x = first_column(row.block, tile);
+  for (int i = 0; i < kNetTile && x < row.plain.columns; ++i, x += row.block.dilation) {
     Vec sums[kRows];
     if constexpr (kPlanes == 1) {
       sums[0] = columns[0][i];
@@ -226,7 +226,8 @@ inline void finish_mixed(const NetMixedRow& row, const float* products, long str
       unmix_six(mixed, sums);
     }
     const long at = static_cast<long>(x) * row.plain.out_step + channel;
-    for (int z = 0; z < kRows && row.outputs[z].out != nullptr; ++z) {
+    for (int z = 0; z < kRows; ++z) {
+      if (row.outputs[z].out == nullptr) continue;
       finish(row.outputs[z], at, row.plain.is_leaky, sums[z] + bias);
     }
   }
@@ -235,25 +236,23 @@ inline void finish_mixed(const NetMixedRow& row, const float* products, long str
 template <int kPlanes, int kGroups, int kStep>
 void convolve_mixed_groups(const NetMixedRow& row, int group) {
   constexpr int kVecs = kGroups * kGroupVecs, kKinds = kPlanes * kNetMixed;
-  alignas(64) float products[kKinds][kBlock + 1][kVecs * kLanes];  // Not a power of two.
-  for (int begin = 0; begin < row.tiles; begin += kBlock) {
-    const int count = begin + kBlock < row.tiles ? kBlock : row.tiles - begin;
-    for (int kind = 0; kind < kKinds; ++kind) {
-      for (int tile = 0; tile < count; tile += kMixedColumns) {
-        Vec sums[kMixedColumns][kVecs] = {};
-        add_products<kGroups, kMixedColumns, kStep>(
-            row.plain, kind * row.mixed_stride + static_cast<long>(begin + tile) * kStep,
-            kind * row.weights_stride + group * row.plain.group_stride, sums);
-        for (int p = 0; p < kMixedColumns; ++p) {
-          for (int i = 0; i < kVecs; ++i) store(products[kind][tile + p] + i * kLanes, sums[p][i]);
-        }
+  static_assert(kNetBlock % kMixedColumns == 0);
+  alignas(64) float products[kKinds][kNetBlock + 1][kVecs * kLanes];  // Not a power of two.
+  for (int kind = 0; kind < kKinds; ++kind) {
+    for (int tile = 0; tile < row.block.count; tile += kMixedColumns) {
+      Vec sums[kMixedColumns][kVecs] = {};
+      add_products<kGroups, kMixedColumns, kStep>(
+          row.plain, kind * row.mixed_stride + static_cast<long>(tile) * kStep,
+          kind * row.weights_stride + group * row.plain.group_stride, sums);
+      for (int p = 0; p < kMixedColumns; ++p) {
+        for (int i = 0; i < kVecs; ++i) store(products[kind][tile + p] + i * kLanes, sums[p][i]);
       }
     }
-    for (int tile = 0; tile < count; ++tile) {
-      for (int c = 0; c < kVecs * kLanes; c += kLanes) {
-        finish_mixed<kPlanes>(row, products[0][tile] + c, (kBlock + 1) * kVecs * kLanes, begin + tile,
-                              group * kGroup + c);
-      }
+  }
+  for (int tile = 0; tile < row.block.count; ++tile) {
+    for (int c = 0; c < kVecs * kLanes; c += kLanes) {
+      finish_mixed<kPlanes>(row, products[0][tile] + c, (kNetBlock + 1) * kVecs * kLanes, tile,
+                            group * kGroup + c);
     }
   }
 }

@@ -11,9 +11,11 @@ inline constexpr int kMostNetTaps = 27;
 /// Mixed convolutions: outputs of three taps along an axis are computed four at a time, from six
 /// products of six mixed inputs and six mixed weights instead of twelve. Winograd 1980 (Arithmetic
 /// Complexity of Computations), F(4, 3) for the points 0, ±√½, ±√2 and infinity, which round little
-/// more than plain sums do. Columns are mixed, and labels where there are any.
+/// more than plain sums do. Columns are mixed and, where that is wanted, planes: rows or labels.
 inline constexpr int kNetTile = 4;
 inline constexpr int kNetMixed = 6;
+/// Tiles of columns that are computed at once.
+inline constexpr int kNetBlock = 24;
 
 /// One tap of a convolution: what it reads for the first output of a row, channels side by side,
 /// and its weights of the first group of outputs.
@@ -47,24 +49,31 @@ struct NetConvolutionRow {
   NetOutput out;
 };
 
-/// Four rows of outputs, label by label, or one row of a map, of a mixed convolution. `plain.out`
-/// is not used; `plain.taps` read mixed rows, one tap for each row of inputs; each step is a tile.
-struct NetMixedRow {
-  NetConvolutionRow plain;
-  int planes = 1;           ///< Kinds of mixed numbers are kNetMixed times as many: 1 or kNetMixed.
-  int tiles = 0;            ///< Of columns.
-  int dilation = 1;         ///< Columns of a tile are so far apart, and tiles interleaved.
-  long mixed_stride = 0;    ///< From kind to kind of mixed inputs,
-  long weights_stride = 0;  ///< and of weights.
-  NetOutput outputs[kNetTile];  ///< Without `out` where there is no such label.
+/// The columns of a block: tile t begins with column t / dilation · kNetTile · dilation +
+/// t mod dilation; its columns are `dilation` apart.
+struct NetBlock {
+  int first = 0;  ///< Tile.
+  int count = 0;  ///< Up to kNetBlock.
+  int dilation = 1;
 };
 
-/// Inputs to be mixed: six rows, label by label, or one row of a map.
+/// A block of a row of outputs, or of kNetTile planes of outputs, of a mixed convolution. Of
+/// `plain`, `out` is not used, `taps` are those that are not mixed, and `input_step` is the distance
+/// of tiles.
+struct NetMixedRow {
+  NetConvolutionRow plain;
+  NetBlock block;
+  int planes = 1;  ///< Mixed: 1 or kNetMixed. Kinds of mixed numbers are kNetMixed times as many.
+  long mixed_stride = 0;        ///< From kind to kind of mixed inputs,
+  long weights_stride = 0;      ///< and of weights.
+  NetOutput outputs[kNetTile];  ///< Without `out` where none is wanted.
+};
+
+/// Inputs of a block to be mixed: one row, or one of each of kNetMixed planes.
 struct NetMixing {
   const float* rows[kNetMixed] = {};  ///< At the first output's column; null for zeros.
   int planes = 1;                     ///< As in NetMixedRow.
-  int tiles = 0;
-  int dilation = 1;
+  NetBlock block;
   int channels = 0;       ///< In whole groups; also from column to column.
   float* out = nullptr;   ///< `[kind][tile][channel]`
   long mixed_stride = 0;  ///< From kind to kind.
@@ -85,7 +94,7 @@ struct NetKernel {
   void (*convolve)(const NetConvolutionRow&);
   /// One or two outputs; inputs in whole groups.
   void (*convolve_narrow)(const NetConvolutionRow&);
-  /// Reads up to 14 tiles behind the last.
+  /// Reads kNetBlock tiles.
   void (*convolve_mixed)(const NetMixedRow&);
   void (*mix)(const NetMixing&);
   void (*enlarge)(const NetEnlargedRow&);
