@@ -166,9 +166,11 @@ void NetEvidence::move_window(Window& window, int first, int end) const {
   const long row = row_pixels();
   const int kept_from = std::clamp(first, window.first, window.end);
   std::vector<Pixel>& pixels = window.pixels;
-  const int kept = window.end - kept_from;
-  pixels.erase(pixels.begin(), pixels.begin() + (kept_from - window.first) * row);
-  window.first = kept == 0 ? first : kept_from;
+  const int dropped = kept_from - window.first, kept = window.end - kept_from;
+  if (dropped >= kept) {  // Else it is not worth moving the others.
+    pixels.erase(pixels.begin(), pixels.begin() + dropped * row);
+    window.first = kept == 0 ? first : kept_from;
+  }
   const int from = kept == 0 ? first : window.end;
   window.end = std::max(from, end);
   pixels.resize((window.end - window.first) * row + kNetReadBehind / kNetPixel);

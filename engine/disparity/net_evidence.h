@@ -58,6 +58,7 @@ class NetEvidence {
  private:
   // Numbers of a pixel, on a boundary that loads do not cross.
   struct alignas(4 * kNetPixel) Pixel {
+    Pixel() {}  // Leaves them unset.
     std::array<float, kNetPixel> values;
   };
   // Some rows of a view.

@@ -9,7 +9,9 @@ namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
 constexpr int kSectors = 8;
-constexpr int kRun = 64;  // Pixels that are summed for at once, by all disparities.
+// Pixels that are summed for at once, by all disparities.
+constexpr int kPlaneRun = 128;
+constexpr int kMapRun = 64;
 
 // Pixels [begin, end) of a row.
 struct Run {
@@ -21,7 +23,7 @@ struct Run {
 // How far views of a sector are from the reference: sums over colours and over differences, and how
 // many views count.
 struct Sums {
-  float parts[3][kRun + kLanes];
+  float parts[3][kPlaneRun + kLanes];
 };
 
 inline Vec evidence_of(Vec sum, Vec count, float channels) {
@@ -33,7 +35,7 @@ inline Vec evidence_of(Vec sum, Vec count, float channels) {
 
 // Evidence of one sector for a run of pixels.
 void finish_sector(Sums& sums, const Run& run, int sector, float* out) {
-  for (int i = 0; i < kRun; i += kLanes) {
+  for (int i = 0; i < run.end - run.begin; i += kLanes) {
     const Vec count = load(sums.parts[2] + i);
     store(sums.parts[0] + i, evidence_of(load(sums.parts[0] + i), count, 3));
     store(sums.parts[1] + i, evidence_of(load(sums.parts[1] + i), count, 2));
@@ -147,10 +149,10 @@ inline Eight distance(Eight a, Eight b) {
 
 // Where the pixels of a run are sampled.
 struct Places {
-  int offset[kRun];    // Of the first of four pixels, in the rows that are held.
-  float along[kRun];   // Weights of the second column
-  float down[kRun];    // and row.
-  float within[kRun];  // 1 or 0
+  int offset[kMapRun];    // Of the first of four pixels, in the rows that are held.
+  float along[kMapRun];   // Weights of the second column
+  float down[kMapRun];    // and row.
+  float within[kMapRun];  // 1 or 0
 };
 
 // An axis: coordinates clamped, the first of two places, the second never outside.
@@ -172,9 +174,9 @@ inline void find_places(const NetEvidenceRow& row, const NetView& view, const Ru
                         const float* map, Places& places) {
   IntVec column;
   for (int i = 0; i < kLanes; ++i) column[i] = run.begin + i;
-  alignas(64) float disparities[kRun] = {};
+  alignas(64) float disparities[kMapRun] = {};
   for (int i = run.begin; i < run.end; ++i) disparities[i - run.begin] = map[i];
-  for (int i = 0; i < kRun; i += kLanes, column += kLanes) {
+  for (int i = 0; i < kMapRun; i += kLanes, column += kLanes) {
     const Vec d = load(disparities + i);
     const Axis x = axis_at(convert<float>(column) - d * view.du, row.width);
     const Axis y = axis_at(static_cast<float>(row.y) - d * view.dv, row.height);
@@ -213,7 +215,7 @@ inline void add_map(const NetEvidenceRow& row, const NetView& view, const Run& r
 // All views of a sector and all maps. Places are found one step ahead, so that pixels can be fetched.
 template <bool kHasInvalid>
 void add_sector(const NetEvidenceRow& row, const Run& run, int sector,
-                float (&pixels)[kNetAtOnce][kRun * kNetPixel]) {
+                float (&pixels)[kNetAtOnce][kMapRun * kNetPixel]) {
   const int end = row.sector_begin[sector + 1] * row.count;
   Places places[2];
   const auto find = [&](int step) {
@@ -232,11 +234,11 @@ void add_sector(const NetEvidenceRow& row, const Run& run, int sector,
 template <bool kHasInvalid>
 void maps_of_run(const NetEvidenceRow& row, const Run& run) {
   for (int k = 0; k < kSectors; ++k) {
-    alignas(64) float pixels[kNetAtOnce][kRun * kNetPixel] = {};
+    alignas(64) float pixels[kNetAtOnce][kMapRun * kNetPixel] = {};
     add_sector<kHasInvalid>(row, run, k, pixels);
     for (int j = 0; j < row.count; ++j) {
       Sums sums;
-      for (int i = 0; i < kRun; ++i) {
+      for (int i = 0; i < kMapRun; ++i) {
         const float* const sum = pixels[j] + i * kNetPixel;
         sums.parts[0][i] = sum[0] + sum[1] + sum[2];
         sums.parts[1][i] = sum[3] + sum[4];
@@ -249,21 +251,22 @@ void maps_of_run(const NetEvidenceRow& row, const Run& run) {
 
 // Runs one after the other.
 template <class OfRun>
-inline void for_runs(const NetEvidenceRow& row, long pixel_step, const OfRun& of_run) {
-  for (int begin = 0; begin < row.width; begin += kRun) {
-    const int end = begin + kRun < row.width ? begin + kRun : row.width;
-    of_run(Run{row.reference + begin * pixel_step, begin, end});
+inline void for_runs(const NetEvidenceRow& row, int length, const OfRun& of_run) {
+  for (int begin = 0; begin < row.width; begin += length) {
+    of_run(begin, begin + length < row.width ? begin + length : row.width);
   }
 }
 
 void planes(const NetEvidenceRow& row) {
-  for_runs(row, 0, [&](const Run& run) {
+  for_runs(row, kPlaneRun, [&](int begin, int end) {
+    const Run run{row.reference, begin, end};
     row.has_invalid ? planes_of_run<true>(row, run) : planes_of_run<false>(row, run);
   });
 }
 
 void maps(const NetEvidenceRow& row) {
-  for_runs(row, kNetPixel, [&](const Run& run) {
+  for_runs(row, kMapRun, [&](int begin, int end) {
+    const Run run{row.reference + static_cast<long>(begin) * kNetPixel, begin, end};
     row.has_invalid ? maps_of_run<true>(row, run) : maps_of_run<false>(row, run);
   });
 }
