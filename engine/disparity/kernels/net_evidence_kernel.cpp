@@ -11,7 +11,7 @@ namespace {
 constexpr int kSectors = 8;
 // Pixels that are summed for at once, by all disparities.
 constexpr int kPlaneRun = 128;
-constexpr int kMapRun = 64;
+constexpr int kMapRun = 32;
 
 // Pixels [begin, end) of a row.
 struct Run {
@@ -170,12 +170,11 @@ inline Axis axis_at(Vec at, int size) {
   return {first, inside - convert<float>(first), is_within};
 }
 
-inline void find_places(const NetEvidenceRow& row, const NetView& view, const Run& run,
-                        const float* map, Places& places) {
-  IntVec column;
-  for (int i = 0; i < kLanes; ++i) column[i] = run.begin + i;
-  alignas(64) float disparities[kMapRun] = {};
-  for (int i = run.begin; i < run.end; ++i) disparities[i - run.begin] = map[i];
+// Finds the places of a run in a view and fetches them; whether all are within the view.
+inline bool find_places(const NetEvidenceRow& row, const NetView& view, int begin,
+                        const float (&disparities)[kMapRun], Places& places) {
+  IntVec column, is_within = IntVec{} - 1;
+  for (int i = 0; i < kLanes; ++i) column[i] = begin + i;
   for (int i = 0; i < kMapRun; i += kLanes, column += kLanes) {
     const Vec d = load(disparities + i);
     const Axis x = axis_at(convert<float>(column) - d * view.du, row.width);
@@ -183,63 +182,73 @@ inline void find_places(const NetEvidenceRow& row, const NetView& view, const Ru
     const IntVec offset =
         (y.first - view.first_row) * static_cast<int>(view.row_stride) + x.first * kNetPixel;
     __builtin_memcpy(places.offset + i, &offset, sizeof offset);
-    for (int j = 0; j < kLanes; j += 2) {
-      __builtin_prefetch(view.pixels + offset[j]);
-      __builtin_prefetch(view.pixels + offset[j] + view.row_stride);
+    for (int j = i; j < i + kLanes; j += 4) {
+      __builtin_prefetch(view.pixels + places.offset[j]);
+      __builtin_prefetch(view.pixels + places.offset[j] + view.row_stride);
     }
     store(places.along + i, x.weight);
     store(places.down + i, y.weight);
     store(places.within + i, choose(x.is_within & y.is_within, splat(1), Vec{}));
+    is_within &= x.is_within & y.is_within;
   }
+  return !any(~is_within);
 }
 
-template <bool kHasInvalid>
-inline void add_map(const NetEvidenceRow& row, const NetView& view, const Run& run,
-                    const Places& places, float* sums) {
+// Adds how far some views are from the reference.
+template <bool kHasInvalid, bool kIsPartial>
+inline void add_views(const NetEvidenceRow& row, const NetView* views, int count, const Run& run,
+                      const Places* places, float* sums) {
   const long right = row.width > 1 ? kNetPixel : 0;
-  const long below = row.height > 1 ? view.row_stride : 0;
+  const long below = row.height > 1 ? views->row_stride : 0;
   for (int i = 0; i < run.end - run.begin; ++i) {
-    const float* const from = view.pixels + places.offset[i];
-    const Eight upper = load_pixel(from);
-    const Eight lower = load_pixel(from + below);
-    const Eight first = upper + (load_pixel(from + right) - upper) * places.along[i];
-    const Eight second = lower + (load_pixel(from + below + right) - lower) * places.along[i];
-    const Eight sample = first + (second - first) * places.down[i];
-    Eight off = distance(sample, load_pixel(run.reference + i * kNetPixel));
-    if constexpr (kHasInvalid) off = off == off ? off : Eight{};
-    float* const sum = sums + i * kNetPixel;
-    *reinterpret_cast<LooseEight*>(sum) = load_pixel(sum) + off * places.within[i];
+    const Eight reference = load_pixel(run.reference + i * kNetPixel);
+    Eight sum = load_pixel(sums + i * kNetPixel);
+    for (int v = 0; v < count; ++v) {
+      const float* const from = views[v].pixels + places[v].offset[i];
+      const float along = places[v].along[i];
+      const Eight upper = load_pixel(from);
+      const Eight lower = load_pixel(from + below);
+      const Eight first = upper + (load_pixel(from + right) - upper) * along;
+      const Eight second = lower + (load_pixel(from + below + right) - lower) * along;
+      Eight off = distance(first + (second - first) * places[v].down[i], reference);
+      if constexpr (kHasInvalid) off = off == off ? off : Eight{};
+      if constexpr (kIsPartial) off *= places[v].within[i];
+      sum += off;
+    }
+    *reinterpret_cast<LooseEight*>(sums + i * kNetPixel) = sum;
   }
 }
 
-// All views of a sector and all maps. Places are found one step ahead, so that pixels can be fetched.
+// A sector of views at the disparities of one map.
 template <bool kHasInvalid>
-void add_sector(const NetEvidenceRow& row, const Run& run, int sector,
-                float (&pixels)[kNetAtOnce][kMapRun * kNetPixel]) {
-  const int end = row.sector_begin[sector + 1] * row.count;
-  Places places[2];
-  const auto find = [&](int step) {
-    if (step == end) return;
-    find_places(row, row.views[step / row.count], run, row.disparities[step % row.count].map,
-                places[step % 2]);
-  };
-  int step = row.sector_begin[sector] * row.count;
-  for (find(step); step < end; ++step) {
-    find(step + 1);
-    add_map<kHasInvalid>(row, row.views[step / row.count], run, places[step % 2],
-                         pixels[step % row.count]);
+void add_map(const NetEvidenceRow& row, const Run& run, int sector, const float* map,
+             float (&sums)[kMapRun * kNetPixel]) {
+  constexpr int kMostViews = 12;
+  Places places[kMostViews];
+  alignas(64) float disparities[kMapRun] = {};
+  for (int i = run.begin; i < run.end; ++i) disparities[i - run.begin] = map[i];
+  const int end = row.sector_begin[sector + 1];
+  for (int first = row.sector_begin[sector]; first < end; first += kMostViews) {
+    const int count = end - first < kMostViews ? end - first : kMostViews;
+    const NetView* const views = row.views + first;
+    bool is_within = true;
+    for (int v = 0; v < count; ++v) {
+      is_within &= find_places(row, views[v], run.begin, disparities, places[v]);
+    }
+    is_within ? add_views<kHasInvalid, false>(row, views, count, run, places, sums)
+              : add_views<kHasInvalid, true>(row, views, count, run, places, sums);
   }
 }
 
 template <bool kHasInvalid>
 void maps_of_run(const NetEvidenceRow& row, const Run& run) {
   for (int k = 0; k < kSectors; ++k) {
-    alignas(64) float pixels[kNetAtOnce][kMapRun * kNetPixel] = {};
-    add_sector<kHasInvalid>(row, run, k, pixels);
     for (int j = 0; j < row.count; ++j) {
+      alignas(64) float pixels[kMapRun * kNetPixel] = {};
+      add_map<kHasInvalid>(row, run, k, row.disparities[j].map, pixels);
       Sums sums;
       for (int i = 0; i < kMapRun; ++i) {
-        const float* const sum = pixels[j] + i * kNetPixel;
+        const float* const sum = pixels + i * kNetPixel;
         sums.parts[0][i] = sum[0] + sum[1] + sum[2];
         sums.parts[1][i] = sum[3] + sum[4];
         sums.parts[2][i] = sum[5];
