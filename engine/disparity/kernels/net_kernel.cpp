@@ -11,6 +11,7 @@ namespace {
 constexpr int kGroup = 16;
 constexpr int kGroupVecs = kGroup / kLanes;
 constexpr float kLeakySlope = 0.1F;
+constexpr int kWeightsAhead = 24 * kGroup;  // So far weights are fetched before they are used.
 
 // Sums of as many columns as registers hold, for one group of outputs or two.
 #if EPISCOPE_VECTOR_BYTES == 64
@@ -45,6 +46,7 @@ template <int kGroups, int kCount, int kStep>
     const float* weights = row.taps[t].weights + weights_at;
     const float* const end = from + row.inputs;
     for (; from != end; ++from, weights += kGroup) {
+      __builtin_prefetch(weights + kWeightsAhead);
       Vec weight[kVecs];
       for (int i = 0; i < kVecs; ++i) {
         weight[i] = load(weights + i / kGroupVecs * row.group_stride + i % kGroupVecs * kLanes);
