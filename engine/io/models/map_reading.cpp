@@ -445,8 +445,8 @@ std::optional<double> mse_100(const DisparityView& map, const MapReading& readin
 }  // namespace
 
 bool BetterReading::is_contradicted() const {
-  return as_read.grey_levels && better.grey_levels &&
-         *better.grey_levels > kContradicts * *as_read.grey_levels;
+  return as_read.grey_levels &&
+         (!better.grey_levels || *better.grey_levels > kContradicts * *as_read.grey_levels);
 }
 
 std::optional<BetterReading> find_better_reading(const DisparityView& map,

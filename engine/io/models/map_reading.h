@@ -69,7 +69,8 @@ struct BetterReading {
   MapErrors as_read;
   MapErrors better;
 
-  /// Whether the views fit the map better as it is: then the truth may be at fault.
+  /// Whether the views fit the map better as it is, or the reading moves most pixels out of them:
+  /// then the truth may be at fault.
   [[nodiscard]] bool is_contradicted() const;
 };
 
