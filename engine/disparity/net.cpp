@@ -25,10 +25,10 @@ namespace {
 
 // Constants of the network: resources/training/README.md.
 constexpr double kStepOfLabels = 0.1;
-constexpr int kPeak = 2;        // Labels on either side that a mode is made of,
-constexpr int kModesApart = 3;       // and how far the second mode is at least.
-constexpr float kSameHypothesis = 0.1F;   // Hypotheses so near count as one.
-constexpr float kOther = 0.3F;  // A second hypothesis is so far at least.
+constexpr int kPeak = 2;                 // Labels on either side that a mode is made of,
+constexpr int kModesApart = 3;           // and how far the second mode is at least.
+constexpr float kSameHypothesis = 0.1F;  // Hypotheses so near count as one.
+constexpr float kOther = 0.3F;           // A second hypothesis is so far at least.
 constexpr float kLeastLog = -12;
 constexpr int kReduced = 8;  // Numbers that evidence of one disparity is reduced to.
 constexpr int kOffsets = 5;
@@ -248,7 +248,8 @@ struct EvidenceRows {
   std::vector<float> values;
   std::array<NetDisparity, kCount> disparities;
 
-  explicit EvidenceRows(int width) : values(static_cast<std::size_t>(width) * kNetEvidence * kCount) {
+  explicit EvidenceRows(int width)
+      : values(static_cast<std::size_t>(width) * kNetEvidence * kCount) {
     for (int i = 0; i < kCount; ++i) {
       disparities[i].out = values.data() + static_cast<std::size_t>(i) * width * kNetEvidence;
     }
