@@ -12,7 +12,7 @@
 
 namespace episcope {
 
-/// Numbers of evidence at a pixel: of each of 8 sectors of views how unlike their colours are, then
+/// Numbers of evidence at a pixel: of each of 8 sectors of views how unlike their colors are, then
 /// how unlike their differences of grey.
 inline constexpr int kNetEvidence = 16;
 inline constexpr int kNetSectors = 8;

@@ -20,7 +20,7 @@ struct Run {
   int end;
 };
 
-// How far views of a sector are from the reference: sums over colours and over differences, and how
+// How far views of a sector are from the reference: sums over colors and over differences, and how
 // many views count.
 struct Sums {
   float parts[3][kPlaneRun + kLanes];

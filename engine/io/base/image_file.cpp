@@ -563,7 +563,7 @@ LabelPicture decode_label_picture(const fs::path& path) {
   require_readable_file(path);
   if (has_png_signature(path)) return decode_png_labels(path);
   require_plausible_picture(path);
-  const cv::Mat decoded = read_mat(path, PicturePart::Colours);
+  const cv::Mat decoded = read_mat(path, PicturePart::Colors);
   if (decoded.depth() == CV_8U) return split_mat<std::uint8_t>(decoded);
   if (decoded.depth() == CV_16U) return split_mat<std::uint16_t>(decoded);
   throw IoError(path, "a picture of labels must hold integers of 8 or 16 bits; export it again");

@@ -485,7 +485,7 @@ struct Run {
 };
 
 /// Where all lines have one and the same brightness.
-std::vector<Run> runs_of_one_colour(const Image<float>& lines) {
+std::vector<Run> runs_of_one_color(const Image<float>& lines) {
   const int width = lines.width();
   std::vector<float> least(lines.row(0), lines.row(0) + width);
   std::vector<float> most = least;
@@ -514,7 +514,7 @@ std::vector<Run> runs_of_one_colour(const Image<float>& lines) {
 std::optional<TileGaps> gaps_along(const AnyImage& picture, LineAxis axis) {
   const Image<float> lines = picture_lines(picture, axis);
   if (lines.empty()) return std::nullopt;
-  std::vector<Run> runs = runs_of_one_colour(lines);
+  std::vector<Run> runs = runs_of_one_color(lines);
   TileGaps found;
   int end = lines.width();
   if (!runs.empty() && runs.back().end == end) {
