@@ -248,7 +248,8 @@ struct EvidenceRows {
   std::vector<float> values;
   std::array<NetDisparity, kCount> disparities;
 
-  explicit EvidenceRows(int width) : values(static_cast<std::size_t>(width) * kNetEvidence * kCount) {
+  explicit EvidenceRows(int width)
+      : values(static_cast<std::size_t>(width) * kNetEvidence * kCount) {
     for (int i = 0; i < kCount; ++i) {
       disparities[i].out = values.data() + static_cast<std::size_t>(i) * width * kNetEvidence;
     }

@@ -50,10 +50,8 @@ NetRows::NetRows(NetShape shape, int margin, int kept)
 
 int NetStream::add_source(NetShape shape, Fill fill, Prepare prepare, int labels) {
   assert(shape.depth % labels == 0);
-  nodes_.push_back({.shape = shape,
-                    .fill = std::move(fill),
-                    .prepare = std::move(prepare),
-                    .labels = labels});
+  nodes_.push_back(
+      {.shape = shape, .fill = std::move(fill), .prepare = std::move(prepare), .labels = labels});
   return static_cast<int>(nodes_.size()) - 1;
 }
 

@@ -111,10 +111,10 @@ inline void add_plane(const NetEvidenceRow& row, const NetView& view, const Run&
   const auto pixels = [&](int at) {
     return view.pixels + (at - view.first_row) * view.row_stride + whole;
   };
-  const Corners from{pixels(upper),
-                     pixels(lower),
-                     {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below,
-                      right * below}};
+  const Corners from{
+      pixels(upper),
+      pixels(lower),
+      {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below, right * below}};
   if (right > 0) return add_columns<kHasInvalid, true>(run, first, last, from, row.width, sums);
   add_columns<kHasInvalid, false>(run, first, last, from, row.width, sums);
 }

@@ -175,7 +175,8 @@ inline void mix_tile(const NetMixing& mixing, int tile, int channel) {
   for (int z = 0; z < kPlanes; ++z) {
     Vec row[kNetMixed] = {};
     if (mixing.rows[z] != nullptr) {
-      for (int i = 0; i < kNetMixed; ++i) row[i] = load(mixing.rows[z] + first + i * step + channel);
+      for (int i = 0; i < kNetMixed; ++i)
+        row[i] = load(mixing.rows[z] + first + i * step + channel);
     }
     mix_six(row, planes[z]);
   }

@@ -58,8 +58,8 @@ struct NetBlock {
 };
 
 /// A block of a row of outputs, or of kNetTile planes of outputs, of a mixed convolution. Of
-/// `plain`, `out` is not used, `taps` are those that are not mixed, and `input_step` is the distance
-/// of tiles.
+/// `plain`, `out` is not used, `taps` are those that are not mixed, and `input_step` is the
+/// distance of tiles.
 struct NetMixedRow {
   NetConvolutionRow plain;
   NetBlock block;
