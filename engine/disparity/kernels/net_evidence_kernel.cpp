@@ -164,10 +164,9 @@ struct Axis {
 
 inline Axis axis_at(Vec at, int size) {
   const Vec last = splat(static_cast<float>(size - 1));
-  const IntVec is_within = (at >= 0.0F) & (at <= last);
   const Vec inside = greatest(least(at, last), Vec{});
   const IntVec first = least(convert<int>(inside), IntVec{} + (size > 1 ? size - 2 : 0));
-  return {first, inside - convert<float>(first), is_within};
+  return {first, inside - convert<float>(first), inside == at};
 }
 
 // Finds the places of a run in a view and fetches them; whether all are within the view.
