@@ -180,16 +180,17 @@ inline void mix_tile(const NetMixing& mixing, int tile, int channel) {
     }
     mix_six(row, planes[z]);
   }
-  float* out = mixing.out + static_cast<long>(tile) * mixing.channels + channel;
+  float* out =
+      mixing.out + static_cast<long>(tile) * kPlanes * kNetMixed * mixing.channels + channel;
   for (int i = 0; i < kNetMixed; ++i) {
     if constexpr (kPlanes == 1) {
-      store(out + i * mixing.mixed_stride, planes[0][i]);
+      store(out + i * mixing.channels, planes[0][i]);
     } else {
       Vec column[kNetMixed], mixed[kNetMixed];
       for (int z = 0; z < kNetMixed; ++z) column[z] = planes[z][i];
       mix_six(column, mixed);
       for (int z = 0; z < kNetMixed; ++z) {
-        store(out + (z * kNetMixed + i) * mixing.mixed_stride, mixed[z]);
+        store(out + (z * kNetMixed + i) * mixing.channels, mixed[z]);
       }
     }
   }
@@ -244,8 +245,8 @@ void convolve_mixed_groups(const NetMixedRow& row, int group) {
   for (int kind = 0; kind < kKinds; ++kind) {
     for (int tile = 0; tile < row.block.count; tile += kMixedColumns) {
       Vec sums[kMixedColumns][kVecs] = {};
-      add_products<kGroups, kMixedColumns, kStep>(
-          row.plain, kind * row.mixed_stride + static_cast<long>(tile) * kStep,
+      add_products<kGroups, kMixedColumns, kKinds * kStep>(
+          row.plain, kind * kStep + static_cast<long>(tile) * kKinds * kStep,
           kind * row.weights_stride + group * row.plain.group_stride, sums);
       for (int p = 0; p < kMixedColumns; ++p) {
         for (int i = 0; i < kVecs; ++i) store(products[kind][tile + p] + i * kLanes, sums[p][i]);
