@@ -36,8 +36,8 @@ enum class NetEvidenceOf { Planes, Maps };
 
 /// How unlike the views are at disparities: E(d) of `net` (resources/training/README.md). A view
 /// does not count where its sample lies outside the image or an invalid pixel enters it. Holds the
-/// rows that a sweep down the image needs, 20 bytes a pixel and view, 32 for maps. The light field must live
-/// longer.
+/// rows that a sweep down the image needs, 20 bytes a pixel and view, 32 for maps. The light field
+/// must live longer.
 class NetEvidence {
  public:
   /// For disparities within `disparities`.

@@ -50,10 +50,8 @@ NetRows::NetRows(NetShape shape, int margin, int kept)
 
 int NetStream::add_source(NetShape shape, Fill fill, Prepare prepare, int labels) {
   assert(shape.depth % labels == 0);
-  nodes_.push_back({.shape = shape,
-                    .fill = std::move(fill),
-                    .prepare = std::move(prepare),
-                    .labels = labels});
+  nodes_.push_back(
+      {.shape = shape, .fill = std::move(fill), .prepare = std::move(prepare), .labels = labels});
   return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -271,10 +269,6 @@ class NetStream::MixedInputs {
     const int span = kNetTile * form_.dilation;
     return (input_.shape().width + span - 1) / span * form_.dilation;
   }
-  /// From kind to kind: not a power of two, of which the cache would hold but a few.
-  [[nodiscard]] long stride() const {
-    return static_cast<long>(kNetBlock) * input_.step() + kNetGroup;
-  }
   [[nodiscard]] const NetBlock& block() const { return block_; }
   [[nodiscard]] int first_label() const { return z_; }
   /// Numbers that they take.
@@ -297,8 +291,7 @@ class NetStream::MixedInputs {
                      .planes = form_.mixed_planes(),
                      .block = block_,
                      .channels = input_.step(),
-                     .out = out,
-                     .mixed_stride = stride()};
+                     .out = out};
     for (int i = 0; i < mixing.planes; ++i) {
       const int z = form_.mixes_labels() ? z_ + i - 1 : z_;
       const int from = form_.mixes_rows() ? y + i - 1 : y;
@@ -312,7 +305,7 @@ class NetStream::MixedInputs {
 
  private:
   [[nodiscard]] std::size_t row_count() const {
-    return static_cast<std::size_t>(stride()) * form_.mixed_planes() * kNetMixed;
+    return static_cast<std::size_t>(kNetBlock) * form_.mixed_planes() * kNetMixed * input_.step();
   }
 
   const NetLayerForm& form_;
@@ -343,7 +336,6 @@ void NetStream::convolve_block(const Step& step, int y, MixedInputs& inputs) {
   row.plain = row_of(node);
   row.block = inputs.block();
   row.planes = form.mixed_planes();
-  row.mixed_stride = inputs.stride();
   row.weights_stride = form.plain_taps() * layer.tap_stride();
   for (int i = 0; i < form.plain_taps(); ++i) {
     const int from = y + (i - form.plain_taps() / 2) * form.dilation;

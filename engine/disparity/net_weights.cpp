@@ -176,9 +176,8 @@ NetLayer make_net_layer(const NetLayerForm& form, const std::vector<float>& weig
   const float* next = weights.data();
   for (int output = 0; output < form.outputs; ++output) {
     for (int input = 0; input < form.inputs; ++input, next += form.taps()) {
-      const std::vector<double> taps = form.is_mixed()
-                                           ? mixed_taps(form, next)
-                                           : std::vector<double>(next, next + form.taps());
+      const std::vector<double> taps =
+          form.is_mixed() ? mixed_taps(form, next) : std::vector<double>(next, next + form.taps());
       for (int tap = 0; tap < static_cast<int>(taps.size()); ++tap) {
         put(output, input, tap, taps[tap]);
       }

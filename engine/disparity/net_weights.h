@@ -55,8 +55,8 @@ struct alignas(64) NetGroup {
 struct NetLayer {
   NetLayerForm form;
   /// `[group of outputs][z][y][x][input][output of the group]`; of mixed layers
-  /// `[group][mixed z or y][mixed x][y][input][output]`; of narrow layers `[output][z][y][x][input]`,
-  /// inputs in whole groups. Zeros fill up.
+  /// `[group][mixed z or y][mixed x][y][input][output]`; of narrow layers
+  /// `[output][z][y][x][input]`, inputs in whole groups. Zeros fill up.
   std::vector<NetGroup> weights;
   std::vector<NetGroup> bias;  ///< Zeros if it has none.
 
@@ -68,8 +68,8 @@ struct NetLayer {
                             : static_cast<long>(form.inputs) * kNetGroup;
   }
   [[nodiscard]] long group_stride() const {
-    return tap_stride() * (form.is_mixed() ? form.mixed_planes() * kNetMixed * form.plain_taps()
-                                           : form.taps());
+    return tap_stride() *
+           (form.is_mixed() ? form.mixed_planes() * kNetMixed * form.plain_taps() : form.taps());
   }
 };
 

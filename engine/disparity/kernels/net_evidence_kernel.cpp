@@ -111,10 +111,10 @@ inline void add_plane(const NetEvidenceRow& row, const NetView& view, const Run&
   const auto pixels = [&](int at) {
     return view.pixels + (at - view.first_row) * view.row_stride + whole;
   };
-  const Corners from{pixels(upper),
-                     pixels(lower),
-                     {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below,
-                      right * below}};
+  const Corners from{
+      pixels(upper),
+      pixels(lower),
+      {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below, right * below}};
   if (right > 0) return add_columns<kHasInvalid, true>(run, first, last, from, row.width, sums);
   add_columns<kHasInvalid, false>(run, first, last, from, row.width, sums);
 }
@@ -164,10 +164,9 @@ struct Axis {
 
 inline Axis axis_at(Vec at, int size) {
   const Vec last = splat(static_cast<float>(size - 1));
-  const IntVec is_within = (at >= 0.0F) & (at <= last);
   const Vec inside = greatest(least(at, last), Vec{});
   const IntVec first = least(convert<int>(inside), IntVec{} + (size > 1 ? size - 2 : 0));
-  return {first, inside - convert<float>(first), is_within};
+  return {first, inside - convert<float>(first), inside == at};
 }
 
 // Finds the places of a run in a view and fetches them; whether all are within the view.

@@ -167,37 +167,40 @@ inline int first_column(const NetBlock& block, int tile) {
   return at / block.dilation * kNetTile * block.dilation + at % block.dilation;
 }
 
+// As many channels of a tile as a register holds, `first` numbers from the first output's.
 template <int kPlanes>
-inline void mix_tile(const NetMixing& mixing, int tile, int channel) {
+inline void mix_tile(const NetMixing& mixing, long first, float* out) {
   const long step = static_cast<long>(mixing.block.dilation) * mixing.channels;
-  const long first = static_cast<long>(first_column(mixing.block, tile)) * mixing.channels - step;
+  const long channels = mixing.channels;
   Vec planes[kPlanes][kNetMixed];
   for (int z = 0; z < kPlanes; ++z) {
     Vec row[kNetMixed] = {};
-    if (mixing.rows[z] != nullptr) {
-      for (int i = 0; i < kNetMixed; ++i) row[i] = load(mixing.rows[z] + first + i * step + channel);
+    if (const float* from = mixing.rows[z]; from != nullptr) {
+      from += first - step;
+      for (int i = 0; i < kNetMixed; ++i, from += step) row[i] = load(from);
     }
     mix_six(row, planes[z]);
   }
-  float* out = mixing.out + static_cast<long>(tile) * mixing.channels + channel;
-  for (int i = 0; i < kNetMixed; ++i) {
+  for (int i = 0; i < kNetMixed; ++i, out += channels) {
     if constexpr (kPlanes == 1) {
-      store(out + i * mixing.mixed_stride, planes[0][i]);
+      store(out, planes[0][i]);
     } else {
       Vec column[kNetMixed], mixed[kNetMixed];
       for (int z = 0; z < kNetMixed; ++z) column[z] = planes[z][i];
       mix_six(column, mixed);
-      for (int z = 0; z < kNetMixed; ++z) {
-        store(out + (z * kNetMixed + i) * mixing.mixed_stride, mixed[z]);
-      }
+      for (int z = 0; z < kNetMixed; ++z) store(out + z * kNetMixed * channels, mixed[z]);
     }
   }
 }
 
 template <int kPlanes>
 void mix_tiles(const NetMixing& mixing) {
+  const int channels = mixing.channels;
+  float* out = mixing.out;
   for (int tile = 0; tile < mixing.block.count; ++tile) {
-    for (int c = 0; c < mixing.channels; c += kLanes) mix_tile<kPlanes>(mixing, tile, c);
+    const long first = static_cast<long>(first_column(mixing.block, tile)) * channels;
+    for (int c = 0; c < channels; c += kLanes) mix_tile<kPlanes>(mixing, first + c, out + c);
+    out += kPlanes * kNetMixed * channels;
   }
 }
 
@@ -205,9 +208,10 @@ void mix(const NetMixing& mixing) {
   mixing.planes == 1 ? mix_tiles<1>(mixing) : mix_tiles<kNetMixed>(mixing);
 }
 
-// Outputs of a tile and of as many channels as a register holds, from products `stride` apart.
+// Outputs of the tile that begins with column x and of as many channels as a register holds, from
+// products `stride` apart.
 template <int kPlanes>
-inline void finish_mixed(const NetMixedRow& row, const float* products, long stride, int tile,
+inline void finish_mixed(const NetMixedRow& row, const float* products, long stride, int x,
                          int channel) {
   constexpr int kRows = kPlanes == 1 ? 1 : kNetTile;
   Vec columns[kPlanes][kNetTile];
@@ -217,7 +221,6 @@ inline void finish_mixed(const NetMixedRow& row, const float* products, long str
     unmix_six(mixed, columns[z]);
   }
   const Vec bias = load(row.plain.bias + channel);
-  int x = first_column(row.block, tile);
   for (int i = 0; i < kNetTile && x < row.plain.columns; ++i, x += row.block.dilation) {
     Vec sums[kRows];
     if constexpr (kPlanes == 1) {
@@ -243,8 +246,8 @@ void convolve_mixed_groups(const NetMixedRow& row, int group) {
   for (int kind = 0; kind < kKinds; ++kind) {
     for (int tile = 0; tile < row.block.count; tile += kMixedColumns) {
       Vec sums[kMixedColumns][kVecs] = {};
-      add_products<kGroups, kMixedColumns, kStep>(
-          row.plain, kind * row.mixed_stride + static_cast<long>(tile) * kStep,
+      add_products<kGroups, kMixedColumns, kKinds * kStep>(
+          row.plain, kind * kStep + static_cast<long>(tile) * kKinds * kStep,
           kind * row.weights_stride + group * row.plain.group_stride, sums);
       for (int p = 0; p < kMixedColumns; ++p) {
         for (int i = 0; i < kVecs; ++i) store(products[kind][tile + p] + i * kLanes, sums[p][i]);
@@ -252,8 +255,9 @@ void convolve_mixed_groups(const NetMixedRow& row, int group) {
     }
   }
   for (int tile = 0; tile < row.block.count; ++tile) {
+    const int x = first_column(row.block, tile);
     for (int c = 0; c < kVecs * kLanes; c += kLanes) {
-      finish_mixed<kPlanes>(row, products[0][tile] + c, (kNetBlock + 1) * kVecs * kLanes, tile,
+      finish_mixed<kPlanes>(row, products[0][tile] + c, (kNetBlock + 1) * kVecs * kLanes, x,
                             group * kGroup + c);
     }
   }

@@ -58,14 +58,13 @@ struct NetBlock {
 };
 
 /// A block of a row of outputs, or of kNetTile planes of outputs, of a mixed convolution. Of
-/// `plain`, `out` is not used, `taps` are those that are not mixed, and `input_step` is the distance
-/// of tiles.
+/// `plain`, `out` is not used, `taps` are those that are not mixed, and `input_step` is the
+/// distance of tiles.
 struct NetMixedRow {
   NetConvolutionRow plain;
   NetBlock block;
   int planes = 1;  ///< Mixed: 1 or kNetMixed. Kinds of mixed numbers are kNetMixed times as many.
-  long mixed_stride = 0;        ///< From kind to kind of mixed inputs,
-  long weights_stride = 0;      ///< and of weights.
+  long weights_stride = 0;      ///< From kind to kind.
   NetOutput outputs[kNetTile];  ///< Without `out` where none is wanted.
 };
 
@@ -74,9 +73,8 @@ struct NetMixing {
   const float* rows[kNetMixed] = {};  ///< At the first output's column; null for zeros.
   int planes = 1;                     ///< As in NetMixedRow.
   NetBlock block;
-  int channels = 0;       ///< In whole groups; also from column to column.
-  float* out = nullptr;   ///< `[kind][tile][channel]`
-  long mixed_stride = 0;  ///< From kind to kind.
+  int channels = 0;      ///< In whole groups; also from column to column.
+  float* out = nullptr;  ///< `[tile][kind][channel]`
 };
 
 /// One row of a tensor made twice as wide, from up to four rows of its source.
