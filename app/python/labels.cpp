@@ -6,6 +6,7 @@
 #include "app/python/light_fields.h"
 #include "app/session/label_review.h"
 #include "app/session/labeling_inputs.h"
+#include "app/session/result_files.h"
 #include "app/session/segmentation_files.h"
 #include "engine/core/error.h"
 #include "engine/io/models/segmentation_file.h"
