@@ -185,8 +185,7 @@ void add_properties(py::class_<OpenedScene>& light_field) {
   light_field
       .def_property_readonly(
           "views", views_of,
-          R"(The samples, read-only, [v, u, y, x, c]: uint8, uint16 or float32 as they were stored.
-v: camera row, downwards; u: camera column, to the right; c: gray, or red, green, blue. No copy: the
+          R"(The samples, read-only, [v, u, y, x, c]: uint8, uint16 or float32 as stored. v: camera row, downwards; u: camera column, to the right; c: gray, or red, green, blue. No copy: the
 array keeps the light field alive.)")
       .def_property_readonly(
           "truth", truth_of,
