@@ -180,7 +180,8 @@ labels of that name is replaced, nothing else.)");
 Labels every pixel of all views from a few painted ones.
 
 scribbles: whole numbers, 0 = unpainted, [y, x] of the center view, [v, u, y, x] of all, or a dict
-of [y, x] by (v, u); None: those that lie beside the light field. At least two labels must be painted.
+of [y, x] by (v, u); None: those that lie beside the light field. At least two labels must be
+painted.
 disparity: a Result of all views; by default it is estimated. parameters: those of 'episcope-cli
 label --help', such as features='image'. progress: called as progress(fraction, step).
 Raises InvalidInput for scribbles that do not fit.)");

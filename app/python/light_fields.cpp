@@ -186,12 +186,13 @@ void add_properties(py::class_<OpenedScene>& light_field) {
       .def_property_readonly(
           "views", views_of,
           R"(The samples, read-only, [v, u, y, x, c]: uint8, uint16 or float32 as stored. v: camera
-row, downwards; u: camera column, to the right; c: gray, or red, green, blue. No copy: the array keeps
-the light field alive.)")
+row, downwards; u: camera column, to the right; c: gray, or red, green, blue. No copy: the array
+keeps the light field alive.)")
       .def_property_readonly(
           "truth", truth_of,
           R"(True disparity, float32 in px per view step, positive nearer than the
-plane of zero disparity; NaN where it is not known. [v, u, y, x], or [y, x] if one view alone has it. None without truth.)")
+plane of zero disparity; NaN where it is not known. [v, u, y, x], or [y, x] if one view alone has it.
+None without truth.)")
       .def_property_readonly(
           "labels", labels_of,
           R"(True labels, int32, [v, u, y, x], or [y, x] of one view. None without them.)")
