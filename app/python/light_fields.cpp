@@ -191,7 +191,7 @@ keeps the light field alive.)")
       .def_property_readonly(
           "truth", truth_of,
           R"(True disparity, float32 in px per view step, positive nearer than the
-plane of zero disparity; NaN where it is not known. [v, u, y, x], or [y, x] if one view alone has it.
+plane of zero disparity; NaN where it is not known. [v, u, y, x], or [y, x] of one view.
 None without truth.)")
       .def_property_readonly(
           "labels", labels_of,
