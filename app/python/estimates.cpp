@@ -140,21 +140,26 @@ py::dict score_scene(const py::object& map, const OpenedScene& opened, Evaluatio
 }
 
 DisparityField field_from(const py::object& map, GridShape grid, const std::string& what) {
-  const py::object array = py::isinstance<FoundEstimate>(map) ? map.attr("disparity") : map;
   DisparityField field;
-  field.disparity = maps_from(numbers_from<float>(array, what), grid, what);
+  field.disparity = maps_from(numbers_from<float>(map, what), grid, what);
   io::mark_invalid(field);
   return field;
 }
 
+/// The views that maps cover; 1×1 also for what are no maps.
+GridShape grid_of_maps(const py::object& maps) {
+  const auto shape = py::module_::import("numpy").attr("shape")(maps);
+  if (py::len(shape) != 4) return {1, 1};
+  const auto lengths = py::cast<std::vector<int>>(shape);
+  return {lengths[0], lengths[1]};
+}
+
 /// Against an array: pixel by pixel, with nothing known of the light field.
-py::dict score_array(const py::object& map, const py::object& truth,
+py::dict score_array(const py::object& judged, const py::object& truth,
                      const EvaluationOptions& options) {
-  const auto array = numbers_from<float>(truth, "the truth");
-  const bool has_views = array.ndim() == 4;
-  const GridShape grid =
-      has_views ? GridShape{static_cast<int>(array.shape(0)), static_cast<int>(array.shape(1))}
-                : GridShape{1, 1};
+  const py::object map = py::isinstance<FoundEstimate>(judged) ? judged.attr("disparity") : judged;
+  const GridShape of_truth = grid_of_maps(truth);
+  const GridShape grid = of_truth.count() > 1 ? of_truth : grid_of_maps(map);
   const DisparityField known = field_from(truth, grid, "the truth");
   Estimate estimate;
   estimate.field = field_from(map, grid, "the maps");
@@ -174,7 +179,11 @@ InvalidEstimates invalid_named(const std::string& name) {
 py::dict score(const py::object& map, const py::object& truth, const std::string& protocol,
                const std::string& invalid, const py::object& view) {
   const EvaluationOptions options{parse_protocol(protocol), invalid_named(invalid), {}};
-  if (!py::isinstance<OpenedScene>(truth)) return score_array(map, truth, options);
+  if (!py::isinstance<OpenedScene>(truth)) {
+    if (view.is_none()) return score_array(map, truth, options);
+    throw InvalidInput(
+        "view chooses a view of a light field; of arrays, give the maps of the view");
+  }
   return score_scene(map, py::cast<const OpenedScene&>(truth), options, view);
 }
 
@@ -182,11 +191,11 @@ void add_result(py::module_& module) {
   py::class_<FoundEstimate>(module, "Result", "A disparity estimate of a light field.")
       .def_property_readonly(
           "disparity", disparity_of,
-          R"(float32, px per view step, positive nearer than the plane of zero disparity; NaN where it is not
-known. [v, u, y, x], or [y, x] if one view was estimated. Read-only.)")
+          R"(float32, px per view step, positive nearer than the plane of zero disparity; NaN
+where it is not known. [v, u, y, x], or [y, x] if one view was estimated. Read-only.)")
       .def_property_readonly(
           "confidence", confidence_of,
-          R"(float32 in [0, 1], of the shape of the disparity; None if the method has none. Read-only.)")
+          R"(float32 in [0, 1], of the shape of the disparity; None if there is none.)")
       .def_property_readonly(
           "foreground",
           [](const FoundEstimate& found) {
@@ -233,11 +242,11 @@ Writes the result as its name says: .h5 (all that is known), or one view as .pfm
 
 void add_estimates(py::module_& module) {
   add_result(module);
-  module.def(
-      "estimate", estimate_scene, py::arg("light_field"), py::arg("method"), py::kw_only(),
-      py::arg("views") = py::none(), py::arg("device") = "auto", py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
-      R"(estimate(light_field, method, *, views=None, device='auto', threads=0, progress=None, **parameters)
+  module.def("estimate", estimate_scene, py::arg("light_field"), py::arg("method"), py::kw_only(),
+             py::arg("views") = py::none(), py::arg("device") = "auto", py::arg("threads") = 0,
+             py::arg("progress") = py::none(),
+             R"(estimate(light_field, method, *, views=None, device='auto', threads=0,
+         progress=None, **parameters)
 --
 
 Estimates disparity: the numbers of 'episcope-cli estimate', bit for bit.

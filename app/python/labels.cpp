@@ -6,6 +6,7 @@
 #include "app/python/light_fields.h"
 #include "app/session/label_review.h"
 #include "app/session/labeling_inputs.h"
+#include "app/session/result_files.h"
 #include "app/session/segmentation_files.h"
 #include "engine/core/error.h"
 #include "engine/io/models/segmentation_file.h"
@@ -159,10 +160,9 @@ void add_labels(py::module_& module) {
           "ids",
           [](const FoundLabels& found) { return found.segmentation.labeling->probabilities.ids; },
           "The labels that were painted, ascending.")
-      .def_property_readonly(
-          "scores", label_scores,
-          R"(Shares in [0, 1] by the keys of 'episcope-cli label --json', such as accuracy_all_views; without true
-labels only consistency along the rays.)")
+      .def_property_readonly("scores", label_scores,
+                             R"(Shares in [0, 1] by the keys of 'episcope-cli label --json', such as
+accuracy_all_views; without true labels only consistency along the rays.)")
       .def_property_readonly("notes", notes_of, "A sentence each.")
       .def("save", save_labels, py::arg("path"), py::kw_only(), py::arg("probabilities") = false,
            R"(save(path, *, probabilities=False)
@@ -170,17 +170,18 @@ labels only consistency along the rays.)")
 
 Writes an HDF5 file of labels; with probabilities, four bytes more for each ray and label. A file of
 labels of that name is replaced, nothing else.)");
-  module.def(
-      "label", label, py::arg("light_field"), py::arg("scribbles") = py::none(), py::kw_only(),
-      py::arg("disparity") = py::none(), py::arg("device") = "auto", py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
-      R"(label(light_field, scribbles=None, *, disparity=None, device='auto', threads=0, progress=None, **parameters)
+  module.def("label", label, py::arg("light_field"), py::arg("scribbles") = py::none(),
+             py::kw_only(), py::arg("disparity") = py::none(), py::arg("device") = "auto",
+             py::arg("threads") = 0, py::arg("progress") = py::none(),
+             R"(label(light_field, scribbles=None, *, disparity=None, device='auto', threads=0,
+      progress=None, **parameters)
 --
 
 Labels every pixel of all views from a few painted ones.
 
-scribbles: whole numbers, 0 = unpainted, [y, x] of the center view, [v, u, y, x] of all, or a dict of
-[y, x] by (v, u); None: those that lie beside the light field. At least two labels must be painted.
+scribbles: whole numbers, 0 = unpainted, [y, x] of the center view, [v, u, y, x] of all, or a dict
+of [y, x] by (v, u); None: those that lie beside the light field. At least two labels must be
+painted.
 disparity: a Result of all views; by default it is estimated. parameters: those of 'episcope-cli
 label --help', such as features='image'. progress: called as progress(fraction, step).
 Raises InvalidInput for scribbles that do not fit.)");

@@ -185,13 +185,14 @@ void add_properties(py::class_<OpenedScene>& light_field) {
   light_field
       .def_property_readonly(
           "views", views_of,
-          R"(The samples, read-only, [v, u, y, x, c]: uint8, uint16 or float32 as they were stored.
-v: camera row, downwards; u: camera column, to the right; c: gray, or red, green, blue. No copy: the
-array keeps the light field alive.)")
+          R"(The samples, read-only, [v, u, y, x, c]: uint8, uint16 or float32 as stored. v: camera
+row, downwards; u: camera column, to the right; c: gray, or red, green, blue. No copy: the array
+keeps the light field alive.)")
       .def_property_readonly(
           "truth", truth_of,
-          R"(True disparity, float32 in px per view step, positive nearer than the plane of zero disparity; NaN
-where it is not known. [v, u, y, x], or [y, x] if one view alone has it. None without truth.)")
+          R"(True disparity, float32 in px per view step, positive nearer than the
+plane of zero disparity; NaN where it is not known. [v, u, y, x], or [y, x] of one view.
+None without truth.)")
       .def_property_readonly(
           "labels", labels_of,
           R"(True labels, int32, [v, u, y, x], or [y, x] of one view. None without them.)")
@@ -199,7 +200,7 @@ where it is not known. [v, u, y, x], or [y, x] if one view alone has it. None wi
                              "The Camera that turns depth into disparity; None if it is not known.")
       .def_property_readonly(
           "range", promised_range,
-          R"((min, max) of the disparity that the files promise, px per view step; None if they do not.)")
+          R"((min, max) of the disparity that the files promise, px per view step; else None.)")
       .def_property_readonly(
           "center",
           [](const OpenedScene& opened) { return view_tuple(opened.light_field().center()); },
@@ -220,7 +221,6 @@ void add_light_fields(py::module_& module) {
   add_camera(module);
   py::class_<OpenedScene> light_field(module, "LightField",
                                       R"(LightField(array, *, name='array', **reading)
---
 
 A light field: views on a regular grid of cameras.
 

@@ -61,7 +61,7 @@ def test_map_of_another_size_is_refused(scene):
 
 def test_light_field_without_truth_is_not_judged(scene):
     bare = episcope.LightField(scene.views)
-    with pytest.raises(episcope.InvalidInput, match="truth"):
+    with pytest.raises(episcope.InvalidInput, match="no true disparity"):
         episcope.score(numpy.zeros((64, 64)), bare)
 
 

@@ -12,7 +12,7 @@ import episcope
 from conftest import SCENE
 
 
-@pytest.mark.parametrize("method", ["epi_l", "epi_c", "st_av_s", "plane_pm", "kz02"])
+@pytest.mark.parametrize("method", ["epi_l", "epi_c", "st_av_s", "plane_pm", "epi_two_layer"])
 def test_numbers_are_those_of_the_command_line(scene, method, tmp_path, cli):
     cli("estimate", method, "demo:" + SCENE, "-o", "cli.h5", "--quiet")
     episcope.estimate(scene, method).save(tmp_path / "python.h5")

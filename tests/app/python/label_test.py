@@ -44,16 +44,20 @@ def test_disparity_may_be_given(scene, strokes):
     assert numpy.array_equal(one.labels, episcope.label(scene, strokes, trees=16).labels)
 
 
-def test_file_of_labels_is_that_of_the_command_line(scene, tmp_path, cli):
+def test_scores_are_those_of_the_command_line(tmp_path, cli):
     """The demo has strokes of its own."""
-    demo = episcope.demo("demo?size=96&grid=5")
+    demo = episcope.demo("demo?size=64&grid=3")
     labeling = episcope.label(demo, features="image", trees=16)
     answer = cli(
-        "label", "demo:demo?size=96&grid=5", "-o", "cli.h5", "--features", "image", "--trees", "16", "--json", "--quiet"
+        "label", "demo:demo?size=64&grid=3", "-o", "cli.h5", "--features", "image", "--trees", "16", "--json", "--quiet"
     )
     for key, share in labeling.scores.items():
         assert answer[key] == share, key
-    labeling.save(tmp_path / "python.h5")
+
+
+def test_labels_are_saved_and_replace_nothing_else(labeling, tmp_path):
+    for _ in range(2):
+        labeling.save(tmp_path / "labels.h5")
+    (tmp_path / "other.h5").write_text("mine")
     with pytest.raises(episcope.IoError, match="not a file of labels"):
-        (tmp_path / "other.h5").write_text("mine")
         labeling.save(tmp_path / "other.h5")

@@ -23,7 +23,8 @@ def folder(tmp_path, monkeypatch, cli):
     monkeypatch.chdir(tmp_path)
     for name in ["scene", "scenes/one", "scenes/two"]:
         os.makedirs(name)
-        cli("convert", f"demo:objects?size=64&grid={9 if name == 'scene' else 3}", name + "/lf.h5", "--quiet")
+        options = "size=64" if name == "scene" else "size=40&grid=3"
+        cli("convert", "demo:objects?" + options, name + "/lf.h5", "--quiet")
     lf = episcope.open("scene")
     numpy.save("network.npy", lf.truth[4, 4])
     episcope.estimate(lf, "epi_l").save("result.h5")

@@ -61,6 +61,10 @@ def test_truth_may_be_an_array(scene, result):
     expected = episcope.score(result, scene)["mse_100"]
     assert episcope.score(result, scene.truth)["mse_100"] == expected
     assert episcope.score(result.disparity[2, 2], scene.truth[2, 2])["mse_100"] == expected
+    assert episcope.score(result, scene.truth[2, 2])["mse_100"] == expected
+    assert episcope.score(result.disparity[2, 2], scene.truth)["mse_100"] == expected
+    with pytest.raises(episcope.InvalidInput, match="of arrays, give the maps of the view"):
+        episcope.score(result, scene.truth, view=(0, 0))
 
 
 def test_truth_has_no_error(scene):
