@@ -21,8 +21,8 @@ constexpr double kFarthest = 20;  // px per view step, either way
 
 bool is_map(const fs::path& path) {
   const std::string suffix = suffix_of(path);
-  return suffix == ".pfm" || suffix == ".h5" || suffix == ".hdf5" || suffix == ".tif" ||
-         suffix == ".tiff";
+  return suffix == ".pfm" || suffix == ".npy" || suffix == ".h5" || suffix == ".hdf5" ||
+         suffix == ".tif" || suffix == ".tiff";
 }
 
 /// Files below the folder that `accepts` takes, sorted.

@@ -13,9 +13,9 @@ namespace episcope {
 
 /// Results of another program in a folder: a map for each scene, anywhere below it, named after the
 /// scene (`cotton.pfm`, `disp_maps/cotton.h5`) or alone in a folder of that name
-/// (`cotton/result.tif`); upper and lower case do not matter. Maps are PFM, HDF5 with one map,
-/// float TIFF or result files. Seconds come from a result file, else from a text file named after
-/// the scene (`runtimes/cotton.txt`, `cotton.txt`) whose first word is a number.
+/// (`cotton/result.tif`); upper and lower case do not matter. Maps are PFM, `.npy`, HDF5 with one
+/// map, float TIFF or result files. Seconds come from a result file, else from a text file named
+/// after the scene (`runtimes/cotton.txt`, `cotton.txt`) whose first word is a number.
 
 /// The folder's own name.
 [[nodiscard]] std::string submission_name(const std::filesystem::path& folder);

@@ -18,21 +18,6 @@
 #include <iterator>
 
 namespace episcope::cli {
-namespace {
-
-/// Options that nothing came of.
-void warn_of_ignored(const ParameterSet& given, Scene& scene) {
-  const std::string& id = scene.light_field->info().reading.reader;
-  const io::Reader* reader = io::reader_named(id);
-  const std::string name = reader ? reader->name : "a built-in scene";
-  for (const auto& [key, value] : given) {
-    if (key == Reading::kFocus || (reader && reader->has_option(key))) continue;
-    scene.convention.warnings.push_back(
-        fmt::format("--{} is ignored, because this is {}.", key, name));
-  }
-}
-
-}  // namespace
 
 void declare_read_options(Arguments& arguments, ReadOptions& options) {
   arguments.heading("Reading");
@@ -88,14 +73,7 @@ Scene load_input(const std::string& input, io::OpenOptions open, bool needs_trut
                  const Progress& progress) {
   const std::string builtin = builtin_scene_id(input);
   if (!builtin.empty()) check_builtin_scene(builtin);
-  const ParameterSet given = io::given_options(open);
-  const LoadOptions load{
-      .open = std::move(open), .cache_folder = default_cache_folder(), .needs_truth = needs_truth};
-  progress.step("reading " + std::filesystem::path(input).filename().string());
-  Scene scene = load_scene(input, load, progress.part(0, builtin.empty() ? 1 : 0.9));
-  warn_of_ignored(given, scene);
-  if (!builtin.empty()) store_in_cache(input, scene, load.cache_folder, progress.part(0.9, 1));
-  return scene;
+  return open_input(input, std::move(open), needs_truth, progress);
 }
 
 namespace {

@@ -177,6 +177,12 @@ void load_labels(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   loaded.source.view = segmentation.labeling->labels.first();
   loaded.source.labeling = segmentation.labeling;
   loaded.source.label_infos = segmentation.labels;
+  const bool needs_probabilities =
+      shown.quantity == Quantity::Probability || shown.quantity == Quantity::Uncertainty;
+  if (needs_probabilities && segmentation.labeling->probabilities.empty()) {
+    throw InvalidInput(shown.subject +
+                       " has no probabilities; label again with --write-probabilities");
+  }
   if (shown.quantity != Quantity::WrongLabels && !shown.needs_light_field) return;
   const std::string named = io::SegmentationFile(shown.subject).source();
   const std::string input = named_source(shown, existing_source(named, shown.subject));

@@ -17,6 +17,7 @@
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/formats/frames_reader.h"
 #include "engine/io/formats/mosaic_reader.h"
+#include "engine/io/models/external_result.h"
 #include "engine/io/models/padding.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/stored_maps.h"
@@ -27,6 +28,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -122,6 +124,20 @@ void require_upright(const Estimate& estimate, const LightField& light_field,
                           ": rows and columns are exchanged; add --map-transpose");
 }
 
+void remove_padding_of(Estimate& estimate, const LightField& light_field) {
+  if (!estimate.confidence.empty() || !estimate.layered.layers.empty()) return;
+  const std::string note =
+      io::remove_padding(estimate.field, light_field.height(), light_field.width());
+  if (!note.empty()) estimate.notes.push_back(note);
+}
+
+void find_border_of(Estimate& estimate, const LightField& light_field) {
+  const io::BareBorder border =
+      io::find_bare_border(estimate.field, light_field.height(), light_field.width());
+  estimate.border_px = border.width_px;
+  if (!border.note.empty()) estimate.notes.push_back(border.note);
+}
+
 }  // namespace
 
 Estimate read_result_of(const LightField& light_field, const fs::path& path,
@@ -135,17 +151,19 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path,
   Estimate estimate = io::read_result(path, light_field.grid(), light_field.info().name);
   io::apply_reading(reading, &light_field, estimate);
   require_upright(estimate, light_field, path);
-  if (estimate.confidence.empty() && estimate.layered.layers.empty()) {
-    const std::string note =
-        io::remove_padding(estimate.field, light_field.height(), light_field.width());
-    if (!note.empty()) estimate.notes.push_back(note);
-  }
-  if (!io::is_result_file(path) && reading.border_px == 0) {
-    const io::BareBorder border =
-        io::find_bare_border(estimate.field, light_field.height(), light_field.width());
-    estimate.border_px = border.width_px;
-    if (!border.note.empty()) estimate.notes.push_back(border.note);
-  }
+  remove_padding_of(estimate, light_field);
+  if (!io::is_result_file(path) && reading.border_px == 0) find_border_of(estimate, light_field);
+  return estimate;
+}
+
+Estimate result_from_maps(const LightField& light_field, DisparityField maps,
+                          const std::string& method) {
+  Estimate estimate;
+  estimate.field = std::move(maps);
+  estimate.method = method;
+  io::mark_invalid(estimate.field);
+  remove_padding_of(estimate, light_field);
+  find_border_of(estimate, light_field);
   return estimate;
 }
 
@@ -294,7 +312,7 @@ std::string differing_options(const Estimate& estimate, const LightField& light_
 }
 
 std::string source_text(const std::string& input, const fs::path& result) {
-  if (!builtin_scene_id(input).empty()) return input;
+  if (input.empty() || !builtin_scene_id(input).empty()) return input;
   fs::path source = fs::weakly_canonical(input);
   if (!source.has_filename()) source = source.parent_path();
   const fs::path folder = fs::weakly_canonical(fs::absolute(result)).parent_path();

@@ -27,6 +27,11 @@ namespace episcope {
                                       const std::filesystem::path& path,
                                       const io::MapReading& reading = {});
 
+/// Maps of another program as a result of this light field, as if they were read from a file:
+/// values that are not finite become invalid, padding is cut off, and a bare border is not judged.
+[[nodiscard]] Estimate result_from_maps(const LightField& light_field, DisparityField maps,
+                                        const std::string& method);
+
 /// Reads a result without its light field: a result file knows the places of its views; a map from
 /// elsewhere becomes view 0,0. Throws IoError, InvalidInput.
 [[nodiscard]] Estimate read_result_alone(const std::filesystem::path& path,
@@ -74,6 +79,7 @@ void bring_to_focus(Estimate& estimate, const LightField& light_field, const Pro
 /// What a result file says of its light field: a built-in scene as it is typed, else a path
 /// relative to the folder of the result, so that both can move together; absolute only where they
 /// share no folder but the root. Its last part is the name; the hash of the samples is beside it.
+/// Nothing if `input` is empty: the light field comes from no file.
 [[nodiscard]] std::string source_text(const std::string& input,
                                       const std::filesystem::path& result);
 

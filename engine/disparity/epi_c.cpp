@@ -129,7 +129,7 @@ OrderingPenalty OrderedViews::penalty() const {
           static_cast<float>(parameters.fall), static_cast<float>(parameters.softness)};
 }
 
-// The views of a rectangle that have one color (0 or 1) of the chequerboard of the grid.
+// The views of a rectangle that have one color (0 or 1) of the checkerboard of the grid.
 std::vector<ViewIndex> views_of_color(const ViewRectangle& rectangle, int color) {
   std::vector<ViewIndex> views;
   for (int i = 0; i < rectangle.grid.count(); ++i) {

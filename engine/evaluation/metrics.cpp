@@ -203,7 +203,7 @@ std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate,
   return evaluation;
 }
 
-// The centre view: the truth covers all views or that one.
+// The center view: the truth covers all views or that one.
 ViewIndex center_of(const DisparityField& truth) {
   const ViewIndex first = truth.disparity.first(), center = truth.disparity.grid().center();
   return {first.v + center.v, first.u + center.u};
@@ -237,13 +237,6 @@ std::optional<double> layers_right(const LayeredDisparity& estimate, const Groun
 
 const char* protocol_name(Protocol protocol) {
   return protocol == Protocol::Vmv2013 ? "vmv2013" : "benchmark2016";
-}
-
-Protocol parse_protocol(const std::string& name) {
-  for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
-    if (name == protocol_name(protocol)) return protocol;
-  }
-  throw InvalidInput("there is no protocol '" + name + "'; use vmv2013 or benchmark2016");
 }
 
 std::optional<double> find_metric(const Metrics& metrics, const std::string& key) {

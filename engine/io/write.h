@@ -37,7 +37,7 @@ struct FormContents {
   bool has_layers = false;
   MapsHeld labels = MapsHeld::None;
   bool has_scribbles = false;
-  bool has_regions = false;  ///< Region masks of the centre view.
+  bool has_regions = false;  ///< Region masks of the center view.
   bool has_valid = false;    ///< The mask of valid pixels.
   CamerasHeld camera = CamerasHeld::None;
   bool has_range = false;      ///< The disparity range that files promise.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/pages/completions.h"
+#include "app/cli/pages/verb_pages.h"
 
 #include "engine/core/text.h"
 

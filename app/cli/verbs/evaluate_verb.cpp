@@ -45,6 +45,7 @@ struct Row {
   Metrics metrics;
   std::vector<std::string> notes;
   std::optional<io::BetterReading> better;
+  std::string error_map{};  ///< The picture that was written; empty = none.
 };
 
 OptionValue<Protocol> protocol_value() {
@@ -83,7 +84,7 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   parser.flag("--latex", request.format, Format::Latex, "Print a LaTeX tabular");
   parser.exclude_each_other({"--json", "--csv", "--latex"});
   parser.option("--error-map", request.error_map, text_value("OUT.png"),
-                "Write a picture of truth − estimate, one for each result");
+                "Write a picture of truth − estimate; OUT-<result>.png of several results");
   declare_map_options(parser, request.map);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   if (!request.error_map.empty() && suffix_of(request.error_map) != ".png") {
@@ -153,6 +154,7 @@ Json results_json(const EvaluateRequest& request, const std::vector<Row>& rows) 
     result["all_views"] = row.has_all_views;
     if (row.better) result["better_reading"] = better_reading_json(*row.better);
     if (!row.notes.empty()) result["notes"] = row.notes;
+    if (!row.error_map.empty()) result["error_map"] = row.error_map;
     json["results"].push_back(result);
   }
   return json;
@@ -209,6 +211,19 @@ void print_answer(const EvaluateRequest& request, const std::vector<Row>& rows) 
   }
 }
 
+/// Names the pictures that were written, where the answer itself is for programs as notes.
+void tell_error_maps(const EvaluateRequest& request, const std::vector<Row>& rows, Job& job) {
+  for (const Row& row : rows) {
+    if (row.error_map.empty() || request.format == Format::Json) continue;
+    const std::string line = row.error_map + ": error of " + row.file;
+    if (request.format == Format::Text) {
+      std::cout << line << '\n';
+    } else {
+      job.note("wrote " + line);
+    }
+  }
+}
+
 /// The scene that results are judged against: read again where a result was estimated from other
 /// views of it, at another focus plane.
 class TruthScene {
@@ -247,7 +262,7 @@ struct JudgedFile {
 void write_error_map(const std::filesystem::path& path, MapSource source) {
   if (path.empty()) return;
   source.quantity = render::Quantity::SignedError;
-  io::write_png(path, map_picture(*make_map(source), shading_of(source.quantity, {})).view());
+  io::write_picture(path, map_picture(*make_map(source), shading_of(source.quantity, {})).view());
 }
 
 /// Judges one result and writes its error map, if a path is given for it.
@@ -306,10 +321,12 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
     const std::filesystem::path map = maps.empty() ? std::filesystem::path() : maps[i];
     const Scene& scene = truth.for_result(request.files[i]);
     rows.push_back(judge_file({request.files[i], map, reading}, scene, options, job));
+    rows.back().error_map = map.string();
     job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / request.files.size());
   }
   job.finish();
   print_answer(request, rows);
+  tell_error_maps(request, rows, job);
 }
 
 }  // namespace episcope::cli

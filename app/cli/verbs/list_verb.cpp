@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -115,15 +114,6 @@ void print_table(const std::vector<io::CollectionEntry>& entries) {
   for (const io::CollectionEntry& entry : entries) {
     if (!entry.problem.empty()) std::cout << "cannot be opened: " << entry.problem << '\n';
   }
-}
-
-std::string time_text(std::int64_t seconds) {
-  const std::time_t time = seconds;
-  std::tm parts{};
-  gmtime_r(&time, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
 }
 
 Json results_json(const std::vector<io::ListedResult>& results) {

@@ -432,7 +432,7 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
     info.rows.push_back(
         {InfoPanelText::tr("Focus"),
          InfoPanelText::tr("%1 px applied").arg(number_text(convention.focus_px, 2)),
-         InfoPanelText::tr("All views but the centre one are interpolated.")});
+         InfoPanelText::tr("All views but the center one are interpolated.")});
   }
   info.rows.push_back({InfoPanelText::tr("Truth"), truth_text(*scene.truth, grid), {}});
   add_conventions(info, light_field.info().camera, convention);

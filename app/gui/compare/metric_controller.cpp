@@ -394,9 +394,9 @@ MetricColumn metric_column(Protocol protocol, const std::string& key) {
       protocol == Protocol::Vmv2013 ? MetricTableText::tr("2013") : MetricTableText::tr("2016");
   const QString rules =
       protocol == Protocol::Vmv2013
-          ? MetricTableText::tr("Protocol vmv2013: all pixels with ground truth, centre view")
+          ? MetricTableText::tr("Protocol vmv2013: all pixels with ground truth, center view")
           : MetricTableText::tr(
-                "Protocol benchmark2016: without a border of 15 px, centre "
+                "Protocol benchmark2016: without a border of 15 px, center "
                 "view");
   const bool is_share =
       key.starts_with("density") || key.starts_with("shown") || key == "layers_right";

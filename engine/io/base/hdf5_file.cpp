@@ -400,14 +400,19 @@ hid_t creation_of(hid_t type) {
   return creation;
 }
 
+hid_t access_of(Hdf5WriteLog& log) {
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  use_logging_write_driver(access, log);
+  return access;
+}
+
 }  // namespace
 
 Hdf5Output::Hdf5Output(const AtomicFile& file, std::size_t user_bytes) : path_(file.target()) {
   const Hdf5Lock session;
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  use_logging_write_driver(access, log_);
+  const Hdf5Handle access(access_of(log_), H5Pclose);
   const Hdf5Handle creation(creation_of(H5P_FILE_CREATE), H5Pclose);
   H5Pset_userblock(creation, user_bytes);
   file_ = H5Fcreate(file.temporary().c_str(), H5F_ACC_TRUNC, creation, access);
@@ -417,10 +422,7 @@ Hdf5Output::Hdf5Output(const AtomicFile& file, std::size_t user_bytes) : path_(f
 Hdf5Output::Hdf5Output(const std::filesystem::path& file, const std::filesystem::path& target)
     : path_(target) {
   const Hdf5Lock session;
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  use_logging_write_driver(access, log_);
+  const Hdf5Handle access(access_of(log_), H5Pclose);
   file_ = H5Fopen(file.c_str(), H5F_ACC_RDWR, access);
   require(file_ >= 0);
 }

@@ -22,7 +22,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <optional>
@@ -181,9 +180,9 @@ std::optional<ViewStack<T>> map_views(const Hdf5Input& file, const ArchiveLayout
 }
 
 /// The samples of an archive file in the stored order of views and in their stored type; wider
-/// integers are taken as bytes if the centre view fits. Those of a large light field
+/// integers are taken as bytes if the center view fits. Those of a large light field
 /// (is_better_mapped) stay in the file, if it stores them as an array of 8 or 16 bits that nothing
-/// asks to change: they are there at once, and read when they are looked at. Shows the centre view
+/// asks to change: they are there at once, and read when they are looked at. Shows the center view
 /// (OpenOptions::on_center_view) with `info`. Throws IoError, Cancelled.
 LightField::Samples read_archive_samples(const Hdf5Input& file, ArchiveLayout layout,
                                          const OpenOptions& options, const LightFieldInfo& info,
@@ -225,13 +224,13 @@ std::optional<Interval> stated_range(const Hdf5Input& file) {
   return Interval{*min, *max};
 }
 
-/// Labels of the file or of labels.h5 beside it, whose use is noted.
+/// Labels of the file or of the file beside it, whose use is noted.
 ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, ConventionReport& report,
                           FileUsage& account, const Progress& progress) {
   const bool has_own = file.has(kTrueLabels) || file.has("SCRIBBLES");
   ArchiveLabels own =
       has_own ? read_archive_labels(file, shape, report, progress) : ArchiveLabels();
-  const fs::path beside = file.path().parent_path() / "labels.h5";
+  const fs::path beside = labels_beside(file.path());
   if (!is_there(beside)) return own;
   const Hdf5Input labels(beside);
   // Where several light fields share a folder, labels that we wrote name theirs.

@@ -15,11 +15,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -145,12 +143,7 @@ void mark_invalid(DisparityField& field) {
   float* begin = field.disparity.data();
   float* end = begin + field.disparity.size();
   if (std::all_of(begin, end, [](float d) { return std::isfinite(d); })) return;
-  if (field.valid.empty()) {
-    const ViewStack<float>& like = field.disparity;
-    field.valid =
-        ViewStack<std::uint8_t>(like.grid(), like.height(), like.width(), 1, like.first());
-    std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{1});
-  }
+  field.require_mask();
   for (float* d = begin; d != end; ++d) {
     if (std::isfinite(*d)) continue;
     *d = 0;

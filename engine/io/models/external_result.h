@@ -13,7 +13,7 @@ namespace episcope::io {
 
 /// Reads a disparity map of another program: PFM, 32-bit float TIFF, `.npy` of two or four axes, or
 /// an HDF5 file with one 2-D or 4-D dataset of float samples, in the order of axes that it states
-/// (`stated_map_layout`). A 2-D map belongs to the centre view of `grid`. Values that are not
+/// (`stated_map_layout`). A 2-D map belongs to the center view of `grid`. Values that are not
 /// finite become invalid pixels. Throws IoError with one sentence.
 [[nodiscard]] DisparityField read_disparity_map(const std::filesystem::path& path, GridShape grid);
 

@@ -292,12 +292,8 @@ void write_maps(Hdf5Output& file, const std::string& name, const MapGeometry& ma
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
     const ViewIndex place = grid.view_at(i);
-    Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
-    if (grid.count() > 1) {
-      block.start[0] = static_cast<std::size_t>(place.v);
-      block.start[1] = static_cast<std::size_t>(place.u);
-      block.count[0] = block.count[1] = 1;
-    }
+    const Hdf5Block block =
+        grid.count() > 1 ? view_block(shape, place) : Hdf5Block{Hdf5Shape(shape.size(), 0), shape};
     file.write(name, block, samples({maps.first.v + place.v, maps.first.u + place.u}));
     progress.report((i + 1.0) / grid.count());
   }

@@ -19,7 +19,7 @@ endfunction()
 # picture_of(variable what subject options…): hash of the picture of view 1,0.
 function(picture_of variable what subject)
   expect("show for ${variable}" 0 ARGS show ${subject} -o ${variable}.png --what ${what}
-         --view 1,0 ${ARGN})
+         --view 1,0 --overwrite ${ARGN})
   file(SHA256 "${WORK}/${variable}.png" hash)
   set(${variable} ${hash} PARENT_SCOPE)
 endfunction()

@@ -145,7 +145,7 @@ class JudgeTest : public QObject {
 
   [[nodiscard]] static EvaluationOptions by_2016() { return {.protocol = Protocol::Benchmark2016}; }
 
-  /// The true centre view, 0.1 px off, without its border.
+  /// The true center view, 0.1 px off, without its border.
   [[nodiscard]] std::filesystem::path write_map(const Scene& scene, Border border) const {
     const DisparityView truth = scene.truth->field.view(scene.light_field->center());
     const int cut = border == Border::Cut ? kBorder : 0;

@@ -188,7 +188,7 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QTest::addColumn<bool>("is_one_view");
     QTest::newRow("0/1, all views") << 1 << false;
     QTest::newRow("0/255, all views") << 255 << false;
-    QTest::newRow("0/255, centre") << 255 << true;
+    QTest::newRow("0/255, center") << 255 << true;
   }
   void mask_excludesPixels() {
     QFETCH(int, inside);
