@@ -44,7 +44,7 @@ foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
   json_near("${out}" 0 0.01 results 0 mse_100)
   json_absent("${out}" results 0 better_reading)
   expect("show ${file}" 0 ERR "add ${option}\n" ARGS show ${file} --truth lf.h5 -o ${file}.png)
-  expect("show ${file} as told" 0 ARGS show ${file} --truth lf.h5 -o ${file}.png ${option})
+  expect("show ${file} as told" 0 ARGS show ${file} --truth lf.h5 -o told_${file}.png ${option})
 endforeach()
 
 # A submission says so in its tables.
