@@ -24,11 +24,11 @@ namespace episcope {
 namespace {
 
 // Constants of the network: resources/training/README.md.
-constexpr double kLabelStep = 0.1;
-constexpr int kPeak = 2;        // Labels on either side that a mode is made of,
-constexpr int kApart = 3;       // and how far the second mode is at least.
-constexpr float kNear = 0.1F;   // Hypotheses so near count as one.
-constexpr float kOther = 0.3F;  // A second hypothesis is so far at least.
+constexpr double kStepOfLabels = 0.1;
+constexpr int kPeak = 2;                 // Labels on either side that a mode is made of,
+constexpr int kModesApart = 3;           // and how far the second mode is at least.
+constexpr float kSameHypothesis = 0.1F;  // Hypotheses so near count as one.
+constexpr float kOther = 0.3F;           // A second hypothesis is so far at least.
 constexpr float kLeastLog = -12;
 constexpr int kReduced = 8;  // Numbers that evidence of one disparity is reduced to.
 constexpr int kOffsets = 5;
@@ -132,7 +132,7 @@ void find_modes(std::span<float> logits, std::span<float> probabilities, const L
   const int first = static_cast<int>(std::ranges::max_element(logits) - logits.begin());
   int other = -1;
   for (int i = 0; i < labels.count; ++i) {
-    if (std::abs(i - first) > kApart && (other < 0 || logits[i] > logits[other])) other = i;
+    if (std::abs(i - first) > kModesApart && (other < 0 || logits[i] > logits[other])) other = i;
   }
   own = peak_at(probabilities, first, labels);
   second = peak_at(probabilities, other, labels);
@@ -248,7 +248,8 @@ struct EvidenceRows {
   std::vector<float> values;
   std::array<NetDisparity, kCount> disparities;
 
-  explicit EvidenceRows(int width) : values(static_cast<std::size_t>(width) * kNetEvidence * kCount) {
+  explicit EvidenceRows(int width)
+      : values(static_cast<std::size_t>(width) * kNetEvidence * kCount) {
     for (int i = 0; i < kCount; ++i) {
       disparities[i].out = values.data() + static_cast<std::size_t>(i) * width * kNetEvidence;
     }
@@ -284,7 +285,7 @@ int add_selection(NetStream& stream, const NetWeights& weights, int input) {
 }
 
 float kernel_of(float distance) {
-  return std::exp(-(distance / kNear) * (distance / kNear));
+  return std::exp(-(distance / kSameHypothesis) * (distance / kSameHypothesis));
 }
 
 // Decides for one pixel by the logits of its hypotheses.
@@ -490,7 +491,7 @@ void require_views(const LightField& light_field, ViewIndex view) {
 }  // namespace
 
 int net_label_count(Interval range) {
-  const double steps = std::min(std::ceil(range.length() / kLabelStep - 1e-6), 63.0);
+  const double steps = std::min(std::ceil(range.length() / kStepOfLabels - 1e-6), 63.0);
   return std::clamp((static_cast<int>(steps) + 1 + 7) / 8 * 8, 32, 64);
 }
 

@@ -188,8 +188,7 @@ Schema<NetMethodParameters> net_schema() {
           {"View", "Row and column of the view to estimate, or to begin with; auto = center view"})
       .text("weights", &P::weights,
             {"Weights", "File of the network's weights; by default those of the program"})
-      .search("rounds", {1, 2})
-      .search_choices("silhouettes", {"mode", "mean"});
+      .search("rounds", {1, 2});
 }
 
 Estimate estimate_by_net(const LightField& lf, const NetMethodParameters& parameters,
