@@ -65,8 +65,10 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   Arguments parser("evaluate", {"Compares results with the ground truth of a light field.",
                                 "episcope-cli evaluate demo.h5 --truth demo --protocol "
                                 "benchmark2016 --error-map error.png"});
-  parser.positionals("RESULT", request.files,
-                     "Result files, HDF5 files with one map, PFM, TIFF, submission folders");
+  parser.positionals(
+      "RESULT", request.files,
+      "Result files, HDF5 or .mat (v7.3) files with one map, .npy, PFM, TIFF, submission "
+      "folders");
   parser.required_option("--truth", request.truth, text_value("INPUT"),
                          "The light field with its ground truth");
   parser.option("--protocol", request.protocol, protocol_value(),

@@ -27,14 +27,14 @@ constexpr double kLeastCompared = 0.5;
 /// How much better the views must fit the map as it is to speak against another reading.
 constexpr double kContradicts = 1.1;
 
-constexpr double kLargestScale = 1e9;
+constexpr double kLargestScale = 1e5;
 constexpr int kWidestBorder = 1 << 12;
 constexpr double kMostPoints = 10000;
 constexpr int kRowStride = 4;  ///< Of the rows that are warped.
 
 /// Integers that stand for fractions of a pixel: decimal, and fixed-point numbers of matchers.
 constexpr double kMapScales[] = {0.1,       0.01,      0.001,       1.0 / 16, 1.0 / 64,
-                              1.0 / 255, 1.0 / 256, 1.0 / 65535, 10,       100};
+                                 1.0 / 255, 1.0 / 256, 1.0 / 65535, 10,       100};
 /// Depth in m, mm or cm where the camera has another of these units.
 constexpr double kDepthScales[] = {1, 0.001, 1000, 0.01, 100};
 
@@ -47,7 +47,7 @@ struct MapTarget {
 
 /// The value of a map at a pixel of the view by a reading; NaN if it has none there.
 float value_by(const DisparityView& map, const MapReading& reading, const MapTarget& target, int y,
-              int x) {
+               int x) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   const int border = reading.border_px;
   if (y < border || x < border || y >= target.height - border || x >= target.width - border) {
@@ -186,7 +186,7 @@ void apply_reading(const MapReading& reading, const LightField* light_field, Est
   require_possible(reading, light_field, estimate);
   const ViewStack<float>& maps = estimate.field.disparity;
   MapTarget target{reading.is_transposed ? maps.width() : maps.height(),
-                reading.is_transposed ? maps.height() : maps.width()};
+                   reading.is_transposed ? maps.height() : maps.width()};
   if (light_field) target.camera = light_field->info().camera;
   if (reading.border_px > 0) {
     target.height = light_field->height();

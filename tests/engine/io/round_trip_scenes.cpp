@@ -244,6 +244,7 @@ io::FormContents common_contents(const io::FormContents& a, const io::FormConten
   return {.floats = std::min(a.floats, b.floats),
           .disparity = std::min(a.disparity, b.disparity),
           .is_depth = a.is_depth || b.is_depth,
+          .has_origin = a.has_origin && b.has_origin,
           .has_layers = a.has_layers && b.has_layers,
           .labels = std::min(a.labels, b.labels),
           .has_scribbles = a.has_scribbles && b.has_scribbles,

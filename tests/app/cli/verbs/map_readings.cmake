@@ -44,7 +44,7 @@ foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
   json_near("${out}" 0 0.01 results 0 mse_100)
   json_absent("${out}" results 0 better_reading)
   expect("show ${file}" 0 ERR "add ${option}\n" ARGS show ${file} --truth lf.h5 -o ${file}.png)
-  expect("show ${file} as told" 0 ARGS show ${file} --truth lf.h5 -o ${file}.png ${option})
+  expect("show ${file} as told" 0 ARGS show ${file} --truth lf.h5 -o told_${file}.png ${option})
 endforeach()
 
 # A submission says so in its tables.
@@ -63,12 +63,13 @@ if(out MATCHES "far better")
 endif()
 
 # Oblong views leave no doubt.
-expect("oblong views" 0 ARGS synthesize objects -o wide.h5 --views 3x3 --size 64x48)
-expect("their truth" 0 ARGS convert wide.h5 wide.pfm)
+file(MAKE_DIRECTORY "${WORK}/wide")
+expect("oblong views" 0 ARGS synthesize objects -o wide/lf.h5 --views 3x3 --size 64x48)
+expect("their truth" 0 ARGS convert wide wide.pfm)
 expect("on its side" 0 ARGS convert wide.pfm tall.npy --map-transpose)
 expect("evaluate it" 1 ERR "rows and columns are exchanged; add --map-transpose"
-       ARGS evaluate tall.npy --truth wide.h5)
-expect("evaluate it as told" 0 ARGS evaluate tall.npy --truth wide.h5 --map-transpose --json)
+       ARGS evaluate tall.npy --truth wide)
+expect("evaluate it as told" 0 ARGS evaluate tall.npy --truth wide --map-transpose --json)
 json_near("${out}" 0 0.0001 results 0 mse_100)
 
 expect("options without a map" 2 ERR "--map-flip is for the maps of a RESULT"

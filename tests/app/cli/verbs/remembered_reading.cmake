@@ -103,8 +103,8 @@ expect("another focus plane of labels" 1 ERR "with --focus=2, but --focus=0 .*le
 # A submission is judged in the focus plane of its scene, whose name is that of the folder.
 file(MAKE_DIRECTORY "${WORK}/submission")
 file(COPY_FILE "${WORK}/a/far.h5" "${WORK}/submission/a.h5")
-expect("benchmark with a submission" 0 ARGS benchmark a/lf.h5 --methods epi_l -o tables --json
-       --submission submission)
+expect("benchmark with a submission" 0 ERR "^note: submission on a: moved to a focus plane"
+       ARGS benchmark a/lf.h5 --methods epi_l -o tables --json --submission submission)
 json_is("${out}" submission results 1 entry)
 json_near("${out}" 0.1 20 results 1 vmv2013 mse_100)
 
