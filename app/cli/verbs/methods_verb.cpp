@@ -95,8 +95,8 @@ void run_methods(const VerbArguments& arguments, std::stop_token) {
   Arguments parser("methods",
                    {"Lists every estimator in a line, or those that are named with reference and\n"
                     "parameters. Ids are read in any case.",
-                    "episcope-cli methods\n"
-                    "  episcope-cli methods epi_l --json"});
+                    "episcope-cli methods epi_l\n"
+                    "  episcope-cli methods --json"});
   parser.optional_positionals("ID", names, "Methods to tell all of");
   parser.flag("--json", is_json, "Print one JSON object instead of a table");
   if (!parser.parse(arguments)) return;
