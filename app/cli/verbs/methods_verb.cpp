@@ -76,8 +76,8 @@ void run_methods(const VerbArguments& arguments, std::stop_token) {
   Arguments parser("methods",
                    {"Lists every estimator in a line, or those that are named with reference and\n"
                     "parameters, and of a learned one its weights. Ids are read in any case.",
-                    "episcope-cli methods\n"
-                    "  episcope-cli methods epi_l --json"});
+                    "episcope-cli methods net\n"
+                    "  episcope-cli methods --json"});
   parser.optional_positionals("ID", names, "Methods to tell all of");
   parser.flag("--json", is_json, "Print one JSON object instead of a table");
   if (!parser.parse(arguments)) return;

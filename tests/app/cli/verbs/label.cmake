@@ -38,8 +38,12 @@ json_is("${out}" ON probabilities)
 json_is("${out}" lf.h5 source)
 
 foreach(what labels probability uncertainty)
+  set(options --view 0,2)
+  if(what STREQUAL probability)
+    list(APPEND options --label 2)
+  endif()
   expect("show ${what}" 0 OUT "${what}, 96×96 px" ARGS show l.h5 -o ${what}.png --what ${what}
-         --label 2 --view 0,2)
+         ${options})
   expect_file(${what}.png ${png})
 endforeach()
 expect("show by default" 0 OUT "labels, 96×96 px" ARGS show l.h5 -o l.png)

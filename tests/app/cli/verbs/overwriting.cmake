@@ -71,7 +71,7 @@ expect("the same method again" 0 ARGS estimate epi_l a -o a/r.h5 --views center)
 expect("the same by the file" 0 ARGS estimate EPI_L a/lf.h5 -o a/r.h5 --views center)
 expect("parameters at their defaults" 0 ARGS estimate epi_l a -o a/r.h5 --views center --range auto)
 expect("another method when asked" 0 OUT "epi_s" ARGS estimate epi_s a -o a/r.h5 --views center
-       --overwrite)
+       --overwrite -q)
 refused("a/r.pfm: exists and holds something else; .*--overwrite" convert a/r.h5 a/r.pfm)
 expect("a map when asked" 0 ARGS convert a/r.h5 a/r.pfm --overwrite)
 

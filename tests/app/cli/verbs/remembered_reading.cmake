@@ -128,7 +128,7 @@ expect("labels by a flipped result" 0 ERR "other samples[^\n]*; its own were rea
        ARGS label a/lf.h5 -o labels.h5 --disparity a/flip.h5 --trees 4)
 expect("difference from a flipped result" 0
        ERR "a/flip.h5 was read with --flip=u, that of a/plain.h5 was not"
-       ARGS show a/plain.h5 -o d.png --what difference --minus a/flip.h5)
+       ARGS show a/plain.h5 -o other.png --what difference --minus a/flip.h5)
 
 expect("label with a flip" 0 ERR "chosen by hand"
        ARGS label a/lf.h5 -o a/flipped.h5 --features image --trees 4 --flip u)

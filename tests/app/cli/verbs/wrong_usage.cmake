@@ -64,7 +64,7 @@ wrong("benchmark: --search has no effect without --methods" benchmark lf.h5 -o o
 expect_files(. labels.h5 lf.h5 r.h5)
 expect("a row is an EPI" 0 OUT "epi, 48×24 px" ARGS show lf.h5 -o row.png --row 3)
 expect("methods in a line each" 0 OUT "^epi_l +EPI_L +all views  CPU[^\n]*\nepi_s +EPI_S " ARGS methods)
-expect("one method" 0 OUT "^epi_l  EPI_L: [^\n]*\n[^\n]*\n    --range" ARGS methods EPI_L)
+expect("one method" 0 OUT "^epi_l  EPI_L: [^\n]*\n[^\n]*\n    --.*\n    --range" ARGS methods EPI_L)
 expect("two methods as JSON" 0 ARGS methods epi_s Epi_L epi_s --json)
 json_is("${out}" epi_s methods 0 id)
 json_is("${out}" epi_l methods 1 id)
