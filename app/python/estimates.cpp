@@ -34,12 +34,12 @@ FoundEstimate estimate_scene(const OpenedScene& opened, const std::string& metho
                              const py::object& views, const std::string& device, int threads,
                              const py::object& progress, const py::kwargs& parameters) {
   const Estimator& estimator = find_estimator(method);
-  EstimateRequest request{method, parameters_from(parameters, estimator.parameters),
-                          run_options(device, threads)};
-  request.options.views = views_to_estimate(estimator, selection_from(views));
-  require_device(request.options.device, estimator.info);
+  const ParameterSet values = parameters_from(parameters, estimator.parameters);
+  RunOptions options = run_options(device, threads);
+  options.views = views_to_estimate(estimator, selection_from(views));
+  require_device(options.device, estimator.info);
   FinishedEstimate finished = result_of_job(progress, threads, [&](const Progress& job) {
-    return run_estimator(*opened.scene, estimator, request, job);
+    return run_estimator(*opened.scene, estimator, values, options, job);
   });
   return {std::move(finished.estimate), opened};
 }

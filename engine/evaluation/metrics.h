@@ -22,6 +22,8 @@ enum class Protocol {
 };
 
 [[nodiscard]] const char* protocol_name(Protocol protocol);  ///< "vmv2013", "benchmark2016".
+/// Throws InvalidInput naming both.
+[[nodiscard]] Protocol parse_protocol(const std::string& name);
 
 /// How evaluated pixels count where the estimate has no value.
 enum class InvalidEstimates {
