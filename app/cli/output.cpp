@@ -57,10 +57,6 @@ Json view_json(ViewIndex view) {
   return Json::array({view.v, view.u});
 }
 
-Json value_json(const ParameterValue& value) {
-  return io::parameters_json({{"value", value}}).at("value");
-}
-
 std::string time_text(std::int64_t seconds) {
   const std::time_t time = seconds;
   std::tm parts{};

@@ -21,8 +21,6 @@ using Json = nlohmann::ordered_json;
 /// the shortest number that reads back as the same.
 [[nodiscard]] Json interval_json(const Interval& interval);
 [[nodiscard]] Json view_json(ViewIndex view);
-/// A value as in `io::parameters_json`, which writes sets of them.
-[[nodiscard]] Json value_json(const ParameterValue& value);
 /// "2026-11-27T22:43:23Z" of seconds since 1970.
 [[nodiscard]] std::string time_text(std::int64_t seconds);
 /// The one JSON object of an answer, on standard output.

@@ -147,9 +147,9 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   if (!shown.truth.empty()) {
     scene = load_input_of(reading, shown.truth, read, job.progress().part(0, 0.9));
   }
-  auto estimate =
-      std::make_shared<const Estimate>(scene ? read_result_of(*scene->light_field, shown.subject)
-                                             : read_result_alone(shown.subject));
+  auto estimate = std::make_shared<const Estimate>(
+      scene ? read_result_of(*scene->light_field, shown.subject, shown.reading)
+            : read_result_alone(shown.subject, shown.reading));
   if (!scene && needs_scene(shown)) {
     const std::string source = existing_source(estimate->source, shown.subject);
     if (!source.empty()) {
@@ -163,6 +163,8 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
                                                : middle_of(estimate->field.disparity));
   if (scene) {
     note_other_source(*estimate, *scene->light_field, job);
+    const auto better = find_better_reading(*estimate, *scene);
+    if (better) job.note(shown.subject + ": " + better_reading_text(*better));
     take_scene(shown, std::move(*scene), loaded);
   }
   if (shown.quantity == Quantity::Difference) load_other(shown, *estimate, loaded, job);

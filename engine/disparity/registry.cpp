@@ -9,6 +9,7 @@
 #include "engine/disparity/epi_s.h"
 #include "engine/disparity/epi_two_layer.h"
 #include "engine/disparity/kz02.h"
+#include "engine/disparity/net_method.h"
 #include "engine/disparity/plane_pm.h"
 #include "engine/disparity/stereo.h"
 
@@ -32,6 +33,7 @@ const std::vector<Estimator>& registered_estimators() {
       epi_two_layer_estimator(),
       kz02_estimator(),
       plane_pm_estimator(),
+      net_estimator(),
   };
   // clang-format on
   return estimators;

@@ -58,7 +58,7 @@ struct Plan {
 /// A far background out of focus: large soft blobs.
 [[nodiscard]] Texture draw_defocused_texture(Draw draw, double pixel_units, const Detail& detail);
 
-/// A chequered floor: tiles in the plane of what is flat, about 30 px wide.
+/// A checkered floor: tiles in the plane of what is flat, about 30 px wide.
 [[nodiscard]] Texture draw_chequered_texture(Draw draw, double pixel_units, const Detail& detail);
 
 }  // namespace episcope::scenes

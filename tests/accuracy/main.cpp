@@ -41,7 +41,7 @@ void declare(CLI::App& app, Request& request) {
   app.add_option("--param", request.settings,
                  "key=value for all methods that have it, or method.key=value; may be repeated");
   app.add_option("--profile", request.profile, "As --param profile=NAME: paper or tuned");
-  app.add_flag("--center", request.center_only, "Estimate the centre view alone, which is faster");
+  app.add_flag("--center", request.center_only, "Estimate the center view alone, which is faster");
   app.add_flag("--small", request.is_small, "Built-in scenes of 256×256 px instead of 512×512");
   app.add_option("--threads", request.threads, "Number of threads; 0 = one per processor");
   app.add_option("--data", request.data, "Folder that holds the scenes still_life and cotton")

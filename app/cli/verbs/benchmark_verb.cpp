@@ -45,6 +45,7 @@ struct SlurmRequest {
 struct BenchmarkRequest {
   std::vector<std::string> inputs;
   std::vector<std::string> submissions;
+  ParameterOptions map;
   std::optional<std::vector<Estimator>> methods;
   bool has_labels = false;
   std::optional<std::vector<FeatureSet>> features;
@@ -224,6 +225,10 @@ void check(const BenchmarkRequest& request, const Arguments& parser) {
       {{{"--features", "--regularizers", "--scribbles"}, request.has_labels, "without --labels"},
        {{"--task-seconds"}, request.makes_plan(), "without --slurm or --plan"},
        {{"--search", "--profile"}, runs, "without --methods, since no method is run"}});
+  if (!request.map.values().empty() && request.submissions.empty()) {
+    throw UsageError("benchmark: --" + request.map.values().front().first +
+                     " has no effect without --submission; add it");
+  }
   if (!request.inputs.empty()) return;
   if (!request.follows_plan()) {
     throw UsageError("benchmark: INPUT is required; see episcope-cli benchmark --help");
@@ -249,7 +254,7 @@ bool parse_benchmark(const VerbArguments& arguments, BenchmarkRequest& request) 
        "\"--time=1:00:00\""});
   declare_what(parser, request);
   declare_tasks(parser, request);
-  parser.heading("Options");
+  declare_map_options(parser, request.map);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   check(request, parser);
   return true;
@@ -265,6 +270,7 @@ BenchmarkOptions benchmark_options(const BenchmarkRequest& request) {
     method.parameters = with_defaults(std::move(method.parameters), request.profile.values());
   }
   options.submissions.assign(request.submissions.begin(), request.submissions.end());
+  options.map_reading = io::map_schema().parse(request.map.values());
   options.folder = request.output;
   options.views = request.job.run_options().views;
   options.device = request.job.run_options().device;
@@ -502,6 +508,16 @@ void print_answer(const BenchmarkRequest& request, const BenchmarkReport& report
             << " points searched, " << report.reused << " taken from before\n";
 }
 
+/// What is to be known of maps of other programs.
+void note_submissions(const BenchmarkReport& report, Job& job) {
+  for (const auto& result : report.results) {
+    if (!result.is_foreign) continue;
+    for (const std::string& note : result.notes) {
+      job.note(result.entry + " on " + result.scene + ": " + note);
+    }
+  }
+}
+
 // What a scene does to every method is said once.
 void note_problems(const BenchmarkReport& report, Job& job) {
   std::map<std::pair<std::string, std::string>, std::string> entries;  // by scene and problem
@@ -527,6 +543,7 @@ void require_devices(const BenchmarkOptions& options) {
 /// Writes what a benchmark found out, of whatever machines.
 void answer(const BenchmarkRequest& request, const BenchmarkReport& report, Job& job) {
   note_problems(report, job);
+  note_submissions(report, job);
   job.finish();
   require_success(report, request.output);
   print_answer(request, report);

@@ -22,6 +22,7 @@ struct ConvertRequest {
   std::string truth;
   std::string form;  ///< Id of a writer; empty = told by the output.
   Overwrite overwrite = Overwrite::No;
+  ParameterOptions map;
   JobOptions job;
   ReadOptions read;
 };
@@ -41,8 +42,8 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
        "and .npy for a RESULT; an INPUT gives its truth. Views, truth, labels, masks and\n"
        "camera are kept where the form can hold them; notes name what it cannot hold. Labels\n"
        "of the archive form are in OUT_labels.h5, or in labels.h5 beside lf.h5.\n"
-       "A RESULT becomes the truth of its light field. Light fields in a folder are converted\n"
-       "one by one into the folder OUT and keep their names.",
+       "A RESULT takes the place of the truth of its light field; .h5 says so. Light fields\n"
+       "in a folder are converted one by one into the folder OUT and keep their names.",
        "episcope-cli convert demo demo_folder/\n"
        "  episcope-cli convert demo views/ --to grid\n"
        "  episcope-cli convert demo.h5 demo.ply"});
@@ -54,6 +55,7 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
                 "Light field of a RESULT; by default the one named in its file");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace an existing light field, or a map with other values");
+  declare_map_options(parser, request.map);
   return parse_reading(parser, arguments, request.job, request.read);
 }
 
@@ -96,6 +98,7 @@ Target target_of(const ConvertRequest& request) {
 struct ConvertSubject {
   std::optional<Scene> scene;
   std::optional<Estimate> estimate;
+  std::string source;  ///< The INPUT that the estimate was made from; empty = not known.
 
   [[nodiscard]] const DisparityField& field() const {
     return estimate ? estimate->field : scene->truth->field;
@@ -105,20 +108,24 @@ struct ConvertSubject {
 ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
                             const Progress& progress) {
   ConvertSubject subject;
+  const io::MapReading reading = io::map_schema().parse(request.map.values());
   if (request.truth.empty() && !names_result(request.input)) {
+    require_no_map_options(request.map, request.input);
     subject.scene = load_input(request.input, request.read, progress);
     return subject;
   }
   if (request.truth.empty()) {
-    subject.estimate = read_result_alone(request.input);
+    subject.estimate = read_result_alone(request.input, reading);
     const std::string source = existing_source(subject.estimate->source, request.input);
     protect_input(request.output, source);
+    subject.source = source;
     if (target.needs_scene() && !source.empty()) {
       subject.scene = load_input_of(reading_of(request.input), source, request.read, progress);
     }
   } else {
+    subject.source = request.truth;
     subject.scene = load_input_of(reading_of(request.input), request.truth, request.read, progress);
-    subject.estimate = read_result_of(*subject.scene->light_field, request.input);
+    subject.estimate = read_result_of(*subject.scene->light_field, request.input, reading);
   }
   if (target.needs_scene() && !subject.scene) {
     throw IoError(request.input,
@@ -138,7 +145,7 @@ DisparityView map_of(const ConvertSubject& subject, const std::string& name) {
 }
 
 /// The scene to write; the disparity of a result takes the place of the truth.
-Scene scene_to_write(ConvertSubject& subject) {
+Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
   Scene scene = std::move(*subject.scene);
   if (!subject.estimate) return scene;
   auto truth = std::make_shared<GroundTruth>();
@@ -147,6 +154,8 @@ Scene scene_to_write(ConvertSubject& subject) {
   truth->background = std::move(subject.estimate->layered.background);
   if (!scene.truth->labels.empty()) truth->labels = scene.truth->labels.clone();
   truth->regions = scene.truth->regions;
+  truth->estimated = subject.estimate->provenance();
+  truth->estimated->source = source_text(subject.source, output);
   scene.truth = truth;
   return scene;
 }
@@ -168,7 +177,7 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
     write_map(subject, request, target.map);
     return {};
   }
-  const Scene scene = scene_to_write(subject);
+  const Scene scene = scene_to_write(subject, request.output);
   for (const std::string& sentence : io::unsupported_parts(*target.writer, scene))
     job.note(sentence);
   const bool is_archive = std::string(target.writer->id) == "archive";

@@ -88,7 +88,7 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
   parser.option("--memory", request.memory, bytes_value("SIZE"),
                 "Memory for program, light field and method together, such as 4G; by default two "
                 "thirds of what is free. Within it, epi_l, epi_s, epi_c, epi_two_layer, the local "
-                "and denoised stereo methods and plane_pm write their maps block by block to "
+                "and denoised stereo methods, plane_pm and net write their maps block by block to "
                 "OUT.h5.partial, and the same command continues an interrupted run; other methods "
                 "run at once and put on disk what does not fit");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
@@ -123,33 +123,15 @@ std::optional<MapForm> map_form(const std::string& output) {
 }
 
 ViewSelection selected_views(const EstimateArguments& request) {
-  const Estimator& estimator = *request.estimator;
-  const bool can_all = estimator.info.all_views;
-  if (request.is_submission) {
-    if (request.job.run.is_given("views") &&
-        request.job.run_options().views != ViewSelection::Center) {
-      throw UsageError("a submission holds center views; leave out --views");
-    }
-    return ViewSelection::Center;
-  }
-  if (map_form(request.output)) {
-    if (request.job.run.is_given("views") &&
-        request.job.run_options().views != ViewSelection::Center) {
-      throw UsageError(request.output +
-                       " holds the map of one view; leave out --views, or name it OUT.h5");
-    }
-    return ViewSelection::Center;
-  }
-  if (!request.job.run.is_given("views")) {
-    return can_all ? ViewSelection::All : ViewSelection::Center;
-  }
-  const ViewSelection wanted = request.job.run_options().views;
-  if (can_all || wanted == ViewSelection::Center) return wanted;
-  const auto& parameters = estimator.parameters;
-  const bool chooses = std::any_of(parameters.begin(), parameters.end(),
-                                   [](const auto& one) { return one.key == "view"; });
-  throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center" +
-                     (chooses ? ", or --view V,U for another" : ""));
+  std::optional<ViewSelection> wanted;
+  if (request.job.run.is_given("views")) wanted = request.job.run_options().views;
+  const bool is_map = map_form(request.output).has_value();
+  if (!request.is_submission && !is_map) return views_to_estimate(*request.estimator, wanted);
+  if (wanted.value_or(ViewSelection::Center) == ViewSelection::Center) return ViewSelection::Center;
+  throw UsageError(request.is_submission
+                       ? "a submission holds center views; leave out --views"
+                       : request.output +
+                             " holds the map of one view; leave out --views, or name it OUT.h5");
 }
 
 /// For JSON "all", "center" or row and column of the only view; in words for people.
@@ -305,7 +287,8 @@ class Runner {
                                    const Progress& progress) {
     const ViewIndex center = scene.light_field->center();
     const EstimatePtr estimate =
-        run_estimator(scene, *request_.estimator, run, progress.part(0, 0.85)).estimate;
+        run_estimator(scene, *request_.estimator, run.parameters, options_, progress.part(0, 0.85))
+            .estimate;
     progress.step("writing " + task.output);
     if (request_.is_submission) {
       submit(task, *estimate, center);

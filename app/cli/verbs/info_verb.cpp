@@ -49,6 +49,13 @@ void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
                                   {"disparity_center", interval_json(summary.truth->center)},
                                   {"disparity", interval_json(summary.truth->all)}});
   }
+  if (const auto& estimated = scene.truth->estimated) {
+    json["truth_estimated"] =
+        Json::object({{"method", estimated->method},
+                      {"parameters", io::parameters_json(estimated->parameters)},
+                      {"source", estimated->source},
+                      {"version", estimated->version}});
+  }
   if (summary.has_layers) json["truth_layers"] = 2;
   if (!summary.label_ids.empty()) {
     json["labels"] = Json::object({{"views", summary.label_views}, {"ids", summary.label_ids}});
@@ -194,6 +201,9 @@ void print_truth(const Scene& scene, const SceneSummary& summary) {
     print_line("disparity", range_text(*promised) + ", as the files say");
   }
   if (summary.truth) print_true_disparity(*summary.truth);
+  if (const auto& estimated = scene.truth->estimated) {
+    print_line("", "not ground truth: " + estimated_text(*estimated));
+  }
   if (!summary.truth && !summary.has_layers) print_line("truth", "none");
   if (summary.has_layers) print_line("truth", "two layers: foreground and background");
   if (!summary.label_ids.empty()) {

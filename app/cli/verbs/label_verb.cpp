@@ -212,16 +212,7 @@ void print_json_answer(const LabelRequest& request, const LabelAnswer& answer) {
   Json json;
   json["labels"] = labeling.probabilities.ids.size();
   json["seconds"] = seconds;
-  const auto add = [&json](const char* key, const std::optional<double>& share) {
-    if (share) json[key] = *share;
-  };
-  add("accuracy_all_views", scores.all_views.all.share());
-  add("accuracy_center", scores.view.all.share());
-  add("miou", scores.all_views.all.mean_overlap());
-  add("macc", scores.all_views.all.mean_share());
-  add("boundary_accuracy", scores.all_views.boundaries.share());
-  add("thin_iou", scores.all_views.thin_overlap());
-  if (scores.consistency) json["consistency"] = *scores.consistency;
+  for (const auto& [key, share] : labeling_metrics(scores)) json[key] = share;
   if (request.parameters.regularizer != Regularizer::None) json["gap"] = labeling.gap;
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = io::parameters_json(labeler_schema().values(request.parameters));

@@ -3,8 +3,8 @@
 #include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
 #include "app/cli/verbs/verbs.h"
+#include "app/session/command_line.h"
 #include "engine/disparity/registry.h"
-#include "engine/io/base/json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,42 +17,23 @@
 namespace episcope::cli {
 namespace {
 
-Json parameter_json(const ParameterDescription& parameter) {
-  Json json;
-  json["key"] = parameter.key;
-  json["label"] = parameter.label;
-  json["help"] = parameter.help;
-  json["unit"] = parameter.unit;
-  json["default"] = value_json(parameter.default_value);
-  if (!parameter.choices.empty()) json["choices"] = parameter.choices;
-  for (const Preset& preset : parameter.presets) {
-    json["presets"][preset.choice] = io::parameters_json(preset.values);
-  }
-  if (has_numeric_domain(parameter)) {
-    json["min"] = parameter.min;
-    json["max"] = parameter.max;
-  }
-  return json;
-}
-
-Json method_json(const Estimator& method) {
-  Json json;
-  json["id"] = method.info.id;
-  json["name"] = method.info.name;
-  json["summary"] = method.info.summary;
-  json["reference"] = method.info.reference;
-  json["all_views"] = method.info.all_views;
-  json["parameters"] = Json::array();
-  for (const auto& parameter : method.parameters) {
-    json["parameters"].push_back(parameter_json(parameter));
-  }
-  return json;
+std::string weights_text(const std::string& name) {
+  const Json json = weights_json(name);
+  if (json.contains("problem")) return json["problem"].get<std::string>();
+  const auto text_of = [&](const char* key) {
+    return json[key].is_string() ? json[key].get<std::string>() : json[key].dump();
+  };
+  return "version " + text_of("version") + " of " + text_of("date") + ", SHA-256 " +
+         text_of("sha256") + ", " + text_of("file");
 }
 
 void print_method(const Estimator& method) {
   std::cout << method.info.id << "  " << method.info.name << ": " << method.info.summary << "\n  "
             << method.info.reference << (method.info.all_views ? "; all views" : "; one view")
             << '\n';
+  if (!method.info.weights.empty()) {
+    std::cout << "  weights: " << weights_text(method.info.weights) << '\n';
+  }
   for (const auto& parameter : method.parameters) {
     std::cout << "    --" << parameter.key << "  " << parameter.help << " ("
               << domain_text(parameter) << "; default " << to_text(parameter.default_value)
@@ -94,8 +75,8 @@ void run_methods(const VerbArguments& arguments, std::stop_token) {
   std::vector<std::string> names;
   Arguments parser("methods",
                    {"Lists every estimator in a line, or those that are named with reference and\n"
-                    "parameters. Ids are read in any case.",
-                    "episcope-cli methods epi_l\n"
+                    "parameters, and of a learned one its weights. Ids are read in any case.",
+                    "episcope-cli methods net\n"
                     "  episcope-cli methods --json"});
   parser.optional_positionals("ID", names, "Methods to tell all of");
   parser.flag("--json", is_json, "Print one JSON object instead of a table");

@@ -127,6 +127,7 @@ struct ShowRequest {
   std::optional<int> column;
   ShadingChoice shading;
   MovieRequest movie;
+  ParameterOptions maps;          ///< Of a result.
   int longest_px = 0;             ///< Of a picture; 0 = as large as what it shows.
   std::optional<double> opacity;  ///< Over the view; empty = the map by itself.
   Overwrite overwrite = Overwrite::No;
@@ -198,6 +199,10 @@ void complete(ShowRequest& request) {
   request.map.needs_light_field = request.opacity.has_value();
   request.map.kind = kind_of(request);
   request.map.quantity = quantity_of(request);
+  if (request.map.kind != ShownKind::Result) {
+    require_no_map_options(request.maps, request.map.subject);
+  }
+  request.map.reading = io::map_schema().parse(request.maps.values());
   if (request.movie.kind == MovieKind::Flip) request.map.quantity = Quantity::Difference;
   if (request.what.id.empty()) {
     const bool is_of_labels = request.map.kind == ShownKind::Labels;
@@ -267,6 +272,7 @@ bool parse(const VerbArguments& arguments, ShowRequest& request) {
                 "Overlay the map on the view, with an opacity from 0 to 1");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace another picture");
   declare_movie_options(parser, request.movie);
+  declare_map_options(parser, request.maps);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   complete(request);
   parser.check_uses(uses_of(request));

@@ -12,7 +12,6 @@
 #include <QPointer>
 #include <QString>
 
-#include <filesystem>
 #include <functional>
 #include <set>
 
@@ -80,7 +79,7 @@ class AnnotationFiles : public QObject {
 /// Asks for a file, then calls `export_segmentation` for the current view or all views.
 void ask_to_export_segmentation(const Workbench& bench, const SegmentController& segment);
 
-/// Writes labels and probabilities (.h5), or the labels of this view in their colours (.png), in
+/// Writes labels and probabilities (.h5), or the labels of this view in their colors (.png), in
 /// the background. Rejects other suffixes with a message.
 void export_segmentation(const Workbench& bench, const SegmentController& segment,
                          const QString& path);

@@ -37,7 +37,7 @@ Write writer_of(const Workbench& bench, const EstimateEntry& entry,
   const ViewIndex view = bench.session.view();
   if (!result->contains(view)) {
     bench.messages.hint(
-        ResultExportText::tr("%1 has no map of this view: go to the centre view (Home) first.")
+        ResultExportText::tr("%1 has no map of this view: go to the center view (Home) first.")
             .arg(QString::fromStdString(entry.name)));
     return nullptr;
   }
@@ -131,7 +131,7 @@ void submit_result(const Workbench& bench, const EstimateEntry& entry, const QSt
   const ViewIndex center = light_field->center();
   if (!entry.estimate->contains(center)) {
     bench.messages.hint(
-        ResultExportText::tr("%1 has no map of the centre view, which is submitted.")
+        ResultExportText::tr("%1 has no map of the center view, which is submitted.")
             .arg(QString::fromStdString(entry.name)));
     return;
   }

@@ -61,10 +61,10 @@ std::optional<SampleType> sample_type(Hdf5Type type) {
   return std::nullopt;  // decided by the samples
 }
 
-/// "all views" or "the centre view" of a dataset; empty if there is none.
+/// "all views" or "the center view" of a dataset; empty if there is none.
 std::string covered(const Hdf5Input& file, const char* dataset) {
   if (!file.has(dataset)) return {};
-  return file.dataset(dataset).shape.size() > 2 ? "all views" : "the centre view";
+  return file.dataset(dataset).shape.size() > 2 ? "all views" : "the center view";
 }
 
 std::string truth_of(const Hdf5Input& file) {

@@ -24,7 +24,7 @@ void write_archive(const std::filesystem::path& path, const Scene& scene, const 
                                                  const Scene& scene,
                                                  LabelFile labels = LabelFile::Usual);
 
-/// Writes a folder of the 2016 benchmark form: images, cfg, PFM truth of the centre
+/// Writes a folder of the 2016 benchmark form: images, cfg, PFM truth of the center
 /// view and, where known, of all views. Throws IoError (also if the folder holds other files),
 /// Cancelled.
 void write_benchmark_folder(const std::filesystem::path& folder, const Scene& scene,
@@ -40,12 +40,18 @@ inline constexpr const char* kConventionText =
 /// Attribute of the root: x and y of the camera of each view, row by row; and their unit.
 inline constexpr const char* kPositions = "camera_positions";
 inline constexpr const char* kPositionUnit = "camera_position_unit";
-/// Attribute of the root: the pinhole of the centre view: focal length, x and y of its centre in
+/// Attribute of the root: the pinhole of the center view: focal length, x and y of its center in
 /// px.
 inline constexpr const char* kPinhole = "pinhole";
+/// Attributes of GT_DEPTH that is no truth but a result: the method, its parameters (a JSON
+/// object), the light field it was estimated from, and the version of Episcope.
+inline constexpr const char* kEstimatedBy = "estimated_by";
+inline constexpr const char* kEstimateParameters = "parameters";
+inline constexpr const char* kEstimateSource = "source";
+inline constexpr const char* kEstimateVersion = "version";
 /// Dataset `[v][h][y][x]`, uint8: 0 = the pixel holds nothing that was seen.
 inline constexpr const char* kValid = "VALID";
-/// Datasets `[y][x]`, uint8: a region mask of the centre view, whose name follows.
+/// Datasets `[y][x]`, uint8: a region mask of the center view, whose name follows.
 inline constexpr const char* kRegionPrefix = "REGION_";
 
 }  // namespace episcope::io

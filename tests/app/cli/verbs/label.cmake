@@ -1,7 +1,7 @@
 # Painted strokes become labels of all views: label, show of what it wrote, and what it refuses.
 include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
 expect("make a scene" 0 ARGS synthesize objects -o lf.h5 --views 3x3 --size 96x96)
-expect("estimate the centre" 0 ARGS estimate epi_l lf.h5 -o center.h5 --views center)
+expect("estimate the center" 0 ARGS estimate epi_l lf.h5 -o center.h5 --views center)
 
 expect(label 0 ARGS label lf.h5 --scribbles labels.h5 -o l.h5 --features image+truth
        --regularizer rayspace --write-probabilities --json)

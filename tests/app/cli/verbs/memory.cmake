@@ -89,6 +89,10 @@ foreach(method epi_two_layer epi_c)
   expect_continued(${method} small.h5 once/small_${method}.h5 8M 4 40)
 endforeach()
 
+# While corners are estimated, while they are carried.
+expect("at once" 0 ARGS estimate net small.h5 -o once/small_net.h5 -q)
+expect_continued(net small.h5 once/small_net.h5 20M 4 12)
+
 # The samples stay in their file where they are large beside the memory.
 expect("at once" 0 ARGS estimate epi_l large.h5 -o once/epi_l.h5 -q)
 expect("mapped samples" 0 OUT "epi_l of all views" ARGS estimate epi_l large.h5 -o made/epi_l.h5

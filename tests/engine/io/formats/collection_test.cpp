@@ -101,7 +101,7 @@ class CollectionTest : public QObject {
                                    fs::file_size(root() / "a/deep/down/one/labels.h5"));
     QVERIFY(entries[0].modified > 1'500'000'000);
     QCOMPARE(entries[1].probe.truth, std::string("disparity of all views"));
-    QCOMPARE(entries[1].probe.labels, std::string("labels of the centre view"));
+    QCOMPARE(entries[1].probe.labels, std::string("labels of the center view"));
     QCOMPARE(entries[2].probe.grid, (GridShape{2, 4}));
   }
 
