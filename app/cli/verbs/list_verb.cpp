@@ -33,7 +33,8 @@ bool parse(const VerbArguments& arguments, ListRequest& request) {
   Arguments parser(
       "list",
       {"Lists all light fields in and below folders: form, views, size, truth, labels, and\n"
-       "the results next to them. Reads headers only, and remembers them.",
+       "the results next to them. Reads headers only, and remembers them. Pictures that this\n"
+       "program made are no light fields.",
        "episcope-cli list ~/light_fields\n"
        "  episcope-cli list training test --json"});
   parser.positionals("FOLDER", request.folders, "Folders to search");
