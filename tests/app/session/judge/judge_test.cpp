@@ -107,7 +107,7 @@ class JudgeTest : public QObject {
   }
 
   void otherReading_isToldWithNumbersAndOptions() {
-    const auto scene = tiny_scene("slant");
+    const auto scene = tiny_scene("objects");
     const std::filesystem::path file = folder_.filePath("negated.pfm").toStdString();
     const DisparityView truth = scene->truth->field.view(scene->light_field->center());
     Image<float> map(kSide, kSide);
