@@ -20,18 +20,21 @@
 #include <utility>
 #include <vector>
 
+#include <cstdlib>
+#include <cstdio>
 namespace episcope {
 namespace {
+double env(const char* n, double v) { const char* t = std::getenv(n); return t ? std::atof(t) : v; }
 
 // Coherence above which an orientation counts: the first that enough pixels reach. Noise lowers
 // coherence long before it spoils orientations: at 10/255, those above 0.6 still end within 0.3 px
 // of the true range. A higher start would exclude regions that are seen less well than others.
 constexpr std::array<float, 3> kCoherent{0.8F, 0.7F, 0.6F};
 // Share of the pixels that are enough.
-constexpr double kEnoughOrientations = 0.2;
+double kEnoughOrientations = 0.2;
 // Cells side by side that make an end of the range, and those of them left out at either end.
 constexpr int kRun = 4;
-constexpr int kLeftOut = 1;
+int kLeftOut = 1;
 // Rows of the center view looked at; blocks of columns of EPIs that cross them, and how many of
 // these stand side by side.
 constexpr int kRows = 64;
@@ -237,15 +240,17 @@ LightField smaller_views(const LightField& lf, int factor, const Progress& progr
 
 namespace {
 
+// Labels at which pixels are matched, px per view step.
+constexpr double kLabelStep = 0.25;
 // Pixels matched together: 3×3.
 constexpr int kSupportRadius = 1;
 // Beyond it a view does not show the point.
-constexpr double kSupportCap = 0.3;
+double kSupportCap = 0.3;
 // Labels nearer to the best one than that do not compete with it, px per view step.
 constexpr float kApart = 0.75F;
 // The best label costs at most this fraction of the next, and less by this, in samples of [0, 1].
-constexpr float kRatio = 0.8F;
-constexpr float kContrast = 0.004F;
+float kRatio = 0.8F;
+float kContrast = 0.004F;
 
 // Costs of one row, `[label][x]`, averaged over the rows and columns around it.
 class WindowCosts {
@@ -285,21 +290,22 @@ class WindowCosts {
   int height_;
 };
 
-// Into `matches` the label that each pixel of a row distinctly matches.
+// Into `matches` the disparity that each pixel of a row distinctly matches: its best label, moved
+// by the parabola through the costs beside it.
 void find_distinct(const Image<float>& costs, const std::vector<float>& labels,
                    const LightField& lf, int y, float* matches) {
-  const int width = costs.width();
+  const int width = costs.width(), last = costs.height() - 1;
   std::vector<int> best(width);
   std::vector<float> least(costs.row(0), costs.row(0) + width);
   std::vector<float> next(width, std::numeric_limits<float>::infinity());
-  for (int l = 1; l < costs.height(); ++l) {
+  for (int l = 1; l <= last; ++l) {
     const float* const cost = costs.row(l);
     for (int x = 0; x < width; ++x) {
       if (cost[x] < least[x]) best[x] = l;
       least[x] = std::min(least[x], cost[x]);
     }
   }
-  for (int l = 0; l < costs.height(); ++l) {
+  for (int l = 0; l <= last; ++l) {
     const float* const cost = costs.row(l);
     for (int x = 0; x < width; ++x) {
       const bool competes = std::fabs(labels[l] - labels[best[x]]) >= kApart;
@@ -308,15 +314,22 @@ void find_distinct(const Image<float>& costs, const std::vector<float>& labels,
   }
   for (int x = 0; x < width; ++x) {
     const bool is_distinct = least[x] <= kRatio * next[x] && next[x] - least[x] >= kContrast;
-    const bool counts = is_distinct && lf.is_valid(lf.center(), y, x);
-    matches[x] = counts ? labels[best[x]] : std::numeric_limits<float>::quiet_NaN();
+    matches[x] = std::numeric_limits<float>::quiet_NaN();
+    if (!is_distinct || best[x] == 0 || best[x] == last) continue;
+    if (!lf.is_valid(lf.center(), y, x)) continue;
+    const float before = costs.at(best[x] - 1, x), after = costs.at(best[x] + 1, x);
+    const float bend = before - 2 * least[x] + after;
+    const float offset = bend > 0 ? 0.5F * (before - after) / bend : 0;
+    matches[x] = labels[best[x]] + offset * (labels[1] - labels[0]);
   }
 }
 
 }  // namespace
 
-Image<float> distinct_matches(const LightField& lf, const std::vector<int>& rows,
-                              const std::vector<float>& labels, const Progress& progress) {
+Image<float> distinct_matches(const LightField& lf, const std::vector<int>& rows, Interval range,
+                              const Progress& progress) {
+  const int steps = static_cast<int>(std::ceil(range.length() / kLabelStep));
+  const std::vector<float> labels = equidistant_labels(range, std::max(steps, 2) + 1);
   const int count = static_cast<int>(rows.size());
   Image<float> matches(count, lf.width());
   parallel_for_workers(count, progress, [&] {
@@ -330,18 +343,17 @@ Image<float> distinct_matches(const LightField& lf, const std::vector<int>& rows
 namespace {
 
 // The range begins and ends where this share of the confirmed pixels lies close together.
-constexpr double kTail = 0.002;
+double kTail = 0.002;
 // The same of smaller views, whose noise is smaller and whose ends are less exact.
-constexpr double kSmallTail = 0.006;
-// Labels at which pixels are matched, and how far they go beyond the orientations seen.
-constexpr double kLabelStep = 0.25;
+double kSmallTail = 0.006;
+// How far beyond the orientations seen pixels are matched.
 constexpr double kBeyond = 1.5;
-// An orientation is confirmed where its pixel distinctly matches a label within this, px.
-constexpr float kNear = 0.4F;
+// An orientation is confirmed where its pixel distinctly matches a disparity within this, px.
+float kNear = 0.2F;
 // Pixels below which nothing is said.
-constexpr double kLeastPixels = 50;
+double kLeastPixels = 50;
 // What is taken off the ends that smaller views give, pixels of theirs.
-constexpr double kInexact = 0.15;
+double kInexact = 0.15;
 // No range found reaches farther, px per view step.
 constexpr double kMaxDisparity = 16;
 
@@ -353,13 +365,12 @@ std::optional<DisparityHistogram> confirmed(const LightField& lf, const std::vec
                                             float coherence, double limit, Interval seen,
                                             const Progress& progress) {
   const Interval range{seen.min - kBeyond, seen.max + kBeyond};
-  const int count = static_cast<int>(std::ceil(range.length() / kLabelStep)) + 1;
-  const Image<float> matches =
-      distinct_matches(lf, rows, equidistant_labels(range, count), progress);
-  if (std::ranges::all_of(matches, [](float label) { return std::isnan(label); })) return {};
+  const Image<float> matches = distinct_matches(lf, rows, range, progress);
+  if (std::ranges::all_of(matches, [](float match) { return std::isnan(match); })) return {};
   DisparityHistogram histogram(limit);
   for_each_coherent(directions, coherence, [&](int row, int x, float disparity) {
-    if (std::fabs(disparity - matches.at(row, x)) <= kNear) histogram.add(disparity);
+    const float match = matches.at(row, x);
+    if (std::fabs(disparity - match) <= kNear) histogram.add(disparity + env("w", 0.5) * (match - disparity));
   });
   return histogram;
 }
@@ -382,6 +393,11 @@ std::optional<Interval> confirmed_range(const LightField& lf, double limit, doub
   if (!seen || all.total() < kLeastPixels) return {};
   const std::optional<DisparityHistogram> kept =
       confirmed(lf, rows, directions, coherence, limit, *seen, progress.part(0.8, 1));
+  if (env("DBG", 0) > 0) {
+    std::fprintf(stderr, "limit %.2f coherence %.1f all %.0f seen %.2f..%.2f kept %.0f", limit, coherence, all.total(), seen->min, seen->max, kept ? kept->total() : -1.0);
+    if (kept && kept->ends(tail)) std::fprintf(stderr, " %.2f..%.2f", kept->ends(tail)->min, kept->ends(tail)->max);
+    std::fprintf(stderr, "\n");
+  }
   if (!kept) return seen;
   if (kept->total() < kLeastPixels) return {};
   return kept->ends(tail);
@@ -423,7 +439,7 @@ class KeptRange {
 
 // An end that is hardly farther out is the same end, less exact.
 Interval widened(Interval range, Interval coarse) {
-  constexpr double worth = 0.25;
+  const double worth = env("worth", 0.25);
   if (coarse.min < range.min - worth) range.min = coarse.min;
   if (coarse.max > range.max + worth) range.max = coarse.max;
   return range;
@@ -448,7 +464,23 @@ std::string limited_range_note(const LightField& lf, Interval range) {
       range.min, range.max, limit);
 }
 
+namespace {
+void refresh() {
+  kEnoughOrientations = static_cast<double>(env("kEnoughOrientations", 0.2));
+  kLeftOut = static_cast<int>(env("kLeftOut", 1));
+  kSupportCap = static_cast<double>(env("kSupportCap", 0.3));
+  kRatio = static_cast<float>(env("kRatio", 0.8F));
+  kContrast = static_cast<float>(env("kContrast", 0.004F));
+  kTail = static_cast<double>(env("kTail", 0.002));
+  kSmallTail = static_cast<double>(env("kSmallTail", 0.006));
+  kNear = static_cast<float>(env("kNear", 0.2F));
+  kLeastPixels = static_cast<double>(env("kLeastPixels", 50));
+  kInexact = static_cast<double>(env("kInexact", 0.15));
+}
+}
+
 Interval find_disparity_range(const LightField& lf, const Progress& progress) {
+  refresh();
   const double limit = farthest_found(lf);
   std::optional<Interval> found = confirmed_range(lf, limit, kTail, progress.part(0, 0.6));
   for (const int factor : {2, 4}) {

@@ -46,14 +46,13 @@ enum class ReducedViews { CrossHair, All };
                                        const Progress& progress,
                                        ReducedViews reduced = ReducedViews::CrossHair);
 
-/// The label (disparity, px per view step) that pixels of some rows of the center view distinctly
-/// match, `[row][x]`: that at which 3×3 px match the views of the center's row and column much
-/// better than at any label 0.75 px or more away. NaN where there is none: a repeated pattern suits
-/// several labels, and what noise alone suits is not much better than the next. Throws Cancelled,
+/// The disparity in `range`, px per view step, that pixels of some rows of the center view
+/// distinctly match, `[row][x]`: where 3×3 px match the views of the center's row and column much
+/// better than 0.75 px or more away. NaN where there is none: a repeated pattern suits several
+/// disparities, and what noise alone suits is not much better than the next. Throws Cancelled,
 /// InvalidInput for a single view.
 [[nodiscard]] Image<float> distinct_matches(const LightField& light_field,
-                                            const std::vector<int>& rows,
-                                            const std::vector<float>& labels,
+                                            const std::vector<int>& rows, Interval range,
                                             const Progress& progress);
 
 /// Where a range to search comes from.
@@ -84,12 +83,11 @@ inline constexpr const char* kRangeHelp =
 
 /// Estimates the range by a coarse, robust pass over 64 rows of the center view. A pixel tells a
 /// disparity if two estimates of it agree: the orientation of one of its EPIs, by the structure
-/// tensor, sheared in whole pixels over ±16 px or a sixth of the image, and the label that it
-/// distinctly matches in the views of both directions (distinct_matches). The range is the span
-/// between the first and the last disparities that hold a small fraction of these pixels
-/// (DisparityHistogram). The same at half and a quarter of the size (smaller_views), which shows
-/// what noise or blur hide, may widen the range. A light field without texture gives [−1, 1].
-/// Throws Cancelled.
+/// tensor, sheared in whole pixels over ±16 px or a sixth of the image, and what it distinctly
+/// matches in the views of both directions (distinct_matches). The range is the span between the
+/// first and the last disparities that hold a small fraction of these pixels (DisparityHistogram).
+/// The same at half and a quarter of the size (smaller_views), which shows what noise or blur hide,
+/// may widen the range. A light field without texture gives [−1, 1]. Throws Cancelled.
 [[nodiscard]] Interval find_disparity_range(const LightField& light_field,
                                             const Progress& progress);
 

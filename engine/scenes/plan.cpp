@@ -130,7 +130,7 @@ void make_aliased(Plan& plan, Draw& draw) {
 void make_faint(Plan& plan, Draw& draw) {
   plan.range.min = draw.between(-3.2, -1.2);
   plan.range.max = draw.between(1.2, 2.8);
-  plan.objects = draw.integer(1, 4);
+  plan.objects = draw.integer(3, 6);
   plan.finishes = {0.7, 0.15, 0.1, 0.05};
   plan.has_ground = plan.is_defocused = plan.has_moving_highlights = false;
   plan.is_faint = plan.is_lit = true;
