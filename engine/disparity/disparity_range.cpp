@@ -20,21 +20,18 @@
 #include <utility>
 #include <vector>
 
-#include <cstdlib>
-#include <cstdio>
 namespace episcope {
 namespace {
-double env(const char* n, double v) { const char* t = std::getenv(n); return t ? std::atof(t) : v; }
 
 // Coherence above which an orientation counts: the first that enough pixels reach. Noise lowers
 // coherence long before it spoils orientations: at 10/255, those above 0.6 still end within 0.3 px
 // of the true range. A higher start would exclude regions that are seen less well than others.
 constexpr std::array<float, 3> kCoherent{0.8F, 0.7F, 0.6F};
 // Share of the pixels that are enough.
-double kEnoughOrientations = 0.2;
+constexpr double kEnoughOrientations = 0.2;
 // Cells side by side that make an end of the range, and those of them left out at either end.
 constexpr int kRun = 4;
-int kLeftOut = 1;
+constexpr int kLeftOut = 1;
 // Rows of the center view looked at; blocks of columns of EPIs that cross them, and how many of
 // these stand side by side.
 constexpr int kRows = 64;
@@ -245,12 +242,12 @@ constexpr double kLabelStep = 0.25;
 // Pixels matched together: 3×3.
 constexpr int kSupportRadius = 1;
 // Beyond it a view does not show the point.
-double kSupportCap = 0.3;
+constexpr double kSupportCap = 0.3;
 // Labels nearer to the best one than that do not compete with it, px per view step.
 constexpr float kApart = 0.75F;
 // The best label costs at most this fraction of the next, and less by this, in samples of [0, 1].
-float kRatio = 0.8F;
-float kContrast = 0.004F;
+constexpr float kRatio = 0.8F;
+constexpr float kContrast = 0.004F;
 
 // Costs of one row, `[label][x]`, averaged over the rows and columns around it.
 class WindowCosts {
@@ -343,17 +340,17 @@ Image<float> distinct_matches(const LightField& lf, const std::vector<int>& rows
 namespace {
 
 // The range begins and ends where this share of the confirmed pixels lies close together.
-double kTail = 0.002;
+constexpr double kTail = 0.002;
 // The same of smaller views, whose noise is smaller and whose ends are less exact.
-double kSmallTail = 0.006;
+constexpr double kSmallTail = 0.006;
 // How far beyond the orientations seen pixels are matched.
 constexpr double kBeyond = 1.5;
 // An orientation is confirmed where its pixel distinctly matches a disparity within this, px.
-float kNear = 0.2F;
+constexpr float kNear = 0.2F;
 // Pixels below which nothing is said.
-double kLeastPixels = 50;
+constexpr double kLeastPixels = 50;
 // What is taken off the ends that smaller views give, pixels of theirs.
-double kInexact = 0.15;
+constexpr double kInexact = 0.15;
 // No range found reaches farther, px per view step.
 constexpr double kMaxDisparity = 16;
 
@@ -370,7 +367,7 @@ std::optional<DisparityHistogram> confirmed(const LightField& lf, const std::vec
   DisparityHistogram histogram(limit);
   for_each_coherent(directions, coherence, [&](int row, int x, float disparity) {
     const float match = matches.at(row, x);
-    if (std::fabs(disparity - match) <= kNear) histogram.add(disparity + env("w", 0.5) * (match - disparity));
+    if (std::fabs(disparity - match) <= kNear) histogram.add((disparity + match) / 2);
   });
   return histogram;
 }
@@ -393,11 +390,6 @@ std::optional<Interval> confirmed_range(const LightField& lf, double limit, doub
   if (!seen || all.total() < kLeastPixels) return {};
   const std::optional<DisparityHistogram> kept =
       confirmed(lf, rows, directions, coherence, limit, *seen, progress.part(0.8, 1));
-  if (env("DBG", 0) > 0) {
-    std::fprintf(stderr, "limit %.2f coherence %.1f all %.0f seen %.2f..%.2f kept %.0f", limit, coherence, all.total(), seen->min, seen->max, kept ? kept->total() : -1.0);
-    if (kept && kept->ends(tail)) std::fprintf(stderr, " %.2f..%.2f", kept->ends(tail)->min, kept->ends(tail)->max);
-    std::fprintf(stderr, "\n");
-  }
   if (!kept) return seen;
   if (kept->total() < kLeastPixels) return {};
   return kept->ends(tail);
@@ -439,7 +431,7 @@ class KeptRange {
 
 // An end that is hardly farther out is the same end, less exact.
 Interval widened(Interval range, Interval coarse) {
-  const double worth = env("worth", 0.25);
+  constexpr double worth = 0.25;
   if (coarse.min < range.min - worth) range.min = coarse.min;
   if (coarse.max > range.max + worth) range.max = coarse.max;
   return range;
@@ -464,23 +456,7 @@ std::string limited_range_note(const LightField& lf, Interval range) {
       range.min, range.max, limit);
 }
 
-namespace {
-void refresh() {
-  kEnoughOrientations = static_cast<double>(env("kEnoughOrientations", 0.2));
-  kLeftOut = static_cast<int>(env("kLeftOut", 1));
-  kSupportCap = static_cast<double>(env("kSupportCap", 0.3));
-  kRatio = static_cast<float>(env("kRatio", 0.8F));
-  kContrast = static_cast<float>(env("kContrast", 0.004F));
-  kTail = static_cast<double>(env("kTail", 0.002));
-  kSmallTail = static_cast<double>(env("kSmallTail", 0.006));
-  kNear = static_cast<float>(env("kNear", 0.2F));
-  kLeastPixels = static_cast<double>(env("kLeastPixels", 50));
-  kInexact = static_cast<double>(env("kInexact", 0.15));
-}
-}
-
 Interval find_disparity_range(const LightField& lf, const Progress& progress) {
-  refresh();
   const double limit = farthest_found(lf);
   std::optional<Interval> found = confirmed_range(lf, limit, kTail, progress.part(0, 0.6));
   for (const int factor : {2, 4}) {

@@ -11,9 +11,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <functional>
 
 namespace {
@@ -154,25 +151,6 @@ void print_ranges(const Request& request) {
   print_head(request, ranges_head());
   for_each_scene(request,
                  [&](const std::string& group, const std::string& name, const Scene& scene) {
-                   if (const char* t = std::getenv("VARIANTS")) {
-                     std::ifstream in(t);
-                     std::string line;
-                     while (std::getline(in, line)) {
-                       std::istringstream words(line);
-                       std::string w;
-                       std::vector<std::string> keys;
-                       while (words >> w) {
-                         keys.push_back(w.substr(0, w.find('=')));
-                         setenv(keys.back().c_str(), w.substr(w.find('=') + 1).c_str(), 1);
-                       }
-                       FoundRange found = find_range(scene, Progress(request.threads));
-                       for (auto& k : keys) unsetenv(k.c_str());
-                       found.group = line;
-                       found.scene = name;
-                       print(ranges_row(found));
-                     }
-                     return;
-                   }
                    FoundRange found = find_range(scene, Progress(request.threads));
                    found.group = group;
                    found.scene = name;
