@@ -127,6 +127,17 @@ void make_aliased(Plan& plan, Draw& draw) {
   plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(0, 2));
 }
 
+void make_faint(Plan& plan, Draw& draw) {
+  plan.range.min = draw.between(-3.2, -1.2);
+  plan.range.max = draw.between(1.2, 2.8);
+  plan.objects = draw.integer(3, 6);
+  plan.finishes = {0.7, 0.15, 0.1, 0.05};
+  plan.has_ground = plan.is_defocused = plan.has_moving_highlights = false;
+  plan.is_faint = plan.is_lit = true;
+  plan.sensor = {};
+  plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(1, 2));
+}
+
 }  // namespace
 
 Plan draw_plan(Draw draw, RandomKind kind) {
@@ -169,6 +180,9 @@ Plan draw_plan(Draw draw, RandomKind kind) {
       break;
     case RandomKind::Aliased:
       make_aliased(plan, draw);
+      break;
+    case RandomKind::Faint:
+      make_faint(plan, draw);
       break;
   }
   return plan;
@@ -271,6 +285,16 @@ Texture draw_defocused_texture(Draw draw, double pixel_units, const Detail& deta
   const unsigned seed = draw.bits();
   const std::array<float, 3> color = draw_color(draw);
   return noise_texture(blur * pixel_units, seed, color, static_cast<float>(0.6 * detail.contrast));
+}
+
+Texture draw_faint_texture(Draw draw, double pixel_units) {
+  const double coarseness = draw.between(1, 2.5);
+  const double brightness = draw.between(0.04, 0.12);
+  const double contrast = draw.between(0.02, 0.06);
+  const unsigned seed = draw.bits();
+  std::array<float, 3> color{};
+  for (float& channel : color) channel = static_cast<float>(brightness * draw.between(0.8, 1.2));
+  return noise_texture(coarseness * pixel_units, seed, color, static_cast<float>(contrast));
 }
 
 Texture draw_chequered_texture(Draw draw, double pixel_units, const Detail& detail) {

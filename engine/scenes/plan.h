@@ -37,6 +37,7 @@ struct Plan {
   bool has_layers = false;    ///< Bars before flat layers instead of objects in a room.
   bool is_furnished = false;  ///< What stands in every room, instead of drawn ones.
   bool is_defocused = false;  ///< The background.
+  bool is_faint = false;      ///< The background: dark, and of little contrast.
   Detail detail;
   bool is_lit = true;
   bool has_moving_highlights = false;
@@ -57,6 +58,9 @@ struct Plan {
 
 /// A far background out of focus: large soft blobs.
 [[nodiscard]] Texture draw_defocused_texture(Draw draw, double pixel_units, const Detail& detail);
+
+/// A dark background of little contrast: a few grey levels.
+[[nodiscard]] Texture draw_faint_texture(Draw draw, double pixel_units);
 
 /// A checkered floor: tiles in the plane of what is flat, about 30 px wide.
 [[nodiscard]] Texture draw_chequered_texture(Draw draw, double pixel_units, const Detail& detail);

@@ -6,9 +6,9 @@
 namespace episcope::scenes {
 
 const std::vector<std::string>& random_kind_names() {
-  static const std::vector<std::string> names = {"any",   "occlusion", "dark",   "thin",
-                                                 "plain", "periodic",  "shiny",  "uneven",
-                                                 "noisy", "room",      "smooth", "aliased"};
+  static const std::vector<std::string> names = {
+      "any",    "occlusion", "dark", "thin",   "plain",   "periodic", "shiny",
+      "uneven", "noisy",     "room", "smooth", "aliased", "faint"};
   return names;
 }
 

@@ -9,7 +9,7 @@ namespace episcope::scenes {
 
 /// Kind of a random scene; most isolate one weakness of methods.
 enum class RandomKind {
-  Any,        ///< A mixture of those below, but for the last three.
+  Any,        ///< A mixture of those below, but for the last four.
   Occlusion,  ///< Bars before textured layers, steps up to 1.5 px, noise growing downwards.
   Dark,       ///< Little light, disparities of ±3.1 px.
   Thin,       ///< Bars, lattices and leaves.
@@ -21,7 +21,8 @@ enum class RandomKind {
   Room,       ///< Furniture, a lattice of thin bars, a patterned wall, a checkered floor.
   Smooth,     ///< Large folded, curved and slanted surfaces of weak texture, noise of 0 to 2/255.
   /// Detail finer than pixels, which see only a part of their square or a single point of it.
-  Aliased
+  Aliased,
+  Faint  ///< Few things before a large dark wall of faint texture, noise of 1 to 2/255.
 };
 
 /// All kinds as they are written, in the order of the enumeration.

@@ -124,14 +124,17 @@ double Backdrop::disparity_at(double x, double y) const {
   return ground_ ? std::max(wall, on(*ground_, x, y)) : wall;
 }
 
+Texture wall_texture(const Plan& plan, double pixel_units, Draw& draw) {
+  if (plan.is_faint) return draw_faint_texture(draw.part(0), pixel_units);
+  if (plan.is_defocused) return draw_defocused_texture(draw.part(0), pixel_units, plan.detail);
+  const Finish finish = plan.is_furnished ? Finish::Periodic : draw_finish(plan, draw);
+  return draw_texture(draw.part(0), finish, pixel_units, plan.detail);
+}
+
 int Backdrop::build(Model& model, const Plan& plan, Draw draw) const {
   Primitive wall = surface(stage_, wall_, 1);
   const double far_pixel = pixel_units(stage_, wall_.center);
-  Texture texture = plan.is_defocused ? draw_defocused_texture(draw.part(0), far_pixel, plan.detail)
-                                      : draw_texture(draw.part(0),
-                                                     plan.is_furnished ? Finish::Periodic
-                                                                       : draw_finish(plan, draw),
-                                                     far_pixel, plan.detail);
+  Texture texture = wall_texture(plan, far_pixel, draw);
   texture.is_solid = false;
   wall.texture = model.add(texture);
   model.primitives.push_back(wall);

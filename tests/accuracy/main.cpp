@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "tests/accuracy/ablation.h"
 #include "tests/accuracy/means.h"
+#include "tests/accuracy/ranges.h"
 #include "tests/accuracy/scene_sets.h"
 #include "tests/accuracy/variant.h"
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 
 namespace {
 
@@ -25,7 +27,9 @@ struct Request {
   std::string data;
   std::string ablation;
   std::string sets = EPISCOPE_SCENE_SETS;
-  bool is_small = false;
+  bool is_ranges = false;
+  bool is_twice = false;
+  int size = 512;
   bool center_only = false;
   int threads = 0;
 };
@@ -42,7 +46,13 @@ void declare(CLI::App& app, Request& request) {
                  "key=value for all methods that have it, or method.key=value; may be repeated");
   app.add_option("--profile", request.profile, "As --param profile=NAME: paper or tuned");
   app.add_flag("--center", request.center_only, "Estimate the center view alone, which is faster");
-  app.add_flag("--small", request.is_small, "Built-in scenes of 256×256 px instead of 512×512");
+  app.add_flag("--small{256}", request.size, "Built-in scenes of 256×256 px instead of 512×512");
+  app.add_option("--size", request.size, "Side of the built-in scenes, px")
+      ->check(CLI::Range(16, 4096));
+  app.add_flag("--ranges", request.is_ranges,
+               "Instead, the ranges that are found from the images, beside those of the truth");
+  app.add_flag("--twice", request.is_twice,
+               "Instead, errors with the true range beside those with twice the range");
   app.add_option("--threads", request.threads, "Number of threads; 0 = one per processor");
   app.add_option("--data", request.data, "Folder that holds the scenes still_life and cotton")
       ->envname("EPISCOPE_SHARED_DATA")
@@ -59,46 +69,107 @@ void print(const std::string& text) {
   std::fflush(stdout);
 }
 
-// A method that refuses a scene is told of and left out of the means.
-void measure_all(const std::string& group, const std::string& name, const Scene& scene,
-                 const Request& request, const std::vector<Variant>& variants,
-                 std::vector<Measurement>& measurements) {
-  const auto views = request.center_only ? ViewSelection::Center : ViewSelection::All;
-  for (const Variant& variant : variants) {
-    try {
-      Measurement measured =
-          measure(name, scene, variant.estimator, variant.values, views, Progress(request.threads));
-      measured.group = group;
-      print(table_row(measured));
-      measurements.push_back(std::move(measured));
-    } catch (const Error& error) {
-      std::fprintf(stderr, "%s, %s: %s\n", name.c_str(), variant.estimator.info.name.c_str(),
-                   error.what());
-    }
-  }
-}
+using TakeScene =
+    std::function<void(const std::string& group, const std::string& name, const Scene& scene)>;
 
-void run(Request request) {
-  if (!request.profile.empty()) request.settings.push_back("profile=" + request.profile);
-  const std::vector<Variant> methods = variants(request.methods, request.settings);
+// Hands out the scenes asked for, one after the other, and tells of those that are not there.
+void for_each_scene(const Request& request, const TakeScene& take) {
   const std::vector<SceneSet> sets = read_scene_sets(request.sets);
   const SceneSet set =
       scenes_with(*std::ranges::find(sets, request.set, &SceneSet::name), request.scenes);
-  const int size = request.is_small ? 256 : 512;
-  std::vector<Measurement> measurements;
-  print("Set of scenes: " + set.name + "; built-in ones of 9×9 views of " + std::to_string(size) +
-        "×" + std::to_string(size) + " px.\n\n" + table_head());
   for (const SceneGroup& group : set.groups) {
     for (const std::string& name : group.scenes) {
-      const auto scene = open_scene_of_set(name, size, request.data, Progress(request.threads));
+      const auto scene =
+          open_scene_of_set(name, request.size, request.data, Progress(request.threads));
       if (scene) {
-        measure_all(set.name + ", " + group.name, name, *scene, request, methods, measurements);
+        take(set.name + ", " + group.name, name, *scene);
       } else {
         std::fprintf(stderr, "%s is left out: it is not in the folder --data\n", name.c_str());
       }
     }
   }
-  print("\n" + means_table(means_of(measurements, set.name + ", all")));
+}
+
+void print_head(const Request& request, const std::string& head) {
+  const std::string size = std::to_string(request.size);
+  print("Set of scenes: " + request.set + "; built-in ones of 9×9 views of " + size + "×" + size +
+        " px.\n\n" + head);
+}
+
+// Calls `measure_one(name, scene, variant)` for each scene and method. A method that refuses a
+// scene is told of and left out of the means.
+template <class MeasureOne>
+void measure_all(const Request& request, const MeasureOne& measure_one) {
+  const std::vector<Variant> methods = variants(request.methods, request.settings);
+  for_each_scene(request,
+                 [&](const std::string& group, const std::string& name, const Scene& scene) {
+                   for (const Variant& variant : methods) {
+                     try {
+                       measure_one(group, name, scene, variant);
+                     } catch (const Error& error) {
+                       std::fprintf(stderr, "%s, %s: %s\n", name.c_str(),
+                                    variant.estimator.info.name.c_str(), error.what());
+                     }
+                   }
+                 });
+}
+
+ViewSelection views_of(const Request& request) {
+  return request.center_only ? ViewSelection::Center : ViewSelection::All;
+}
+
+void print_errors(const Request& request) {
+  std::vector<Measurement> measurements;
+  print_head(request, table_head());
+  measure_all(request, [&](const std::string& group, const std::string& name, const Scene& scene,
+                           const Variant& variant) {
+    Measurement measured = measure(name, scene, variant.estimator, variant.values,
+                                   views_of(request), Progress(request.threads));
+    measured.group = group;
+    print(table_row(measured));
+    measurements.push_back(std::move(measured));
+  });
+  print("\n" + means_table(means_of(measurements, request.set + ", all")));
+}
+
+void print_twice(const Request& request) {
+  std::vector<TwiceRange> errors;
+  print_head(request, twice_head());
+  measure_all(request, [&](const std::string& group, const std::string& name, const Scene& scene,
+                           const Variant& variant) {
+    TwiceRange measured = measure_twice(name, scene, variant.estimator, variant.values,
+                                        views_of(request), Progress(request.threads));
+    measured.once.group = group;
+    print(twice_row(measured));
+    errors.push_back(std::move(measured));
+  });
+  print("\n" + twice_summary(errors));
+}
+
+void print_ranges(const Request& request) {
+  std::vector<FoundRange> ranges;
+  print_head(request, ranges_head());
+  for_each_scene(request,
+                 [&](const std::string& group, const std::string& name, const Scene& scene) {
+                   FoundRange found = find_range(scene, Progress(request.threads));
+                   found.group = group;
+                   found.scene = name;
+                   print(ranges_row(found));
+                   ranges.push_back(std::move(found));
+                 });
+  print("\n" + ranges_summary(ranges));
+}
+
+void run(const Request& request) {
+  if (!request.ablation.empty()) {
+    run_ablation(read_ablation(request.ablation), print, Progress(request.threads));
+  } else if (request.is_ranges) {
+    print_ranges(request);
+  } else if (request.is_twice) {
+    print_twice(request);
+  } else {
+    print_errors(request);
+  }
 }
 
 }  // namespace
@@ -109,11 +180,8 @@ int main(int argc, char** argv) {
   declare(app, request);
   CLI11_PARSE(app, argc, argv);
   try {
-    if (!request.ablation.empty()) {
-      run_ablation(read_ablation(request.ablation), print, Progress(request.threads));
-      return 0;
-    }
-    run(std::move(request));
+    if (!request.profile.empty()) request.settings.push_back("profile=" + request.profile);
+    run(request);
   } catch (const Error& error) {
     std::fprintf(stderr, "episcope_accuracy: %s\n", error.what());
     return 1;

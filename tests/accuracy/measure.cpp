@@ -15,7 +15,10 @@ double metric(const Evaluation& evaluation, const char* key) {
   return find_metric(evaluation.metrics, key).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-Interval range_of(const DisparityView& view) {
+}  // namespace
+
+Interval true_range(const Scene& scene) {
+  const DisparityView view = scene.truth->field.view(scene.light_field->center());
   Interval range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
   for (int y = 0; y < view.disparity.height; ++y) {
     for (int x = 0; x < view.disparity.width; ++x) {
@@ -26,8 +29,6 @@ Interval range_of(const DisparityView& view) {
   }
   return range;
 }
-
-}  // namespace
 
 Measurement measure(const std::string& name, const Scene& scene, const Estimator& estimator,
                     const ParameterSet& values, ViewSelection views, const Progress& progress) {
@@ -49,7 +50,7 @@ Measurement measure(const std::string& name, const Scene& scene, const Estimator
   result.seconds = estimate.seconds;
   result.views = estimate.field.disparity.grid().count();
   result.range = estimate.range;
-  result.truth = range_of(scene.truth->field.view(center));
+  result.truth = true_range(scene);
   return result;
 }
 

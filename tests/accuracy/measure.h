@@ -23,6 +23,9 @@ struct Measurement {
   Interval truth;  ///< and that is there.
 };
 
+/// From the least to the largest true disparity of the center view, which the scene must have.
+[[nodiscard]] Interval true_range(const Scene& scene);
+
 /// Runs `estimator` with `values` over its defaults for all views if it can, or for the center view
 /// alone. The scene must have truth for its center view. Throws as the estimator.
 [[nodiscard]] Measurement measure(const std::string& name, const Scene& scene,

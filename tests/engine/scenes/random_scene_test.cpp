@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/scenes/builtin.h"
 #include "engine/scenes/random_scene.h"
+#include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 
 #include <algorithm>
@@ -235,6 +235,25 @@ class RandomSceneTest : public QObject {
   void aliased_hasDiscontinuitiesAllTheSame() {
     const Scene scene = render(1, RandomKind::Aliased, {1, 1}, 96);
     QVERIFY(scene.truth->regions.contains("discontinuities"));
+  }
+
+  void faint_isMostlyADarkWall() {
+    for (unsigned seed = 0; seed < 6; ++seed) {
+      const Scene scene = render(seed, RandomKind::Faint, {1, 1}, 96);
+
+      const auto& labels = scene.truth->labels;
+      const Image<float> view = scene.light_field->view_as_float(scene.light_field->center());
+      std::size_t wall = 0;
+      double sum = 0;
+      for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels.data()[i] != 1) continue;
+        ++wall;
+        sum += view.data()[3 * i + 1];
+      }
+      const double share = static_cast<double>(wall) / static_cast<double>(labels.size());
+      QVERIFY2(share > 0.3, qPrintable(QString("seed %1: %2").arg(seed).arg(share)));
+      QVERIFY(sum / static_cast<double>(wall) < 0.2);
+    }
   }
 
   void shiny_hasHighlightsThatMove() {

@@ -53,7 +53,7 @@ class RequestTest : public QObject {
       const auto request = read_request("random?kind=" + names[i]);
       QCOMPARE(static_cast<std::size_t>(request.options.kind), i);
     }
-    QCOMPARE(names.size(), static_cast<std::size_t>(RandomKind::Aliased) + 1);
+    QCOMPARE(names.size(), static_cast<std::size_t>(RandomKind::Faint) + 1);
   }
 
   void badRequests_sayWhatIsPossible_data() {
