@@ -36,7 +36,7 @@ constexpr int kLeftOut = 1;
 // these stand side by side.
 constexpr int kRows = 64;
 constexpr int kBlocks = 12;
-constexpr int kBlockColumns = 16;
+constexpr int kSupportColumns = 16;
 
 // How many cells lie before the first run of kRun that holds enough; all if none does.
 template <class Iterator>
@@ -128,7 +128,7 @@ Orientations look_along_columns(const LightField& lf, const std::vector<int>& ro
   constexpr auto direction = StructureTensor::Direction::Vertical;
   const TensorSearch search = cover_range({-limit, limit}, 2);
   const TensorExtent largest = StructureTensor::largest_task(lf, direction, coarse_scales());
-  const int columns = std::min({kBlockColumns, largest.width, lf.width()});
+  const int columns = std::min({kSupportColumns, largest.width, lf.width()});
   const int blocks = std::min((lf.width() + columns - 1) / columns, kBlocks);
   std::vector<int> row_at(lf.height(), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) row_at[rows[i]] = static_cast<int>(i);

@@ -32,7 +32,7 @@ Interval true_range(const Scene& scene) {
   return range;
 }
 
-// Of the pixels of the centre view.
+// Of the pixels of the center view.
 double share_within(const Scene& scene, Interval range) {
   const DisparityView truth = scene.truth->field.view(scene.light_field->center());
   int count = 0;
