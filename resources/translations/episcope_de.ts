@@ -205,7 +205,7 @@
     </message>
     <message>
         <source>label color</source>
-        <translation type="unfinished"></translation>
+        <translation>Farbe des Labels</translation>
     </message>
 </context>
 <context>
@@ -363,7 +363,7 @@
     </message>
     <message>
         <source>Archive labels or pictures of strokes (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm);;All files (*)</source>
-        <translation type="unfinished"></translation>
+        <translation>Labels im Archivformat oder Bilder von Strichen (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm);;Alle Dateien (*)</translation>
     </message>
 </context>
 <context>
@@ -540,7 +540,7 @@
     </message>
     <message>
         <source>Center view</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittlere Ansicht</translation>
     </message>
 </context>
 <context>
@@ -603,7 +603,7 @@
     </message>
     <message>
         <source>Edge threshold: the change of color from pixel to pixel that counts as an edge, in grey levels (0 … 255)</source>
-        <translation type="unfinished"></translation>
+        <translation>Kantenschwelle: Farbänderung von Pixel zu Pixel, die als Kante gilt, in Graustufen (0 … 255)</translation>
     </message>
 </context>
 <context>
@@ -721,11 +721,11 @@
     </message>
     <message>
         <source>This light field does not tell its focal length and center in pixels, which a pose needs. Rectify photographs with their calibrated lens; pairs are carried over.</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieses Lichtfeld nennt weder Brennweite noch Bildmitte in Pixeln, die für eine Pose nötig sind. Die Fotos mit ihrem kalibrierten Objektiv rektifizieren; Punktpaare werden übernommen.</translation>
     </message>
     <message>
         <source>go to the center view (Home)</source>
-        <translation type="unfinished"></translation>
+        <translation>zur mittleren Ansicht gehen (Pos1)</translation>
     </message>
 </context>
 <context>
@@ -894,13 +894,15 @@
     </message>
     <message>
         <source>Takes the corner or the center of the blob beside the cross-hair, to a fraction of a pixel</source>
-        <translation type="unfinished"></translation>
+        <translation>Nimmt die Ecke oder die Mitte des Flecks neben dem Fadenkreuz, auf Bruchteile eines Pixels</translation>
     </message>
     <message>
         <source>Open a mesh of an object in the light field. Then set the cross-hair in the center view, click the same point of the mesh here, and add the pair. Four pairs give its pose.
 
 Without a gantry at hand, “Lens” makes a demo to try it with.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Dreiecksnetz dessen öffnen, was das Lichtfeld zeigt. Dann das Fadenkreuz in der mittleren Ansicht setzen, hier denselben Punkt des Netzes anklicken und das Paar hinzufügen. Vier Paare ergeben seine Pose.
+
+Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translation>
     </message>
 </context>
 <context>
@@ -1002,7 +1004,7 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>Writes the points or surfaces that the 3D view shows, in their colors, as PLY</source>
-        <translation type="unfinished"></translation>
+        <translation>Schreibt die Punkte oder Flächen der 3D-Ansicht in ihren Farben als PLY</translation>
     </message>
 </context>
 <context>
@@ -1153,15 +1155,15 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>Color of the points</source>
-        <translation type="unfinished"></translation>
+        <translation>Farbe der Punkte</translation>
     </message>
     <message>
         <source>Color</source>
-        <translation type="unfinished"></translation>
+        <translation>Farbe</translation>
     </message>
     <message>
         <source>Joins neighboring points to a surface, which is cut at jumps</source>
-        <translation type="unfinished"></translation>
+        <translation>Verbindet benachbarte Punkte zu einer Fläche, die an Sprüngen geschnitten wird</translation>
     </message>
 </context>
 <context>
@@ -1200,7 +1202,7 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>%1 has no map of this view. Go to the center view (Home).</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 hat keine Karte dieser Ansicht. Zur mittleren Ansicht gehen (Pos1).</translation>
     </message>
 </context>
 <context>
@@ -1314,7 +1316,7 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>Color of pixels without a value</source>
-        <translation type="unfinished"></translation>
+        <translation>Farbe von Pixeln ohne Wert</translation>
     </message>
 </context>
 <context>
@@ -2085,11 +2087,11 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>&lt;b&gt;Episcope %1&lt;/b&gt;&lt;p&gt;Views, EPIs, disparity and labels of 4D light fields.&lt;/p&gt;&lt;p&gt;BSD 3-Clause license.&lt;/p&gt;</source>
-        <translation type="unfinished"></translation>
+        <translation>&lt;b&gt;Episcope %1&lt;/b&gt;&lt;p&gt;Ansichten, EPIs, Disparität und Labels von 4D-Lichtfeldern.&lt;/p&gt;&lt;p&gt;BSD-Lizenz (3 Klauseln).&lt;/p&gt;</translation>
     </message>
     <message>
         <source>Shows version and license</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeigt Version und Lizenz</translation>
     </message>
 </context>
 <context>
@@ -2100,7 +2102,7 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>Visible values. Drag the handles to change the color range.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sichtbare Werte. Die Griffe ziehen, um den Farbbereich zu ändern.</translation>
     </message>
 </context>
 <context>
@@ -2346,7 +2348,7 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>All views but the center one are interpolated.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Ansichten außer der mittleren sind interpoliert.</translation>
     </message>
 </context>
 <context>
@@ -2506,15 +2508,15 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>Change color…</source>
-        <translation type="unfinished"></translation>
+        <translation>Farbe ändern…</translation>
     </message>
     <message>
         <source>Changes the color of the current label</source>
-        <translation type="unfinished"></translation>
+        <translation>Ändert die Farbe des aktuellen Labels</translation>
     </message>
     <message>
         <source>Color of “%1”</source>
-        <translation type="unfinished"></translation>
+        <translation>Farbe von „%1“</translation>
     </message>
 </context>
 <context>
@@ -2676,11 +2678,11 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>Click to change the color of “%1”</source>
-        <translation type="unfinished"></translation>
+        <translation>Klicken, um die Farbe von „%1“ zu ändern</translation>
     </message>
     <message>
         <source>Change color…</source>
-        <translation type="unfinished"></translation>
+        <translation>Farbe ändern…</translation>
     </message>
 </context>
 <context>
@@ -3236,7 +3238,7 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>Colors</source>
-        <translation type="unfinished"></translation>
+        <translation>Farben</translation>
     </message>
 </context>
 <context>
@@ -3323,7 +3325,7 @@ Without a gantry at hand, “Lens” makes a demo to try it with.</source>
     </message>
     <message>
         <source>Estimate all views instead of the center view only</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Ansichten schätzen statt nur der mittleren</translation>
     </message>
 </context>
 <context>
@@ -3733,19 +3735,19 @@ s</translation>
     </message>
     <message>
         <source>present</source>
-        <translation type="unfinished"></translation>
+        <translation>vorhandene</translation>
     </message>
     <message>
         <source>Of the pixels that have a value; else missing values count as the farthest true disparity</source>
-        <translation type="unfinished"></translation>
+        <translation>Nur Pixel mit einem Wert; sonst zählen fehlende Werte als die fernste wahre Disparität</translation>
     </message>
     <message>
         <source>Protocol vmv2013: all pixels with ground truth, center view</source>
-        <translation type="unfinished"></translation>
+        <translation>Protokoll vmv2013: alle Pixel mit Referenz, mittlere Ansicht</translation>
     </message>
     <message>
         <source>Protocol benchmark2016: without a border of 15 px, center view</source>
-        <translation type="unfinished"></translation>
+        <translation>Protokoll benchmark2016: ohne einen Rand von 15 px, mittlere Ansicht</translation>
     </message>
 </context>
 <context>
@@ -3847,11 +3849,11 @@ s</translation>
     </message>
     <message>
         <source>Around the center</source>
-        <translation type="unfinished"></translation>
+        <translation>Um die Mitte</translation>
     </message>
     <message>
         <source>Along the row of the center</source>
-        <translation type="unfinished"></translation>
+        <translation>Entlang der mittleren Zeile</translation>
     </message>
 </context>
 <context>
@@ -4359,11 +4361,11 @@ s</translation>
     </message>
     <message>
         <source>Replace files</source>
-        <translation type="unfinished"></translation>
+        <translation>Dateien ersetzen</translation>
     </message>
     <message>
         <source>The folder already holds %1. Replace it?</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Ordner enthält schon %1. Ersetzen?</translation>
     </message>
 </context>
 <context>
@@ -4530,11 +4532,11 @@ s</translation>
     </message>
     <message>
         <source>%1 has no map of this view: go to the center view (Home) first.</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 hat keine Karte dieser Ansicht: erst zur mittleren Ansicht gehen (Pos1).</translation>
     </message>
     <message>
         <source>%1 has no map of the center view, which is submitted.</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 hat keine Karte der mittleren Ansicht, die eingereicht wird.</translation>
     </message>
 </context>
 <context>
@@ -4652,7 +4654,7 @@ s</translation>
     </message>
     <message>
         <source>%1: %2 to episcope-cli convert, and open the file that it writes.</source>
-        <translation type="unfinished"></translation>
+        <translation>%1: Geben Sie episcope-cli convert %2 mit, und öffnen Sie die Datei, die es schreibt.</translation>
     </message>
 </context>
 <context>
@@ -6338,55 +6340,55 @@ s</translation>
     </message>
     <message>
         <source>A network chooses and refines disparities by the evidence of all views</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Netz wählt und verfeinert Disparitäten nach dem, was alle Ansichten belegen</translation>
     </message>
     <message>
         <source>Bring all views to the brightness of the center view</source>
-        <translation type="unfinished"></translation>
+        <translation>Gleicht alle Ansichten der Helligkeit der mittleren an</translation>
     </message>
     <message>
         <source>File of the network&apos;s weights; by default those of the program</source>
-        <translation type="unfinished"></translation>
+        <translation>Datei mit den Gewichten des Netzes; sonst die des Programms</translation>
     </message>
     <message>
         <source>Rounds in which each pixel chooses among the disparities around it</source>
-        <translation type="unfinished"></translation>
+        <translation>Runden, in denen jedes Pixel unter den Disparitäten seiner Umgebung wählt</translation>
     </message>
     <message>
         <source>Row and column of the view to estimate, or to begin with; auto = center view</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeile und Spalte der Ansicht, die geschätzt wird oder mit der begonnen wird; auto = mittlere Ansicht</translation>
     </message>
     <message>
         <source>Rows and columns of views to keep around the center: 9x9, or all; empty = the largest grid whose views are filled</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeilen und Spalten der Ansichten, die um die Mitte bleiben: 9x9, oder all für alle; leer = das größte Raster mit vollen Ansichten</translation>
     </message>
     <message>
         <source>Silhouettes</source>
-        <translation type="unfinished"></translation>
+        <translation>Silhouetten</translation>
     </message>
     <message>
         <source>Values of black and white samples as stored: 0,1023 for 10 bits in 16, -1,1 for normalized floats; empty = detected</source>
-        <translation type="unfinished"></translation>
+        <translation>Werte von Schwarz und Weiß, wie gespeichert: 0,1023 für 10 von 16 Bit, -1,1 für normalisierte Gleitkommazahlen; leer = erkannt</translation>
     </message>
     <message>
         <source>Weights</source>
-        <translation type="unfinished"></translation>
+        <translation>Gewichte</translation>
     </message>
     <message>
         <source>Where a pixel shows two surfaces: mode, the more probable one; mean, the mean of both by their shares, which has the smaller squared error</source>
-        <translation type="unfinished"></translation>
+        <translation>Wo ein Pixel zwei Flächen zeigt: Modus, die wahrscheinlichere; Mittel, beide nach ihren Anteilen gemittelt, was den kleineren quadratischen Fehler hat</translation>
     </message>
     <message>
         <source>faint</source>
-        <translation type="unfinished"></translation>
+        <translation>schwach</translation>
     </message>
     <message>
         <source>mean</source>
-        <translation type="unfinished">Mittel</translation>
+        <translation>Mittel</translation>
     </message>
     <message>
         <source>mode</source>
-        <translation type="unfinished"></translation>
+        <translation>Modus</translation>
     </message>
 </context>
 <context>
@@ -6552,7 +6554,7 @@ s</translation>
     </message>
     <message>
         <source>labeling …</source>
-        <translation type="unfinished"></translation>
+        <translation>wird gelabelt …</translation>
     </message>
 </context>
 <context>
@@ -6808,7 +6810,7 @@ s</translation>
     </message>
     <message>
         <source>Shows the center view; in tiles: shows that tile alone</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeigt die mittlere Ansicht; in Kacheln: nur diese Kachel</translation>
     </message>
 </context>
 <context>
@@ -6831,7 +6833,7 @@ s</translation>
     </message>
     <message>
         <source>Stretches the colors over the visible values</source>
-        <translation type="unfinished"></translation>
+        <translation>Spreizt die Farben über die sichtbaren Werte</translation>
     </message>
 </context>
 <context>
@@ -7016,11 +7018,11 @@ s</translation>
     </message>
     <message>
         <source>%1 runs on each of %2 center views, the present values first</source>
-        <translation type="unfinished"></translation>
+        <translation>Je %1 Läufe auf %2 mittleren Ansichten, die jetzigen Werte zuerst</translation>
     </message>
     <message>
         <source>%1 runs on the center view, the present values first</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 Läufe auf der mittleren Ansicht, die jetzigen Werte zuerst</translation>
     </message>
 </context>
 <context>
@@ -7119,7 +7121,7 @@ s</translation>
     </message>
     <message>
         <source>Runs the method on the center view with each of the values</source>
-        <translation type="unfinished"></translation>
+        <translation>Führt das Verfahren auf der mittleren Ansicht mit jedem der Werte aus</translation>
     </message>
 </context>
 <context>
@@ -7215,7 +7217,7 @@ s</translation>
     </message>
     <message>
         <source>Colors of the desktop</source>
-        <translation type="unfinished"></translation>
+        <translation>Farben der Arbeitsumgebung</translation>
     </message>
 </context>
 <context>
