@@ -67,8 +67,8 @@ std::vector<float> random_values(const NetShape& shape) {
   return random_numbers(place(shape, shape.channels, 0, 0, 0));
 }
 
-// Sums of 513 products in [-1, 1], made in float one by one, are off by up to 2.4e-5; those of mixed
-// numbers by twice as much on average and 3.3e-5 at most.
+// Sums of 513 products in [-1, 1], made in float one by one, are off by up to 2.4e-5; those of
+// mixed numbers by twice as much on average and 3.3e-5 at most.
 constexpr double kMixedTolerance = 5e-5;
 
 // What a convolution of stride 1 without a leaky ReLU gives at a place, summed in double.
