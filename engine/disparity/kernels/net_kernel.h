@@ -10,8 +10,9 @@ inline constexpr int kMostNetTaps = 27;
 
 /// Mixed convolutions: outputs of three taps along an axis are computed four at a time, from six
 /// products of six mixed inputs and six mixed weights instead of twelve. Winograd 1980 (Arithmetic
-/// Complexity of Computations), F(4, 3) for the points 0, ±√½, ±√2 and infinity, which round little
-/// more than plain sums do. Columns are mixed and, where that is wanted, planes: rows or labels.
+/// Complexity of Computations), F(4, 3) for the points 0, ±√½, ±√2 and infinity. Along two axes
+/// that rounds about twice as much as plain sums do. Columns are mixed and, where that is wanted,
+/// planes: rows or labels.
 inline constexpr int kNetTile = 4;
 inline constexpr int kNetMixed = 6;
 /// Tiles of columns that are computed at once.

@@ -67,6 +67,10 @@ std::vector<float> random_values(const NetShape& shape) {
   return random_numbers(place(shape, shape.channels, 0, 0, 0));
 }
 
+// Sums of 513 products in [-1, 1], made in float one by one, are off by up to 2.4e-5; those of
+// mixed numbers by twice as much on average and 3.3e-5 at most.
+constexpr double kMixedTolerance = 5e-5;
+
 // What a convolution of stride 1 without a leaky ReLU gives at a place, summed in double.
 double plain_sum(const NetLayerForm& form, const NetShape& shape, const std::vector<float>& values,
                  const std::vector<float>& weights, int output, int z, int y, int x) {
@@ -179,7 +183,7 @@ void NetLayersTest::mixedConvolution_isThePlainSum() {
     for (int i = 0; i < depth * height * width; ++i) {
       const int z = i / (height * width), y = i / width % height, x = i % width;
       const double expected = plain_sum(form, shape, values, weights, c, z, y, x);
-      QVERIFY(std::abs(found[place(out, c, z, y, x)] - expected) < kTolerance);
+      QVERIFY(std::abs(found[place(out, c, z, y, x)] - expected) < kMixedTolerance);
     }
   }
 }
