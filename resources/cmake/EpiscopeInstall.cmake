@@ -50,6 +50,9 @@ if(EPISCOPE_HAS_PYTHON)
   install(TARGETS episcope_python LIBRARY DESTINATION "${modules}" COMPONENT python)
   install(DIRECTORY "${CMAKE_SOURCE_DIR}/app/python/episcope/" DESTINATION "${modules}" COMPONENT python
           PATTERN "__pycache__" EXCLUDE)
+  # Its own, for it is installed without the command line as well.
+  episcope_install_files(python "${modules}/share/episcope/weights"
+                         "${CMAKE_SOURCE_DIR}/resources/weights/net.npz")
 endif()
 
 # episcope_libraries_in(out folder): the libraries that are added in a folder and below.

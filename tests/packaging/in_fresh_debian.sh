@@ -32,6 +32,7 @@ install /media/packages/python3-episcope_*.deb
 as_user python3 -c '
 import episcope
 lf = episcope.demo("edge?size=64&grid=5")
+episcope.estimate(lf, "net")  # finds its weights
 result = episcope.estimate(lf, "epi_s")
 result.save("python.h5")
 print(result, lf.views.shape, episcope.score(result, lf)["mse_100"])'
