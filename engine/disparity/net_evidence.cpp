@@ -196,10 +196,17 @@ void NetEvidence::read_rows(Window& window, int first) const {
   }
 }
 
+// Differences are taken across a pixel: one beside an invalid pixel has none.
 void NetEvidence::mark_invalid_pixels(ViewIndex view, int y, float* out) const {
   constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
+  const int above = std::max(y - 1, 0), below = std::min(y + 1, height() - 1);
   for (int x = 0; x < width(); ++x) {
-    if (light_field_.is_valid(view, y, x)) continue;
+    const int left = std::max(x - 1, 0), right = std::min(x + 1, width() - 1);
+    if (light_field_.is_valid(view, y, x) && light_field_.is_valid(view, y, left) &&
+        light_field_.is_valid(view, y, right) && light_field_.is_valid(view, above, x) &&
+        light_field_.is_valid(view, below, x)) {
+      continue;
+    }
     if (kind_ == NetEvidenceOf::Maps) {
       std::fill_n(out + static_cast<long>(x) * kNetPixel, kNetPixel, kInvalid);
     } else {

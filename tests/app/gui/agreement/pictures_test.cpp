@@ -116,8 +116,9 @@ class Showing : public AgreementFixture {
         break;
     }
     if (quantity == Quantity::Edges) return {exported(first())};
-    const QString label = QString::number(window.bench().labels.current());
-    return {labels_.isEmpty() ? "none.h5" : labels_, "--label", label};
+    const QString file = labels_.isEmpty() ? "none.h5" : labels_;
+    if (quantity != Quantity::Probability) return {file};
+    return {file, "--label", QString::number(window.bench().labels.current())};
   }
 
   CommandLineRun show(Quantity quantity, const QStringList& options, const char* name) {

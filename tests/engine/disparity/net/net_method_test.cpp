@@ -29,6 +29,19 @@ Estimate estimated(const NetMethodParameters& parameters,
   return estimate_by_net(*scene().light_field, parameters, views, progress);
 }
 
+// Share of the pixels 5 px or more from the border that are off by more than 0.07 px.
+double share_of_bad(const ImageView<const float>& found, const DisparityView& truth) {
+  constexpr int kInset = 5;
+  int bad = 0, all = 0;
+  for (int y = kInset; y < found.height - kInset; ++y) {
+    for (int x = kInset; x < found.width - kInset; ++x) {
+      ++all;
+      bad += std::abs(found.at(y, x) - truth.disparity.at(y, x)) > 0.07 ? 1 : 0;
+    }
+  }
+  return static_cast<double>(bad) / all;
+}
+
 // The sentence that a run with this file of weights gives; empty if it runs.
 std::string failure_with(const QString& file) {
   try {
@@ -135,12 +148,14 @@ void NetMethodTest::allViews_areClose() {
 
   const GridShape grid = scene().light_field->grid();
   QVERIFY(all.field.disparity.grid() == grid);
-  double error = 0;
+  // A pixel that holds both sides of the edge may be of either.
+  constexpr double kMostBad = 0.025;
+  double bad = 0;
   for (int i = 0; i < grid.count(); ++i) {
     const ViewIndex view = grid.view_at(i);
-    error += errors(all.field.disparity.view(view), scene().truth->field.view(view), 5).mse_100;
+    bad += share_of_bad(all.field.disparity.view(view), scene().truth->field.view(view));
   }
-  QVERIFY2(error / grid.count() < 0.3, qPrintable(QString::number(error / grid.count())));
+  QVERIFY2(bad / grid.count() < kMostBad, qPrintable(QString::number(bad / grid.count())));
   const ViewIndex view = grid.center();
   QCOMPARE(largest_difference(all.field.disparity.view(view), center.field.disparity.view(view)),
            0.0);
