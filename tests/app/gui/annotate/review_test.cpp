@@ -216,7 +216,8 @@ void ReviewTest::smootherBoundaries_areShown_andUndone() {
   for (int i = 0; i < 6; ++i) f.key(Qt::Key_S, Qt::ShiftModifier);
 
   QCOMPARE(f.document().boundary_smoothing_px(), 3.0);
-  QTRY_VERIFY(f.window.bench().overlay.isUpToDate() && f.window.bench().overlay.picture() != rough);
+  QTRY_VERIFY_WITH_TIMEOUT(
+      f.window.bench().overlay.isUpToDate() && f.window.bench().overlay.picture() != rough, kPatience);
   QCOMPARE(f.window.findChild<NumberSpin*>("segment.smoothing")->value(), 3.0);
   QVERIFY(f.segment().labeler().is_up_to_date(f.view()));  // nothing is learnt anew
   const auto smooth = f.labels();
@@ -229,7 +230,8 @@ void ReviewTest::smootherBoundaries_areShown_andUndone() {
     }
   }
   for (int i = 0; i < 6; ++i) f.key(Qt::Key_Z, Qt::ControlModifier);
-  QTRY_VERIFY(f.window.bench().overlay.isUpToDate() && f.window.bench().overlay.picture() == rough);
+  QTRY_VERIFY_WITH_TIMEOUT(
+      f.window.bench().overlay.isUpToDate() && f.window.bench().overlay.picture() == rough, kPatience);
 }
 
 void ReviewTest::labelOverTheViews_isShown_andAClickGoesThere() {
