@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -23,12 +22,9 @@
 namespace episcope {
 namespace {
 
-// Coherence above which an orientation counts: the first that enough pixels reach. Noise lowers
-// coherence long before it spoils orientations: at 10/255, those above 0.6 still end within 0.3 px
-// of the true range. A higher start would exclude regions that are seen less well than others.
-constexpr std::array<float, 3> kCoherent{0.8F, 0.7F, 0.6F};
-// Share of the pixels that are enough.
-constexpr double kEnoughOrientations = 0.2;
+// Coherence above which an orientation counts. Noise lowers coherence long before it spoils
+// orientations, and what is spoiled is not confirmed.
+constexpr float kCoherent = 0.5F;
 // Cells side by side that make an end of the range, and those of them left out at either end.
 constexpr int kRun = 4;
 constexpr int kLeftOut = 1;
@@ -94,7 +90,6 @@ std::vector<int> rows_looked_at(int height) {
 struct Orientations {
   Image<float> disparity;
   Image<float> coherence;
-  double pixels = 0;  ///< Looked at.
 
   Orientations(int rows, int width) : disparity(rows, width), coherence(rows, width) {}
   void set(int row, int x, int count, const float* from_disparity, const float* from_coherence) {
@@ -108,7 +103,6 @@ Orientations look_along_rows(const LightField& lf, const std::vector<int>& rows,
   const int count = static_cast<int>(rows.size());
   const TensorSearch search = cover_range({-limit, limit}, 2);
   Orientations seen(count, lf.width());
-  seen.pixels = static_cast<double>(count) * lf.width();
   parallel_for_workers(count, progress, [&] {
     return [&, tensor = StructureTensor(lf, StructureTensor::Direction::Horizontal, coarse_scales(),
                                         search)](int i) mutable {
@@ -133,7 +127,6 @@ Orientations look_along_columns(const LightField& lf, const std::vector<int>& ro
   std::vector<int> row_at(lf.height(), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) row_at[rows[i]] = static_cast<int>(i);
   Orientations seen(static_cast<int>(rows.size()), lf.width());
-  seen.pixels = static_cast<double>(rows.size()) * blocks * columns;
   parallel_for_workers(blocks, progress, [&] {
     return [&, tensor = StructureTensor(lf, direction, coarse_scales(), search)](int i) mutable {
       const ViewIndex center = lf.center();
@@ -152,27 +145,16 @@ Orientations look_along_columns(const LightField& lf, const std::vector<int>& ro
   return seen;
 }
 
-// Calls `take(row, x, disparity)` for every pixel and direction of at least this coherence.
+// Calls `take(row, x, disparity)` for every pixel and direction that is coherent.
 template <class Take>
-void for_each_coherent(const std::vector<Orientations>& directions, float least, const Take& take) {
+void for_each_coherent(const std::vector<Orientations>& directions, const Take& take) {
   for (const Orientations& seen : directions) {
     for (int row = 0; row < seen.coherence.height(); ++row) {
       for (int x = 0; x < seen.coherence.width(); ++x) {
-        if (seen.coherence.at(row, x) >= least) take(row, x, seen.disparity.at(row, x));
+        if (seen.coherence.at(row, x) >= kCoherent) take(row, x, seen.disparity.at(row, x));
       }
     }
   }
-}
-
-float coherence_of_enough(const std::vector<Orientations>& directions) {
-  double pixels = 0;
-  for (const Orientations& seen : directions) pixels += seen.pixels;
-  for (const float least : kCoherent) {
-    double count = 0;
-    for_each_coherent(directions, least, [&](int, int, float) { count += 1; });
-    if (count >= kEnoughOrientations * pixels) return least;
-  }
-  return kCoherent.back();
 }
 
 }  // namespace
@@ -247,7 +229,7 @@ constexpr double kSupportCap = 0.3;
 constexpr float kApart = 0.75F;
 // The best label costs at most this fraction of the next, and less by this, in samples of [0, 1].
 constexpr float kRatio = 0.8F;
-constexpr float kContrast = 0.004F;
+constexpr float kContrast = 0.002F;
 
 // Costs of one row, `[label][x]`, averaged over the rows and columns around it.
 class WindowCosts {
@@ -350,24 +332,23 @@ constexpr float kNear = 0.2F;
 // Pixels below which nothing is said.
 constexpr double kLeastPixels = 50;
 // What is taken off the ends that smaller views give, pixels of theirs.
-constexpr double kInexact = 0.15;
+constexpr double kInexact = 0.075;
 // No range found reaches farther, px per view step.
 constexpr double kMaxDisparity = 16;
 
-// Keeps the orientations that their pixels confirm by matching distinctly: not aliases of repeated
-// patterns and of noise. None if no pixel does: all is one repeated pattern, of which nothing tells
-// which orientation is true.
+// The disparities of pixels that match distinctly where an orientation of theirs is: not aliases of
+// repeated patterns and of noise. None if no pixel matches distinctly: all is one repeated pattern,
+// of which nothing tells which orientation is true.
 std::optional<DisparityHistogram> confirmed(const LightField& lf, const std::vector<int>& rows,
                                             const std::vector<Orientations>& directions,
-                                            float coherence, double limit, Interval seen,
-                                            const Progress& progress) {
+                                            double limit, Interval seen, const Progress& progress) {
   const Interval range{seen.min - kBeyond, seen.max + kBeyond};
   const Image<float> matches = distinct_matches(lf, rows, range, progress);
   if (std::ranges::all_of(matches, [](float match) { return std::isnan(match); })) return {};
   DisparityHistogram histogram(limit);
-  for_each_coherent(directions, coherence, [&](int row, int x, float disparity) {
+  for_each_coherent(directions, [&](int row, int x, float disparity) {
     const float match = matches.at(row, x);
-    if (std::fabs(disparity - match) <= kNear) histogram.add((disparity + match) / 2);
+    if (std::fabs(disparity - match) <= kNear) histogram.add(match);
   });
   return histogram;
 }
@@ -383,13 +364,12 @@ std::optional<Interval> confirmed_range(const LightField& lf, double limit, doub
   if (lf.grid().v > 1) {
     directions.push_back(look_along_columns(lf, rows, limit, progress.part(0.4, 0.8)));
   }
-  const float coherence = coherence_of_enough(directions);
   DisparityHistogram all(limit);
-  for_each_coherent(directions, coherence, [&](int, int, float d) { all.add(d); });
+  for_each_coherent(directions, [&](int, int, float d) { all.add(d); });
   const std::optional<Interval> seen = all.ends(tail);
   if (!seen || all.total() < kLeastPixels) return {};
   const std::optional<DisparityHistogram> kept =
-      confirmed(lf, rows, directions, coherence, limit, *seen, progress.part(0.8, 1));
+      confirmed(lf, rows, directions, limit, *seen, progress.part(0.8, 1));
   if (!kept) return seen;
   if (kept->total() < kLeastPixels) return {};
   return kept->ends(tail);
