@@ -45,12 +45,12 @@ run_command_line() {
   mkdir -p "$out"
 
   "$cli" info "$input"
-  "$cli" estimate epi_l "$input" -o "$out/epi_l.h5"
-  "$cli" show "$input" -o "$out/view.png" --what view
-  "$cli" show "$input" -o "$out/epi.png" --what epi
-  "$cli" show "$out/epi_l.h5" -o "$out/disparity.png" --what disparity
+  "$cli" estimate epi_l "$input" -o "$out/epi_l.h5" --overwrite
+  "$cli" show "$input" -o "$out/view.png" --overwrite --what view
+  "$cli" show "$input" -o "$out/epi.png" --overwrite --what epi
+  "$cli" show "$out/epi_l.h5" -o "$out/disparity.png" --overwrite --what disparity
   if "$cli" evaluate "$out/epi_l.h5" --truth "$input" 2>"$out/evaluate.txt"; then
-    "$cli" show "$out/epi_l.h5" --truth "$input" -o "$out/error.png" --what error
+    "$cli" show "$out/epi_l.h5" --truth "$input" -o "$out/error.png" --overwrite --what error
   else
     echo "No error map: $(tail -n 1 "$out/evaluate.txt")"
   fi

@@ -80,7 +80,7 @@ install_missing $ENGINE_PACKAGES $WINDOW_PACKAGES $TEST_PACKAGES ${packages:+$PA
   ${fuzz:+$FUZZ_PACKAGES}
 # run.sh leaves the tests out of a build that it configures, and joins sources.
 # Packages are for machines without CUDA; and one of the presets proves that all is well without.
-check_preset release -DEPISCOPE_TESTS=ON -DEPISCOPE_BENCH=ON -DCMAKE_UNITY_BUILD=ON ${packages:+-DEPISCOPE_CUDA=OFF}
+check_preset release -DEPISCOPE_TESTS=ON -DEPISCOPE_BENCH=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_CUDA_ARCHITECTURES=80 ${packages:+-DEPISCOPE_CUDA=OFF}
 check_preset headless -DEPISCOPE_TESTS=ON -DEPISCOPE_CUDA=OFF -DCMAKE_UNITY_BUILD=ON
 if [ -n "$sanitize" ]; then
   check_preset dev

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <string>
 
 namespace episcope {
 namespace {

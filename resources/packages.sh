@@ -11,7 +11,8 @@ ENGINE_PACKAGES="g++ cmake ninja-build libcli11-dev $LIBRARY_PACKAGES"
 WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev qt6-l10n-tools libvtk9-dev
   libgl1-mesa-dri"
 WAYLAND_PACKAGES="qt6-wayland"
-TEST_PACKAGES="ccache libbenchmark-dev libopencv-contrib-dev mkdocs xvfb xauth"
+TEST_PACKAGES="ccache libbenchmark-dev libopencv-contrib-dev mkdocs xvfb xauth
+  pybind11-dev python3-dev python3-numpy python3-pytest"
 # What making the manual as web pages takes.
 MANUAL_PACKAGES="mkdocs doxygen"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"

@@ -8,8 +8,8 @@
 
 namespace episcope {
 
-/// The lines of `--version`: "<program> <version>", the commit, and the libraries by name: those of
-/// the engine and `others`. Ends with a new line.
+/// The lines of `--version`: "<program> <version>", the commit, and the libraries of the engine
+/// and `others` by name. Ends with a new line.
 [[nodiscard]] std::string version_text(const std::string& program,
                                        const std::vector<LibraryVersion>& others);
 

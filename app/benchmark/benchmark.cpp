@@ -169,7 +169,7 @@ class Runner {
     const LightField& light_field = *open.scene.light_field;
     std::optional<Estimate> estimate;
     try {
-      estimate = read_submission(options_.submissions[index], light_field, light_field.info().name);
+      estimate = read_submission(options_.submissions[index], open.scene, options_.map_reading);
       if (!estimate) result.problem = "the submission has no map of this scene";
     } catch (const Error& error) {
       result.problem = error.what();

@@ -5,6 +5,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/disparity/estimator.h"
+#include "engine/io/models/map_reading.h"
 #include "engine/labeling/labeler.h"
 
 #include <cstddef>
@@ -20,6 +21,7 @@ struct BenchmarkOptions {
   std::vector<std::string> inputs;
   std::vector<Estimator> methods;
   std::vector<std::filesystem::path> submissions;  ///< Folders, see submission.h.
+  io::MapReading map_reading{};                    ///< Of their maps.
   std::filesystem::path folder;                    ///< Where everything is written.
   /// Views of the runs for the tables: all gives the times of figure 8. Points of a search always
   /// estimate the center view alone.

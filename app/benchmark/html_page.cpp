@@ -250,7 +250,7 @@ std::string scores_text(const BenchmarkReport& report) {
   if (report.has_disparities) {
     text +=
         " Disparities are evaluated in the center view: mean squared errors are in px² × 100, "
-        "lower is better.";
+        "lower is better. Missing values count as the farthest true disparity, and as bad pixels.";
   }
   if (report.has_labels) text += " Labels are evaluated in all views, in %: higher is better.";
   return text;

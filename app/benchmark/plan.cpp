@@ -92,6 +92,9 @@ std::string request_fingerprint(const BenchmarkOptions& options, const std::stri
   add_text("runs");
   for (const PlannedRun& planned : planned_runs(options)) add_text(record_key(planned.run, ""));
   for (const auto& folder : options.submissions) add_text(folder.string());
+  for (const auto& [key, value] : io::given_options(options.map_reading)) {
+    add_text(key + "=" + to_text(value));
+  }
   add_text(reading);
   return fingerprint.text();
 }

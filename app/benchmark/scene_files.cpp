@@ -18,7 +18,8 @@ std::string in_scene(const std::string& scene, const std::string& file) {
 }
 
 void write_map(const std::filesystem::path& path, const MapSource& source, Interval range) {
-  io::write_png(path, map_picture(*make_map(source), shading_of(source.quantity, range)).view());
+  io::write_picture(path,
+                    map_picture(*make_map(source), shading_of(source.quantity, range)).view());
 }
 
 template <class T>
@@ -63,8 +64,8 @@ std::string map_file(const std::string& scene, const std::string& entry) {
 bool write_scene_pictures(const std::filesystem::path& folder, const std::string& name,
                           const Scene& scene, Interval range) {
   const ViewIndex center = scene.light_field->center();
-  io::write_png(folder / scene_file(name, "view"),
-                render::shade_view(*scene.light_field, center).view());
+  io::write_picture(folder / scene_file(name, "view"),
+                    render::shade_view(*scene.light_field, center).view());
   const MapSource truth{.quantity = Quantity::Truth,
                         .view = center,
                         .light_field = scene.light_field,

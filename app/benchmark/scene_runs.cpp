@@ -76,12 +76,11 @@ std::vector<std::string> SceneRuns::judge_and_write(const EstimatePtr& center,
 void SceneRuns::run_and_judge(const Estimator& method, const Progress& progress,
                               BenchmarkRecord& record) {
   BenchmarkResult& result = record.result;
-  EstimatePtr estimate = run_estimator(open_.scene, method,
-                                       {record.run.method,
-                                        record.run.parameters,
-                                        {.views = record.run.views, .device = record.run.device}},
-                                       progress.part(0, 0.95))
-                             .estimate;
+  EstimatePtr estimate =
+      run_estimator(open_.scene, method, record.run.parameters,
+                    {.views = record.run.views, .device = record.run.device},
+                    progress.part(0, 0.95))
+          .estimate;
   result.seconds = estimate->seconds;
   result.notes = estimate->notes;
   progress.step("evaluating");

@@ -21,8 +21,8 @@ constexpr double kFarthest = 20;  // px per view step, either way
 
 bool is_map(const fs::path& path) {
   const std::string suffix = suffix_of(path);
-  return suffix == ".pfm" || suffix == ".h5" || suffix == ".hdf5" || suffix == ".tif" ||
-         suffix == ".tiff";
+  return suffix == ".pfm" || suffix == ".npy" || suffix == ".h5" || suffix == ".hdf5" ||
+         suffix == ".tif" || suffix == ".tiff";
 }
 
 /// Files below the folder that `accepts` takes, sorted.
@@ -61,7 +61,7 @@ double seconds_of(const fs::path& folder, const std::string& scene) {
   return std::isfinite(seconds) ? std::max(0.0, seconds) : 0;
 }
 
-void check_values(const fs::path& map, ViewIndex view, Estimate& estimate) {
+void check_values(const fs::path& map, ViewIndex view, bool asks_for_depth, Estimate& estimate) {
   if (!estimate.field.contains(view)) {
     throw IoError(map,
                   "does not cover the center view " + view_text(view) + ", which is evaluated");
@@ -81,16 +81,10 @@ void check_values(const fs::path& map, ViewIndex view, Estimate& estimate) {
     }
   }
   if (missing == count) throw IoError(map, "contains no finite value in the center view");
-  const auto note = [&](const std::string& what) {
-    estimate.notes.push_back(map.filename().string() + ": " + what);
-  };
-  if (missing > 0) {
-    const double percent = 100.0 * static_cast<double>(missing) / static_cast<double>(count);
-    note(fixed_text(percent, 2) + " % of the pixels have no value and count as bad");
-  }
-  if (farthest > kFarthest) {
-    note("disparities reach " + fixed_text(farthest, 1) +
-         " px; are they depth instead of px per view step?");
+  if (farthest > kFarthest && asks_for_depth) {
+    estimate.notes.push_back(map.filename().string() + ": disparities reach " +
+                             fixed_text(farthest, 1) +
+                             " px; are they depth instead of px per view step?");
   }
 }
 
@@ -106,23 +100,30 @@ void check_submission(const fs::path& folder) {
   throw IoError(folder, "is not a folder; a submission is a folder of maps named after the scenes");
 }
 
-std::optional<Estimate> read_submission(const fs::path& folder, const LightField& light_field,
-                                        const std::string& scene) {
-  const std::vector<fs::path> maps = maps_of(folder, scene);
+std::optional<Estimate> read_submission(const fs::path& folder, const Scene& scene,
+                                        const io::MapReading& reading) {
+  const LightField& light_field = *scene.light_field;
+  const std::string& name = light_field.info().name;
+  const std::vector<fs::path> maps = maps_of(folder, name);
   if (maps.empty()) return std::nullopt;
   if (maps.size() > 1) {
-    throw IoError(folder, "contains several maps of " + scene + ", " + maps[0].filename().string() +
+    throw IoError(folder, "contains several maps of " + name + ", " + maps[0].filename().string() +
                               " and " + maps[1].filename().string() + "; keep one");
   }
-  Estimate estimate = read_result_of(light_field, maps.front());
+  Estimate estimate = read_result_of(light_field, maps.front(), reading);
   check_fits(estimate, light_field, maps.front().string());
   bring_to_focus(estimate, light_field, Progress());
-  check_values(maps.front(), light_field.center(), estimate);
+  const auto better = find_better_reading(estimate, scene);
+  check_values(maps.front(), light_field.center(), !better, estimate);
   if (is_of_other_samples(estimate, light_field)) {
     estimate.notes.push_back(maps.front().filename().string() +
                              ": it was estimated from other samples than those of this scene");
   }
-  if (!(estimate.seconds > 0)) estimate.seconds = seconds_of(folder, scene);
+  if (better) {
+    estimate.notes.push_back(maps.front().filename().string() + ": " +
+                             better_reading_text(*better));
+  }
+  if (!(estimate.seconds > 0)) estimate.seconds = seconds_of(folder, name);
   return estimate;
 }
 

@@ -257,6 +257,17 @@ void Arguments::exclude_each_other(const std::vector<std::string>& names) {
   state_->exclusions.push_back(names);
 }
 
+void Arguments::check_uses(const std::vector<Use>& uses) const {
+  for (const Use& use : uses) {
+    if (use.has_effect) continue;
+    for (const std::string& name : use.names) {
+      if (state_->app.get_option(name)->count() == 0) continue;
+      throw UsageError(state_->verb + ": " + name + " has no effect " + use.why_not +
+                       "; leave it out");
+    }
+  }
+}
+
 void Arguments::heading(const std::string& text) {
   state_->group = text;
 }

@@ -121,6 +121,16 @@ class Arguments {
 
   /// Options of which only one may be given.
   void exclude_each_other(const std::vector<std::string>& names);
+  /// Options that have an effect only under a condition.
+  struct Use {
+    std::vector<std::string> names;
+    bool has_effect = true;
+    std::string why_not;  ///< After "has no effect": "without --labels", "on a picture".
+  };
+  /// Throws UsageError that names the first option that was given and has no effect. To be called
+  /// after `parse`.
+  void check_uses(const std::vector<Use>& uses) const;
+
   /// Options declared from here on stand under this heading in the help.
   void heading(const std::string& text);
 

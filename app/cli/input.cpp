@@ -8,6 +8,7 @@
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
 #include "engine/io/formats/sequence_reader.h"
+#include "engine/io/models/map_reading.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/result_file.h"
 
@@ -17,21 +18,6 @@
 #include <iterator>
 
 namespace episcope::cli {
-namespace {
-
-/// Options that nothing came of.
-void warn_of_ignored(const ParameterSet& given, Scene& scene) {
-  const std::string& id = scene.light_field->info().reading.reader;
-  const io::Reader* reader = io::reader_named(id);
-  const std::string name = reader ? reader->name : "a built-in scene";
-  for (const auto& [key, value] : given) {
-    if (key == Reading::kFocus || (reader && reader->has_option(key))) continue;
-    scene.convention.warnings.push_back(
-        fmt::format("--{} is ignored, because this is {}.", key, name));
-  }
-}
-
-}  // namespace
 
 void declare_read_options(Arguments& arguments, ReadOptions& options) {
   arguments.heading("Reading");
@@ -43,6 +29,19 @@ bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
   declare_job_options(parser, job);
   declare_read_options(parser, read);
   return parser.parse(arguments);
+}
+
+void declare_map_options(Arguments& arguments, ParameterOptions& options) {
+  arguments.heading("Maps of other programs");
+  options.declare(arguments, io::map_schema().descriptions());
+  arguments.heading("Options");
+}
+
+void require_no_map_options(const ParameterOptions& options, const std::string& input) {
+  const ParameterSet given = options.values();
+  if (given.empty()) return;
+  throw UsageError("--" + given.front().first + " is for the maps of a RESULT, but " + input +
+                   " is none; leave it out");
 }
 
 void check_builtin_scene(const std::string& id) {
@@ -74,14 +73,7 @@ Scene load_input(const std::string& input, io::OpenOptions open, bool needs_trut
                  const Progress& progress) {
   const std::string builtin = builtin_scene_id(input);
   if (!builtin.empty()) check_builtin_scene(builtin);
-  const ParameterSet given = io::given_options(open);
-  const LoadOptions load{
-      .open = std::move(open), .cache_folder = default_cache_folder(), .needs_truth = needs_truth};
-  progress.step("reading " + std::filesystem::path(input).filename().string());
-  Scene scene = load_scene(input, load, progress.part(0, builtin.empty() ? 1 : 0.9));
-  warn_of_ignored(given, scene);
-  if (!builtin.empty()) store_in_cache(input, scene, load.cache_folder, progress.part(0.9, 1));
-  return scene;
+  return open_input(input, std::move(open), needs_truth, progress);
 }
 
 namespace {

@@ -27,6 +27,11 @@ void declare_read_options(Arguments& arguments, ReadOptions& options);
 [[nodiscard]] bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
                                  JobOptions& job, ReadOptions& read);
 
+/// Declares how maps of a RESULT are read (io::map_schema), under a heading of their own.
+void declare_map_options(Arguments& arguments, ParameterOptions& options);
+/// Throws UsageError if such an option is given to what is no RESULT.
+void require_no_map_options(const ParameterOptions& options, const std::string& input);
+
 /// Throws UsageError for an unknown id, naming the nearest.
 void check_builtin_scene(const std::string& id);
 

@@ -6,8 +6,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace episcope::cli {
 
@@ -18,8 +21,8 @@ using Json = nlohmann::ordered_json;
 /// the shortest number that reads back as the same.
 [[nodiscard]] Json interval_json(const Interval& interval);
 [[nodiscard]] Json view_json(ViewIndex view);
-/// A value as in `io::parameters_json`, which writes sets of them.
-[[nodiscard]] Json value_json(const ParameterValue& value);
+/// "2026-11-27T22:43:23Z" of seconds since 1970.
+[[nodiscard]] std::string time_text(std::int64_t seconds);
 /// The one JSON object of an answer, on standard output.
 void print_json(const Json& json);
 
@@ -33,14 +36,37 @@ void check_output_file(const std::filesystem::path& path);
 /// naming the verb.
 void check_hdf5_output(const std::string& verb, const std::filesystem::path& path);
 
-/// Refuses to replace anything but a result file. Throws IoError.
-void check_result_output(const std::filesystem::path& path);
+/// What a result or labels are to be made by.
+struct IntendedRun {
+  std::string method;       ///< Id of an estimator; empty for labels.
+  ParameterSet parameters;  ///< Those that are not listed have their default.
+  std::string input;        ///< As typed.
+  ParameterSet reading;     ///< Reading options that are set (io::given_options).
+};
 
-/// Refuses to replace anything but a file of labels that `label` wrote. Throws IoError.
-void check_labeling_output(const std::filesystem::path& path);
+/// Refuses to replace anything but a result file, and one of another method, other parameters,
+/// another light field or another reading of it unless that is asked for. Parameters that the file
+/// does not know count as their default. Throws IoError.
+void check_result_output(const std::filesystem::path& path, const IntendedRun& run,
+                         Overwrite overwrite);
 
-/// Refuses to replace a light field, or labels beside it that go with it, unless that is asked for,
-/// and any other file at all. Throws IoError.
+/// Refuses to replace anything but a file of labels that `label` wrote, and one as above. Throws
+/// IoError.
+void check_labeling_output(const std::filesystem::path& path, const IntendedRun& run,
+                           Overwrite overwrite);
+
+/// Writes a file by `write`, to which it passes the path. Unless `overwrite` says otherwise, a file
+/// that is there stays: one of the same bytes as it is, one of others makes this throw IoError. For
+/// forms that do not tell what they were made by.
+void write_output(const std::filesystem::path& path, Overwrite overwrite,
+                  const std::function<void(const std::filesystem::path&)>& write);
+
+/// Prints the line of a file of labels that was written beside the light field `output`; nothing if
+/// it is empty or `output` itself.
+void print_labels_written(const std::filesystem::path& labels, const std::filesystem::path& output);
+
+/// Refuses to replace a light field, or labels beside it that belong to it, unless that is asked
+/// for, and any other file at all. Throws IoError.
 void check_light_field_output(const std::filesystem::path& path, Overwrite overwrite);
 
 /// Refuses an output that is the input or one of its files: labels.h5 and other companions of an

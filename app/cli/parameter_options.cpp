@@ -90,12 +90,6 @@ bool ParameterOptions::is_given(const std::string& key) const {
   return found != values_.end() && found->second.has_value();
 }
 
-bool has_numeric_domain(const ParameterDescription& parameter) {
-  return !std::holds_alternative<bool>(parameter.default_value) &&
-         !std::holds_alternative<std::string>(parameter.default_value) &&
-         !std::holds_alternative<ViewOrAuto>(parameter.default_value);
-}
-
 std::string domain_text(const ParameterDescription& parameter) {
   if (std::holds_alternative<bool>(parameter.default_value)) return "true|false";
   if (!parameter.choices.empty()) return joined(parameter.choices, "|");

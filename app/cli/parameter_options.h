@@ -26,9 +26,6 @@ class ParameterOptions {
   std::map<std::string, std::optional<ParameterValue>> values_;  // by key; empty = not given
 };
 
-/// Whether `min` and `max` of a parameter are meaningful.
-[[nodiscard]] bool has_numeric_domain(const ParameterDescription& parameter);
-
 /// "0.1 … 4 px", "auto or A,B in -8 … 8 px", "a|b|c", "true|false".
 [[nodiscard]] std::string domain_text(const ParameterDescription& parameter);
 

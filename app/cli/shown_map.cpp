@@ -147,9 +147,9 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   if (!shown.truth.empty()) {
     scene = load_input_of(reading, shown.truth, read, job.progress().part(0, 0.9));
   }
-  auto estimate =
-      std::make_shared<const Estimate>(scene ? read_result_of(*scene->light_field, shown.subject)
-                                             : read_result_alone(shown.subject));
+  auto estimate = std::make_shared<const Estimate>(
+      scene ? read_result_of(*scene->light_field, shown.subject, shown.reading)
+            : read_result_alone(shown.subject, shown.reading));
   if (!scene && needs_scene(shown)) {
     const std::string source = existing_source(estimate->source, shown.subject);
     if (!source.empty()) {
@@ -163,6 +163,8 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
                                                : middle_of(estimate->field.disparity));
   if (scene) {
     note_other_source(*estimate, *scene->light_field, job);
+    const auto better = find_better_reading(*estimate, *scene);
+    if (better) job.note(shown.subject + ": " + better_reading_text(*better));
     take_scene(shown, std::move(*scene), loaded);
   }
   if (shown.quantity == Quantity::Difference) load_other(shown, *estimate, loaded, job);
@@ -175,6 +177,12 @@ void load_labels(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   loaded.source.view = segmentation.labeling->labels.first();
   loaded.source.labeling = segmentation.labeling;
   loaded.source.label_infos = segmentation.labels;
+  const bool needs_probabilities =
+      shown.quantity == Quantity::Probability || shown.quantity == Quantity::Uncertainty;
+  if (needs_probabilities && segmentation.labeling->probabilities.empty()) {
+    throw InvalidInput(shown.subject +
+                       " has no probabilities; label again with --write-probabilities");
+  }
   if (shown.quantity != Quantity::WrongLabels && !shown.needs_light_field) return;
   const std::string named = io::SegmentationFile(shown.subject).source();
   const std::string input = named_source(shown, existing_source(named, shown.subject));

@@ -4,6 +4,7 @@
 #include "app/cli/input.h"
 #include "app/session/quantity_map.h"
 #include "engine/core/scene.h"
+#include "engine/io/models/map_reading.h"
 
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@ struct ShownMap {
   ShownKind kind = ShownKind::LightField;
   render::Quantity quantity = render::Quantity::View;
   std::string truth;  ///< Light field of a result or of labels; empty = the one its file names.
+  io::MapReading reading{};  ///< Of a result, beyond what its file states.
   std::string minus;  ///< For a difference: the result that is subtracted.
   std::optional<ViewIndex> view;  ///< The center, or the middle of those there are.
   int label = 1;                  ///< Whose probability.

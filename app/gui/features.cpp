@@ -18,7 +18,6 @@
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/compare/error_plot_controller.h"
 #include "app/gui/compare/metric_controller.h"
-#include "app/gui/compare/movie_export.h"
 #include "app/gui/compare/picture_export.h"
 #include "app/gui/compare/region_controller.h"
 #include "app/gui/compare/statistics_controller.h"
@@ -133,7 +132,7 @@ void add_commands(const Workbench& bench, CloudController* cloud) {
                       .menu = Menu::File,
                       .text = CloudController::tr("Save 3D view…"),
                       .tip = CloudController::tr("Writes the points or surfaces that the 3D view "
-                                                 "shows, in their colours, as PLY"),
+                                                 "shows, in their colors, as PLY"),
                       .icon = "export",
                       .keys = {CloudController::tr("Ctrl+Alt+E")},
                       .run = [cloud] { cloud->askToExport(); },
@@ -215,7 +214,7 @@ void show_about(QWidget& window) {
   auto* box = new QMessageBox(
       QMessageBox::NoIcon, HelpText::tr("About Episcope"),
       HelpText::tr("<b>Episcope %1</b><p>Views, EPIs, disparity and labels of 4D light fields.</p>"
-                   "<p>BSD 3-Clause licence.</p>")
+                   "<p>BSD 3-Clause license.</p>")
           .arg(kVersion),
       QMessageBox::Close, &window);
   box->setObjectName("about");
@@ -224,7 +223,7 @@ void show_about(QWidget& window) {
   box->open();
 }
 
-// The list of keys, the command palette, colours, language and About.
+// The list of keys, the command palette, colors, language and About.
 void add_help(const Workbench& bench) {
   Commands& commands = bench.commands;
   QWidget& window = bench.window;
@@ -248,7 +247,7 @@ void add_help(const Workbench& bench) {
   commands.add({.id = "help.about",
                 .menu = Menu::Help,
                 .text = HelpText::tr("About Episcope"),
-                .tip = HelpText::tr("Shows version and licence"),
+                .tip = HelpText::tr("Shows version and license"),
                 .icon = "info",
                 .run = [&window] { show_about(window); }});
 }

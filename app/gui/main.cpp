@@ -63,7 +63,7 @@ std::unique_ptr<QCoreApplication> make_application(int& argc, char** argv) {
 }
 
 QCommandLineOption theme_option() {
-  return {"theme", "Colours: light, dark or those of the desktop.", "light|dark|system",
+  return {"theme", "Colors: light, dark or those of the desktop.", "light|dark|system",
           episcope::remembered_theme()};
 }
 

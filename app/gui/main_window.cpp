@@ -13,8 +13,8 @@
 #include "app/gui/shell/keyboard_home.h"
 #include "app/gui/shell/panes.h"
 #include "app/gui/shell/workbench.h"
-#include "app/session/scheduling.h"
 #include "app/session/session.h"
+#include "engine/core/parallel.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QByteArray>

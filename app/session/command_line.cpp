@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/command_line.h"
 
+#include "engine/core/error.h"
 #include "engine/disparity/registry.h"
+#include "engine/disparity/weights_file.h"
+#include "engine/io/base/json.h"
 #include "engine/io/models/open_options.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -21,7 +25,60 @@ bool is_default(const std::vector<ParameterDescription>& descriptions, const std
       });
 }
 
+using Json = nlohmann::ordered_json;
+
+Json parameter_json(const ParameterDescription& parameter) {
+  Json json;
+  json["key"] = parameter.key;
+  json["label"] = parameter.label;
+  json["help"] = parameter.help;
+  json["unit"] = parameter.unit;
+  json["default"] = io::parameters_json({{"", parameter.default_value}}).at("");
+  if (!parameter.choices.empty()) json["choices"] = parameter.choices;
+  for (const Preset& preset : parameter.presets) {
+    json["presets"][preset.choice] = io::parameters_json(preset.values);
+  }
+  if (has_numeric_domain(parameter)) {
+    json["min"] = parameter.min;
+    json["max"] = parameter.max;
+  }
+  return json;
+}
+
 }  // namespace
+
+Json weights_json(const std::string& name) {
+  Json json;
+  json["file"] = name;
+  try {
+    const auto path = installed_weights(name);
+    json["file"] = path.string();
+    const auto record = io::parse_json<Json>(read_named_arrays(path).record);
+    json["version"] = record.at("version");
+    json["date"] = record.at("training").at("date");
+    json["sha256"] = record.at("sha256");
+  } catch (const Error& error) {
+    json["problem"] = error.what();
+  } catch (const Json::exception&) {
+    json["problem"] = "their record is damaged; install the program anew";
+  }
+  return json;
+}
+
+Json method_json(const Estimator& method) {
+  Json json;
+  json["id"] = method.info.id;
+  json["name"] = method.info.name;
+  json["summary"] = method.info.summary;
+  json["reference"] = method.info.reference;
+  json["all_views"] = method.info.all_views;
+  if (!method.info.weights.empty()) json["weights"] = weights_json(method.info.weights);
+  json["parameters"] = Json::array();
+  for (const auto& parameter : method.parameters) {
+    json["parameters"].push_back(parameter_json(parameter));
+  }
+  return json;
+}
 
 std::string shell_quoted(const std::string& word) {
   const auto is_plain = [](char c) {

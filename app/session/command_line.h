@@ -4,6 +4,8 @@
 #include "engine/core/estimate.h"
 #include "engine/disparity/estimator.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
@@ -19,6 +21,12 @@ namespace episcope {
 [[nodiscard]] std::string command_line_for(const std::string& method, const ParameterSet& values,
                                            ViewSelection views, const std::string& input,
                                            const ParameterSet& reading = {});
+
+/// A method with its parameters and what its weights are, if it has any: one of "methods" of
+/// `episcope-cli methods --json`.
+[[nodiscard]] nlohmann::ordered_json method_json(const Estimator& method);
+/// Version, date and hash of installed weights, or the "problem" with them.
+[[nodiscard]] nlohmann::ordered_json weights_json(const std::string& name);
 
 /// Values that are not the defaults of the method; of a method this build does not know, all.
 [[nodiscard]] ParameterSet changed_parameters(const std::string& method,

@@ -186,6 +186,10 @@ Evaluation judge(const Estimate& estimate, const Scene& scene, EvaluationOptions
     evaluation = evaluate(estimate.field.view(view), truth.field.view(view),
                           is_center ? truth.regions : no_regions, options);
   }
+  if (truth.estimated) {
+    evaluation.notes.push_back("the truth of " + light_field.info().name +
+                               " is no ground truth: it was " + estimated_text(*truth.estimated));
+  }
   if (options.protocol == Protocol::Benchmark2016 && estimate.seconds > 0) {
     evaluation.metrics.emplace_back("runtime_log", std::log10(estimate.seconds));
   }

@@ -31,6 +31,21 @@ LabelingScores judge_labeling(const ViewStack<std::int32_t>& labels, ViewIndex v
   return scores;
 }
 
+Metrics labeling_metrics(const LabelingScores& scores) {
+  Metrics metrics;
+  const auto add = [&metrics](const char* key, const std::optional<double>& share) {
+    if (share) metrics.emplace_back(key, *share);
+  };
+  add("accuracy_all_views", scores.all_views.all.share());
+  add("accuracy_center", scores.view.all.share());
+  add("miou", scores.all_views.all.mean_overlap());
+  add("macc", scores.all_views.all.mean_share());
+  add("boundary_accuracy", scores.all_views.boundaries.share());
+  add("thin_iou", scores.all_views.thin_overlap());
+  add("consistency", scores.consistency);
+  return metrics;
+}
+
 namespace {
 
 struct Sums {

@@ -8,6 +8,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/evaluation/label_quality.h"
+#include "engine/evaluation/metrics.h"
 #include "engine/labeling/label_review.h"
 
 #include <cstdint>
@@ -33,6 +34,9 @@ struct LabelingScores {
                                             const GroundTruth& ground_truth,
                                             const DisparityField* disparity,
                                             const Progress& progress);
+
+/// The scores that are known, by key: shares in [0, 1].
+[[nodiscard]] Metrics labeling_metrics(const LabelingScores& scores);
 
 /// Disparities of the pixels of a label, px.
 struct LabelDisparity {

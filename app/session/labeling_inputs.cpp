@@ -4,6 +4,7 @@
 #include "app/session/result_files.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
+#include "engine/disparity/registry.h"
 #include "engine/io/base/files.h"
 #include "engine/io/formats/companions.h"
 #include "engine/labeling/edge_probability.h"
@@ -59,7 +60,8 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
     return disparity_of(std::make_shared<const Estimate>(std::move(estimate)), name);
   }
   return disparity_of(
-      run_estimator(scene, {kLabelingEstimator, {}, {.device = device}}, progress).estimate,
+      run_estimator(scene, find_estimator(kLabelingEstimator), {}, {.device = device}, progress)
+          .estimate,
       kLabelingEstimator);
 }
 

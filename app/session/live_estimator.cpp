@@ -3,8 +3,8 @@
 
 #include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
-#include "app/session/scheduling.h"
 #include "engine/core/error.h"
+#include "engine/core/parallel.h"
 #include "engine/core/progress.h"
 #include "engine/core/shear.h"
 #include "engine/disparity/disparity_range.h"

@@ -3,7 +3,7 @@
 
 #include "app/session/run_estimator.h"
 #include "engine/core/estimate.h"
-#include "engine/core/even_views.h"
+#include "engine/core/view_gain.h"
 #include "engine/core/indices.h"
 #include "engine/core/jobs.h"
 #include "engine/core/light_field.h"

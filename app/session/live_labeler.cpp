@@ -3,8 +3,8 @@
 
 #include "annotation/exchange.h"
 #include "app/session/run_estimator.h"
-#include "app/session/scheduling.h"
 #include "engine/core/error.h"
+#include "engine/core/parallel.h"
 #include "engine/labeling/labeler.h"
 
 #include <algorithm>

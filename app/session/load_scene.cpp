@@ -161,6 +161,35 @@ Scene load_scene(const std::string& input, const LoadOptions& options, const Pro
   return sheared(scene, focus_px, progress.part(0.8, 1));
 }
 
+namespace {
+
+/// Options that nothing came of.
+void warn_of_ignored(const ParameterSet& given, Scene& scene) {
+  const std::string& id = scene.light_field->info().reading.reader;
+  const io::Reader* reader = io::reader_named(id);
+  const std::string name = reader ? reader->name : "a built-in scene";
+  for (const auto& [key, value] : given) {
+    if (key == Reading::kFocus || (reader && reader->has_option(key))) continue;
+    scene.convention.warnings.push_back(
+        fmt::format("--{} is ignored, because this is {}.", key, name));
+  }
+}
+
+}  // namespace
+
+Scene open_input(const std::string& input, io::OpenOptions open, bool needs_truth,
+                 const Progress& progress) {
+  const bool is_builtin = !builtin_scene_id(input).empty();
+  const ParameterSet given = io::given_options(open);
+  const LoadOptions load{
+      .open = std::move(open), .cache_folder = default_cache_folder(), .needs_truth = needs_truth};
+  progress.step("reading " + std::filesystem::path(input).filename().string());
+  Scene scene = load_scene(input, load, progress.part(0, is_builtin ? 0.9 : 1));
+  warn_of_ignored(given, scene);
+  if (is_builtin) store_in_cache(input, scene, load.cache_folder, progress.part(0.9, 1));
+  return scene;
+}
+
 void store_in_cache(const std::string& input, const Scene& scene,
                     const std::filesystem::path& cache_folder, const Progress& progress) {
   const std::string id = builtin_scene_id(input);
@@ -265,9 +294,7 @@ std::optional<ViewStack<std::uint8_t>> SceneCache::read_samples(
     for (int i = 0; i < options.grid.count(); ++i) {
       progress.check();
       const ViewIndex view = options.grid.view_at(i);
-      const io::Hdf5Block block{{length(view.v), length(view.u), 0, 0, 0},
-                                {1, 1, shape[2], shape[3], shape[4]}};
-      file.read("LF", block, stack.view(view).data);
+      file.read("LF", io::view_block(shape, view), stack.view(view).data);
       progress.report((i + 1.0) / options.grid.count());
     }
     return stack;

@@ -46,6 +46,11 @@ struct LoadOptions {
 void store_in_cache(const std::string& input, const Scene& scene,
                     const std::filesystem::path& cache_folder, const Progress& progress);
 
+/// `load_scene` with the user's cache, which keeps the built-in scene for the next time; reading
+/// options that the form of the input does not have are named in warnings. Throws likewise.
+[[nodiscard]] Scene open_input(const std::string& input, io::OpenOptions open, bool needs_truth,
+                               const Progress& progress);
+
 /// All that can follow `demo:`: the built-in scenes, which have ground truth, and the gantry
 /// (gantry_scene.h), before the random one.
 [[nodiscard]] std::vector<scenes::BuiltinSceneInfo> builtin_inputs();

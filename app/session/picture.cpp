@@ -28,38 +28,33 @@ RgbaImage stretched(const RgbaImage& picture) {
   return tall;
 }
 
-// Calls `change` with every pixel of the picture that is not judged.
+// Calls `change` with every pixel that is not judged; labels are all shown.
 template <class Change>
-void change_outside(const QuantityMap& map, RgbaImage& picture, const Change& change) {
-  if (map.inside.empty()) return;
+RgbaImage shaded(const QuantityMap& map, const render::Shading& shading, const Change& change) {
+  if (!map.labels.empty()) {
+    return render::shade_labels(map.labels, map.label_infos, map.label_style);
+  }
+  RgbaImage picture = render::shade(map.map, map.valid, shading);
+  if (map.inside.empty()) return picture;
   for (int y = 0; y < picture.height(); ++y) {
     const std::uint8_t* inside = map.inside.row(y);
     for (int x = 0; x < picture.width(); ++x) {
       if (inside[x] == 0) change(&picture.at(y, x));
     }
   }
+  return picture;
 }
 
 }  // namespace
 
 RgbaImage overlay_picture(const QuantityMap& map, const render::Shading& shading) {
-  if (!map.labels.empty()) {
-    return render::shade_labels(map.labels, map.label_infos, map.label_style);
-  }
-  RgbaImage picture = render::shade(map.map, map.valid, shading);
-  change_outside(map, picture, [](std::uint8_t* pixel) { pixel[kAlpha] = 0; });
-  return picture;
+  return shaded(map, shading, [](std::uint8_t* pixel) { pixel[kAlpha] = 0; });
 }
 
 RgbaImage map_picture(const QuantityMap& map, const render::Shading& shading) {
-  if (!map.labels.empty()) {
-    return render::shade_labels(map.labels, map.label_infos, map.label_style);
-  }
-  RgbaImage picture = render::shade(map.map, map.valid, shading);
-  change_outside(map, picture, [&shading](std::uint8_t* pixel) {
+  return shaded(map, shading, [&shading](std::uint8_t* pixel) {
     std::copy(shading.map.invalid.begin(), shading.map.invalid.end(), pixel);
   });
-  return picture;
 }
 
 RgbaImage blended(const RgbaImage& under, const RgbaImage& over, double opacity) {

@@ -3,6 +3,7 @@
 
 #include "app/session/judge.h"
 #include "app/session/segmentation.h"
+#include "app/session/session.h"
 #include "engine/core/estimate.h"
 #include "engine/core/ground_truth.h"
 #include "engine/core/image.h"
@@ -82,5 +83,22 @@ using QuantityMapPtr = std::shared_ptr<const QuantityMap>;
 /// Preconditions: `reason_against(source)` is empty; there is an evaluation if the quantity is an
 /// error.
 [[nodiscard]] QuantityMapPtr make_map(const MapSource& source);
+
+/// Which map of the session: a quantity, of which estimates.
+struct MapChoice {
+  render::Quantity quantity = render::Quantity::View;
+  int estimate = 0;
+  int other = 0;  ///< For a difference: estimate − other.
+  friend bool operator==(const MapChoice&, const MapChoice&) = default;
+};
+
+/// Whether a quantity can be shown now, in some view. Quantities of a segmentation cannot, since
+/// the session does not hold it.
+[[nodiscard]] bool is_available(const Session& session, render::Quantity quantity);
+
+/// Looks up what a map of a view is made from. None for the view itself and for maps that do not
+/// exist, or not yet: then asks Session::evaluation for what is missing.
+[[nodiscard]] std::optional<MapSource> map_source(Session& session, const MapChoice& choice,
+                                                  ViewIndex view);
 
 }  // namespace episcope

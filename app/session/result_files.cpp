@@ -2,6 +2,7 @@
 #include "app/session/result_files.h"
 
 #include "app/session/command_line.h"
+#include "app/session/judge.h"
 #include "app/session/load_scene.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/error.h"
@@ -16,13 +17,18 @@
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/formats/frames_reader.h"
 #include "engine/io/formats/mosaic_reader.h"
+#include "engine/io/models/external_result.h"
 #include "engine/io/models/padding.h"
 #include "engine/io/models/result_file.h"
+#include "engine/io/models/stored_maps.h"
 #include "engine/render/shade.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -63,9 +69,10 @@ GridShape grid_of_map(const fs::path& path) {
     return {static_cast<int>(header.shape[0]), static_cast<int>(header.shape[1])};
   }
   if (!io::has_hdf5_signature(path)) return grid;
-  for (const auto& dataset : io::Hdf5Input(path).datasets()) {
+  const io::Hdf5Input file(path);
+  for (const auto& dataset : file.datasets()) {
     if (!is_map(dataset) || dataset.shape.size() != 4) continue;
-    grid = {static_cast<int>(dataset.shape[0]), static_cast<int>(dataset.shape[1])};
+    grid = io::stated_map_layout(file, dataset).grid();
   }
   return grid;
 }
@@ -104,7 +111,37 @@ bool names_result(const std::string& path) {
   return suffix == ".pfm" || io::is_result_file(path) || is_foreign_hdf5_result(path);
 }
 
-Estimate read_result_of(const LightField& light_field, const fs::path& path) {
+namespace {
+
+/// Refuses maps of any other program that lie on their side.
+void require_upright(const Estimate& estimate, const LightField& light_field,
+                     const fs::path& path) {
+  const auto& map = estimate.field.disparity;
+  const int height = light_field.height(), width = light_field.width();
+  if (height == width || map.height() != width || map.width() != height) return;
+  throw IoError(path, "the maps have " + size_text(map.width(), map.height()) +
+                          " pixels, but the views " + size_text(width, height) +
+                          ": rows and columns are exchanged; add --map-transpose");
+}
+
+void remove_padding_of(Estimate& estimate, const LightField& light_field) {
+  if (!estimate.confidence.empty() || !estimate.layered.layers.empty()) return;
+  const std::string note =
+      io::remove_padding(estimate.field, light_field.height(), light_field.width());
+  if (!note.empty()) estimate.notes.push_back(note);
+}
+
+void find_border_of(Estimate& estimate, const LightField& light_field) {
+  const io::BareBorder border =
+      io::find_bare_border(estimate.field, light_field.height(), light_field.width());
+  estimate.border_px = border.width_px;
+  if (!border.note.empty()) estimate.notes.push_back(border.note);
+}
+
+}  // namespace
+
+Estimate read_result_of(const LightField& light_field, const fs::path& path,
+                        const io::MapReading& reading) {
   std::error_code ignored;
   const bool is_hdf5 = fs::is_regular_file(path, ignored) && io::has_hdf5_signature(path);
   if (is_hdf5 && holds_light_field(io::Hdf5Input(path)) && !io::is_result_file(path)) {
@@ -112,24 +149,83 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path) {
                   "holds a light field or true depth and no estimated disparity; name a result");
   }
   Estimate estimate = io::read_result(path, light_field.grid(), light_field.info().name);
-  if (estimate.confidence.empty() && estimate.layered.layers.empty()) {
-    const std::string note =
-        io::remove_padding(estimate.field, light_field.height(), light_field.width());
-    if (!note.empty()) estimate.notes.push_back(note);
-  }
-  if (!io::is_result_file(path)) {
-    const io::BareBorder border =
-        io::find_bare_border(estimate.field, light_field.height(), light_field.width());
-    estimate.border_px = border.width_px;
-    if (!border.note.empty()) estimate.notes.push_back(border.note);
-  }
+  io::apply_reading(reading, &light_field, estimate);
+  require_upright(estimate, light_field, path);
+  remove_padding_of(estimate, light_field);
+  if (!io::is_result_file(path) && reading.border_px == 0) find_border_of(estimate, light_field);
   return estimate;
 }
 
-Estimate read_result_alone(const fs::path& path) {
+Estimate result_from_maps(const LightField& light_field, DisparityField maps,
+                          const std::string& method) {
+  Estimate estimate;
+  estimate.field = std::move(maps);
+  estimate.method = method;
+  io::mark_invalid(estimate.field);
+  remove_padding_of(estimate, light_field);
+  find_border_of(estimate, light_field);
+  return estimate;
+}
+
+Estimate read_result_alone(const fs::path& path, const io::MapReading& reading) {
   // Larger than any: a result file says itself where in the grid its views are.
   constexpr GridShape any_grid{1 << 14, 1 << 14};
-  return io::read_result(path, io::is_result_file(path) ? any_grid : grid_of_map(path));
+  Estimate estimate =
+      io::read_result(path, io::is_result_file(path) ? any_grid : grid_of_map(path));
+  io::apply_reading(reading, nullptr, estimate);
+  return estimate;
+}
+
+std::optional<io::BetterReading> find_better_reading(const Estimate& estimate, const Scene& scene) {
+  const LightField& light_field = *scene.light_field;
+  const DisparityField& truth = scene.truth->field;
+  const ViewStack<float>& maps = estimate.field.disparity;
+  const ViewIndex judged = judged_view(scene);
+  const ViewIndex view = estimate.field.contains(judged) ? judged : maps.first();
+  const bool fits = maps.height() == light_field.height() && maps.width() == light_field.width() &&
+                    light_field.grid().contains(view) && estimate.layered.foreground.empty();
+  const bool has_truth = truth.contains(view);
+  if (!fits || (!has_truth && !estimate.version.empty())) return std::nullopt;
+  io::MapEvidence evidence{light_field, view};
+  if (!has_truth) return io::find_better_reading(estimate.field.view(view), evidence);
+  const ShownDisparity shown(truth.view(view), light_field.valid_of(view));
+  evidence.truth = shown.view();
+  return io::find_better_reading(estimate.field.view(view), evidence);
+}
+
+namespace {
+
+/// "MSE×100 0.08 instead of 194", "1.9 instead of 6.3 grey levels between views".
+std::string both_numbers(const io::BetterReading& found) {
+  std::string text;
+  if (found.as_read.mse_100 && found.better.mse_100) {
+    text = fmt::format("MSE×100 {:.3g} instead of {:.3g}", *found.better.mse_100,
+                       *found.as_read.mse_100);
+  }
+  if (found.better.grey_levels) {
+    text +=
+        fmt::format("{}{:.3g} instead of {} grey levels between the views",
+                    text.empty() ? "" : ", ", *found.better.grey_levels,
+                    found.as_read.grey_levels ? fmt::format("{:.3g}", *found.as_read.grey_levels)
+                                              : "any number of");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string map_options_text(const io::MapReading& reading) {
+  return options_text(io::given_options(reading), io::map_schema().descriptions());
+}
+
+std::string better_reading_text(const io::BetterReading& found) {
+  const bool is_by_truth = found.as_read.mse_100.has_value();
+  const std::string finding = fmt::format("the map {} far better with {} ({})",
+                                          is_by_truth ? "fits the truth" : "explains the views",
+                                          io::reading_text(found.reading), both_numbers(found));
+  const std::string options = map_options_text(found.reading);
+  if (!found.is_contradicted()) return finding + "; if it is stored so, add" + options;
+  return finding + ", but the views fit it as it is: check the truth, or add" + options;
 }
 
 void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file) {
@@ -216,7 +312,7 @@ std::string differing_options(const Estimate& estimate, const LightField& light_
 }
 
 std::string source_text(const std::string& input, const fs::path& result) {
-  if (!builtin_scene_id(input).empty()) return input;
+  if (input.empty() || !builtin_scene_id(input).empty()) return input;
   fs::path source = fs::weakly_canonical(input);
   if (!source.has_filename()) source = source.parent_path();
   const fs::path folder = fs::weakly_canonical(fs::absolute(result)).parent_path();

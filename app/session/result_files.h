@@ -4,6 +4,8 @@
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/io/models/map_reading.h"
 #include "engine/io/models/open_options.h"
 
 #include <filesystem>
@@ -17,14 +19,36 @@ namespace episcope {
 /// damaged HDF5 file.
 [[nodiscard]] bool names_result(const std::string& path);
 
-/// Reads a result of this light field. Throws IoError, also for a file that holds a light field or
-/// depth, which would else be judged as disparity.
+/// Reads a result of this light field, as a user says (`reading`) beyond what its file states.
+/// Throws IoError, also for a file that holds a light field or depth, which would else be judged as
+/// disparity, and for maps whose rows and columns are exchanged for those of the views;
+/// InvalidInput as `io::apply_reading`.
 [[nodiscard]] Estimate read_result_of(const LightField& light_field,
-                                      const std::filesystem::path& path);
+                                      const std::filesystem::path& path,
+                                      const io::MapReading& reading = {});
+
+/// Maps of another program as a result of this light field, as if they were read from a file:
+/// values that are not finite become invalid, padding is cut off, and a bare border is not judged.
+[[nodiscard]] Estimate result_from_maps(const LightField& light_field, DisparityField maps,
+                                        const std::string& method);
 
 /// Reads a result without its light field: a result file knows the places of its views; a map from
-/// elsewhere becomes view 0,0. Throws IoError.
-[[nodiscard]] Estimate read_result_alone(const std::filesystem::path& path);
+/// elsewhere becomes view 0,0. Throws IoError, InvalidInput.
+[[nodiscard]] Estimate read_result_alone(const std::filesystem::path& path,
+                                         const io::MapReading& reading = {});
+
+/// Looks for a reading by which truth and views explain a result far better
+/// (io::find_better_reading), in the view that is judged or the only one. Without truth, results of
+/// this program are not looked at. Empty if there is none, or the result does not fit.
+[[nodiscard]] std::optional<io::BetterReading> find_better_reading(const Estimate& estimate,
+                                                                   const Scene& scene);
+
+/// Options that read a map so, as on the command line: " --map-transpose --map-scale=0.01".
+[[nodiscard]] std::string map_options_text(const io::MapReading& reading);
+
+/// A sentence that says so, with both numbers and the options that apply it: "the map fits the
+/// truth far better with rows and columns exchanged (…); if it is stored so, add --map-transpose".
+[[nodiscard]] std::string better_reading_text(const io::BetterReading& found);
 
 /// Throws InvalidInput, naming `file`, if an estimate that was read from there has not the size and
 /// views of the light field.
@@ -55,6 +79,7 @@ void bring_to_focus(Estimate& estimate, const LightField& light_field, const Pro
 /// What a result file says of its light field: a built-in scene as it is typed, else a path
 /// relative to the folder of the result, so that both can move together; absolute only where they
 /// share no folder but the root. Its last part is the name; the hash of the samples is beside it.
+/// Nothing if `input` is empty: the light field comes from no file.
 [[nodiscard]] std::string source_text(const std::string& input,
                                       const std::filesystem::path& result);
 

@@ -17,7 +17,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <new>
 #include <utility>
 
 namespace episcope {
@@ -31,20 +30,16 @@ std::string range_warning(const LightField& light_field, const Estimate& estimat
 
 }  // namespace
 
-FinishedEstimate run_estimator(const Scene& scene, const EstimateRequest& request,
-                               const Progress& progress) {
-  return run_estimator(scene, find_estimator(request.method), request, progress);
-}
-
 bool was_taken_early(const Estimate& estimate) {
   return std::ranges::find(estimate.notes, kTakenEarly) != estimate.notes.end();
 }
 
 FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
-                               const EstimateRequest& request, const Progress& progress) {
+                               const ParameterSet& parameters, const RunOptions& options,
+                               const Progress& progress) {
   const LightField& light_field = *scene.light_field;
   auto estimate = std::make_shared<Estimate>(
-      estimator.run(light_field, *scene.even, request.parameters, request.options, progress));
+      estimator.run(light_field, *scene.even, parameters, options, progress));
   estimate->source_hash = light_field.sample_hash();
   if (progress.finish_requested() && estimator.info.iterative) {
     estimate->notes.push_back(kTakenEarly);
@@ -53,6 +48,16 @@ FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
   const Interval range = display_range(*estimate);
   std::string warning = range_warning(light_field, *estimate);
   return {std::move(estimate), range, std::move(warning)};
+}
+
+ViewSelection views_to_estimate(const Estimator& estimator, std::optional<ViewSelection> wanted) {
+  const bool can_all = estimator.info.all_views;
+  if (!wanted) return can_all ? ViewSelection::All : ViewSelection::Center;
+  if (can_all || *wanted == ViewSelection::Center) return *wanted;
+  const bool chooses = std::ranges::count(estimator.parameters, std::string("view"),
+                                          &ParameterDescription::key) > 0;
+  throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center" +
+                     (chooses ? ", or --view V,U for another" : ""));
 }
 
 namespace {

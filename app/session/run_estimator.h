@@ -7,8 +7,8 @@
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/run_blocks.h"
 
-#include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace episcope {
@@ -32,15 +32,16 @@ inline constexpr const char* kTakenEarly = "ended early";
 /// Whether it has that note.
 [[nodiscard]] bool was_taken_early(const Estimate& estimate);
 
-/// Runs a method of the registry on a scene, which keeps its equalized views (Scene::even). What
-/// was ended early (Progress::finish_requested) says so in its notes. Throws what the method
-/// throws, Unavailable for an unknown one.
-[[nodiscard]] FinishedEstimate run_estimator(const Scene& scene, const EstimateRequest& request,
-                                             const Progress& progress);
-/// Runs a method that need not be in the registry.
+/// Runs a method on a scene, which keeps its equalized views (Scene::even). The notes of a result
+/// say if it was ended early (Progress::finish_requested). Throws what the method throws.
 [[nodiscard]] FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
-                                             const EstimateRequest& request,
-                                             const Progress& progress);
+                                             const ParameterSet& parameters,
+                                             const RunOptions& options, const Progress& progress);
+
+/// The views that a run covers: those that are wanted, else as many as the method can. Throws
+/// InvalidInput if all views are wanted of a method that estimates one.
+[[nodiscard]] ViewSelection views_to_estimate(const Estimator& estimator,
+                                              std::optional<ViewSelection> wanted);
 
 /// A run whose maps go to a file block by block.
 struct BlockRequest {

@@ -147,42 +147,21 @@ std::string files_text(const ConventionReport& report) {
   return (used.empty() ? "" : used + "; ") + "not used: " + unused;
 }
 
-namespace {
-
-// Of no pixel at all.
-constexpr Interval kNothing{std::numeric_limits<double>::max(),
-                            std::numeric_limits<double>::lowest()};
-
-Interval widened(Interval range, const DisparityView& view) {
-  for (int y = 0; y < view.disparity.height; ++y) {
-    for (int x = 0; x < view.disparity.width; ++x) {
-      if (!view.is_valid(y, x)) continue;
-      const double value = view.disparity.at(y, x);
-      range = {std::min(range.min, value), std::max(range.max, value)};
-    }
-  }
-  return range;
-}
-
-Interval or_none(Interval range) {
-  return range.min <= range.max ? range : Interval{};
-}
-
-}  // namespace
-
 Interval extent(const DisparityView& view) {
-  return or_none(widened(kNothing, view));
+  Spread spread;
+  spread.add(view);
+  return spread.interval();
 }
 
 Interval known_disparity_range(const Scene& scene) {
   const GroundTruth& truth = *scene.truth;
   const ViewIndex center = scene.light_field->center();
-  Interval range = kNothing;
+  Spread known;
   for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
     if (field->empty()) continue;
-    range =
-        widened(range, field->view(field->contains(center) ? center : field->disparity.first()));
+    known.add(field->view(field->contains(center) ? center : field->disparity.first()));
   }
+  const Interval range = known.interval();
   // A point that moves farther than the image from view to view is a mark for "nothing".
   if (range.length() > 0 && range.length() < scene.light_field->width()) return range;
   return scene.light_field->info().disparity_range.value_or(Interval{});

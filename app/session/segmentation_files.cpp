@@ -123,8 +123,9 @@ int write_label_masks(const fs::path& folder, const Segmentation& segmentation,
     const Image<std::int32_t> labels = finished_labels(labeling, segmentation.finish, view);
     for (const LabelInfo& label : infos) {
       progress.check();
-      io::write_png(folder_of(label, folder) / fmt::format("mask_{:02}_{:02}.png", view.v, view.u),
-                    label_mask(labels, label.id).view());
+      io::write_picture(
+          folder_of(label, folder) / fmt::format("mask_{:02}_{:02}.png", view.v, view.u),
+          label_mask(labels, label.id).view());
       ++written;
     }
   }

@@ -4,7 +4,9 @@
 #include "app/session/judge.h"
 #include "app/session/open_scene.h"
 #include "engine/core/error.h"
+#include "engine/core/numbers.h"
 #include "engine/core/text.h"
+#include "engine/disparity/registry.h"
 #include "engine/evaluation/parameter_search.h"
 
 #include <fmt/format.h>
@@ -28,14 +30,14 @@ std::optional<double> median_change(const DisparityView& a, const DisparityView&
     }
   }
   if (changes.empty()) return std::nullopt;
-  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
-  std::nth_element(changes.begin(), middle, changes.end());
-  return *middle;
+  return quantile(changes, 0.5);
 }
 
 void fill(const Scene& scene, const EstimateRequest& request, const Estimate* reference,
           const Progress& progress, SweepPoint& point) {
-  const FinishedEstimate finished = run_estimator(scene, request, progress.part(0, 0.97));
+  const FinishedEstimate finished =
+      run_estimator(scene, find_estimator(request.method), request.parameters, request.options,
+                    progress.part(0, 0.97));
   point.estimate = finished.estimate;
   point.display_range = finished.display_range;
   point.seconds = finished.estimate->seconds;

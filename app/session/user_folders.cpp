@@ -5,6 +5,7 @@
 #include "engine/core/memory.h"
 #include "engine/io/formats/archive_reader.h"
 #include "engine/io/formats/sequence_reader.h"
+#include "engine/io/models/label_list.h"
 #include "engine/io/models/scribble_file.h"
 
 #include <unistd.h>
@@ -72,13 +73,12 @@ fs::path label_place(const LightField& light_field) {
   }
   if (fs::is_directory(source, ignored)) return source / "labels.h5";
   if (!fs::is_regular_file(source, ignored)) return {};
-  const bool is_archive = light_field.info().reading.reader == io::kArchiveReader;
+  if (light_field.info().reading.reader == io::kArchiveReader) return io::labels_beside(source);
   // Several light fields of other forms may share a folder.
   const int frame = io::open_schema().parse(light_field.info().reading.options).frame;
   std::string stem = source.stem().string();
   if (frame > 0) stem.append("_").append(std::to_string(frame));  // one of several in the file
-  const std::string name = is_archive ? "labels.h5" : stem + "_labels.h5";
-  return source.parent_path() / name;
+  return source.parent_path() / (stem + "_labels.h5");
 }
 
 bool is_writable(const fs::path& path) {

@@ -26,9 +26,10 @@ void use_cache_for_scratch();
 /// Folder of workspaces: `sessions` in the state folder; empty if there is none.
 [[nodiscard]] std::filesystem::path default_workspace_folder();
 
-/// Where the scribbles of a light field are kept: labels.h5 in its folder, or beside an archive
-/// file; <stem>_labels.h5 beside a file of another form; of a frame of a sequence, in the frame's
-/// folder, or labels_<frame>.h5 beside its file. Empty for scenes that come from no file.
+/// Where the scribbles of a light field are kept: labels.h5 in its folder, the file that
+/// io::labels_beside finds of an archive file; <stem>_labels.h5 beside a file of another form; of a
+/// frame of a sequence, in the frame's folder, or labels_<frame>.h5 beside its file. Empty for
+/// scenes that come from no file.
 [[nodiscard]] std::filesystem::path label_place(const LightField& light_field);
 
 /// Whether permissions allow a file to be made or overwritten there.

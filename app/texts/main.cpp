@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // episcope_texts SOURCES: prints the English texts that the engine holds and the window shows, in a
 // form that Qt's lupdate reads. They come from tables and schemas, and from literal sentences in
-// SOURCES/engine. The target update_translations keeps them in
-// resources/translations/engine_texts.h.
+// SOURCES/engine.
 #include "engine/capture/pattern.h"
 #include "engine/capture/rectify.h"
 #include "engine/core/error.h"
@@ -147,8 +146,6 @@ int main(int argc, char** argv) {
     if (argc != 2) throw std::runtime_error("usage: episcope_texts SOURCES");
     Texts texts = schema_texts();
     texts.merge(literal_sentences(std::filesystem::path(argv[1]) / "engine"));
-    std::cout << "// SPDX-License-Identifier: BSD-3-Clause\n"
-                 "// Texts of the engine, for lupdate. Made by episcope_texts.\n";
     print("episcope::Schema", texts);
     print("episcope::render", quantity_texts());
     return std::cout.flush() ? 0 : 1;

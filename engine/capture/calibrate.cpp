@@ -140,35 +140,66 @@ Calibration calibrate(std::vector<PatternPhotograph> photographs, int height, in
   return calibration;
 }
 
+namespace {
+
+/// Pixels across and down, with the number of photographs of that size.
+struct PhotographSize {
+  int width = 0;
+  int height = 0;
+  int count = 0;
+};
+
+/// The most frequent size; of equally frequent ones, the first.
+PhotographSize usual_size(const std::vector<PhotographSize>& sizes) {
+  std::vector<PhotographSize> counted;
+  for (const PhotographSize& size : sizes) {
+    const auto known = std::ranges::find_if(counted, [&](const PhotographSize& each) {
+      return each.width == size.width && each.height == size.height;
+    });
+    if (known != counted.end()) {
+      ++known->count;
+    } else {
+      counted.push_back({size.width, size.height, 1});
+    }
+  }
+  return counted.empty() ? PhotographSize{}
+                         : *std::ranges::max_element(counted, {}, &PhotographSize::count);
+}
+
+PatternPhotograph find_in(const cv::Mat& gray, const std::filesystem::path& file,
+                          const Pattern& pattern) {
+  const ImageView<const std::uint8_t> view{gray.data, gray.rows, gray.cols, 1,
+                                           static_cast<std::ptrdiff_t>(gray.step[0])};
+  PatternPhotograph photograph;
+  photograph.name = file.string();
+  photograph.found = find_pattern(view, pattern);
+  photograph.sharpness = sharpness(view, photograph.found.pixels, kSharpnessReach);
+  return photograph;
+}
+
+}  // namespace
+
 Calibration calibrate(const std::vector<std::filesystem::path>& files, const Pattern& pattern,
                       const Progress& progress) {
   std::vector<PatternPhotograph> photographs;
-  int height = 0;
-  int width = 0;
+  std::vector<PhotographSize> sizes;
   for (std::size_t i = 0; i < files.size(); ++i) {
     progress.check();
     progress.step("finding the pattern in " + files[i].filename().string());
     const cv::Mat gray = read_gray(files[i]);
-    if (i == 0) {
-      height = gray.rows;
-      width = gray.cols;
-    }
-    PatternPhotograph photograph;
-    photograph.name = files[i].string();
-    if (gray.rows != height || gray.cols != width) {
-      photograph.problem =
-          fmt::format("{}×{} px, but the first has {}×{}", gray.cols, gray.rows, width, height);
-    } else {
-      const ImageView<const std::uint8_t> view{gray.data, height, width, 1,
-                                               static_cast<std::ptrdiff_t>(gray.step[0])};
-      photograph.found = find_pattern(view, pattern);
-      photograph.sharpness = sharpness(view, photograph.found.pixels, kSharpnessReach);
-    }
-    photographs.push_back(std::move(photograph));
+    sizes.push_back({gray.cols, gray.rows});
+    photographs.push_back(find_in(gray, files[i], pattern));
     progress.report(0.8 * static_cast<double>(i + 1) / static_cast<double>(files.size()));
   }
+  const PhotographSize usual = usual_size(sizes);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (sizes[i].width == usual.width && sizes[i].height == usual.height) continue;
+    photographs[i].problem =
+        fmt::format("{}×{} px, but {} of {} have {}×{}", sizes[i].width, sizes[i].height,
+                    usual.count, files.size(), usual.width, usual.height);
+  }
   progress.step("calibrating");
-  return calibrate(std::move(photographs), height, width);
+  return calibrate(std::move(photographs), usual.height, usual.width);
 }
 
 double sharpness(ImageView<const std::uint8_t> gray, std::span<const std::array<double, 2>> points,

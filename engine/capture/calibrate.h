@@ -38,7 +38,8 @@ struct Calibration {
 [[nodiscard]] Calibration calibrate(std::vector<PatternPhotograph> photographs, int height,
                                     int width);
 
-/// Reads the files and calibrates. Photographs of another size than the first are left out. Throws
+/// Reads the files and calibrates. Photographs of another size than most
+/// are left out; of sizes that are equally frequent, the one that comes first counts. Throws
 /// IoError for a file that cannot be read, InvalidInput as above, Cancelled.
 [[nodiscard]] Calibration calibrate(const std::vector<std::filesystem::path>& files,
                                     const Pattern& pattern, const Progress& progress);

@@ -5,8 +5,8 @@
 
 namespace episcope {
 
-/// The pinhole of the centre view: a point (X, Y, Z) is seen at (f·X/Z + cx, f·Y/Z + cy), in pixels
-/// whose centres have whole coordinates.
+/// The pinhole of the center view: a point (X, Y, Z) is seen at (f·X/Z + cx, f·Y/Z + cy), in pixels
+/// whose centers have whole coordinates.
 struct Pinhole {
   double focal_px = 0;
   double center_x = 0;
@@ -37,7 +37,7 @@ struct CameraGrid {
 /// Parameters of a Blender camera grid, eq. (2). The published formula for the shift lacks xRes;
 /// d(Z0) must be 0, so shift = dH·f/Z0, which a real file of the archive confirms.
 struct BlenderCamera {
-  double camera_distance_step = 0;  ///< b, distance of neighbouring cameras in scene units.
+  double camera_distance_step = 0;  ///< b, distance of neighboring cameras in scene units.
   double field_of_view = 0;         ///< fov in radian over the larger image side.
   double origin_distance = 0;       ///< Z0.
   int width = 0;                    ///< xRes.

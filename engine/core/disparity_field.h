@@ -3,6 +3,7 @@
 
 #include "engine/core/view_stack.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -30,6 +31,23 @@ struct DisparityField {
   [[nodiscard]] DisparityView view(ViewIndex view) const {
     return {disparity.view(view),
             valid.empty() ? ImageView<const std::uint8_t>{} : valid.view(view)};
+  }
+  /// Makes the mask, all pixels valid, unless there is one.
+  void require_mask() {
+    if (!valid.empty()) return;
+    valid = ViewStack<std::uint8_t>(disparity.grid(), disparity.height(), disparity.width(), 1,
+                                    disparity.first());
+    std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
+  }
+
+  /// Disparity 0 of which no pixel is valid.
+  [[nodiscard]] static DisparityField unknown(GridShape grid, int height, int width,
+                                              ViewIndex first) {
+    DisparityField field{ViewStack<float>(grid, height, width, 1, first),
+                         ViewStack<std::uint8_t>(grid, height, width, 1, first)};
+    std::fill_n(field.disparity.data(), field.disparity.size(), 0.0F);
+    std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{0});
+    return field;
   }
 };
 

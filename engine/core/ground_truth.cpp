@@ -37,6 +37,12 @@ StratifiedScene stratified_scene(const std::string& name) {
   return name == "stripes" ? StratifiedScene::Stripes : StratifiedScene::None;
 }
 
+std::string estimated_text(const Provenance& estimated) {
+  const std::string method = estimated.method.empty() ? "a method unknown" : estimated.method;
+  return "estimated by " + method +
+         (estimated.source.empty() ? std::string() : " from " + estimated.source);
+}
+
 HighResTruthPtr shifted(HighResTruthPtr truth, float by_px) {
   return truth ? std::make_shared<const ShiftedTruth>(std::move(truth), by_px) : nullptr;
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/image.h"
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,7 @@ enum class StratifiedScene { None, Backgammon, Dots, Pyramids, Stripes };
 /// How many pixels of the high resolution lie along one pixel of the views.
 inline constexpr int kHighResScale = 10;
 
-/// Ground truth and region masks of the centre view at `kHighResScale` times its resolution, on
+/// Ground truth and region masks of the center view at `kHighResScale` times its resolution, on
 /// which the 2016 benchmark scores what lies at the borders of objects [HJKG16]. Its 5120×5120
 /// samples are 105 MB: every call reads them anew, and the caller releases them. May be called from
 /// any thread.
@@ -33,8 +35,8 @@ class HighResTruth {
   virtual ~HighResTruth() = default;
 
   /// Disparity in px of the views per view step, `[y][x]`; not finite = no truth. Throws IoError,
-  /// also if it has another size than that of the views times `kHighResScale`, or takes more memory
-  /// than is granted.
+  /// also if it is not `kHighResScale` times as large as the views, or takes more memory than is
+  /// granted.
   [[nodiscard]] virtual Image<float> read_disparity() const = 0;
   /// Names of the region masks, sorted.
   [[nodiscard]] virtual std::vector<std::string> regions() const = 0;
@@ -51,22 +53,27 @@ using HighResTruthPtr = std::shared_ptr<const HighResTruth>;
 [[nodiscard]] HighResTruthPtr shifted(HighResTruthPtr truth, float by_px);
 
 /// The ground truth of a light field, kept apart from it so that no estimator can see it. Every
-/// part may be missing. Parts cover all views or the centre view only.
+/// part may be missing. Parts cover all views or the center view only.
 struct GroundTruth {
   DisparityField field;  ///< Disparity; `valid` holds the archive's GT_DEPTH_MASK and finiteness.
   DisparityField foreground;       ///< Of transparent scenes: the surface,
   DisparityField background;       ///< and what is seen through it.
   ViewStack<std::int32_t> labels;  ///< Object label per pixel (GT_LABELS, object ids).
-  /// Region masks by name ("discontinuities", "planes", …), centre view, non-zero = inside; those
+  /// Region masks by name ("discontinuities", "planes", …), center view, non-zero = inside; those
   /// whose parts are numbered (`is_numbered_region`) hold the numbers.
   std::map<std::string, Image<std::uint8_t>> regions;
-  HighResTruthPtr high_res{};  ///< Of the centre view; null = there is none.
+  HighResTruthPtr high_res{};  ///< Of the center view; null = there is none.
   /// The scene of the 2016 benchmark, if its files name one.
   StratifiedScene stratified = StratifiedScene::None;
+  /// How the disparity was estimated, if it is a result that took the place of truth.
+  std::optional<Provenance> estimated{};
 
   [[nodiscard]] bool has_disparity() const { return !field.empty(); }
   [[nodiscard]] bool has_layers() const { return !foreground.empty() && !background.empty(); }
 };
+
+/// "estimated by plane_pm from cotton/lf.h5".
+[[nodiscard]] std::string estimated_text(const Provenance& estimated);
 
 /// Whether the mask of this name tells parts of a scene of the 2016 benchmark apart by numbers.
 [[nodiscard]] inline bool is_numbered_region(const std::string& name) {

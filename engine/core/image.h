@@ -94,8 +94,8 @@ template <class T>
   return turned;
 }
 
-/// Weight of a channel in a squared difference of colours. One channel counts as three equal ones,
-/// so that thresholds mean the same in grey as in colour.
+/// Weight of a channel in a squared difference of colors. One channel counts as three equal ones,
+/// so that thresholds mean the same in grey as in color.
 [[nodiscard]] constexpr double channel_weight(int channels) {
   return channels == 1 ? 3 : 1;
 }

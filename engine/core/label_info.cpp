@@ -8,7 +8,7 @@
 namespace episcope {
 namespace {
 
-/// Fully saturated colour wheel, dimmed: `hue` in [0, 1).
+/// Fully saturated color wheel, dimmed: `hue` in [0, 1).
 Rgb hue_color(double hue, double brightness) {
   Rgb color{};
   for (int c = 0; c < 3; ++c) {
@@ -22,7 +22,7 @@ Rgb hue_color(double hue, double brightness) {
 }  // namespace
 
 Rgb label_color(std::int32_t id) {
-  // Greedily, from a grid of colours: the next one is farthest from all before under normal,
+  // Greedily, from a grid of colors: the next one is farthest from all before under normal,
   // protan, deutan and tritan vision.
   constexpr Rgb palette[] = {{230, 25, 75},  {0, 0, 255},    {255, 150, 255}, {100, 255, 0},
                              {150, 0, 100},  {150, 50, 200}, {200, 200, 100}, {255, 100, 150},

@@ -25,8 +25,9 @@ enum class SampleType { UInt8, UInt16, Float32 };
 
 /// One step of a stored sample type in [0, 1]: 1/255, 1/65535; 1 for float.
 template <class T>
-inline constexpr float kSampleStep =
-    std::is_integral_v<T> ? 1.0F / static_cast<float>(std::numeric_limits<T>::max()) : 1.0F;
+inline constexpr float kSampleStep = std::is_integral_v<T>
+                                         ? 1.0F / static_cast<float>(std::numeric_limits<T>::max())
+                                         : 1.0F;
 
 /// Position of a camera on the plane of cameras, in `LightFieldInfo::position_unit`.
 struct CameraPosition {
@@ -55,7 +56,7 @@ struct LightFieldInfo {
 
 /// A 4D light field: equally sized views on a regular camera grid, `[v][u][y][x][c]`, immutable.
 /// Samples stay in the type they were stored in; a view is borrowed, never copied. `c` is 1 (grey)
-/// or 3 (RGB). A scene point at (x, y) in the centre view appears in view (u, v) at
+/// or 3 (RGB). A scene point at (x, y) in the center view appears in view (u, v) at
 /// (x − d·(u − u_c), y − d·(v − v_c)): see CameraGrid for d.
 class LightField {
  public:

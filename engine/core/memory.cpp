@@ -23,7 +23,6 @@
 #include <mutex>
 #include <new>
 #include <string>
-#include <utility>
 
 namespace episcope {
 namespace {

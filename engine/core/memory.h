@@ -27,7 +27,7 @@ struct LargeMemory {
 
 /// Memory for hundreds of megabytes that are traversed with large strides: on Linux backed by huge
 /// pages where the system grants them, which saves page faults and address-translation misses.
-/// Uninitialised. What exceeds `memory_budget` is on disk. Throws std::bad_alloc, and IoError if
+/// Uninitialized. What exceeds `memory_budget` is on disk. Throws std::bad_alloc, and IoError if
 /// the disk has no room either.
 [[nodiscard]] LargeMemory allocate_large(std::size_t bytes);
 /// As `allocate_large`, all 0; pages that are never written take next to no memory.
@@ -59,7 +59,7 @@ template <class T>
   return LargeArray<T>(static_cast<T*>(memory.data), LargeRelease{memory.bytes, memory.kind});
 }
 
-/// Uninitialised.
+/// Uninitialized.
 template <class T>
 [[nodiscard]] LargeArray<T> make_large(std::size_t count) {
   return large_array<T>(allocate_large(count * sizeof(T)));

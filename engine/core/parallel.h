@@ -46,7 +46,7 @@ void parallel_for_workers(int count, const Progress& progress, const MakeWorker&
 
 /// Runs `body(i)` for every i in [0, count) on up to `progress.threads()` threads, and reports the
 /// finished fraction to `progress`. Items are handed out one at a time in ascending order, and what
-/// was handed out is run. An item should take between 10 µs and 100 ms: a stop request is honoured
+/// was handed out is run. An item should take between 10 µs and 100 ms: a stop request is honored
 /// between items. Results must not depend on which thread runs an item. Throws Cancelled on a stop
 /// request, or the first exception of `body`, after all threads ended.
 template <class Body>
@@ -74,6 +74,15 @@ class KeptThreads {
  private:
   std::vector<std::unique_ptr<Thread>> threads_;
 };
+
+/// Lowers the priority of the calling thread and of threads that it starts, so that the window
+/// stays fluent while a job takes every core. Does nothing where that is not possible.
+void lower_thread_priority();
+
+/// Asks the scheduler for short time slices that begin soon, for the calling thread and threads
+/// that it starts: for threads that the user waits for and that do little at once. Needs Linux
+/// 6.12; earlier, such a thread may wait until the time slices of others end.
+void request_low_latency();
 
 }  // namespace episcope
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <numeric>
 #include <string_view>
 
@@ -146,6 +145,12 @@ void apply(const Preset& preset, std::vector<ParameterDescription>& descriptions
 }
 
 }  // namespace
+
+bool has_numeric_domain(const ParameterDescription& description) {
+  return !std::holds_alternative<bool>(description.default_value) &&
+         !std::holds_alternative<std::string>(description.default_value) &&
+         !std::holds_alternative<ViewOrAuto>(description.default_value);
+}
 
 std::vector<ParameterDescription> described_under(std::vector<ParameterDescription> descriptions,
                                                   const ParameterSet& values) {

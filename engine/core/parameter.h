@@ -32,7 +32,7 @@ struct IntervalOrAuto : std::optional<Interval> {
   bool is_found = false;  ///< False if there is an interval.
 };
 
-/// A view of the camera grid, or empty for "auto": the centre.
+/// A view of the camera grid, or empty for "auto": the center.
 using ViewOrAuto = std::optional<ViewIndex>;
 
 /// Value of one parameter.
@@ -65,6 +65,9 @@ struct ParameterDescription {
   std::vector<ParameterValue> searched = {};    ///< Tried by a parameter search; empty = none.
   std::vector<Preset> presets = {};             ///< Of choices: what they mean for others.
 };
+
+/// Whether `min` and `max` of a parameter mean something.
+[[nodiscard]] bool has_numeric_domain(const ParameterDescription& description);
 
 /// The parameters with the defaults and searched values that hold once `values` choose presets.
 /// Values of parameters without presets, and unknown keys, change nothing.

@@ -42,7 +42,7 @@ void check(const ImageView<const float>& map, const ImageView<const std::uint8_t
   if (step < 1)
     throw InvalidInput("a point cloud needs a step of 1 or more, not " + std::to_string(step));
   if (rgba.height != map.height || rgba.width != map.width || rgba.channels != 4) {
-    throw InvalidInput("the colours of a point cloud are " + std::to_string(rgba.width) + "×" +
+    throw InvalidInput("the colors of a point cloud are " + std::to_string(rgba.width) + "×" +
                        std::to_string(rgba.height) + " pixels, but its map is " +
                        std::to_string(map.width) + "×" + std::to_string(map.height));
   }

@@ -15,7 +15,7 @@ namespace episcope {
 /// with y and z turned).
 ///
 /// With a known camera, points are in units of the scene: Z by eq. (1) [WMG13], X and Y by the
-/// pinhole model. It uses CameraGrid::pinhole, or else the image centre with a focal length of
+/// pinhole model. It uses CameraGrid::pinhole, or else the image center with a focal length of
 /// f·xRes px (a small f is relative to the image width). Without a camera, x and y are pixels and z
 /// is a multiple of the disparity.
 class BackProjection {
@@ -44,7 +44,7 @@ class BackProjection {
   double z_per_px_;
 };
 
-/// Coloured points: x to the right, y up, z towards the viewer (image axes with y and z turned).
+/// Colored points: x to the right, y up, z towards the viewer (image axes with y and z turned).
 struct PointCloud {
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<std::uint8_t, 3>> colors;  ///< One a position.
@@ -82,7 +82,7 @@ struct CloudSampling {
 /// Joins the points of a cloud to a surface of triangles, cut at jumps. `cloud` holds every
 /// `step`-th pixel of `view`.
 ///
-/// Four neighbouring points (`step` pixels apart along x and y) make two triangles, divided along
+/// Four neighboring points (`step` pixels apart along x and y) make two triangles, divided along
 /// the diagonal whose ends differ less in disparity. Three points make one triangle if the fourth
 /// is missing. A triangle is left out if two of its corners differ in disparity by more than
 /// `jump_px` · `step`: there one surface ends in front of another. `jump_px` is in px of disparity

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/even_views.h"
+#include "engine/core/view_gain.h"
 #include "engine/core/ground_truth.h"
 #include "engine/core/label_info.h"
 #include "engine/core/light_field.h"
@@ -73,7 +73,7 @@ struct ViewScribbles {
 /// Scribbles on a light field.
 struct Scribbles {
   std::vector<ViewScribbles> views;  ///< Painted ones, in the order of the grid.
-  std::vector<LabelInfo> labels;     ///< Known names and colours, by id.
+  std::vector<LabelInfo> labels;     ///< Known names and colors, by id.
   [[nodiscard]] bool empty() const { return views.empty(); }
 };
 

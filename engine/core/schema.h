@@ -68,7 +68,7 @@ template <NamedEnum E>
 }
 
 /// The single description of a parameter struct `P`: keys, labels, help, units, domains; defaults
-/// are those of a value-initialised `P`. The form in the window, the options of the command line,
+/// come from a value-initialized `P`. The form in the window, the options of the command line,
 /// JSON and validation are all derived from it. A struct may be composed of others that have
 /// schemas of their own (`part`). Keys must be distinct.
 template <class P>
@@ -184,14 +184,14 @@ class Schema {
   /// before; the grid of a method is the product over its parameters. Throws InvalidInput for an
   /// unknown key or a value outside the domain.
   Schema& search(const char* key, std::initializer_list<double> values) {
+    ParameterDescription& description = descriptions_[index_of(key)];
     std::vector<ParameterValue> typed;
-    for (const double value : values) typed.push_back(like_default(key, value));
-    return search_values(key, std::move(typed));
-  }
-  /// Likewise for a choice.
-  Schema& search_choices(const char* key, std::initializer_list<const char*> values) {
-    const std::vector<std::string> strings(values.begin(), values.end());
-    return search_values(key, std::vector<ParameterValue>(strings.begin(), strings.end()));
+    for (const double value : values) {
+      typed.push_back(like_default(key, value));
+      check_parameter(description, typed.back());
+    }
+    description.searched = std::move(typed);
+    return *this;
   }
 
   [[nodiscard]] const std::vector<ParameterDescription>& descriptions() const& {
@@ -262,13 +262,6 @@ class Schema {
     if (std::holds_alternative<bool>(like)) return value != 0;
     if (std::holds_alternative<int>(like)) return static_cast<int>(value);
     return value;
-  }
-
-  Schema& search_values(const char* key, std::vector<ParameterValue> values) {
-    ParameterDescription& description = descriptions_[index_of(key)];
-    for (const auto& value : values) check_parameter(description, value);
-    description.searched = std::move(values);
-    return *this;
   }
 
   Preset& preset_of(const char* key, const char* choice) {

@@ -39,7 +39,7 @@ ViewOffset offset_of(ViewIndex view, ViewIndex center, double focus_px) {
   return {Offset(-focus_px * (view.v - center.v)), Offset(-focus_px * (view.u - center.u))};
 }
 
-/// Weights of the neighbours −1, 0, 1, 2 (Keys 1981, a = −1/2).
+/// Weights of the neighbors −1, 0, 1, 2 (Keys 1981, a = −1/2).
 struct Weights {
   float w[kTaps];
 
@@ -196,7 +196,7 @@ float disparity_at(const DisparityView& in, int y, int x, const ViewOffset& offs
   const int left = x + offset.x.whole;
   const float fy = offset.y.fraction;
   const float fx = offset.x.fraction;
-  // A neighbour without weight need not be there.
+  // A neighbor without weight need not be there.
   const int bottom = fy > 0 ? top + 1 : top;
   const int right = fx > 0 ? left + 1 : left;
   const float corners[4] = {at(top, left), at(top, right), at(bottom, left), at(bottom, right)};
@@ -356,9 +356,10 @@ Scene sheared(const Scene& scene, double focus_px, const Progress& progress) {
   truth->foreground = sheared(scene.truth->foreground, center, focus_px, rest);
   truth->background = sheared(scene.truth->background, center, focus_px, rest);
   truth->labels = sheared(scene.truth->labels, center, focus_px, rest);
-  truth->regions = scene.truth->regions;  // of the centre view, which stays
+  truth->regions = scene.truth->regions;  // of the center view, which stays
   truth->high_res = shifted(scene.truth->high_res, static_cast<float>(-focus_px));
   truth->stratified = scene.truth->stratified;
+  truth->estimated = scene.truth->estimated;
   result.truth = std::move(truth);
   result.scribbles = sheared(scene.scribbles, center, focus_px);
   result.convention = scene.convention;

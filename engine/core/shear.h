@@ -10,7 +10,7 @@
 namespace episcope {
 
 /// Bakes in a focus plane: disparity d becomes d − focus_px, so that points of disparity `focus_px`
-/// get 0. View (u, v) is sampled at (x − focus_px·(u − u_c), y − focus_px·(v − v_c)): the centre
+/// get 0. View (u, v) is sampled at (x − focus_px·(u − u_c), y − focus_px·(v − v_c)): the center
 /// view stays as it is, the others move. Source: refocusing by shear, Ng 2006 [Ng06].
 ///
 /// A shear by whole pixels is exact. Between pixels, samples are interpolated cubically (Keys 1981,
@@ -24,7 +24,7 @@ namespace episcope {
 
 /// Disparity minus `focus_px`, moved along with its views. Interpolated linearly within a surface;
 /// of the nearest pixel where the four around differ by more than 0.1 px or one is invalid. Invalid
-/// where the light field repeats its border. `center` is the centre of the light field. Throws
+/// where the light field repeats its border. `center` is the center of the light field. Throws
 /// Cancelled.
 [[nodiscard]] DisparityField sheared(const DisparityField& field, ViewIndex center, double focus_px,
                                      const Progress& progress);
@@ -45,7 +45,7 @@ namespace episcope {
 [[nodiscard]] Scribbles unsheared(const Scribbles& scribbles, const Scribbles& before,
                                   ViewIndex center, double focus_px);
 
-/// Transfers an estimate to a sheared light field, whose centre is `center` and whose hash is
+/// Transfers an estimate to a sheared light field, whose center is `center` and whose hash is
 /// `sample_hash`. The searched range is shifted; a note says so. Throws Cancelled.
 struct ShearedInto {
   ViewIndex center;

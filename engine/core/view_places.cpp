@@ -56,7 +56,7 @@ class Coordinate {
   double along_u = 0, along_v = 0;
 
  private:
-  // About the centre.
+  // About the center.
   [[nodiscard]] double slope(ViewIndex view) const {
     return along_u * (view.u - grid_.center().u) + along_v * (view.v - grid_.center().v);
   }

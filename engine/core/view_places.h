@@ -26,11 +26,11 @@ enum class PlacesKind {
 struct ViewPlaces {
   PlacesKind kind = PlacesKind::Unknown;
   std::vector<ViewPlace> places;  ///< View by view in canonical order; empty unless irregular.
-  double largest_deviation = 0;   ///< From the regular grid about the centre view, in steps.
+  double largest_deviation = 0;   ///< From the regular grid about the center view, in steps.
   int outliers = 0;               ///< Positions not believed and replaced by the place in the grid.
 };
 
-/// Turns stated positions into places. The step is the mean distance of neighbours along u (least
+/// Turns stated positions into places. The step is the mean distance of neighbors along u (least
 /// squares), or along v of a single column. Both directions share it, as disparity is px per step:
 /// rows twice as far apart as columns lie two steps apart. The direction and the unit of positions
 /// do not matter. A position farther than half a step from the plane through all of them is an

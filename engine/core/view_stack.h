@@ -12,8 +12,8 @@
 namespace episcope {
 
 /// One image for each view of a rectangle of the camera grid, `[v][u][y][x][c]`, contiguous. The
-/// rectangle begins at `first`: a result for the centre view alone is a stack of 1×1 views whose
-/// `first` is the centre. Views are always addressed by their place in the whole grid. Move-only,
+/// rectangle begins at `first`: a result for the center view alone is a stack of 1×1 views whose
+/// `first` is the center. Views are always addressed by their place in the whole grid. Move-only,
 /// because a stack of all views takes hundreds of megabytes; `clone` copies on purpose.
 ///
 /// Samples of a file (LargeKind::File) are never moved. Other strides put their views in another
@@ -22,7 +22,7 @@ template <class T>
 class ViewStack {
  public:
   ViewStack() = default;
-  /// Elements are uninitialised: the caller must write every one.
+  /// Elements are uninitialized: the caller must write every one.
   ViewStack(GridShape grid, int height, int width, int channels = 1, ViewIndex first = {})
       : ViewStack(grid, height, width, channels, first, allocate_large) {}
   /// In memory from `allocate`, such as allocate_large_zeros or a part of a file.

@@ -11,7 +11,7 @@ namespace episcope {
 
 /// A borrowed volume: one value for each pixel and layer (a label, a disparity), `[y][layer][x]`,
 /// contiguous. All layers of an image row lie together, because operations on a pixel involve all
-/// its layers: 64 layers of a row of 768 pixels take 192 KiB. Neighbouring layers are one image row
+/// its layers: 64 layers of a row of 768 pixels take 192 KiB. Neighboring layers are one image row
 /// apart, not one image. Valid as long as the memory it was borrowed from.
 template <class T>
 struct VolumeView {
@@ -42,7 +42,7 @@ template <class T>
 class Volume {
  public:
   Volume() = default;
-  /// Elements are uninitialised: the caller must write every one.
+  /// Elements are uninitialized: the caller must write every one.
   Volume(int height, int layers, int width)
       : height_(height), layers_(layers), width_(width), samples_(make_large<T>(view().size())) {}
 

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <future>
-#include <memory>
 #include <utility>
 
 namespace episcope::cuda {

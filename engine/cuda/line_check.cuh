@@ -50,11 +50,7 @@ struct RayPlace {
   int v, u, y, x;
 };
 
-}  // namespace episcope::cuda
-
 /// How well a ray agrees with its line: see LineResiduals and ResidualKernel.
-
-namespace episcope::cuda {
 
 /// In units of 1/1023, plus 2²³: differences are exact, and no conversion is needed.
 struct PackedColor {

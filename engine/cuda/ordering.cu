@@ -284,7 +284,7 @@ class Sweeper {
   Sweeper(const LightField& lf, const OrderingSweeps& sweeps, const ViewStack<float>& observed,
           const ViewStack<float>& confidence, const ViewStack<float>& u, const Progress& progress);
 
-  // Improves all views of one color of the chequerboard; returns the largest relative gap.
+  // Improves all views of one color of the checkerboard; returns the largest relative gap.
   double improve(int color, const Progress& progress);
   void download_to(ViewStack<float>& u, const Progress& progress) {
     download(u, u_, stream_, progress);

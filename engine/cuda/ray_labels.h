@@ -22,7 +22,7 @@ struct RayView {
   const std::uint8_t* colors = nullptr;  ///< `[y][x][channel]`; null = all rays are trusted.
 };
 
-/// All views of a rectangle of the camera grid, and how they are labelled (RayLabelingParameters).
+/// All views of a rectangle of the camera grid, and how they are labeled (RayLabelingParameters).
 struct RayLabelsTask {
   GridShape grid;
   std::vector<RayView> views;  ///< `[v][u]`

@@ -71,14 +71,8 @@ struct ShearedTensors {
   [[nodiscard]] __device__ float* of(int view) const { return values + 3 * view * pitch; }
 };
 
-}  // namespace
-}  // namespace episcope::cuda
-
 // Tensors at one lane of sheared coordinates: derivatives across the views, products, and their
 // integration along the views.
-
-namespace episcope::cuda {
-namespace {
 
 // Where the derivatives of a view stand for lane 0 of sheared coordinates.
 __device__ inline int derivatives_at(const SearchJob& job, const ShearFrame& shear, int epi,

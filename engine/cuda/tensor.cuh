@@ -125,11 +125,7 @@ void find_best_tensors(const EpiBand& band, const DerivativePlanes& planes,
                        const TensorSearchFilters& filters, const NineViewFilters& nine,
                        WantedViews wanted, float* best, const DeviceStream& stream);
 
-}  // namespace episcope::cuda
-
 /// The tensor of one ray, and the choice of the best of its shears.
-
-namespace episcope::cuda {
 
 struct Tensor {
   float xx, xs, ss;

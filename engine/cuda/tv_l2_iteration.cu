@@ -350,14 +350,11 @@ void iterate_by_strips(const DeviceStream& stream, const TvL2Level& level, const
   });
 }
 
-}  // namespace episcope::cuda
+namespace {
 
 // The steps of tv_l2_steps.cuh on tiles in shared memory: a step needs its neighbors' results, so
 // a tile computes some of what belongs to its neighbors too, instead of all going through memory
 // after each step. All pixels at once, for few of them.
-
-namespace episcope::cuda {
-namespace {
 
 using Shape = TvL2TileShape<32, 30, 3, 5, 768>;
 constexpr int kTileThreads = Shape::kThreads, kEach = Shape::kEach;

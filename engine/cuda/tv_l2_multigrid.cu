@@ -168,12 +168,9 @@ void sum_energies(const DeviceStream& stream, const TvL2Level& level, int views,
   sum_all(stream, "tv_l2: energies", Energies{level}, views, 8, sums);
 }
 
-}  // namespace episcope::cuda
+namespace {
 
 // Multigrid, down and up one level: the steps of tv_l2_steps.cuh on tiles in shared memory.
-
-namespace episcope::cuda {
-namespace {
 
 // The last step of a tile needs two pixels around it.
 using Shape = TvL2TileShape<32, 16, 1, 2, 352>;

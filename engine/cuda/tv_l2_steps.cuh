@@ -19,7 +19,7 @@ inline constexpr int kTvL2Slots = kTvL2Planes + 4;
 
 /// One level of the grid hierarchy for all views, `[plane][view][row][half][i]`. Rows are split:
 /// first the pixels of the even columns, `odd` floats further those of the odd ones, so that the
-/// pixels of either color of a chequerboard, and their neighbors, are contiguous. One row of
+/// pixels of either color of a checkerboard, and their neighbors, are contiguous. One row of
 /// padding above and two below, padding after each half row; it is 0, and stays so because the
 /// coefficients there are 0.
 struct TvL2Level {
@@ -81,13 +81,9 @@ struct TvL2Levels {
   int count = 0;
 };
 
-}  // namespace episcope::cuda
-
 /// The steps of an iteration, each for one place of the half rows of one view; they can run in any
 /// order within a step. What they compute is engine/solvers/tv_l2_kernel.cpp, which tells
 /// why.
-
-namespace episcope::cuda {
 
 /// Factor that projects z to |p| ≤ g.
 __device__ inline float shrinkage(float zx, float zy, float g) {
@@ -237,12 +233,8 @@ struct RenewAndRelax {
   }
 };
 
-}  // namespace episcope::cuda
-
 /// What happens between iterations, and between levels; as tv_l2_steps.cuh, of
 /// engine/solvers/tv_l2_kernel.cpp and tv_l2_grid.cpp.
-
-namespace episcope::cuda {
 
 /// The gradient of u where there are edges, else 0.
 struct TvL2Gradient {
@@ -266,7 +258,8 @@ struct Penalize {
     const TvL2Gradient gradient = gradient_at(level, view, at, right);
     const float square = gradient.x * gradient.x + gradient.y * gradient.y + 1e-16F;
     const float ratio = views[view].knee * rsqrtf(square);
-    const float bent = fminf(fmaxf(sqrtf(fmaxf(ratio, 0.0F)), 1 / kTvL2PenaltySpread), kTvL2PenaltySpread);
+    const float bent =
+        fminf(fmaxf(sqrtf(fmaxf(ratio, 0.0F)), 1 / kTvL2PenaltySpread), kTvL2PenaltySpread);
     const float g = level.of(TvL2Plane::G, view)[at];
     const float next = views[view].scale * g * bent;
     float& rx = level.of(TvL2Plane::Rx, view)[at];

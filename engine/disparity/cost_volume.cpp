@@ -5,6 +5,7 @@
 #include "engine/cuda/volume_costs.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/global_labeling.h"
+#include "engine/solvers/pair_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,20 +17,6 @@ namespace {
 
 // How far around the best label costs are looked at.
 constexpr double kUnitReach = 0.5;  // px
-
-// The label of least cost at each pixel of a row.
-void find_best(VolumeView<const float> costs, int y, std::vector<float>& least,
-               std::vector<int>& best) {
-  std::copy_n(costs.row(y, 0), costs.width, least.data());
-  std::fill(best.begin(), best.end(), 0);
-  for (int l = 1; l < costs.layers; ++l) {
-    const float* const cost = costs.row(y, l);
-    for (int x = 0; x < costs.width; ++x) {
-      best[x] = cost[x] < least[x] ? l : best[x];
-      least[x] = std::min(least[x], cost[x]);
-    }
-  }
-}
 
 // The mean cost around the best label, of one pixel.
 double mean_around(VolumeView<const float> costs, int y, int x, int best, int reach) {
@@ -56,9 +43,8 @@ double cost_unit(const LightField& lf, ViewIndex view, VolumeView<const float> c
   const int reach = unit_labels(step);
   std::vector<double> sums(costs.height);
   parallel_for_workers(costs.height, progress, [&] {
-    return [&, least = std::vector<float>(costs.width),
-            best = std::vector<int>(costs.width)](int y) mutable {
-      find_best(costs, y, least, best);
+    return [&, least = std::vector<float>(), best = std::vector<int>(costs.width)](int y) mutable {
+      take_cheapest(costs, y, best.data(), least);
       for (int x = 0; x < costs.width; ++x) {
         if (lf.is_valid(view, y, x)) sums[y] += mean_around(costs, y, x, best[x], reach);
       }

@@ -17,7 +17,6 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -129,7 +129,7 @@ OrderingPenalty OrderedViews::penalty() const {
           static_cast<float>(parameters.fall), static_cast<float>(parameters.softness)};
 }
 
-// The views of a rectangle that have one color (0 or 1) of the chequerboard of the grid.
+// The views of a rectangle that have one color (0 or 1) of the checkerboard of the grid.
 std::vector<ViewIndex> views_of_color(const ViewRectangle& rectangle, int color) {
   std::vector<ViewIndex> views;
   for (int i = 0; i < rectangle.grid.count(); ++i) {
@@ -340,7 +340,7 @@ class OrderedBlocks {
   int threads_;
 };
 
-using SharedBlocks = std::shared_ptr<const OrderedBlocks>;
+using OrderedBlocksPtr = std::shared_ptr<const OrderedBlocks>;
 
 BlockPass views_pass(std::string step) {
   BlockPass pass;
@@ -349,7 +349,7 @@ BlockPass views_pass(std::string step) {
   return pass;
 }
 
-BlockPass denoising(const SharedBlocks& blocks) {
+BlockPass denoising(const OrderedBlocksPtr& blocks) {
   BlockPass pass = views_pass("checking lines and denoising");
   pass.bytes = [blocks](int count) { return blocks->bytes_of_denoised(count); };
   pass.prepare = [blocks](const ReadBlock& read, const Facts&, const Progress& progress) {
@@ -362,7 +362,7 @@ BlockPass denoising(const SharedBlocks& blocks) {
   return pass;
 }
 
-BlockPass replacing(const SharedBlocks& blocks) {
+BlockPass replacing(const OrderedBlocksPtr& blocks) {
   BlockPass pass = views_pass("replacing rays that other views see through");
   pass.bytes = [blocks](int count) { return blocks->bytes_of_replaced(count); };
   pass.prepare = [blocks](const ReadBlock& read, const Facts& facts, const Progress& progress) {
@@ -375,7 +375,7 @@ BlockPass replacing(const SharedBlocks& blocks) {
   return pass;
 }
 
-BlockPass sweeping(const SharedBlocks& blocks, int half) {
+BlockPass sweeping(const OrderedBlocksPtr& blocks, int half) {
   BlockPass pass =
       views_pass(fmt::format("ordering, sweep {} of {}", half / 2 + 1, blocks->sweeps()));
   pass.bytes = [blocks](int count) { return blocks->bytes_of_swept(count); };
@@ -392,7 +392,7 @@ BlockPass sweeping(const SharedBlocks& blocks, int half) {
   return pass;
 }
 
-BlockPass finishing(const SharedBlocks& blocks) {
+BlockPass finishing(const OrderedBlocksPtr& blocks) {
   BlockPass pass = views_pass("counting violations of the ordering");
   pass.bytes = [blocks](int count) { return blocks->bytes_of_finished(count); };
   pass.prepare = [blocks](const ReadBlock& read, const Facts& facts, const Progress& progress) {

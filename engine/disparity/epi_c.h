@@ -35,7 +35,7 @@ struct EpiCParameters {
 /// the first sweep, rays that other views see through are replaced (replace_occluded) unless the
 /// samples contradict that.
 ///
-/// Solved by block descent: views are colored like a chequerboard, so that all neighbors of a
+/// Solved by block descent: views are colored like a checkerboard, so that all neighbors of a
 /// view have the other color. In turn, one color is fixed and each view of the other minimizes
 /// its part with ψ replaced by its quadratic majorizer, which is TvL2Solver's problem with other f
 /// and w. For fixed lines that lowers the energy, since ψ is smooth and TV is separable over views.

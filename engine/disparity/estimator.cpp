@@ -70,12 +70,7 @@ void clear_invalid_of(const LightField& light_field, ViewStack<T>& maps, int fir
 
 void mark(const LightField& light_field, DisparityField& field, int first_row = 0) {
   if (light_field.valid().empty() || field.empty()) return;
-  const ViewStack<float>& maps = field.disparity;
-  if (field.valid.empty()) {
-    field.valid =
-        ViewStack<std::uint8_t>(maps.grid(), maps.height(), maps.width(), 1, maps.first());
-    std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{1});
-  }
+  field.require_mask();
   clear_invalid_of(light_field, field.valid, first_row);
 }
 

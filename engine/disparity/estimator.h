@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/estimate.h"
-#include "engine/core/even_views.h"
+#include "engine/core/view_gain.h"
 #include "engine/core/isa.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
@@ -129,6 +129,7 @@ struct EstimatorInfo {
   std::vector<Device> devices = {Device::Cpu};  ///< Where it can compute.
   /// Views are equalized before it runs (EvenViews); else it does so itself.
   bool sees_even_views = true;
+  std::string weights{};  ///< Of a learned method: their file (installed_weights).
 };
 
 /// Throws Unavailable if the method cannot compute there; with Device::Auto it always can.

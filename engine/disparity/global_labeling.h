@@ -67,7 +67,7 @@ struct GlobalLabelingData {
 /// without its noise (smoothness_weights).
 /// λ·scale, energy, gap and iterations go to the notes of `estimate`, the map to `estimate.field`.
 ///
-/// Labels quantise (variance step²/12) and cause staircases; therefore the map is refined between
+/// Labels quantize (variance step²/12) and cause staircases; therefore the map is refined between
 /// labels: TV-L2 of the placements with their weights, g from the view as it is and λ = `settling`
 /// label steps, which smooths slopes under noise less (tests/accuracy/tuning.md), at most one step
 /// from the label. `settling` 0 keeps the labels. With costs on the device both are computed there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/islands.h"
 
+#include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/core/volume.h"
 
@@ -121,9 +122,7 @@ float median_around(const Surroundings& known, Offset at, float own) {
     });
   }
   if (values.size() < kLeastAround) return own;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return quantile(values, 0.5);
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 
 namespace episcope {
 

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <numeric>
 #include <span>
-#include <string>
 
 namespace episcope {
 namespace {

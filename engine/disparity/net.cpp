@@ -24,11 +24,11 @@ namespace episcope {
 namespace {
 
 // Constants of the network: resources/training/README.md.
-constexpr double kLabelStep = 0.1;
-constexpr int kPeak = 2;        // Labels on either side that a mode is made of,
-constexpr int kApart = 3;       // and how far the second mode is at least.
-constexpr float kNear = 0.1F;   // Hypotheses so near count as one.
-constexpr float kOther = 0.3F;  // A second hypothesis is so far at least.
+constexpr double kStepOfLabels = 0.1;
+constexpr int kPeak = 2;                 // Labels on either side that a mode is made of,
+constexpr int kModesApart = 3;           // and how far the second mode is at least.
+constexpr float kSameHypothesis = 0.1F;  // Hypotheses so near count as one.
+constexpr float kOther = 0.3F;           // A second hypothesis is so far at least.
 constexpr float kLeastLog = -12;
 constexpr int kReduced = 8;  // Numbers that evidence of one disparity is reduced to.
 constexpr int kOffsets = 5;
@@ -37,7 +37,7 @@ constexpr float kSteps[2] = {0.25F, 0.06F};
 constexpr float kReach = 1.5F;  // Steps that a refinement moves at most.
 
 // A view, its guide and what the network knows by heart.
-struct Scene {
+struct NetScene {
   const LightField& light_field;
   ViewIndex view;
   const NetWeights& weights;
@@ -132,7 +132,7 @@ void find_modes(std::span<float> logits, std::span<float> probabilities, const L
   const int first = static_cast<int>(std::ranges::max_element(logits) - logits.begin());
   int other = -1;
   for (int i = 0; i < labels.count; ++i) {
-    if (std::abs(i - first) > kApart && (other < 0 || logits[i] > logits[other])) other = i;
+    if (std::abs(i - first) > kModesApart && (other < 0 || logits[i] > logits[other])) other = i;
   }
   own = peak_at(probabilities, first, labels);
   second = peak_at(probabilities, other, labels);
@@ -150,7 +150,7 @@ void take_logits(const NetRows& rows, int y, Beliefs& beliefs) {
   }
 }
 
-Beliefs run_volume(const Scene& scene, Interval range, const Progress& progress) {
+Beliefs run_volume(const NetScene& scene, Interval range, const Progress& progress) {
   progress.step("volume");
   const int count = net_label_count(range);
   const auto first = static_cast<float>(range.min), last = static_cast<float>(range.max);
@@ -158,18 +158,23 @@ Beliefs run_volume(const Scene& scene, Interval range, const Progress& progress)
                   Volume<float>(scene.height(), count, scene.width()),
                   Image<float>(scene.height(), scene.width()),
                   Image<float>(scene.height(), scene.width())};
-  NetEvidence evidence(scene.light_field, scene.view, range);
+  NetEvidence evidence(scene.light_field, scene.view, range, NetEvidenceOf::Planes);
   const auto label = [&](int i) {
     return first + (last - first) * (static_cast<float>(i) / static_cast<float>(count - 1));
   };
   NetStream stream;
   const int volume = stream.add_source(
       scene.shape(kNetEvidence, count),
-      [&](int y, int z, float* out) { evidence.compute(y, label(z), out, kNetEvidence); },
-      [&](int begin, int end, const Progress& part) { evidence.hold(begin, end, part); });
-  const int image = stream.add_source(scene.shape(kNetGuide), [&](int y, int, float* out) {
+      [&](int y, int z, NetRows& rows) {
+        std::array<NetDisparity, kNetAtOnce> disparities;
+        for (int i = 0; i < kNetAtOnce; ++i) disparities[i] = {{}, label(z + i), rows.at(y, z + i)};
+        evidence.compute(y, disparities);
+      },
+      [&](int begin, int end, const Progress& part) { evidence.hold(begin, end, part); },
+      kNetAtOnce);
+  const int image = stream.add_source(scene.shape(kNetGuide), [&](int y, int, NetRows& rows) {
     for (int x = 0; x < scene.width(); ++x) {
-      std::copy_n(&scene.guide.at(y, x), kNetGuide, out + x * kNetGroup);
+      std::copy_n(&scene.guide.at(y, x), kNetGuide, rows.at(y, 0) + x * kNetGroup);
     }
   });
   stream.run(
@@ -226,7 +231,7 @@ class Reduction {
     row.group_stride = layer.group_stride();
     row.bias = layer.bias_data();
     row.is_leaky = true;
-    row.out = to;
+    row.out.out = to;
     EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel).convolve(row);
   }
 
@@ -237,12 +242,26 @@ class Reduction {
   std::vector<float> reduced_;
 };
 
+// Room for the evidence of a row at some disparities.
+template <int kCount>
+struct EvidenceRows {
+  std::vector<float> values;
+  std::array<NetDisparity, kCount> disparities;
+
+  explicit EvidenceRows(int width)
+      : values(static_cast<std::size_t>(width) * kNetEvidence * kCount) {
+    for (int i = 0; i < kCount; ++i) {
+      disparities[i].out = values.data() + static_cast<std::size_t>(i) * width * kNetEvidence;
+    }
+  }
+};
+
 using Hypotheses = std::array<Image<float>, kNetHypotheses>;
 
 constexpr int kSelectionInputs = kNetHypotheses * (kReduced + 2) + kNetGuide;
 
 // Inputs of the selection besides the evidence, at one pixel.
-void write_hypotheses(const Scene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
+void write_hypotheses(const NetScene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
                       int y, int x, float* out) {
   for (int i = 0; i < kNetHypotheses; ++i) {
     const float log = beliefs ? log_at(*beliefs, y, x, hypotheses[i].at(y, x)) : 0;
@@ -266,7 +285,7 @@ int add_selection(NetStream& stream, const NetWeights& weights, int input) {
 }
 
 float kernel_of(float distance) {
-  return std::exp(-(distance / kNear) * (distance / kNear));
+  return std::exp(-(distance / kSameHypothesis) * (distance / kSameHypothesis));
 }
 
 // Decides for one pixel by the logits of its hypotheses.
@@ -319,22 +338,24 @@ Interval range_of(const Hypotheses& hypotheses) {
   return all;
 }
 
-Selected run_selection(const Scene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
+Selected run_selection(const NetScene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
                        const Progress& progress) {
   progress.step("selection");
   const Image<float> blank(scene.height(), scene.width());
   Selected selected{blank, blank, blank, blank, blank};
-  NetEvidence evidence(scene.light_field, scene.view, range_of(hypotheses));
+  NetEvidence evidence(scene.light_field, scene.view, range_of(hypotheses), NetEvidenceOf::Maps);
   NetStream stream;
   const int step = whole_groups(kSelectionInputs);
   const int input = stream.add_source(
       scene.shape(kSelectionInputs),
-      [&](int y, int, float* out) {
+      [&](int y, int, NetRows& rows) {
+        float* const out = rows.at(y, 0);
         Reduction reduce(scene.weights, "selection.", scene.width());
-        std::vector<float> row(static_cast<std::size_t>(scene.width()) * kNetEvidence);
+        EvidenceRows<kNetHypotheses> all(scene.width());
+        for (int i = 0; i < kNetHypotheses; ++i) all.disparities[i].map = hypotheses[i].row(y);
+        evidence.compute(y, all.disparities);
         for (int i = 0; i < kNetHypotheses; ++i) {
-          evidence.compute(y, hypotheses[i].row(y), row.data(), kNetEvidence);
-          reduce(row.data(), out + i * kReduced, step);
+          reduce(all.disparities[i].out, out + i * kReduced, step);
         }
         for (int x = 0; x < scene.width(); ++x) {
           write_hypotheses(scene, hypotheses, beliefs, y, x,
@@ -363,36 +384,26 @@ struct Unrefined {
   std::array<Image<float>, kWindows> windows;
 };
 
-// Evidence of a row at offsets from its disparities, the first as it is, others less the first.
-class OffsetEvidence {
- public:
-  OffsetEvidence(const Scene& scene, const NetEvidence& evidence, const std::string& name)
-      : evidence_(evidence),
-        reduce_(scene.weights, name, scene.width()),
-        disparities_(scene.width()),
-        first_(static_cast<std::size_t>(scene.width()) * kNetEvidence),
-        other_(first_.size()) {}
-
-  void write(const float* disparities, int y, float step, float* out, int out_step) {
-    evidence_.compute(y, disparities, first_.data(), kNetEvidence);
-    reduce_(first_.data(), out, out_step);
-    for (int i = 1; i < kOffsets; ++i) {
-      for (std::size_t x = 0; x < disparities_.size(); ++x) {
-        disparities_[x] = disparities[x] + kOffset[i] * step;
-      }
-      evidence_.compute(y, disparities_.data(), other_.data(), kNetEvidence);
-      for (std::size_t j = 0; j < other_.size(); ++j) other_[j] = (other_[j] - first_[j]) * 4;
-      reduce_(other_.data(), out + i * kReduced, out_step);
-    }
+// Reduced evidence of a row at offsets from its disparities, the first as it is, others less the
+// first.
+void write_offsets(const NetEvidence& evidence, Reduction& reduce, std::span<const float> row,
+                   int y, float step, float* out, int out_step) {
+  EvidenceRows<kOffsets> all(static_cast<int>(row.size()));
+  std::array<std::vector<float>, kOffsets> maps;
+  for (int i = 0; i < kOffsets; ++i) {
+    for (const float disparity : row) maps[i].push_back(disparity + kOffset[i] * step);
+    all.disparities[i].map = maps[i].data();
   }
-
- private:
-  const NetEvidence& evidence_;
-  Reduction reduce_;
-  std::vector<float> disparities_;
-  std::vector<float> first_;
-  std::vector<float> other_;
-};
+  evidence.compute(y, all.disparities);
+  const float* const first = all.disparities[0].out;
+  for (int i = 0; i < kOffsets; ++i) {
+    float* const other = all.disparities[i].out;
+    for (std::size_t j = 0; i > 0 && j < row.size() * kNetEvidence; ++j) {
+      other[j] = (other[j] - first[j]) * 4;
+    }
+    reduce(other, out + i * kReduced, out_step);
+  }
+}
 
 int add_refinement(NetStream& stream, const NetWeights& weights, int input, const std::string& r) {
   const int x0 = add_chain(stream, weights, input, {r + "i.0", r + "i.1"});
@@ -402,7 +413,7 @@ int add_refinement(NetStream& stream, const NetWeights& weights, int input, cons
                    {r + "f0.0", r + "f0.1", r + "head"});
 }
 
-void write_surroundings(const Scene& scene, const Unrefined& from, int y, int x, float* out) {
+void write_surroundings(const NetScene& scene, const Unrefined& from, int y, int x, float* out) {
   for (const Image<float>& window : from.windows) {
     *out++ = squash(window.at(y, x) - from.disparity.at(y, x));
   }
@@ -419,7 +430,7 @@ void take_refined(const NetRows& rows, int y, float step, const Image<float>& fr
   }
 }
 
-Refined run_refinement(const Scene& scene, int number, const Image<float>& disparity,
+Refined run_refinement(const NetScene& scene, int number, const Image<float>& disparity,
                        const Image<float>& probability, const Progress& progress) {
   progress.step("refinement");
   const std::string name = "refinement." + std::to_string(number) + ".";
@@ -430,14 +441,18 @@ Refined run_refinement(const Scene& scene, int number, const Image<float>& dispa
                         window_least(disparity, 5, progress.part(0, 0)),
                         window_median(disparity, 1, progress.part(0, 0))}};
   const Interval range = range_of(disparity);
-  NetEvidence evidence(scene.light_field, scene.view, {range.min - step, range.max + step});
+  NetEvidence evidence(scene.light_field, scene.view, {range.min - step, range.max + step},
+                       NetEvidenceOf::Maps);
   Refined refined{disparity, disparity};
   NetStream stream;
   const int out_step = whole_groups(kRefinementInputs);
   const int input = stream.add_source(
       scene.shape(kRefinementInputs),
-      [&](int y, int, float* out) {
-        OffsetEvidence(scene, evidence, name).write(disparity.row(y), y, step, out, out_step);
+      [&](int y, int, NetRows& rows) {
+        float* const out = rows.at(y, 0);
+        Reduction reduce(scene.weights, name, scene.width());
+        write_offsets(evidence, reduce, {disparity.row(y), static_cast<std::size_t>(scene.width())},
+                      y, step, out, out_step);
         for (int x = 0; x < scene.width(); ++x) {
           write_surroundings(scene, from, y, x, out + x * out_step + kOffsets * kReduced);
         }
@@ -450,7 +465,7 @@ Refined run_refinement(const Scene& scene, int number, const Image<float>& dispa
   return refined;
 }
 
-NetMaps refine(const Scene& scene, Selected selected, Silhouettes silhouettes,
+NetMaps refine(const NetScene& scene, Selected selected, Silhouettes silhouettes,
                const Progress& progress) {
   const Refined coarse =
       run_refinement(scene, 0, selected.mode, selected.probability, progress.part(0, 0.5));
@@ -476,7 +491,7 @@ void require_views(const LightField& light_field, ViewIndex view) {
 }  // namespace
 
 int net_label_count(Interval range) {
-  const double steps = std::min(std::ceil(range.length() / kLabelStep - 1e-6), 63.0);
+  const double steps = std::min(std::ceil(range.length() / kStepOfLabels - 1e-6), 63.0);
   return std::clamp((static_cast<int>(steps) + 1 + 7) / 8 * 8, 32, 64);
 }
 
@@ -489,7 +504,7 @@ NetMaps estimate_net(const LightField& light_field, ViewIndex view, const NetWei
                     "was given {} to {} px and {}",
                     parameters.range.min, parameters.range.max, parameters.rounds));
   }
-  const Scene scene{light_field, view, weights, net_guide(light_field, view)};
+  const NetScene scene{light_field, view, weights, net_guide(light_field, view)};
   Beliefs beliefs = run_volume(scene, parameters.range, progress.part(0, 0.65));
   Selected selected;
   for (int round = 0; round < parameters.rounds; ++round) {
@@ -511,7 +526,7 @@ NetMaps polish_by_net(const LightField& light_field, ViewIndex view, const Image
     throw InvalidInput(fmt::format("the map has {}×{} px, but views have {}×{}", disparity.width(),
                                    disparity.height(), light_field.width(), light_field.height()));
   }
-  const Scene scene{light_field, view, weights, net_guide(light_field, view)};
+  const NetScene scene{light_field, view, weights, net_guide(light_field, view)};
   const Hypotheses hypotheses = net_hypotheses(disparity, disparity, progress.part(0, 0));
   Selected selected = run_selection(scene, hypotheses, nullptr, progress.part(0, 0.5));
   return refine(scene, std::move(selected), parameters.silhouettes, progress.part(0.5, 1));

@@ -51,18 +51,36 @@ struct ColorRow {
   }
 };
 
-// The pixels of the middle one of three rows; `count` is what each adds to the number of views.
-void write_pixels(const ColorRow (&rows)[3], float count, float* out) {
-  const float* const grey = rows[1].grey.data();
-  const int last = static_cast<int>(rows[1].grey.size()) - 1;
-  for (int x = 0; x <= last; ++x, out += kNetPixel) {
-    for (int c = 0; c < 3; ++c) out[c] = rows[1].colors[3 * x + c];
-    out[3] = grey[x < last ? x + 1 : last] - grey[x > 0 ? x - 1 : 0];
-    out[4] = rows[2].grey[x] - rows[0].grey[x];
-    out[5] = count;
-    out[6] = out[7] = 0;
+// Numbers of the middle one of three rows.
+struct PixelWriter {
+  const ColorRow (&rows)[3];
+  float count;  // What each pixel adds to the number of views.
+
+  void write_pixels(float* out) const {
+    for (int x = 0; x < width(); ++x, out += kNetPixel) {
+      for (int c = 0; c < 3; ++c) out[c] = rows[1].colors[3 * x + c];
+      out[3] = along(x);
+      out[4] = rows[2].grey[x] - rows[0].grey[x];
+      out[5] = count;
+      out[6] = out[7] = 0;
+    }
   }
-}
+  void write_rows(float* out) const {
+    for (int c = 0; c < 3; ++c, out += width()) {
+      for (int x = 0; x < width(); ++x) out[x] = rows[1].colors[3 * x + c];
+    }
+    for (int x = 0; x < width(); ++x) {
+      out[x] = along(x);
+      out[width() + x] = rows[2].grey[x] - rows[0].grey[x];
+    }
+  }
+
+ private:
+  [[nodiscard]] int width() const { return static_cast<int>(rows[1].grey.size()); }
+  [[nodiscard]] float along(int x) const {
+    return rows[1].grey[std::min(x + 1, width() - 1)] - rows[1].grey[std::max(x - 1, 0)];
+  }
+};
 
 }  // namespace
 
@@ -116,8 +134,8 @@ Image<float> net_guide(const LightField& light_field, ViewIndex reference) {
 }
 
 NetEvidence::NetEvidence(const LightField& light_field, ViewIndex reference, Interval disparities,
-                         int sector_views)
-    : light_field_(light_field), reference_(reference), disparities_(disparities) {
+                         NetEvidenceOf kind, int sector_views)
+    : light_field_(light_field), reference_(reference), disparities_(disparities), kind_(kind) {
   windows_.push_back({.view = reference, .pixels = {}});
   const auto sectors = net_sectors(light_field, reference, sector_views);
   for (int k = 0; k < kNetSectors; ++k) {
@@ -139,20 +157,23 @@ void NetEvidence::hold(int first, int end, const Progress& progress) {
     const double lowest = std::clamp(std::floor(first + least) - 1, 0.0, height() - 1.0);
     const double highest = std::clamp(std::floor(end - 1 + most) + 2, 0.0, height() - 1.0);
     move_window(window, static_cast<int>(lowest), static_cast<int>(highest) + 1);
-    views_[i] = {window.pixels.data(), window.first, static_cast<long>(width()) * kNetPixel,
+    views_[i] = {window.data(), window.first, row_pixels() * kNetPixel,
                  static_cast<float>(window.view.u - reference_.u), static_cast<float>(window.dv)};
   });
 }
 
 void NetEvidence::move_window(Window& window, int first, int end) const {
-  const long row = static_cast<long>(width()) * kNetPixel;
+  const long row = row_pixels();
   const int kept_from = std::clamp(first, window.first, window.end);
-  std::vector<float>& pixels = window.pixels;
-  pixels.erase(pixels.begin(), pixels.begin() + (kept_from - window.first) * row);
-  window.first = pixels.empty() ? first : kept_from;
-  const int from = pixels.empty() ? first : window.end;
+  std::vector<Pixel>& pixels = window.pixels;
+  const int dropped = kept_from - window.first, kept = window.end - kept_from;
+  if (dropped >= kept) {  // Else it is not worth moving the others.
+    pixels.erase(pixels.begin(), pixels.begin() + dropped * row);
+    window.first = kept == 0 ? first : kept_from;
+  }
+  const int from = kept == 0 ? first : window.end;
   window.end = std::max(from, end);
-  pixels.resize((window.end - window.first) * row);
+  pixels.resize((window.end - window.first) * row + kNetReadBehind / kNetPixel);
   if (from < window.end) read_rows(window, from);
 }
 
@@ -166,9 +187,9 @@ void NetEvidence::read_rows(Window& window, int first) const {
   read(first, rows[1]);
   for (int y = first; y < window.end; ++y) {
     read(y + 1, rows[2]);
-    float* const out =
-        &window.pixels[static_cast<std::size_t>(y - window.first) * width() * kNetPixel];
-    write_pixels(rows, window.view == reference_ ? 0 : 1, out);
+    float* const out = window.data() + (y - window.first) * row_pixels() * kNetPixel;
+    const PixelWriter writer{rows, window.view == reference_ ? 0.0F : 1.0F};
+    kind_ == NetEvidenceOf::Planes ? writer.write_rows(out) : writer.write_pixels(out);
     if (!light_field_.valid().empty()) mark_invalid_pixels(window.view, y, out);
     std::swap(rows[0], rows[1]);
     std::swap(rows[1], rows[2]);
@@ -176,35 +197,33 @@ void NetEvidence::read_rows(Window& window, int first) const {
 }
 
 void NetEvidence::mark_invalid_pixels(ViewIndex view, int y, float* out) const {
-  for (int x = 0; x < width(); ++x, out += kNetPixel) {
+  constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
+  for (int x = 0; x < width(); ++x) {
     if (light_field_.is_valid(view, y, x)) continue;
-    std::fill_n(out, kNetPixel, std::numeric_limits<float>::quiet_NaN());
+    if (kind_ == NetEvidenceOf::Maps) {
+      std::fill_n(out + static_cast<long>(x) * kNetPixel, kNetPixel, kInvalid);
+    } else {
+      out[x] = kInvalid;
+    }
   }
 }
 
-NetEvidenceRow NetEvidence::row_at(int y) const {
+// Of memory that a row takes.
+long NetEvidence::row_pixels() const {
+  if (kind_ == NetEvidenceOf::Maps) return width();
+  return (static_cast<long>(width()) * kNetPixelRows + kNetPixel - 1) / kNetPixel;
+}
+
+void NetEvidence::compute(int y, std::span<const NetDisparity> disparities) const {
   const NetView& reference = views_.front();
   NetEvidenceRow row{.y = y, .width = width(), .height = height(), .views = views_.data() + 1};
   std::ranges::copy(sector_begin_, row.sector_begin);
   row.reference = reference.pixels + (y - reference.first_row) * reference.row_stride;
   row.has_invalid = !light_field_.valid().empty();
-  return row;
-}
-
-void NetEvidence::compute(int y, float disparity, float* out, int out_step) const {
-  NetEvidenceRow row = row_at(y);
-  row.disparity = disparity;
-  row.out = out;
-  row.out_step = out_step;
-  EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel).evidence(row);
-}
-
-void NetEvidence::compute(int y, const float* disparities, float* out, int out_step) const {
-  NetEvidenceRow row = row_at(y);
-  row.disparities = disparities;
-  row.out = out;
-  row.out_step = out_step;
-  EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel).evidence(row);
+  row.disparities = disparities.data();
+  row.count = static_cast<int>(disparities.size());
+  const NetEvidenceKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetEvidenceKernel);
+  kind_ == NetEvidenceOf::Planes ? kernel.planes(row) : kernel.maps(row);
 }
 
 }  // namespace episcope

@@ -4,14 +4,15 @@
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
-#include "engine/disparity/kernels/net_kernel.h"
+#include "engine/disparity/kernels/net_evidence_kernel.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace episcope {
 
-/// Numbers of evidence at a pixel: of each of 8 sectors of views how unlike their colours are, then
+/// Numbers of evidence at a pixel: of each of 8 sectors of views how unlike their colors are, then
 /// how unlike their differences of grey.
 inline constexpr int kNetEvidence = 16;
 inline constexpr int kNetSectors = 8;
@@ -30,46 +31,56 @@ inline constexpr int kNetGuide = 5;
 /// along y, samples in [0, 1], the border repeated. Invalid pixels are as stored.
 [[nodiscard]] Image<float> net_guide(const LightField& light_field, ViewIndex reference);
 
+/// What evidence is asked for: disparities that all pixels share, or maps.
+enum class NetEvidenceOf { Planes, Maps };
+
 /// How unlike the views are at disparities: E(d) of `net` (resources/training/README.md). A view
 /// does not count where its sample lies outside the image or an invalid pixel enters it. Holds the
-/// rows that a sweep down the image needs, 32 bytes a pixel and view. The light field must live
-/// longer.
+/// rows that a sweep down the image needs, 20 bytes a pixel and view, 32 for maps. The light field
+/// must live longer.
 class NetEvidence {
  public:
   /// For disparities within `disparities`.
   NetEvidence(const LightField& light_field, ViewIndex reference, Interval disparities,
-              int sector_views = kNetSectorViews);
+              NetEvidenceOf kind, int sector_views = kNetSectorViews);
 
   /// Reads what rows [first, end) need, and drops what rows before do. Later calls go on from
   /// there. Throws Cancelled.
   void hold(int first, int end, const Progress& progress);
 
-  /// Evidence of a held row at one disparity, or at one for each pixel: kNetEvidence numbers a
-  /// pixel, `out_step` apart. Thread-safe.
-  void compute(int y, float disparity, float* out, int out_step) const;
-  void compute(int y, const float* disparities, float* out, int out_step) const;
+  /// Evidence of a held row: kNetEvidence numbers a pixel. Up to kNetAtOnce disparities, all with
+  /// maps or all without, as promised. Thread-safe.
+  void compute(int y, std::span<const NetDisparity> disparities) const;
 
   [[nodiscard]] int height() const { return light_field_.height(); }
   [[nodiscard]] int width() const { return light_field_.width(); }
 
  private:
+  // Numbers of a pixel, on a boundary that loads do not cross.
+  struct alignas(4 * kNetPixel) Pixel {
+    Pixel() {}  // Leaves them unset.
+    std::array<float, kNetPixel> values;
+  };
   // Some rows of a view.
   struct Window {
     ViewIndex view;
     int dv = 0;
     int first = 0;
     int end = 0;
-    std::vector<float> pixels;
+    std::vector<Pixel> pixels;
+
+    [[nodiscard]] float* data() { return pixels.front().values.data(); }
   };
 
   void move_window(Window& window, int first, int end) const;
   void read_rows(Window& window, int first) const;
   void mark_invalid_pixels(ViewIndex view, int y, float* out) const;
-  [[nodiscard]] NetEvidenceRow row_at(int y) const;
+  [[nodiscard]] long row_pixels() const;
 
   const LightField& light_field_;
   ViewIndex reference_;
   Interval disparities_;
+  NetEvidenceOf kind_;
   std::array<int, kNetSectors + 1> sector_begin_{};
   std::vector<Window> windows_;  // Of the reference, then of the views sector by sector.
   std::vector<NetView> views_;

@@ -3,6 +3,7 @@
 
 #include "engine/core/memory.h"
 #include "engine/core/progress.h"
+#include "engine/disparity/kernels/net_kernel.h"
 #include "engine/disparity/net_weights.h"
 
 #include <functional>
@@ -50,8 +51,8 @@ class NetRows {
 /// known by the numbers that their makers return.
 class NetStream {
  public:
-  /// Writes the channels of row y, z of a tensor, NetRows::step apart; called on any thread.
-  using Fill = std::function<void(int y, int z, float* out)>;
+  /// Writes row y of labels z, z + 1, … of a tensor; called on any thread.
+  using Fill = std::function<void(int y, int z, NetRows& rows)>;
   /// Is called before rows [first, end) are filled; these ascend.
   using Prepare = std::function<void(int first, int end, const Progress&)>;
   /// Is given each row of the result, on any thread.
@@ -63,7 +64,8 @@ class NetStream {
     int after = -1;
   };
 
-  [[nodiscard]] int add_source(NetShape shape, Fill fill, Prepare prepare = {});
+  /// `fill` writes `labels` at once, of which the shape has a multiple.
+  [[nodiscard]] int add_source(NetShape shape, Fill fill, Prepare prepare = {}, int labels = 1);
   /// The layer must live as long as this. Precondition: the channels match.
   [[nodiscard]] int add_convolution(const NetLayer& layer, int input, Sums sums = {-1, -1});
   /// Twice as large along rows, columns and labels, linear, cut to the size of `plus`, which is
@@ -78,10 +80,12 @@ class NetStream {
   [[nodiscard]] double bytes(int output, int band) const;
 
  private:
+  class MixedInputs;
   struct Node {
     NetShape shape;
     Fill fill{};
     Prepare prepare{};
+    int labels = 1;  // That `fill` writes at once.
     const NetLayer* layer = nullptr;
     int input = -1;  // Of a convolution or what is enlarged;
     Sums sums{};     // `sums.after` is added at the end.
@@ -106,10 +110,17 @@ class NetStream {
   [[nodiscard]] Plan plan_of(int output, int band) const;
   [[nodiscard]] double work_of(const Step& step) const;
   void compute(const Step& step, const Progress& progress);
+  void take_scratch(int threads);
+  [[nodiscard]] NetConvolutionRow row_of(const Node& node) const;
+  [[nodiscard]] NetOutput output_of(Node& node, int y, int z) const;
   void convolve_row(Node& node, int y, int z) const;
+  void convolve_block(const Step& step, int y, MixedInputs& inputs);
+  void convolve_mixed(const Step& step, const Progress& progress);
   void enlarge_row(Node& node, int y, int z) const;
 
   std::vector<Node> nodes_;
+  LargeArray<float> scratch_;  // Of mixed rows: so many numbers for each thread.
+  std::size_t scratch_count_ = 0;
 };
 
 }  // namespace episcope

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 
 namespace episcope {
@@ -124,6 +126,38 @@ void require_known(const NamedArrays& arrays) {
   }
 }
 
+// Weights of three taps, mixed: their polynomial at the points of kNetMixed, each divided by its
+// distances from the others; at infinity its last coefficient.
+std::array<double, kNetMixed> mixed_weights(double first, double second, double third) {
+  const double even = first + third / 2, odd = second * std::sqrt(0.5);
+  const double wide_even = first + third * 2, wide_odd = second * std::sqrt(2.0);
+  return {first,
+          (even + odd) / -1.5,
+          (even - odd) / -1.5,
+          (wide_even + wide_odd) / 6,
+          (wide_even - wide_odd) / 6,
+          third};
+}
+
+// All taps of an output and an input in the order of a mixed layer, `[mixed z or y][mixed x][y]`.
+std::vector<double> mixed_taps(const NetLayerForm& form, const float* taps) {
+  const int planes = form.mixed_planes(), rows = form.plain_taps();
+  std::vector<double> mixed(static_cast<std::size_t>(planes) * kNetMixed * rows);
+  for (int y = 0; y < rows; ++y) {
+    std::array<std::array<double, kNetMixed>, 3> columns{};
+    for (int z = 0; z < (planes == 1 ? 1 : 3); ++z) {
+      const float* const row = taps + (z * rows + y) * 3;
+      columns[z] = mixed_weights(row[0], row[1], row[2]);
+    }
+    for (int x = 0; x < kNetMixed; ++x) {
+      std::array<double, kNetMixed> column{columns[0][x]};
+      if (planes > 1) column = mixed_weights(columns[0][x], columns[1][x], columns[2][x]);
+      for (int z = 0; z < planes; ++z) mixed[(z * kNetMixed + x) * rows + y] = column[z];
+    }
+  }
+  return mixed;
+}
+
 }  // namespace
 
 NetLayer make_net_layer(const NetLayerForm& form, const std::vector<float>& weights,
@@ -132,17 +166,21 @@ NetLayer make_net_layer(const NetLayerForm& form, const std::vector<float>& weig
   const int rows = form.is_narrow() ? form.outputs : whole_groups(form.outputs) / kNetGroup;
   layer.weights.resize(static_cast<std::size_t>(rows * layer.group_stride() / kNetGroup));
   layer.bias.resize(whole_groups(form.outputs) / kNetGroup);
-  const auto put = [&](int output, int input, int tap, float value) {
+  const auto put = [&](int output, int input, int tap, double value) {
     const long at = form.is_narrow()
                         ? output * layer.group_stride() + tap * layer.tap_stride() + input
                         : output / kNetGroup * layer.group_stride() + tap * layer.tap_stride() +
                               static_cast<long>(input) * kNetGroup + output % kNetGroup;
-    layer.weights[at / kNetGroup].values[at % kNetGroup] = value;
+    layer.weights[at / kNetGroup].values[at % kNetGroup] = static_cast<float>(value);
   };
-  std::size_t next = 0;
+  const float* next = weights.data();
   for (int output = 0; output < form.outputs; ++output) {
-    for (int input = 0; input < form.inputs; ++input) {
-      for (int tap = 0; tap < form.taps(); ++tap) put(output, input, tap, weights[next++]);
+    for (int input = 0; input < form.inputs; ++input, next += form.taps()) {
+      const std::vector<double> taps =
+          form.is_mixed() ? mixed_taps(form, next) : std::vector<double>(next, next + form.taps());
+      for (int tap = 0; tap < static_cast<int>(taps.size()); ++tap) {
+        put(output, input, tap, taps[tap]);
+      }
     }
   }
   for (std::size_t i = 0; i < bias.size(); ++i) {

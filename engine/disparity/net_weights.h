@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/named_arrays.h"
+#include "engine/disparity/kernels/net_kernel.h"
+#include "engine/disparity/weights_file.h"
 
 #include <array>
 #include <cstddef>
@@ -35,6 +36,14 @@ struct NetLayerForm {
   [[nodiscard]] int taps() const { return depth_taps() * kernel * kernel; }
   /// Whether outputs are so few that inputs are what kernels work on side by side.
   [[nodiscard]] bool is_narrow() const { return outputs <= 2; }
+  /// Whether it is computed by mixed columns (kNetMixed) and by mixed labels or rows, which rows
+  /// that are far apart are not.
+  [[nodiscard]] bool is_mixed() const { return kernel == 3 && stride == 1 && !is_narrow(); }
+  [[nodiscard]] bool mixes_labels() const { return is_mixed() && dimensions == 3; }
+  [[nodiscard]] bool mixes_rows() const { return is_mixed() && dimensions == 2 && dilation == 1; }
+  [[nodiscard]] int mixed_planes() const { return mixes_labels() || mixes_rows() ? kNetMixed : 1; }
+  /// Taps that are left of a mixed layer: rows.
+  [[nodiscard]] int plain_taps() const { return mixes_rows() ? 1 : kernel; }
 };
 
 /// Numbers of one group, on a boundary that loads do not cross.
@@ -45,7 +54,8 @@ struct alignas(64) NetGroup {
 /// A convolution as its kernels want it.
 struct NetLayer {
   NetLayerForm form;
-  /// `[group of outputs][z][y][x][input][output of the group]`; of narrow layers
+  /// `[group of outputs][z][y][x][input][output of the group]`; of mixed layers
+  /// `[group][mixed z or y][mixed x][y][input][output]`; of narrow layers
   /// `[output][z][y][x][input]`, inputs in whole groups. Zeros fill up.
   std::vector<NetGroup> weights;
   std::vector<NetGroup> bias;  ///< Zeros if it has none.
@@ -57,7 +67,10 @@ struct NetLayer {
     return form.is_narrow() ? whole_groups(form.inputs)
                             : static_cast<long>(form.inputs) * kNetGroup;
   }
-  [[nodiscard]] long group_stride() const { return tap_stride() * form.taps(); }
+  [[nodiscard]] long group_stride() const {
+    return tap_stride() *
+           (form.is_mixed() ? form.mixed_planes() * kNetMixed * form.plain_taps() : form.taps());
+  }
 };
 
 /// The weights of `net`, checked, in the order of its kernels.

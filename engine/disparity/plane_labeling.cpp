@@ -282,9 +282,9 @@ float weighted_median(std::array<Vote, kSide * kSide>& votes, int count) {
   return votes[count - 1].first;
 }
 
-class Silhouettes {
+class PlacedSilhouettes {
  public:
-  Silhouettes(const LightField& lf, ViewIndex view, ImageView<const float> disparity)
+  PlacedSilhouettes(const LightField& lf, ViewIndex view, ImageView<const float> disparity)
       : lf_(lf),
         view_(view),
         disparity_(disparity),
@@ -339,7 +339,7 @@ void place_silhouettes(const LightField& lf, ViewIndex view, const Progress& pro
   for (int y = 0; y < disparity.height; ++y) {
     std::copy_n(disparity.row(y), disparity.width, before.row(y));
   }
-  const Silhouettes silhouettes(lf, view, before);
+  const PlacedSilhouettes silhouettes(lf, view, before);
   parallel_for(disparity.height, progress, [&](int y) {
     for (int x = 0; x < disparity.width; ++x) {
       if (near.at(y, x) == 0 || !lf.is_valid(view, y, x)) continue;

@@ -2,12 +2,14 @@
 #include "engine/disparity/registry.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/disparity/epi_c.h"
 #include "engine/disparity/epi_g.h"
 #include "engine/disparity/epi_l.h"
 #include "engine/disparity/epi_s.h"
 #include "engine/disparity/epi_two_layer.h"
 #include "engine/disparity/kz02.h"
+#include "engine/disparity/net_method.h"
 #include "engine/disparity/plane_pm.h"
 #include "engine/disparity/stereo.h"
 
@@ -31,6 +33,7 @@ const std::vector<Estimator>& registered_estimators() {
       epi_two_layer_estimator(),
       kz02_estimator(),
       plane_pm_estimator(),
+      net_estimator(),
   };
   // clang-format on
   return estimators;
@@ -38,8 +41,9 @@ const std::vector<Estimator>& registered_estimators() {
 
 const Estimator* known_estimator(const std::string& id) {
   const std::vector<Estimator>& all = registered_estimators();
-  const auto found = std::ranges::find(
-      all, id, [](const Estimator& each) -> const std::string& { return each.info.id; });
+  const auto found =
+      std::ranges::find(all, lower_case(id),
+                        [](const Estimator& each) -> const std::string& { return each.info.id; });
   return found != all.end() ? &*found : nullptr;
 }
 

@@ -12,7 +12,8 @@ namespace episcope {
 /// ends.
 [[nodiscard]] const std::vector<Estimator>& registered_estimators();
 
-/// The estimator of that id, as on the command line; null if this build has none.
+/// The estimator of that id, in any case: "epi_l", "EPI_L" as it is displayed; null if this build
+/// has none.
 [[nodiscard]] const Estimator* known_estimator(const std::string& id);
 /// The ids of all estimators.
 [[nodiscard]] std::vector<std::string> estimator_ids();

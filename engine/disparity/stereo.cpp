@@ -8,7 +8,6 @@
 #include "engine/disparity/view_samples.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>

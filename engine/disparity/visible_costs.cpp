@@ -7,6 +7,7 @@
 #include "engine/disparity/cost_volume.h"
 #include "engine/disparity/stereo_costs.h"
 #include "engine/disparity/view_samples.h"
+#include "engine/solvers/pair_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,15 +96,8 @@ Image<int> LabelCosts::best_labels(const Progress& progress) const {
   const VolumeView<const float> costs = on_cpu();
   Image<int> labels(costs.height, costs.width);
   parallel_for(costs.height, progress, [&](int y) {
-    std::vector<float> least(costs.row(y, 0), costs.row(y, 0) + costs.width);
-    int* const best = labels.row(y);
-    for (int l = 1; l < costs.layers; ++l) {
-      const float* const cost = costs.row(y, l);
-      for (int x = 0; x < costs.width; ++x) {
-        best[x] = cost[x] < least[x] ? l : best[x];
-        least[x] = std::min(least[x], cost[x]);
-      }
-    }
+    std::vector<float> least;
+    take_cheapest(costs, y, labels.row(y), least);
   });
   return labels;
 }

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numeric>
 #include <set>
 
@@ -270,7 +269,7 @@ std::vector<TitledTable> benchmark_tables(const std::vector<BenchmarkResult>& re
     const char* key;
   };
   constexpr Choice choices[] = {
-      {"Mean squared error × 100 of the centre view, as in figure 7 (vmv2013)", Protocol::Vmv2013,
+      {"Mean squared error × 100 of the center view, as in figure 7 (vmv2013)", Protocol::Vmv2013,
        "mse_100"},
       {"Transparent scenes, foreground: mean squared error × 100 (vmv2013)", Protocol::Vmv2013,
        "mse_100_foreground"},

@@ -25,7 +25,7 @@ std::size_t find_or_append(std::vector<T>& list, const T& value) {
 }
 
 /// The result of one entry (a method of this build with its default parameters, an external
-/// submission, or a way to label) on one scene. Disparities are evaluated in the centre view.
+/// submission, or a way to label) on one scene. Disparities are evaluated in the center view.
 struct BenchmarkResult {
   std::string entry;
   std::string scene;

@@ -79,6 +79,65 @@ std::optional<double> density(const Evaluation& evaluation) {
   return 100 - *missing_share;
 }
 
+/// Sums over the judged pixels where the estimate has a value, or not.
+struct PixelErrors {
+  double squares = 0;
+  double bad = 0;  ///< By kBadPixelThreshold_px.
+  double count = 0;
+};
+
+PixelErrors sum_errors(const Evaluation& evaluation, bool of_missing) {
+  const auto threshold = static_cast<float>(kBadPixelThreshold_px);
+  PixelErrors sums;
+  for (std::size_t i = 0; i < evaluation.judged.size(); ++i) {
+    if (evaluation.judged.data()[i] == 0) continue;
+    if ((evaluation.missing.data()[i] != 0) != of_missing) continue;
+    const float error = evaluation.signed_error.data()[i];
+    sums.squares += double{error} * error;
+    sums.bad += std::abs(error) > threshold ? 1 : 0;
+    sums.count += 1;
+  }
+  return sums;
+}
+
+std::string missing_text(const PixelErrors& present, const PixelErrors& missing, double farthest,
+                         const EvaluationOptions& options) {
+  const double all = present.count + missing.count;
+  const std::string share = fmt::format("{}: {:.2f} % of the pixels have no value and count ",
+                                        protocol_name(options.protocol), 100 * missing.count / all);
+  if (options.invalid == InvalidEstimates::Compatible) {
+    return share + "as good pixels; means leave them out, as the 2016 tool does";
+  }
+  std::string without = "there is no other pixel";
+  if (present.count > 0) {
+    without = fmt::format("MSE×100 is {:.3g} with and {:.3g} without them",
+                          100 * (present.squares + missing.squares) / all,
+                          100 * present.squares / present.count);
+  }
+  return share + fmt::format("as the farthest true disparity, {:.3g} px: {}", farthest, without);
+}
+
+/// Numbers without the pixels that have no value, if there are such pixels that count as bad; a
+/// note if they are more than a few.
+void add_missing_values(Evaluation& evaluation, const DisparityView& truth,
+                        const EvaluationOptions& options) {
+  constexpr double few = 0.001;
+  const PixelErrors missing = sum_errors(evaluation, true);
+  if (missing.count == 0) return;
+  const PixelErrors present = sum_errors(evaluation, false);
+  if (missing.count > few * (present.count + missing.count)) {
+    evaluation.notes.push_back(missing_text(present, missing, farthest_disparity(truth), options));
+  }
+  if (options.invalid != InvalidEstimates::Bad || present.count == 0) return;
+  const bool is_high_res =
+      find_metric(evaluation.metrics, std::string("mse_100") + kLowResSuffix).has_value();
+  const std::string suffix = is_high_res ? std::string("_present") + kLowResSuffix : "_present";
+  evaluation.metrics.emplace_back("mse_100" + suffix, 100 * present.squares / present.count);
+  if (options.protocol == Protocol::Benchmark2016) {
+    evaluation.metrics.emplace_back("badpix_0070" + suffix, 100 * present.bad / present.count);
+  }
+}
+
 void require_comparable(const DisparityView& estimate, const DisparityView& truth) {
   const auto& a = estimate.disparity;
   const auto& b = truth.disparity;
@@ -135,6 +194,7 @@ std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate,
     append_squared_errors(evaluation.metrics, input);
   }
   append(evaluation.metrics, "density", density(evaluation));
+  add_missing_values(evaluation, truth, options);
   if (!options.shown.empty()) {
     append(evaluation.metrics, "shown", shown_percentage(whole_truth, truth));
   }
@@ -143,7 +203,7 @@ std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate,
   return evaluation;
 }
 
-// The centre view: the truth covers all views or that one.
+// The center view: the truth covers all views or that one.
 ViewIndex center_of(const DisparityField& truth) {
   const ViewIndex first = truth.disparity.first(), center = truth.disparity.grid().center();
   return {first.v + center.v, first.u + center.u};

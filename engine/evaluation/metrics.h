@@ -72,6 +72,8 @@ struct Evaluation {
 ///
 /// Keys of vmv2013: mse_100 over all pixels with truth, mse_100_inset15 without a border of 15 px,
 /// density (% of the judged pixels that have a value).
+/// If some have none and count as bad, either protocol adds mse_100_present, over the others alone,
+/// and benchmark2016 badpix_0070_present; `notes` tell both numbers above 0.1 %.
 /// With `options.shown`, either protocol adds "shown" (% of the pixels with truth that are shown).
 /// Keys of benchmark2016: mse_100; badpix_0010, badpix_0030, badpix_0070 (% with |error| strictly
 /// above); q_25_100 (sorted(|error|·100)[⌊0.25·n⌋]); density; and for the regions there are:
@@ -105,7 +107,7 @@ struct LayeredEvaluation {
 /// in "_foreground" and "_background"; then "layers_right".
 [[nodiscard]] Metrics layered_metrics(const LayeredEvaluation& evaluation);
 
-/// Region masks of the truth count in its centre view only.
+/// Region masks of the truth count in its center view only.
 /// Throws InvalidInput if estimate or truth lacks a layer in `view`, and as `evaluate`.
 [[nodiscard]] LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate,
                                                 const GroundTruth& truth, ViewIndex view,
@@ -126,7 +128,7 @@ struct LayeredEvaluation {
 /// Threshold of the map of bad pixels, px; strictly above is bad [HJKG16].
 inline constexpr double kBadPixelThreshold_px = 0.07;
 
-/// The places of good and bad pixels in a colour map from 0 (green) to 1 (red).
+/// The places of good and bad pixels in a color map from 0 (green) to 1 (red).
 inline constexpr float kGoodPixel = 0.2F;
 inline constexpr float kBadPixel = 1.0F;
 

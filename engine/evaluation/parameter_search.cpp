@@ -128,10 +128,10 @@ ScoreMatrix matrix_of(const std::vector<MethodSearch>& searches, Rule rule) {
 
 TitledTable protocol_table(const std::vector<MethodSearch>& searches) {
   TitledTable titled{
-      "Parameter search: average MSE × 100 of the centre view (vmv2013)",
+      "Parameter search: average MSE × 100 of the center view (vmv2013)",
       "P-opt: the best point for each scene, as in the paper. P-fix: one point for all scenes, "
-      "which minimises the geometric mean of error / best error of the scene. LOSO (leave one "
-      "scene out): P-fix chosen without the scene being evaluated. Only the centre view is "
+      "which minimizes the geometric mean of error / best error of the scene. LOSO (leave one "
+      "scene out): P-fix chosen without the scene being evaluated. Only the center view is "
       "estimated; the disparity range is found as in any other run, never from the ground truth. "
       "Averages are over the scenes that every method has.",
       {{"algorithm", "rank", "P-opt", "P-fix", "LOSO", "default", "points", "P-fix parameters"},

@@ -88,7 +88,7 @@ std::uintmax_t grid_folder_bytes(const Scene& scene) {
 /// Writes a folder of images, one for each view, named `RR_CC.png` by row and column from 0 on:
 /// PNG of 8 or 16 bit, or TIFF of 32-bit float. Beside them, for every view that has them,
 /// `disparity_RR_CC.npy` (float, px per view step, NaN = invalid) and `label_RR_CC.npy` (int32),
-/// and region masks of the centre view as `mask_<name>.npy` (uint8). Atomic. Throws IoError (also
+/// and region masks of the center view as `mask_<name>.npy` (uint8). Atomic. Throws IoError (also
 /// if the folder holds other files), Cancelled.
 void write_grid_folder(const fs::path& folder, const Scene& scene, const Progress& progress) {
   progress.check();
@@ -124,6 +124,7 @@ constexpr const char* kEslfSuffixes[] = {"_eslf.png", ".png"};
 constexpr FormContents kArchive{.floats = FloatsHeld::Exactly,
                                 .disparity = MapsHeld::All,
                                 .is_depth = true,
+                                .has_origin = true,
                                 .has_layers = true,
                                 .labels = MapsHeld::All,
                                 .has_scribbles = true,
@@ -151,8 +152,12 @@ constexpr FormContents kArrays{.floats = FloatsHeld::Exactly,
 
 constexpr FormContents kPicture{};
 
+void write_named_archive(const fs::path& path, const Scene& scene, const Progress& progress) {
+  write_archive(path, scene, progress, LabelFile::NamedAfter);
+}
+
 constexpr Writer kWriters[] = {
-    {"archive", "the archive form", kHdf5, kArchive, write_archive},
+    {"archive", "the archive form", kHdf5, kArchive, write_named_archive},
     {"benchmark", "the benchmark form", {}, kBenchmark, write_benchmark_folder},
     {"grid", "a grid of images", {}, kGrid, write_grid_folder},
     {"npy", "the .npy form", kNpy, kArray, write_npy},
@@ -197,14 +202,14 @@ class Losses {
     }
   }
 
-  /// Maps that a form holds of all views, of the centre view or not at all.
+  /// Maps that a form holds of all views, of the center view or not at all.
   template <class T>
   void compare_maps(const ViewStack<T>& stack, MapsHeld held, const char* kind) {
     if (stack.empty()) return;
     if (held == MapsHeld::None) return compare(true, false, kind);
     const bool has_center = stack.contains(scene_.light_field->center());
     if (held == MapsHeld::All || (has_center && stack.grid().count() == 1)) return;
-    sentences_.push_back(fmt::format("{} holds {} of the centre view only; {} left out.", form(),
+    sentences_.push_back(fmt::format("{} holds {} of the center view only; {} left out.", form(),
                                      kind, has_center ? "those of the others are" : "all are"));
   }
 
@@ -274,6 +279,8 @@ std::vector<std::string> unsupported_parts(const Writer& writer, const Scene& sc
   losses.compare_maps(truth.labels, holds.labels, "labels");
   losses.compare(!truth.regions.empty(), holds.has_regions, "region masks");
   losses.compare(truth.high_res != nullptr, false, "ground truth in high resolution");
+  losses.compare(truth.estimated && holds.disparity != MapsHeld::None, holds.has_origin,
+                 "facts on how disparities were estimated, which read as ground truth then");
   losses.compare(!scene.scribbles.empty(), holds.has_scribbles, "scribbles");
   losses.compare(!field.valid().empty(), holds.has_valid, "masks of valid pixels");
   return losses.take();

@@ -33,10 +33,11 @@ struct FormContents {
   FloatsHeld floats = FloatsHeld::None;
   MapsHeld disparity = MapsHeld::None;
   bool is_depth = false;  ///< Disparity is held as depth in float, within 2⁻²³ of d + Δx.
+  bool has_origin = false;  ///< Whether disparities that are no truth say how they were estimated.
   bool has_layers = false;
   MapsHeld labels = MapsHeld::None;
   bool has_scribbles = false;
-  bool has_regions = false;  ///< Region masks of the centre view.
+  bool has_regions = false;  ///< Region masks of the center view.
   bool has_valid = false;    ///< The mask of valid pixels.
   CamerasHeld camera = CamerasHeld::None;
   bool has_range = false;      ///< The disparity range that files promise.

@@ -58,11 +58,6 @@ void weigh(const WeighedRow& row, float* p) {
 
 const LabelWeightsKernel kLabelWeightsKernel = {misfits, weigh};
 
-}  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE
-
-// Compiled once for each instruction set: see engine/core/isa.h for what may stand here.
-
-namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
 // Pixels wait for their neighbors along x, so the vectors run over the labels.
@@ -101,11 +96,6 @@ void sweep_up(const DistanceGrid& grid, int y) {
 
 const StrokeDistanceKernel kStrokeDistanceKernel = {sweep_down, sweep_up};
 
-}  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE
-
-// Compiled once for each instruction set: see engine/core/isa.h for what may stand here.
-
-namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
 inline Vec magnitude(Vec value) {

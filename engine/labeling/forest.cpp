@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <limits>
 #include <random>
-#include <string>
 #include <utility>
 
 namespace episcope {

@@ -28,8 +28,8 @@ struct Blob {
 /// corner.
 enum class Neighbors { Sides, Corners };
 
-/// The connected sets of the pixels of `mask` that are not 0, those of at least `least_pixels`, in
-/// the order of their first pixels, by row, then column.
+/// Connected sets of at least `least_pixels` pixels of `mask` that are not 0, in the order of their
+/// first pixels, by row, then column.
 [[nodiscard]] std::vector<Blob> blobs_of(ImageView<const std::uint8_t> mask, Neighbors neighbors,
                                          int least_pixels = 1);
 

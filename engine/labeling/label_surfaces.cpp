@@ -121,11 +121,8 @@ LabelSurfaces::Surface LabelSurfaces::fit(const std::vector<Sample>& samples, do
       const auto& [at, across, down] = surface.plane;
       return std::abs(s.d - at - across * (s.x - surface.x) - down * (s.y - surface.y));
     });
-    std::vector<double> sorted = misses;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, middle);
     // 1.4826: from the median to the standard deviation of a Gaussian.
-    const double scale = kOutlier * (1.4826 * *middle + kLeastScale);
+    const double scale = kOutlier * (1.4826 * median(misses) + kLeastScale);
     double sum = 0, all = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       weights[i] = 1 / (1 + misses[i] * misses[i] / (scale * scale));

@@ -6,7 +6,6 @@
 #include "engine/labeling/feature_kernel.h"
 #include "engine/labeling/forest_kernel.h"
 
-#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 namespace episcope::render {
 namespace {
 
-// Colours 0xRRGGBB at equal steps from low to high; between them is interpolated linearly.
+// Colors 0xRRGGBB at equal steps from low to high; between them is interpolated linearly.
 // viridis and magma: S. van der Walt, N. Smith 2015 (CC0). turbo: A. Mikhailov 2019 (Apache 2.0),
 // every fifth entry. YlOrRd and RdYlGn: C. Brewer, colorbrewer2.org.
 constexpr std::uint32_t kViridis[] = {
@@ -45,7 +45,7 @@ constexpr std::uint32_t kRdYlGnReversed[] = {0x006837, 0x1a9850, 0x66bd63, 0xa6d
                                              0xf46d43, 0xd73027, 0xa50026};
 constexpr std::uint32_t kGrey[] = {0x000000, 0xffffff};
 
-// Invalid pixels: a colour that the map itself does not hold.
+// Invalid pixels: a color that the map itself does not hold.
 constexpr std::uint32_t kInvalidGrey = 0x6e6e6e;
 constexpr std::uint32_t kInvalidMagenta = 0xb000b0;
 constexpr std::uint32_t kInvalidBlue = 0x24478f;
@@ -72,7 +72,7 @@ Rgb unpacked(std::uint32_t color) {
           static_cast<std::uint8_t>(color)};
 }
 
-/// Colour at `position` in [0, 1].
+/// Color at `position` in [0, 1].
 Rgb interpolated(std::span<const std::uint32_t> colors, double position) {
   const double place = position * static_cast<double>(colors.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(place), colors.size() - 2);
@@ -111,7 +111,7 @@ ColorMap color_map(const std::string& name) {
     }
     return map;
   }
-  throw InvalidInput(no_such_name("colour map", name, color_map_names()));
+  throw InvalidInput(no_such_name("color map", name, color_map_names()));
 }
 
 }  // namespace episcope::render

@@ -4,7 +4,6 @@
 #include "engine/core/label_info.h"
 
 #include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@ namespace episcope::render {
 
 using episcope::Rgb;
 
-/// 256 colours from low to high, with a colour for invalid pixels.
+/// 256 colors from low to high, with a color for invalid pixels.
 struct ColorMap {
   std::string name;
   std::array<Rgb, 256> colors{};

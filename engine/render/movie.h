@@ -3,15 +3,14 @@
 
 #include "engine/core/indices.h"
 
-#include <string_view>
 #include <vector>
 
 namespace episcope::render {
 
 /// How the camera moves over the grid of views.
 enum class CameraPath {
-  Circle,  ///< Around the centre, through the outermost views of its row and column.
-  Swing,   ///< Along the row of the centre, there and back; in a grid of one column, along the
+  Circle,  ///< Around the center, through the outermost views of its row and column.
+  Swing,   ///< Along the row of the center, there and back; in a grid of one column, along the
            ///< column.
   Snake,   ///< Through all views, row by row, every other one from right to left, and back.
 };

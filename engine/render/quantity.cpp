@@ -149,7 +149,7 @@ constexpr QuantityInfo kQuantities[] = {
      .subject = Subject::Segmentation,
      .rule = RangeRule::Fixed,
      .range = {0, 1}},
-    // In the colours of bad pixels.
+    // In the colors of bad pixels.
     {.quantity = Quantity::WrongLabels,
      .id = "wrong_labels",
      .button = "Wrong",

@@ -41,15 +41,15 @@ enum class Subject : std::uint8_t {
   Segmentation  ///< Labels learnt from scribbles; Edges need none.
 };
 
-/// Rule for the ends of the colour range.
+/// Rule for the ends of the color range.
 enum class RangeRule : std::uint8_t {
-  None,       ///< There are no numbers: samples or labels in colours of their own.
+  None,       ///< There are no numbers: samples or labels in colors of their own.
   Disparity,  ///< The disparities of the scene, whatever the method.
   Fixed       ///< `QuantityInfo::range`.
 };
 
-/// All that tool bars, menus, colour bars, command lines, tiles and exported pictures know of a
-/// quantity. Invalid pixels have the colour ColorMap::invalid.
+/// All that tool bars, menus, color bars, command lines, tiles and exported pictures know of a
+/// quantity. Invalid pixels have the color ColorMap::invalid.
 struct QuantityInfo {
   Quantity quantity;
   const char* id;      ///< As on the command line: `show --what error`. Also names commands.
@@ -65,7 +65,7 @@ struct QuantityInfo {
       true;  ///< Whether it is frequent enough for a button; else it is in menus only.
 
   [[nodiscard]] bool has_scale() const { return rule != RangeRule::None; }
-  /// Whether zero belongs in the middle of the colours.
+  /// Whether zero belongs in the middle of the colors.
   [[nodiscard]] bool is_signed() const { return rule == RangeRule::Fixed && range.min < 0; }
 };
 

@@ -191,7 +191,7 @@ struct Arithmetic<std::uint8_t> {
   static constexpr float kOne = 256;
 };
 
-/// Weights of the four neighbours: upper left, upper right, lower left, lower right.
+/// Weights of the four neighbors: upper left, upper right, lower left, lower right.
 template <class T>
 struct Weights {
   typename Arithmetic<T>::Weight w[4];
@@ -214,7 +214,7 @@ struct Weights {
   }
 };
 
-/// Adds `count` interpolated samples. `upper` and `lower` are two rows at the left neighbour.
+/// Adds `count` interpolated samples. `upper` and `lower` are two rows at the left neighbor.
 template <class T>
 void add_samples(const T* upper, const T* lower, int count, int channels, const Weights<T>& weights,
                  typename Arithmetic<T>::Sum* sum) {

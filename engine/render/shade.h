@@ -20,16 +20,16 @@ struct Shading {
   Interval range;
 };
 
-/// Whether two shadings give the same colours; maps are told apart by name.
+/// Whether two shadings give the same colors; maps are told apart by name.
 [[nodiscard]] inline bool is_same(const Shading& a, const Shading& b) {
   return a.map.name == b.map.name && a.range == b.range;
 }
 
-/// Colour map and range of a quantity, which belong to the quantity and not to the image;
+/// Color map and range of a quantity, which belong to the quantity and not to the image;
 /// disparities span `disparity_range`.
 [[nodiscard]] Shading default_shading(Quantity quantity, Interval disparity_range);
 
-/// RGBA8 picture of a map; invalid pixels (mask 0 or NaN) get the map's own colour. `valid` may be
+/// RGBA8 picture of a map; invalid pixels (mask 0 or NaN) get the map's own color. `valid` may be
 /// empty.
 [[nodiscard]] Image<std::uint8_t> shade(ImageView<const float> map,
                                         ImageView<const std::uint8_t> valid,
@@ -51,13 +51,13 @@ struct LabelStyle {
   friend bool operator==(const LabelStyle&, const LabelStyle&) = default;
 };
 
-/// RGBA8 picture of label ids in the colours of `infos`, or in `label_color` if they are missing
+/// RGBA8 picture of label ids in the colors of `infos`, or in `label_color` if they are missing
 /// there; 0, negative and hidden ids are transparent.
 [[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
                                                const std::vector<LabelInfo>& infos = {},
                                                const LabelStyle& style = {});
 
-/// Whether a pixel with a label belongs to the contour of its area: a neighbour at a side has
+/// Whether a pixel with a label belongs to the contour of its area: a neighbor at a side has
 /// another label. Beyond the border of the image lies none.
 template <class Label>
 [[nodiscard]] bool is_on_contour(ImageView<const Label> labels, int y, int x) {

@@ -24,8 +24,8 @@ struct RenderOptions {
   int channels = 3;
   /// Scales every disparity, to make scenes of wider or narrower range.
   double disparity_scale = 1;
-  /// Positions of the cameras, in steps to the right of and below the centre view, view by view;
-  /// empty = on the regular grid. They become LightFieldInfo::positions; the centre view must stand
+  /// Positions of the cameras, in steps to the right of and below the center view, view by view;
+  /// empty = on the regular grid. They become LightFieldInfo::positions; the center view must stand
   /// at (0, 0).
   std::vector<CameraPosition> positions{};
   RandomKind kind = RandomKind::Any;  ///< Of a random scene.
@@ -58,7 +58,7 @@ void require_builtin(const std::string& id);
 [[nodiscard]] std::string builtin_text(const std::string& id, const RenderOptions& options);
 
 /// Ray-casts a built-in scene analytically, each view by itself: exact disparity and labels at
-/// pixel centres for every view, colour averaged over 4×4 samples, band-limited textures, seeded
+/// pixel centers for every view, color averaged over 4×4 samples, band-limited textures, seeded
 /// noise. Deterministic: the same options give the same bytes on every machine and thread count.
 /// `id` is a scene alone (read_request reads queries).
 /// Throws Unavailable for an unknown id (naming the nearest), InvalidInput, Cancelled.

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -36,7 +35,7 @@ View make_view(const Stage& stage, const Model& model, double scale, CameraPosit
   return view;
 }
 
-// In steps from the centre view.
+// In steps from the center view.
 CameraPosition position_of(const RenderOptions& options, int index) {
   if (!options.positions.empty()) return options.positions[index];
   const ViewIndex view = options.grid.view_at(index), center = options.grid.center();
@@ -227,8 +226,8 @@ class ViewsCast {
   std::vector<View> views_;
   bool has_panes_ = false;
   Cast cast_;
-  Image<std::uint8_t> edges_;     // Of the centre view.
-  Image<std::int32_t> surfaces_;  // Primitives of the centre view.
+  Image<std::uint8_t> edges_;     // Of the center view.
+  Image<std::int32_t> surfaces_;  // Primitives of the center view.
 };
 
 }  // namespace

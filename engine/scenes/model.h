@@ -3,7 +3,7 @@
 
 namespace episcope::scenes {
 
-/// The plain data that the ray caster reads. Camera frame of the centre view: x right, y down,
+/// The plain data that the ray caster reads. Camera frame of the center view: x right, y down,
 /// z forward; lengths in scene units. Nothing here has code, because the caster is compiled once
 /// for every instruction set.
 
@@ -25,20 +25,20 @@ enum class Shape {
 enum class Pattern { Plain, Stripes, Checker, Rings };
 
 /// Three octaves of value noise with C2 interpolation on an integer lattice, in object coordinates,
-/// and a soft pattern between two colours.
+/// and a soft pattern between two colors.
 struct Texture {
   double spacing[3] = {1, 1, 1};  ///< Lattice spacing of each octave, finest first.
   double stretch[3] = {1, 1, 1};  ///< Factors by which the noise is longer along x, y, z.
   unsigned seed = 0;
   bool is_solid = false;  ///< Noise in x, y, z of the object, else in x, y.
-  /// An octave vanishes where its spacing falls below 3.5 px as seen from the centre view, so that
+  /// An octave vanishes where its spacing falls below 3.5 px as seen from the center view, so that
   /// slanted surfaces stay free of aliasing; it is whole from 4.5 px on.
   bool fades = false;
   float color[2][3] = {{0.5F, 0.5F, 0.5F}, {0.5F, 0.5F, 0.5F}};
   float gain[3][3] = {};  ///< [octave][channel], added as gain · noise, noise in [−1, 1].
   Pattern pattern = Pattern::Plain;
   double pattern_axis[2][3] = {};  ///< Phase in periods = axis · position.
-  double pattern_step = 1;         ///< Length of the transition between the two colours.
+  double pattern_step = 1;         ///< Length of the transition between the two colors.
   float pattern_sharpness = 1;  ///< Half a period in transitions; 1 = a wave, larger = hard edges.
   float pattern_warp = 0;       ///< Periods by which the coarse noise bends the pattern.
   float gloss = 0;              ///< Strength of the highlight painted on by the key light.
@@ -52,7 +52,7 @@ struct Primitive {
   double profile[3] = {};
   int label = 1;  ///< Of the object it belongs to.
   int texture = 0;
-  bool is_pane = false;  ///< Transparent: half of its colour, half of what is behind.
+  bool is_pane = false;  ///< Transparent: half of its color, half of what is behind.
 };
 
 /// Darkens what is near it: stands in for an object in the soft shadows.
@@ -69,8 +69,8 @@ struct Lighting {
   float ground[3] = {};                 ///< and on what faces down.
   float key[3] = {};                    ///< Of the key light,
   float key_direction[3] = {0, -1, 0};  ///< towards it, of length 1.
-  /// Highlights move over the surface with the view, as on polished things; else they are those of
-  /// the centre view everywhere.
+  /// Highlights move over the surface with the view, as on polished things; else all views show the
+  /// highlights of the center view.
   bool has_moving_highlights = false;
 };
 
@@ -106,7 +106,7 @@ inline constexpr int kMaxCandidates = 192;
 /// or padded to it.
 struct RowResult {
   float* color = nullptr;    ///< [x][3], mean over the samples of each pixel.
-  int* primitive = nullptr;  ///< Nearest opaque one at the pixel centre, −1 = none.
+  int* primitive = nullptr;  ///< Nearest opaque one at the pixel center, −1 = none.
   double* depth = nullptr;   ///< Its depth.
   int* pane = nullptr;       ///< Nearest pane before it, −1 = none.
   double* pane_depth = nullptr;

@@ -2,7 +2,6 @@
 #include "engine/scenes/objects.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace episcope::scenes {
 namespace {

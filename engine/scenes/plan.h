@@ -62,7 +62,7 @@ struct Plan {
 /// A dark background of little contrast: a few grey levels.
 [[nodiscard]] Texture draw_faint_texture(Draw draw, double pixel_units);
 
-/// A chequered floor: tiles in the plane of what is flat, about 30 px wide.
+/// A checkered floor: tiles in the plane of what is flat, about 30 px wide.
 [[nodiscard]] Texture draw_chequered_texture(Draw draw, double pixel_units, const Detail& detail);
 
 }  // namespace episcope::scenes

@@ -18,7 +18,7 @@ enum class RandomKind {
   Shiny,      ///< Highlights that move with the view.
   Uneven,     ///< Views of different gain, vignetting, a defocused background.
   Noisy,      ///< Noise of 5 to 10/255.
-  Room,       ///< Furniture, a lattice of thin bars, a patterned wall, a chequered floor.
+  Room,       ///< Furniture, a lattice of thin bars, a patterned wall, a checkered floor.
   Smooth,     ///< Large folded, curved and slanted surfaces of weak texture, noise of 0 to 2/255.
   /// Detail finer than pixels, which see only a part of their square or a single point of it.
   Aliased,

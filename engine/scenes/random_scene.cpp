@@ -22,7 +22,7 @@ struct IndoorObject {
 };
 
 // What a furnished room holds: two boxes, a tilted panel, two cylinders, three balls and a
-// lattice, some of them of one colour.
+// lattice, some of them of one color.
 std::span<const IndoorObject> indoor_objects() {
   static constexpr IndoorObject all[] = {
       {Form::Box, Finish::Textured, true, 0.17},     {Form::Box, Finish::Plain, true, 0.14},
@@ -34,7 +34,7 @@ std::span<const IndoorObject> indoor_objects() {
   return all;
 }
 
-// Half the width of the bars of the lattice, px of the centre view.
+// Half the width of the bars of the lattice, px of the center view.
 double draw_bar_px(Draw draw) {
   return draw.between(0.8, 2);
 }
@@ -45,7 +45,7 @@ class Backdrop {
   /// Disparities stay in the range of the plan as far as views of a 9×9 grid see.
   Backdrop(const Stage& stage, const Plan& plan, Draw draw);
 
-  /// Disparity at a pixel of the centre view.
+  /// Disparity at a pixel of the center view.
   [[nodiscard]] double disparity_at(double x, double y) const;
   /// Row above which no ground is seen; the height of the image if there is none.
   [[nodiscard]] double horizon() const { return horizon_; }
@@ -62,7 +62,7 @@ class Backdrop {
   double horizon_ = 0;
 };
 
-// Pixels beyond the centre view that other views see, four steps away.
+// Pixels beyond the center view that other views see, four steps away.
 double margin_px(const Interval& range) {
   return 4 * std::max(std::abs(range.min), std::abs(range.max)) + 1;
 }

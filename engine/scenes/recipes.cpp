@@ -4,7 +4,6 @@
 #include "engine/scenes/stage.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <vector>
@@ -41,7 +40,7 @@ class StillLife {
   void rod(const Place& from, const Place& to, double radius, int texture, int label);
   void occluder(const Place& center, double radius, int label);
 
-  /// Size of a pixel of the centre view at a place.
+  /// Size of a pixel of the center view at a place.
   [[nodiscard]] double pixel_at(const Place& place) const;
   /// Noise that is resolved there, and fades where it is not.
   [[nodiscard]] Texture noise_at(const Place& place, unsigned seed,
@@ -218,7 +217,7 @@ Model edge_scene(const Stage& stage) {
   model.primitives.push_back(make_plane(stage, {far_disparity, 0, 0}));
   model.primitives.back().texture = model.add(
       noise_texture(stage.pixel(stage.depth(far_disparity)), 2, {0.42F, 0.50F, 0.58F}, kContrast));
-  // Its left side lies between two pixels of the centre view.
+  // Its left side lies between two pixels of the center view.
   const double left = stage.width / 2 - 0.5;
   model.primitives.push_back(
       make_card(stage, {left, -kFar, left + 2 * kFar, kFar, near_disparity}));

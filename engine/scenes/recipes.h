@@ -9,7 +9,7 @@
 
 namespace episcope::scenes {
 
-/// The built-in scenes, laid out for a stage. Disparities are of the centre view.
+/// The built-in scenes, laid out for a stage. Disparities are of the center view.
 [[nodiscard]] Model fronto_scene(const Stage& stage);       ///< d = 0.37.
 [[nodiscard]] Model slant_scene(const Stage& stage);        ///< d from −1 (left) to 1 (right).
 [[nodiscard]] Model edge_scene(const Stage& stage);         ///< d = −0.5 left, 0.8 right.

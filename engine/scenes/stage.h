@@ -3,13 +3,57 @@
 
 #include "engine/core/indices.h"
 #include "engine/scenes/model.h"
-#include "engine/scenes/sensor.h"
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace episcope::scenes {
+
+/// How the cameras turn light into samples; by default exactly.
+struct Sensor {
+  float exposure = 1;     ///< Factor of all samples; small = a dark scene.
+  float vignetting = 0;   ///< Share of the light that is lost in the corners of a view.
+  float gain_spread = 0;  ///< Gains of the views lie within 1 ± this; the center view has 1.
+  /// Standard deviation of the noise in units of 1/255, at the top of a view and at its bottom.
+  float noise_top = 0;
+  float noise_bottom = 0;
+  /// Side of the part of a pixel that light falls on, px; below 1, detail finer than a pixel is
+  /// aliased: it changes from view to view. 0 = a single ray.
+  float fill = 1;
+};
+
+/// Exposes the rows of all views of one scene.
+class Exposure {
+ public:
+  struct Format {
+    int height = 0;
+    int width = 0;
+    int channels = 3;
+    double noise_sigma = 0;  ///< Of further noise, in units of 1/255.
+    unsigned seed = 1;       ///< Of noise and gains.
+  };
+  Exposure(const Sensor& sensor, const Format& format) : sensor_(sensor), format_(format) {}
+
+  /// Row `y` of the view `steps` away from the center view. `rgb`: light, [x][3]; `out`: samples,
+  /// [x][channels], of which the first is number `counter` of the light field.
+  void write_row(ViewIndex steps, int y, const float* rgb, std::uint64_t counter,
+                 std::uint8_t* out) const;
+
+  /// The gain of a view.
+  [[nodiscard]] float gain(ViewIndex steps) const;
+
+ private:
+  [[nodiscard]] float noise_sigma(int y) const;
+
+  Sensor sensor_;
+  Format format_;
+};
+
+/// A normally distributed number of variance 1 that depends on `seed` and `counter` alone: the sum
+/// of twelve uniform numbers minus six, so that no function of the maths library is involved.
+[[nodiscard]] float sensor_noise(unsigned seed, std::uint64_t counter);
 
 /// A point or a direction: x, y, z.
 using Vector3 = std::array<double, 3>;
@@ -30,7 +74,7 @@ using Vector3 = std::array<double, 3>;
   return scaled(a, 1 / length(a));
 }
 
-/// The cameras for which a scene is laid out. Layouts speak of disparities and pixels of the centre
+/// The cameras for which a scene is laid out. Layouts speak of disparities and pixels of the center
 /// view, so that a scene looks alike at every image size.
 struct Stage {
   int width = 0;
@@ -45,7 +89,7 @@ struct Stage {
   }
   /// Size of a pixel at a depth.
   [[nodiscard]] double pixel(double depth_units) const { return depth_units / focal_px; }
-  /// The point seen at pixel (x, y) of the centre view.
+  /// The point seen at pixel (x, y) of the center view.
   [[nodiscard]] Vector3 point(double x, double y, double depth_units) const {
     return {(x - (width - 1) / 2.0) * pixel(depth_units),
             (y - (height - 1) / 2.0) * pixel(depth_units), depth_units};
@@ -86,11 +130,11 @@ struct Radii {
 void revolve(Primitive& piece, double height, const Radii& radii);
 
 /// A pattern along `axes` with the given period, with edges as hard as pixels of size `pixel_units`
-/// allow. Its second colour is left to the caller.
+/// allow. Its second color is left to the caller.
 void set_pattern(Texture& texture, Pattern pattern, double pixel_units, double period,
                  const std::array<Vector3, 2>& axes);
 
-/// A rectangle facing the cameras between two pixels' corners of the centre view, at a disparity.
+/// A rectangle facing the cameras between two pixels' corners of the center view, at a disparity.
 struct Card {
   double left = 0;
   double top = 0;
@@ -100,7 +144,7 @@ struct Card {
 };
 [[nodiscard]] Primitive make_card(const Stage& stage, const Card& card);
 
-/// The plane on which the disparity of the centre view is `center` + `per_x`·(x − x_c) +
+/// The plane on which the disparity of the center view is `center` + `per_x`·(x − x_c) +
 /// `per_y`·(y − y_c), without end.
 struct DisparityPlane {
   double center = 0;

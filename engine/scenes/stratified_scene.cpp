@@ -40,7 +40,7 @@ Texture strong_texture(Draw draw, double pixel_units) {
   return texture;
 }
 
-// Disparity of a plane at a pixel of the centre view.
+// Disparity of a plane at a pixel of the center view.
 double disparity_at(const Stage& stage, const DisparityPlane& plane, double x, double y) {
   return plane.center + plane.per_x * (x - (stage.width - 1) / 2.0) +
          plane.per_y * (y - (stage.height - 1) / 2.0);
@@ -59,7 +59,7 @@ double coarsest_pixel(const Stage& stage, const DisparityPlane& plane) {
   return coarsest;
 }
 
-// Moves a primitive to the point of a plane that is seen at a pixel of the centre view.
+// Moves a primitive to the point of a plane that is seen at a pixel of the center view.
 void move_to(Primitive& primitive, const Stage& stage, const DisparityPlane& plane, double x,
              double y) {
   const Vector3 at = stage.point(x, y, stage.depth(disparity_at(stage, plane, x, y)));
@@ -110,7 +110,7 @@ namespace {
 
 constexpr int kTeeth = 2;
 
-// Columns of the centre view where the strip ends and where the tips lie. The metrics look for the
+// Columns of the center view where the strip ends and where the tips lie. The metrics look for the
 // foreground in column 14 and for the wall in the eleventh column from the right.
 int strip_end(const Stage& stage) {
   return std::max(28, stage.width / 8);
@@ -207,7 +207,7 @@ Model dots_model(const Stage& stage, Draw draw) {
     const int size = i % kSizes + 1;
     const int box = i / kSizes;
     const int cell = (size + 2 * box) % (kBoxCells * kBoxCells);
-    // At the centre of a pixel, so that the smallest dot has at least this one.
+    // At the center of a pixel, so that the smallest dot has at least this one.
     const double x = std::floor((box % kBoxes + (cell % kBoxCells + 0.5) / kBoxCells) * width);
     const double y = std::floor((box / kBoxes + (cell / kBoxCells + 0.5) / kBoxCells) * height);
     const double radius = 0.5 * kDiameters[size - 1] * std::min(width, height);
@@ -328,7 +328,7 @@ Model pyramids_model(const Stage& stage, Draw draw) {
     const double half = cell * draw.between(0.28, 0.36);
     const double tip = wall + draw.between(0.4, 1.4);
     if (i == ball || i == bowl) {
-      // Seen from before, a deep one would hide its neighbours.
+      // Seen from before, a deep one would hide its neighbors.
       builder.add_half_ball(x, y, 0.9 * half, i == ball ? kBall : kBowl);
     } else {
       builder.add_pyramid(x, y, half, tip);
@@ -357,7 +357,7 @@ constexpr float kContrasts[kBands] = {0.4F, 0.2F, 0.1F, 0.05F};
 // Far beyond the image in px, so that every view is filled.
 constexpr double kBeyondImage = 1e4;
 
-// The row of the centre view, between pixels, where a band begins.
+// The row of the center view, between pixels, where a band begins.
 double band_top(const Stage& stage, int band) {
   if (band == 0) return -kBeyondImage;
   if (band == kBands) return kBeyondImage;

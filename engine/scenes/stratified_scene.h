@@ -16,7 +16,7 @@ namespace episcope::scenes {
 /// Region masks by name, as GroundTruth::regions.
 using Regions = std::map<std::string, Image<std::uint8_t>>;
 
-/// Object labels of the centre view.
+/// Object labels of the center view.
 using CenterLabels = ImageView<const std::int32_t>;
 
 /// Teeth that taper to the right from a strip at the left, before a wall; both slant so that the

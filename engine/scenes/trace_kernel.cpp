@@ -2,7 +2,7 @@
 #include "engine/core/simd.h"
 #include "engine/scenes/model.h"
 
-// Value noise on an integer lattice, closed-form intersections, colour of surfaces, light, and the
+// Value noise on an integer lattice, closed-form intersections, color of surfaces, light, and the
 // row of a view that is traced by them. Compiled once for each instruction set (engine/core/isa.h).
 
 namespace episcope::scenes::EPISCOPE_KERNEL_NAMESPACE {
@@ -72,7 +72,7 @@ inline Floats noise(const Floats& x, const Floats& y, const Floats& z, unsigned 
   return blend(slice(cz.low ^ seed), slice(cz.high ^ seed), cz.weight);
 }
 
-// Closed-form intersections of rays with primitives, in float for colour
+// Closed-form intersections of rays with primitives, in float for color
 // samples and in double for the truth.
 
 /// Depth of a ray that hits nothing.
@@ -95,7 +95,7 @@ struct Frame {
   const Primitive* primitive;
   R axes[3][3];
   R center[3];  ///< Of the primitive, turned into its own frame.
-  R offset[3];  ///< Of the view from the centre, likewise.
+  R offset[3];  ///< Of the view from the center, likewise.
   R start_depth;
 };
 
@@ -119,7 +119,7 @@ inline Frame<R> frame_of(const Primitive& primitive, const ViewCamera& camera) {
   return frame;
 }
 
-/// Rays in the frame of a primitive; they begin at the depth of its centre, so that numbers stay of
+/// Rays in the frame of a primitive; they begin at the depth of its center, so that numbers stay of
 /// the size of the object and precision is not lost far from the camera.
 template <class R>
 struct LocalRays {
@@ -249,12 +249,12 @@ inline Pack<R> hit_depth(const Primitive& primitive, const LocalRays<R>& rays) {
   return choose(depth > R(0), depth, Pack<R>(R(kMiss)));
 }
 
-// Colour of a surface before it is lit.
+// Color of a surface before it is lit.
 
 /// Points of one primitive, in its own frame.
 struct SurfacePoints {
   Floats position[3];
-  Floats normal[3];  ///< Of length 1, towards the centre view.
+  Floats normal[3];  ///< Of length 1, towards the center view.
   Floats from_center_view[3];
   Floats depth;
 };
@@ -314,7 +314,7 @@ inline SurfacePoints surface_points(const Frame<float>& frame, const LocalRays<f
   return points;
 }
 
-/// Pixels of the centre view that one unit of length on the surface covers in its foreshortened
+/// Pixels of the center view that one unit of length on the surface covers in its foreshortened
 /// direction.
 inline Floats projected_unit(const SurfacePoints& points, double focal_px) {
   const Floats& x = points.from_center_view[0];
@@ -349,7 +349,7 @@ inline Floats wave(const Floats& phase, float sharpness) {
   return smooth(clamp_unit((triangle - 0.5F) * sharpness + 0.5F));
 }
 
-/// Length in pixels of the centre view over which the pattern steps along one of its axes.
+/// Length in pixels of the center view over which the pattern steps along one of its axes.
 inline Floats step_length_px(const Texture& texture, int axis, const SurfacePoints& points,
                              double focal_px) {
   // Image gradient of a·p on a surface of normal n seen along e: a − n (a·e)/(n·e).
@@ -376,7 +376,7 @@ inline Floats axis_wave(const Texture& texture, int axis, const SurfacePoints& p
   return (plain - 0.5F) * smooth(clamp_unit(resolved)) + 0.5F;
 }
 
-/// Share of the second colour.
+/// Share of the second color.
 inline Floats pattern_value(const Texture& texture, const SurfacePoints& points, const Floats& bend,
                             double focal_px) {
   const Floats warp = bend * texture.pattern_warp;
@@ -398,7 +398,7 @@ inline Floats pattern_value(const Texture& texture, const SurfacePoints& points,
   return wave(square_root(a * a + b * b) + warp, texture.pattern_sharpness);
 }
 
-/// Colour of every point, without light.
+/// Color of every point, without light.
 inline void albedo(const Texture& texture, const SurfacePoints& points, double focal_px,
                    Floats* rgb) {
   Floats octaves[3];
@@ -431,7 +431,7 @@ inline void albedo(const Texture& texture, const SurfacePoints& points, double f
 // Soft light on points of the scene. It depends on the point alone, not on
 // the view, so that every surface looks the same from everywhere; highlights may move.
 
-/// Points in the camera frame with their mean colour, waiting to be lit.
+/// Points in the camera frame with their mean color, waiting to be lit.
 struct Fragments {
   Floats position[3];
   Floats normal[3];
@@ -504,7 +504,7 @@ inline void flush(Fragments& f, const ModelView& model, const ViewCamera& camera
       const Floats sky = Floats(lighting.ground[c]) + up * (lighting.sky[c] - lighting.ground[c]);
       light[c] = sky * seen.sky + key * lighting.key[c];
     }
-    float eye[3] = {};  // Of the centre view.
+    float eye[3] = {};  // Of the center view.
     if (lighting.has_moving_highlights) {
       for (int k = 0; k < 3; ++k) eye[k] = static_cast<float>(camera.origin[k]);
     }

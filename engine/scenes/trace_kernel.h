@@ -6,8 +6,8 @@
 
 namespace episcope::scenes {
 
-/// Casts the rays of one row: one in double through every pixel centre, for the truth, and 4×4 in
-/// float through every pixel, for the mean colour. All instruction sets give the same bits.
+/// Casts the rays of one row: one in double through every pixel center, for the truth, and 4×4 in
+/// float through every pixel, for the mean color. All instruction sets give the same bits.
 using TraceRow = void (*)(const RowJob& job, const RowResult& result);
 
 /// Columns are worked on in groups of this many: rows are padded to a multiple.

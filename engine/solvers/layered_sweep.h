@@ -10,7 +10,6 @@
 
 #include <bitset>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace episcope {
@@ -85,7 +84,7 @@ class LayeredSweep {
     int begin = 0, end = 0;
   };
 
-  /// Room for images of this size. What is there is not initialised: call `clear` on every band.
+  /// Room for images of this size. What is there is not initialized: call `clear` on every band.
   LayeredSweep(int height, int layers, int width);
 
   /// φ and duals of a band become 0.
@@ -121,7 +120,7 @@ class LayeredSweep {
   void move_primal(const Terms& terms, int y, float* ahead);
   void move_dual(const Terms& terms, int y, const float* ahead, const float* ahead_below);
   void iterate_part(const Terms& terms, const Part& part, const Progress& progress);
-  // Row y of 2φ' − φ of a band: its first and last row are kept for the neighbouring bands.
+  // Row y of 2φ' − φ of a band: its first and last row are kept for the neighboring bands.
   [[nodiscard]] float* ahead(int y, float* scratch);
   // Kernels read a lane beyond a row: it must not be where another thread writes.
   [[nodiscard]] long edges_size() const { return 2 * row_size() + kLayerRowUnit; }
@@ -139,12 +138,12 @@ class LayeredSweep {
 void halve(VolumeView<const float> from, const Progress& progress, VolumeView<float> to);
 [[nodiscard]] Image<float> halved(ImageView<const float> from);
 
-/// Initialises `fine` with the result of `coarse`, of half the size: φ is repeated, duals are
+/// Initializes `fine` with the result of `coarse`, of half the size: φ is repeated, duals are
 /// distributed over the two pairs of pixels that replace one, and interpolated in between. Costs of
 /// both are per pixel, so duals and smoothness of the finer level are twice as large.
 void begin_from(LayeredSweep& coarse, const Progress& progress, LayeredSweep& fine);
 
-/// Initialises `to` with the result of `from`, of the same size, for an image whose pixels have
+/// Initializes `to` with the result of `from`, of the same size, for an image whose pixels have
 /// moved. Each pixel takes φ and the duals of the pixel y'·width + x' given in `places` `[y][x]`;
 /// −1 stands for its own place. On layers that do not take part both are 0.
 void begin_from_moved(LayeredSweep& from, ImageView<const std::int32_t> places,

@@ -15,7 +15,6 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
-#include <string>
 #include <vector>
 
 namespace episcope {
@@ -174,17 +173,6 @@ LiftedResult solve_lifted_labeling(const LiftedProblem& problem, const LiftedOpt
     progress.step(labeling_gap_text(gap));
   }
   return result;
-}
-
-double labeling_energy(const LiftedProblem& problem, ImageView<const int> labels) {
-  check_problem(problem);
-  if (labels.height != problem.cost.height || labels.width != problem.cost.width) {
-    throw InvalidInput("the labels and the costs of a labeling must have the same size");
-  }
-  const PairLimits limits(labels.height, labels.width, problem.smoothness, problem.g);
-  double sum = 0;
-  for (int y = 0; y < labels.height; ++y) sum += row_energy(problem, limits, labels, y);
-  return sum;
 }
 
 }  // namespace episcope

@@ -50,7 +50,7 @@ struct LiftedResult {
 /// D = Σ_x min_k [ρ_k − Σ_{l ≤ k} div p_l] bounds the energy from below.
 /// Source: Pock, Cremers, Bischof, Chambolle 2010 [PCBC10]; Chambolle and Pock 2011.
 ///
-/// Departures from it: the costs are minimised exactly along the labels of each pixel, by
+/// Departures from it: the costs are minimized exactly along the labels of each pixel, by
 /// projecting φ − τ∇ρ onto non-increasing sequences (isotonic regression), instead of by a dual of
 /// their own in the third dimension, and steps are over-relaxed by 1.9. Both save most of the
 /// iterations (tests/accuracy/tuning.md). φ starts as the step at the cheapest label, p as 0. Step
@@ -63,8 +63,5 @@ struct LiftedResult {
 [[nodiscard]] LiftedResult solve_lifted_labeling(const LiftedProblem& problem,
                                                  const LiftedOptions& options,
                                                  const Progress& progress, Isa isa = best_isa());
-
-/// E(labels). Throws InvalidInput on wrong shapes.
-[[nodiscard]] double labeling_energy(const LiftedProblem& problem, ImageView<const int> labels);
 
 }  // namespace episcope

@@ -6,8 +6,6 @@
 #include "engine/solvers/linked_unknowns.h"
 #include "engine/solvers/pair_limits.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

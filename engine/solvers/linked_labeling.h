@@ -57,7 +57,7 @@ struct LinkedResult {
   [[nodiscard]] double relative_gap() const;
 };
 
-/// Minimises LinkedProblem relaxed to u ≥ 0, Σ_l u_l = 1, and takes the largest u_l of each pixel;
+/// Minimizes LinkedProblem relaxed to u ≥ 0, Σ_l u_l = 1, and takes the largest u_l of each pixel;
 /// the best labeling of all looks at the gap is written to `labels`, `[y][x]` of each image,
 /// 0 … L − 1. Whatever the duals within their limits, p of pairs within images and q of links,
 /// |q| ≤ μ w/2, Σ_x min_l [c_l − div p_l − div q_l] over all images bounds the energy of the whole

@@ -78,7 +78,7 @@ class LinkedUnknowns {
   std::vector<LargeArray<std::int16_t>> memory_;
 };
 
-/// Initialises u and the duals of pairs with the solutions of the images alone, to a gap of 1 %
+/// Initializes u and the duals of pairs with the solutions of the images alone, to a gap of 1 %
 /// or to the gap of the options if that is wider. Images that are linked one to the next are solved
 /// in this order, each beginning where the last one ended. Without smoothness u chooses the
 /// cheapest labels. Throws Cancelled.

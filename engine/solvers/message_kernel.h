@@ -29,7 +29,7 @@ struct MessagePixel {
 struct MessageKernel {
   /// Passes both messages on. Returns what the bound of the energy gains.
   float (*pass)(const MessagePixel&);
-  /// The best label given the labels of up to two neighbours (−1 = none) behind edges of `weights`,
+  /// The best label given the labels of up to two neighbors (−1 = none) behind edges of `weights`,
   /// and the messages that `received` holds.
   int (*choose)(const MessagePixel&, const int neighbours[2], const float weights[2]);
 };

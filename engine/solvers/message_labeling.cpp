@@ -117,7 +117,7 @@ class Passing {
   [[nodiscard]] int tiles_down() const { return (height_ + kTile - 1) / kTile; }
   [[nodiscard]] int tiles_across() const { return (width_ + kTile - 1) / kTile; }
 
-  // Tiles of one diagonal at a time: each needs what its neighbours of the diagonal before passed.
+  // Tiles of one diagonal at a time: each needs what its neighbors of the diagonal before passed.
   template <class Work>
   void for_tiles(const Progress& progress, bool backward, const Work& work) {
     const int rows = tiles_down(), columns = tiles_across(), diagonals = rows + columns - 1;

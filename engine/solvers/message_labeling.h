@@ -8,13 +8,13 @@
 namespace episcope {
 
 /// A label for every pixel: E(l) = Σ ρ(x, l_x) + Σ w_xy min(α |l_x − l_y|, τ), the second sum over
-/// pairs of the 4 neighbours. Neighbours on one surface pay for their difference, and a jump costs
+/// pairs of the 4 neighbors. Neighbors on one surface pay for their difference, and a jump costs
 /// τ whatever its height, so that thin things in front of a distant background survive.
 struct MessageProblem {
   VolumeView<const float> cost;  ///< ρ, `[y][label][x]`, finite; 2 to 512 labels.
   ImageView<const float>
-      across;  ///< w of x and its neighbour to the right, `[y][x]`, ≥ 0; empty = 1.
-  ImageView<const float> down;  ///< w of x and its neighbour below, `[y][x]`, ≥ 0; empty = 1.
+      across;  ///< w of x and its neighbor to the right, `[y][x]`, ≥ 0; empty = 1.
+  ImageView<const float> down;  ///< w of x and its neighbor below, `[y][x]`, ≥ 0; empty = 1.
   float slope = 1;              ///< α > 0.
   float most = 1;               ///< τ > 0.
 };

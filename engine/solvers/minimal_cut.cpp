@@ -134,7 +134,7 @@ struct Residuals {
   }
 };
 
-// The flow, and the colours of the vertices after it: those of the sink's tree are white.
+// The flow, and the colors of the vertices after it: those of the sink's tree are white.
 std::int64_t maximal_flow(Arcs& arcs, Vertex source, Vertex sink, Poll& poll,
                           std::vector<Color>& colors) {
   const Graph graph = arcs.take_graph();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/solvers/ordering_terms.h"
 
+#include "engine/core/indices.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

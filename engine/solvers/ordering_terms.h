@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/image.h"
-#include "engine/core/indices.h"
 
 namespace episcope {
 
@@ -39,7 +38,7 @@ void add_line_adjoint(ImageView<const float> slopes, ImageView<const float> q, L
                                      ImageView<const float> to, LineStep step,
                                      const OrderingPenalty& penalty);
 
-/// The quadratic majoriser of Σ ψ(Du) in one image while the others stay fixed: at most const −
+/// The quadratic majorizer of Σ ψ(Du) in one image while the others stay fixed: at most const −
 /// force·δ + ½ curvature·δ² for a change δ, pixel by pixel, with equality at δ = 0.
 struct OrderingPull {
   ImageView<float> curvature;

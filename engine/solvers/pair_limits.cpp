@@ -37,9 +37,8 @@ void take_cheapest(VolumeView<const float> cost, int y, int* labels, std::vector
   for (int l = 1; l < cost.layers; ++l) {
     const float* const row = cost.row(y, l);
     for (int x = 0; x < cost.width; ++x) {
-      if (!(row[x] < least[x])) continue;
-      least[x] = row[x];
-      labels[x] = l;
+      labels[x] = row[x] < least[x] ? l : labels[x];
+      least[x] = std::min(least[x], row[x]);
     }
   }
 }

@@ -16,7 +16,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace episcope {
@@ -85,9 +84,6 @@ void set_steps(double smoothness, LayeredShape& shape) {
 
 double SimplexResult::relative_gap() const {
   return labeling_gap(relaxed, bound);
-}
-double SimplexResult::label_gap() const {
-  return labeling_gap(energy, bound);
 }
 
 struct SimplexSolver::State {
@@ -324,14 +320,6 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
   }
   progress.report(1);
   return result;
-}
-
-double potts_energy(const SimplexProblem& problem, ImageView<const int> labels) {
-  check_problem(problem, labels.height, problem.cost.layers, labels.width);
-  const PairLimits limits = limits_of(problem);
-  double sum = 0;
-  for (int y = 0; y < labels.height; ++y) sum += row_energy(problem, limits, labels, y);
-  return sum;
 }
 
 }  // namespace episcope

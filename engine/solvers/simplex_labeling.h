@@ -52,11 +52,9 @@ struct SimplexResult {
 
   /// (relaxed − bound)/|relaxed|, what the method can close; ≥ 0 up to rounding.
   [[nodiscard]] double relative_gap() const;
-  /// (energy − bound)/|energy|: with more than two labels the relaxation need not be tight.
-  [[nodiscard]] double label_gap() const;
 };
 
-/// Minimises SimplexProblem relaxed to min over u ≥ 0, Σ_l u_l = 1 of
+/// Minimizes SimplexProblem relaxed to min over u ≥ 0, Σ_l u_l = 1 of
 /// Σ <c, u> + λ/2 Σ_l g·TV(u_l), and takes the largest u_l of each pixel; the best labeling of all
 /// looks at the gap is kept. Whatever the duals p of the pairs are, |p| ≤ λ g w/2,
 /// Σ_x min_l [c_l − div p_l] bounds the energy from below.
@@ -69,7 +67,7 @@ struct SimplexResult {
 /// Evidence: tests/accuracy/tuning.md.
 ///
 /// For many images of one size: 8 floats per pixel and label stay allocated between calls, 13 once
-/// `from_last` is used, which saves iterations between neighbouring views of a light field. Rows
+/// `from_last` is used, which saves iterations between neighboring views of a light field. Rows
 /// are processed by `progress.threads()` threads; not thread-safe, one object per caller. The
 /// result depends on neither the number of threads nor (without `from_last` and `goes_on`) earlier
 /// calls.
@@ -95,8 +93,5 @@ class SimplexSolver {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// E(labels). Throws InvalidInput on wrong shapes.
-[[nodiscard]] double potts_energy(const SimplexProblem& problem, ImageView<const int> labels);
 
 }  // namespace episcope

@@ -6,7 +6,7 @@
 
 namespace episcope {
 
-/// Denoising of one image `[y][x]` by weighted total generalised variation of second order:
+/// Denoising of one image `[y][x]` by weighted total generalized variation of second order:
 /// P(u) = min_p Σ g |∇u − p|₂ + κ Σ g |ℰp|_F + 1/(2λ) Σ w (u − f)², where ℰp = ½ (∇p + ∇pᵀ).
 /// Forward differences of u, none across the last row and column; backward differences of p, none
 /// across the first. Affine images cost nothing; where total variation makes a staircase of a
@@ -25,7 +25,7 @@ struct TgvL2Result {
   double energy = 0;        ///< Of the result, with its p.
 };
 
-/// Minimises TgvL2Problem by `iterations` primal-dual steps [CP11] from u = f, p = 0, rows in
+/// Minimizes TgvL2Problem by `iterations` primal-dual steps [CP11] from u = f, p = 0, rows in
 /// parallel; the result does not depend on the number of threads. Step sizes 1/√12 satisfy
 /// τσ‖K‖² ≤ 1, since ‖K‖² ≤ 12. Writes u, which may be `f`. 48 bytes per pixel. Ends after the next
 /// iteration at `progress.finish_requested()`. Throws InvalidInput on wrong shapes or parameters,

@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace episcope {
@@ -77,7 +76,7 @@ struct TvL2Solver::State {
 
   State(int height, int width, Isa isa);
   void load(const TvL2Problem& problem);
-  void centre(const Moments& moments);
+  void center(const Moments& moments);
   void renew_penalty(std::size_t stage, bool first);
   void correct(std::size_t stage);
   void iterate(std::size_t stage, int iteration, bool pauses, const Progress& progress);
@@ -120,12 +119,12 @@ void TvL2Solver::State::load(const TvL2Problem& problem) {
       moments.add(level.c + at, level.cf + at, count);
     }
   }
-  centre(moments);
+  center(moments);
   for (std::size_t k = 1; k < grids.size(); ++k)
     coarsen_problem(grids[k - 1].level, grids[k].level);
 }
 
-void TvL2Solver::State::centre(const Moments& moments) {
+void TvL2Solver::State::center(const Moments& moments) {
   const TvL2Level& level = grids[0].level;
   const double weight = moments.weight(), mean = moments.sum() / weight;
   offset = static_cast<float>(mean);

@@ -38,7 +38,7 @@ struct TvL2Result {
   [[nodiscard]] double relative_gap() const { return energy > 0 ? gap / energy : 0; }
 };
 
-/// Minimises TvL2Problem for many images of one size. Single-threaded and not thread-safe: use one
+/// Minimizes TvL2Problem for many images of one size. Single-threaded and not thread-safe: use one
 /// object per thread, about 55 bytes per pixel. The result depends on neither the thread nor
 /// earlier calls.
 ///
@@ -58,7 +58,7 @@ class TvL2Solver {
   ~TvL2Solver();
   TvL2Solver(TvL2Solver&&) noexcept;
 
-  /// Writes the minimiser to `u`, whose content before the call is not used; `u` may be `f`.
+  /// Writes the minimizer to `u`, whose content before the call is not used; `u` may be `f`.
   /// Ends after the next iteration at `progress.finish_requested()`. Throws InvalidInput on a wrong
   /// shape or λ ≤ 0, Cancelled on a stop request (checked every few milliseconds).
   TvL2Result solve(const TvL2Problem& problem, const TvL2Options& options, const Progress& progress,
@@ -69,7 +69,7 @@ class TvL2Solver {
   std::unique_ptr<State> state_;
 };
 
-/// Division of one image `[y][x]` into two regions: the set E that minimises
+/// Division of one image `[y][x]` into two regions: the set E that minimizes
 /// λ Per(E; g) − Σ_{E} w s, Per the length of its border weighted by g.
 struct BinarySegmentationProblem {
   ImageView<const float> score;  ///< s: positive speaks for E, negative against; in about [−1, 1].
@@ -80,11 +80,11 @@ struct BinarySegmentationProblem {
 };
 
 /// Writes 1 in E and 0 elsewhere to `region`. The convex relaxation to values in [0, 1] is solved
-/// by thresholding the minimiser of TvL2Problem with f = s at 0, since its level sets solve the
+/// by thresholding the minimizer of TvL2Problem with f = s at 0, since its level sets solve the
 /// division for every threshold: globally optimal up to the gap and to the isotropic differences,
 /// for which that holds but nearly (the coarea formula is exact in the continuum). A region of
 /// width b whose score is 1 is dropped where λ > b/2. `scratch` has the shape of the image and
-/// holds the minimiser afterwards. Throws as TvL2Solver::solve. Source: Chan, Esedoglu, Nikolova
+/// holds the minimizer afterwards. Throws as TvL2Solver::solve. Source: Chan, Esedoglu, Nikolova
 /// 2006 [CEN06]; level sets: Chambolle 2005 [Cha05].
 TvL2Result segment_binary(TvL2Solver& solver, const BinarySegmentationProblem& problem,
                           const TvL2Options& options, const Progress& progress,

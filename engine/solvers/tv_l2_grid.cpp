@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPlanes = 10;
 
-// Stands for "this edge exists" until `penalise` gives it its value.
+// Stands for "this edge exists" until `penalize` gives it its value.
 constexpr float kOpenEdge = 1;
 
 void open_edges(const TvL2Level& level) {
@@ -39,7 +39,7 @@ void blend_rows(const TvL2Level& level, const float* here, const float* beside, 
   if (level.width > 2 * odds) out[2 * odds] = blend(odds);
 }
 
-// Cell centres: a pixel lies a quarter of a cell beside the centre of its cell.
+// Cell centers: a pixel lies a quarter of a cell beside the center of its cell.
 void stretch_centres(const float* cells, const TvL2Level& fine, float* out) {
   const int odds = fine.width / 2, evens = (fine.width + 1) / 2;
   float* const odd = out + fine.odd;

@@ -43,11 +43,11 @@ inline void store_halves(const TvL2Level& level, float* plane, long at, Halves v
   store(plane + at, values.even);
   store(plane + at + level.odd, values.odd);
 }
-/// The neighbours to the right.
+/// The neighbors to the right.
 inline Halves load_right(const TvL2Level& level, const float* plane, long at) {
   return {load(plane + at + level.odd), load(plane + at + 1)};
 }
-/// The neighbours to the left.
+/// The neighbors to the left.
 inline Halves load_left(const TvL2Level& level, const float* plane, long at) {
   return {load(plane + at + level.odd - 1), load(plane + at)};
 }
@@ -61,16 +61,16 @@ inline void clear_row(float* row, long count) {
   for (long i = 0; i < count; ++i) row[i] = 0;
 }
 
-// The pixels of one colour of a row, x + y + colour even: one half of it. Their neighbours to the
+// The pixels of one color of a row, x + y + color even: one half of it. Their neighbors to the
 // left and right are the other half, from `left` and from one float further.
-struct ColourRow {
+struct ColorRow {
   long own = 0;
   long left = 0;
 };
 
-inline ColourRow colour_row(const TvL2Level& level, int y, int colour) {
+inline ColorRow color_row(const TvL2Level& level, int y, int color) {
   const long even = y * level.pitch;
-  if (((y + colour) & 1) == 0) return {even, even + level.odd - 1};
+  if (((y + color) & 1) == 0) return {even, even + level.odd - 1};
   return {even + level.odd, even};
 }
 
@@ -87,11 +87,11 @@ inline void prefetch_halves(const TvL2Level& level, const float* plane, long at)
   prefetch(plane + at + level.odd);
 }
 
-// Gauss-Seidel on the pixels of one colour of row y.
+// Gauss-Seidel on the pixels of one color of row y.
 template <bool kFirst>
-void relax_row(const TvL2Level& level, int y, int colour) {
+void relax_row(const TvL2Level& level, int y, int color) {
   if (y < 0 || y >= level.height) return;
-  const auto [own, left] = colour_row(level, y, colour);
+  const auto [own, left] = color_row(level, y, color);
   const long pitch = level.pitch;
   float* const u = level.u + own;
   const float* const beside = level.u + left;
@@ -117,17 +117,17 @@ void relax_row(const TvL2Level& level, int y, int colour) {
 }
 
 // The same from u = 0.
-void relax_row_from_zero(const TvL2Level& level, int y, int colour) {
+void relax_row_from_zero(const TvL2Level& level, int y, int color) {
   if (y < 0 || y >= level.height) return;
-  const long own = colour_row(level, y, colour).own;
+  const long own = color_row(level, y, color).own;
   const int end = half_lanes(level);
   for (int x = 0; x < end; x += kLanes) {
     store(level.u + own + x, load(level.b + own + x) * load(level.inverse + own + x));
   }
 }
 
-// Residual of colour 0 in row y, in the columns of a vector.
-inline Vec residual_at(const TvL2Level& level, const ColourRow& row, int x) {
+// Residual of color 0 in row y, in the columns of a vector.
+inline Vec residual_at(const TvL2Level& level, const ColorRow& row, int x) {
   const long i = row.own + x;
   const float* const u = level.u + i;
   const float* const beside = level.u + row.left + x;
@@ -140,12 +140,12 @@ inline Vec residual_at(const TvL2Level& level, const ColourRow& row, int x) {
          load(level.ry + i - pitch) * (load(u - pitch) - here);
 }
 
-// Residual of fine rows 2y and 2y + 1 summed over cells of 2×2. Colour 1, relaxed last, has none.
+// Residual of fine rows 2y and 2y + 1 summed over cells of 2×2. Color 1, relaxed last, has none.
 void restrict_row(const TvL2Level& fine, const TvL2Level& coarse, int y) {
   if (y < 0 || y >= coarse.height) return;
   const int end = half_pairs(fine);
   const bool both = 2 * y + 1 < fine.height;
-  const ColourRow upper = colour_row(fine, 2 * y, 0), lower = colour_row(fine, 2 * y + 1, 0);
+  const ColorRow upper = color_row(fine, 2 * y, 0), lower = color_row(fine, 2 * y + 1, 0);
   float* const b = coarse.b + y * coarse.pitch;
   for (int x = 0; x < end; x += 2 * kLanes) {
     for (int i = 0; i < 2 * kLanes; i += kLanes) {
@@ -170,12 +170,12 @@ inline IntVec interleaved(int first) {
   return lanes;
 }
 
-// u += correction of the coarse cell, for colour 0: colour 1 is relaxed next, from colour 0 alone.
+// u += correction of the coarse cell, for color 0: color 1 is relaxed next, from color 0 alone.
 void correct_row(const TvL2Level& fine, const TvL2Level& coarse, int y) {
   if (y < 0 || y >= fine.height) return;
   const int end = half_pairs(fine);
   const float* const correction = coarse.u + (y / 2) * coarse.pitch;
-  float* const u = fine.u + colour_row(fine, y, 0).own;
+  float* const u = fine.u + color_row(fine, y, 0).own;
   for (int x = 0; x < end; x += 2 * kLanes) {
     for (int i = 0; i < 2 * kLanes; i += kLanes) {
       prefetch(u + x + i + kAhead * fine.pitch);
@@ -235,7 +235,7 @@ inline void relax(const TvL2Level& level, const Around& pixels, Vec b) {
   store(level.u + i, (along + across) * load(level.inverse + i));
 }
 
-// Moves the dual of row y, then b ← c·f + div(2p − z) and relaxes colour 0, which no dual needs any
+// Moves the dual of row y, then b ← c·f + div(2p − z) and relaxes color 0, which no dual needs any
 // more. `row` holds the vertical part of the row above, and then of this one.
 template <bool kResumes, bool kRelaxesEven>
 void dual_row_as(const TvL2Level& level, int y, const Relaxation& factors, float* row) {

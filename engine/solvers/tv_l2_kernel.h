@@ -12,7 +12,7 @@ inline constexpr int kTvL2RowUnit = 32;
 
 /// One level of the grid hierarchy of the TV-L2 solver. Rows of a plane lie `pitch` apart and are
 /// split: first the pixels of the even columns, `odd` floats further the odd columns. So the
-/// pixels of either colour of a chequerboard, and their neighbours, are contiguous. One row of
+/// pixels of either color of a checkerboard, and their neighbors, are contiguous. One row of
 /// padding above and two below; all padding is 0 and stays harmless because the coefficients there
 /// are 0. Outside the stage that solves a level, u and b hold the multigrid correction.
 struct TvL2Level {

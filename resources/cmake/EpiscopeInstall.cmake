@@ -1,4 +1,4 @@
-# What is installed, in three components: cli, window and dev. Included last, when every target is
+# What is installed, in components: cli, window, python and dev. Included last, when every target is
 # known.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -23,6 +23,8 @@ episcope_install_files(cli "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d"
                        "${pages}/fish/episcope-cli.fish")
 install(DIRECTORY "${CMAKE_SOURCE_DIR}/resources/blender" DESTINATION "${CMAKE_INSTALL_DATADIR}/episcope"
         COMPONENT cli PATTERN "__pycache__" EXCLUDE)
+episcope_install_files(cli "${CMAKE_INSTALL_DATADIR}/episcope/weights"
+                       "${CMAKE_SOURCE_DIR}/resources/weights/net.npz")
 if(EPISCOPE_GUI)
   install(TARGETS episcope RUNTIME COMPONENT window)
   episcope_install_files(window "${CMAKE_INSTALL_MANDIR}/man1" "${pages}/man/episcope.1.gz")
@@ -41,6 +43,16 @@ if(EPISCOPE_GUI)
   if(EPISCOPE_RSVG)
     install(DIRECTORY "${pages}/icons/hicolor" DESTINATION "${icons}" COMPONENT window)
   endif()
+endif()
+
+if(EPISCOPE_HAS_PYTHON)
+  set(modules lib/python3/dist-packages/episcope)  # where Debian's Python finds it, whichever its version
+  install(TARGETS episcope_python LIBRARY DESTINATION "${modules}" COMPONENT python)
+  install(DIRECTORY "${CMAKE_SOURCE_DIR}/app/python/episcope/" DESTINATION "${modules}" COMPONENT python
+          PATTERN "__pycache__" EXCLUDE)
+  # Its own, for it is installed without the command line as well.
+  episcope_install_files(python "${modules}/share/episcope/weights"
+                         "${CMAKE_SOURCE_DIR}/resources/weights/net.npz")
 endif()
 
 # episcope_libraries_in(out folder): the libraries that are added in a folder and below.

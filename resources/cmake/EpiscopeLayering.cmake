@@ -115,6 +115,7 @@ episcope_forbid(episcope_session ${ui} "^episcope_(widgets|window)$")
 episcope_forbid(episcope_widgets "^episcope_(io|session|solvers|disparity|evaluation|window)$" ${hdf5}
                 "^opencv")
 episcope_forbid(episcope-cli ${ui})
+episcope_forbid(episcope_python ${ui} "^episcope_(benchmark|cli_parts)$")
 episcope_floors(engine/disparity kernels)
 episcope_floors(engine/io base models formats .)
 episcope_floors(widgets controls canvas,cloud panels)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# sbom.sh PROGRAM: the bill of materials of a built program, as an SPDX 2.3 document in the form of
+# sbom.sh PROGRAM: the bill of materials of a built program, or of the built module of Python, as an SPDX 2.3 document in the form of
 # tags and values, on standard output. Which libraries the program loads is asked of the linker, their
 # packages and versions of dpkg, their licences of resources/dependencies.md. SOURCE_DATE_EPOCH, if
 # set, is the time of making.
@@ -12,7 +12,13 @@ fi
 program=$1
 table=$(cd "$(dirname "$0")/.." && pwd)/dependencies.md
 name=$(basename "$program")
-version=$("$program" --version | sed -n '1s/.* //p')
+case "$program" in
+  *.so)
+    version=$(PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$(dirname "$program")/.. \
+      /usr/bin/python3 -c 'import episcope; print(episcope.__version__)')
+    ;;
+  *) version=$("$program" --version | sed -n '1s/.* //p') ;;
+esac
 checksum=$(sha256sum <"$program" | cut -d ' ' -f 1)
 created=$(date -u -d "@${SOURCE_DATE_EPOCH:-$(date +%s)}" +%Y-%m-%dT%H:%M:%SZ)
 

@@ -36,10 +36,6 @@
         <translation>Name des Labels</translation>
     </message>
     <message>
-        <source>label colour</source>
-        <translation>Farbe des Labels</translation>
-    </message>
-    <message>
         <source>label removal</source>
         <translation>Entfernen des Labels</translation>
     </message>
@@ -207,6 +203,10 @@
         <source>Nothing is painted here.</source>
         <translation>Hier ist nichts gemalt.</translation>
     </message>
+    <message>
+        <source>label color</source>
+        <translation>Farbe des Labels</translation>
+    </message>
 </context>
 <context>
     <name>episcope::AnnotationBar</name>
@@ -322,10 +322,6 @@
         <translation>Striche importieren</translation>
     </message>
     <message>
-        <source>Archive labels or exported scribble images (*.h5 *.hdf5 scribbles_*.png);;All files (*)</source>
-        <translation>Labels des Archivs oder exportierte Bilder von Strichen (*.h5 *.hdf5 scribbles_*.png);;Alle Dateien (*)</translation>
-    </message>
-    <message>
         <source>Importing %1</source>
         <translation>%1 wird importiert</translation>
     </message>
@@ -364,6 +360,10 @@
     <message>
         <source>%1 · in the project only</source>
         <translation>%1 · nur im Projekt</translation>
+    </message>
+    <message>
+        <source>Archive labels or pictures of strokes (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm);;All files (*)</source>
+        <translation>Labels im Archivformat oder Bilder von Strichen (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm);;Alle Dateien (*)</translation>
     </message>
 </context>
 <context>
@@ -433,10 +433,6 @@
     <message>
         <source>Shows the view below</source>
         <translation>Zeigt die Ansicht darunter</translation>
-    </message>
-    <message>
-        <source>Centre view</source>
-        <translation>Mittlere Ansicht</translation>
     </message>
     <message>
         <source>Shows the view in the middle of the grid</source>
@@ -542,6 +538,10 @@
         <source>The disparity of this pixel is not known: run a method first, or move the slider.</source>
         <translation>Die Disparität dieses Pixels ist nicht bekannt: erst ein Verfahren ausführen oder den Regler verschieben.</translation>
     </message>
+    <message>
+        <source>Center view</source>
+        <translation>Mittlere Ansicht</translation>
+    </message>
 </context>
 <context>
     <name>episcope::BrushPanel</name>
@@ -586,10 +586,6 @@
         <translation>Was eine Füllung begrenzt: Kanten der Ansicht oder das Segment der aktuellen Segmentierung</translation>
     </message>
     <message>
-        <source>Edge threshold: the change of colour from pixel to pixel that counts as an edge, in grey levels (0 … 255)</source>
-        <translation>Kantenschwelle: Farbänderung von Pixel zu Pixel, die als Kante gilt, in Graustufen (0 … 255)</translation>
-    </message>
-    <message>
         <source>Fill</source>
         <translation>Füllen</translation>
     </message>
@@ -604,6 +600,10 @@
     <message>
         <source>%1, or Ctrl+Shift+wheel</source>
         <translation>%1 oder Strg+Umschalt+Mausrad</translation>
+    </message>
+    <message>
+        <source>Edge threshold: the change of color from pixel to pixel that counts as an edge, in grey levels (0 … 255)</source>
+        <translation>Kantenschwelle: Farbänderung von Pixel zu Pixel, die als Kante gilt, in Graustufen (0 … 255)</translation>
     </message>
 </context>
 <context>
@@ -680,10 +680,6 @@
         <translation>Erst ein Lichtfeld öffnen.</translation>
     </message>
     <message>
-        <source>This light field does not tell its focal length and centre in pixels, which a pose needs. Rectify photographs with their calibrated lens; pairs are carried over.</source>
-        <translation>Dieses Lichtfeld nennt weder Brennweite noch Bildmitte in Pixeln, die für eine Pose nötig sind. Die Fotos mit ihrem kalibrierten Objektiv rektifizieren; Punktpaare werden übernommen.</translation>
-    </message>
-    <message>
         <source>corner</source>
         <translation>Ecke</translation>
     </message>
@@ -694,10 +690,6 @@
     <message>
         <source>%1 (no mark beside it)</source>
         <translation>%1 (keine Marke in der Nähe)</translation>
-    </message>
-    <message>
-        <source>go to the centre view (Home)</source>
-        <translation>zur mittleren Ansicht gehen (Pos1)</translation>
     </message>
     <message>
         <source>%1 of at least 4 pairs; 10 are better.</source>
@@ -726,6 +718,14 @@
     <message>
         <source>%1 was not read</source>
         <translation>%1 wurde nicht gelesen</translation>
+    </message>
+    <message>
+        <source>This light field does not tell its focal length and center in pixels, which a pose needs. Rectify photographs with their calibrated lens; pairs are carried over.</source>
+        <translation>Dieses Lichtfeld nennt weder Brennweite noch Bildmitte in Pixeln, die für eine Pose nötig sind. Die Fotos mit ihrem kalibrierten Objektiv rektifizieren; Punktpaare werden übernommen.</translation>
+    </message>
+    <message>
+        <source>go to the center view (Home)</source>
+        <translation>zur mittleren Ansicht gehen (Pos1)</translation>
     </message>
 </context>
 <context>
@@ -787,18 +787,6 @@
     <message>
         <source>The cross-hair and the marked point of the mesh are the same point</source>
         <translation>Das Fadenkreuz und der markierte Punkt des Netzes sind derselbe Punkt</translation>
-    </message>
-    <message>
-        <source>Takes the corner or the centre of the blob beside the cross-hair, to a fraction of a pixel</source>
-        <translation>Nimmt die Ecke oder die Mitte des Flecks neben dem Fadenkreuz, auf Bruchteile eines Pixels</translation>
-    </message>
-    <message>
-        <source>Open a mesh of an object in the light field. Then set the cross-hair in the centre view, click the same point of the mesh here, and add the pair. Four pairs give its pose.
-
-Without a gantry at hand, “Lens” makes a demo to try it with.</source>
-        <translation>Ein Dreiecksnetz dessen öffnen, was das Lichtfeld zeigt. Dann das Fadenkreuz in der mittleren Ansicht setzen, hier denselben Punkt des Netzes anklicken und das Paar hinzufügen. Vier Paare ergeben seine Pose.
-
-Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translation>
     </message>
     <message>
         <source>Picked pairs</source>
@@ -904,6 +892,18 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Redo the last undone change</source>
         <translation>Die zuletzt zurückgenommene Änderung wiederherstellen</translation>
     </message>
+    <message>
+        <source>Takes the corner or the center of the blob beside the cross-hair, to a fraction of a pixel</source>
+        <translation>Nimmt die Ecke oder die Mitte des Flecks neben dem Fadenkreuz, auf Bruchteile eines Pixels</translation>
+    </message>
+    <message>
+        <source>Open a mesh of an object in the light field. Then set the cross-hair in the center view, click the same point of the mesh here, and add the pair. Four pairs give its pose.
+
+Without a gantry at hand, “Lens” makes a demo to try it with.</source>
+        <translation>Ein Dreiecksnetz dessen öffnen, was das Lichtfeld zeigt. Dann das Fadenkreuz in der mittleren Ansicht setzen, hier denselben Punkt des Netzes anklicken und das Paar hinzufügen. Vier Paare ergeben seine Pose.
+
+Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ChangedFile</name>
@@ -955,10 +955,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>3D-Ansicht speichern…</translation>
     </message>
     <message>
-        <source>Writes the points or surfaces that the 3D view shows, in their colours, as PLY</source>
-        <translation>Schreibt die Punkte oder Flächen der 3D-Ansicht in ihren Farben als PLY</translation>
-    </message>
-    <message>
         <source>Ctrl+Alt+E</source>
         <translation>Ctrl+Alt+E</translation>
     </message>
@@ -1006,6 +1002,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Point cloud or surface (*.ply)</source>
         <translation>Punktwolke oder Fläche (*.ply)</translation>
     </message>
+    <message>
+        <source>Writes the points or surfaces that the 3D view shows, in their colors, as PLY</source>
+        <translation>Schreibt die Punkte oder Flächen der 3D-Ansicht in ihren Farben als PLY</translation>
+    </message>
 </context>
 <context>
     <name>episcope::CloudControls</name>
@@ -1016,14 +1016,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Lit</source>
         <translation>Beleuchtet</translation>
-    </message>
-    <message>
-        <source>Colour of the points</source>
-        <translation>Farbe der Punkte</translation>
-    </message>
-    <message>
-        <source>Colour</source>
-        <translation>Farbe</translation>
     </message>
     <message>
         <source>view</source>
@@ -1094,10 +1086,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Mit</translation>
     </message>
     <message>
-        <source>Joins neighbouring points to a surface, which is cut at jumps</source>
-        <translation>Verbindet benachbarte Punkte zu einer Fläche, die an Sprüngen geschnitten wird</translation>
-    </message>
-    <message>
         <source>Lights the surface from where you look</source>
         <translation>Beleuchtet die Fläche aus der Blickrichtung</translation>
     </message>
@@ -1165,6 +1153,18 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Far</source>
         <translation>Fern</translation>
     </message>
+    <message>
+        <source>Color of the points</source>
+        <translation>Farbe der Punkte</translation>
+    </message>
+    <message>
+        <source>Color</source>
+        <translation>Farbe</translation>
+    </message>
+    <message>
+        <source>Joins neighboring points to a surface, which is cut at jumps</source>
+        <translation>Verbindet benachbarte Punkte zu einer Fläche, die an Sprüngen geschnitten wird</translation>
+    </message>
 </context>
 <context>
     <name>episcope::CloudRequests</name>
@@ -1175,10 +1175,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Run a method: its disparity appears here in 3D.</source>
         <translation>Ein Verfahren ausführen: seine Disparität erscheint hier in 3D.</translation>
-    </message>
-    <message>
-        <source>%1 has no map of this view. Go to the centre view (Home).</source>
-        <translation>%1 hat keine Karte dieser Ansicht. Zur mittleren Ansicht gehen (Pos1).</translation>
     </message>
     <message>
         <source>the ground truth</source>
@@ -1203,6 +1199,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>distance</source>
         <translation>Abstand</translation>
+    </message>
+    <message>
+        <source>%1 has no map of this view. Go to the center view (Home).</source>
+        <translation>%1 hat keine Karte dieser Ansicht. Zur mittleren Ansicht gehen (Pos1).</translation>
     </message>
 </context>
 <context>
@@ -1307,16 +1307,16 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Standardbereich der Größe</translation>
     </message>
     <message>
-        <source>Colour of pixels without a value</source>
-        <translation>Farbe von Pixeln ohne Wert</translation>
-    </message>
-    <message>
         <source>%1 [%2]</source>
         <translation>%1 [%2]</translation>
     </message>
     <message>
         <source>invalid</source>
         <translation>ungültig</translation>
+    </message>
+    <message>
+        <source>Color of pixels without a value</source>
+        <translation>Farbe von Pixeln ohne Wert</translation>
     </message>
 </context>
 <context>
@@ -2066,10 +2066,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Über Episcope</translation>
     </message>
     <message>
-        <source>&lt;b&gt;Episcope %1&lt;/b&gt;&lt;p&gt;Views, EPIs, disparity and labels of 4D light fields.&lt;/p&gt;&lt;p&gt;BSD 3-Clause licence.&lt;/p&gt;</source>
-        <translation>&lt;b&gt;Episcope %1&lt;/b&gt;&lt;p&gt;Ansichten, EPIs, Disparität und Labels von 4D-Lichtfeldern.&lt;/p&gt;&lt;p&gt;BSD-Lizenz (3 Klauseln).&lt;/p&gt;</translation>
-    </message>
-    <message>
         <source>Keys and mouse</source>
         <translation>Tastatur und Maus</translation>
     </message>
@@ -2090,19 +2086,23 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Ctrl+Shift+P</translation>
     </message>
     <message>
-        <source>Shows version and licence</source>
+        <source>&lt;b&gt;Episcope %1&lt;/b&gt;&lt;p&gt;Views, EPIs, disparity and labels of 4D light fields.&lt;/p&gt;&lt;p&gt;BSD 3-Clause license.&lt;/p&gt;</source>
+        <translation>&lt;b&gt;Episcope %1&lt;/b&gt;&lt;p&gt;Ansichten, EPIs, Disparität und Labels von 4D-Lichtfeldern.&lt;/p&gt;&lt;p&gt;BSD-Lizenz (3 Klauseln).&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>Shows version and license</source>
         <translation>Zeigt Version und Lizenz</translation>
     </message>
 </context>
 <context>
     <name>episcope::HistogramView</name>
     <message>
-        <source>Visible values. Drag the handles to change the colour range.</source>
-        <translation>Sichtbare Werte. Die Griffe ziehen, um den Farbbereich zu ändern.</translation>
-    </message>
-    <message>
         <source>No visible values</source>
         <translation>Keine sichtbaren Werte</translation>
+    </message>
+    <message>
+        <source>Visible values. Drag the handles to change the color range.</source>
+        <translation>Sichtbare Werte. Die Griffe ziehen, um den Farbbereich zu ändern.</translation>
     </message>
 </context>
 <context>
@@ -2319,10 +2319,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1 px angewandt</translation>
     </message>
     <message>
-        <source>All views but the centre one are interpolated.</source>
-        <translation>Alle Ansichten außer der mittleren sind interpoliert.</translation>
-    </message>
-    <message>
         <source>Truth</source>
         <translation>Referenz</translation>
     </message>
@@ -2349,6 +2345,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>being looked for …</source>
         <translation>wird gesucht …</translation>
+    </message>
+    <message>
+        <source>All views but the center one are interpolated.</source>
+        <translation>Alle Ansichten außer der mittleren sind interpoliert.</translation>
     </message>
 </context>
 <context>
@@ -2467,14 +2467,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Benennt das aktuelle Label um</translation>
     </message>
     <message>
-        <source>Change colour…</source>
-        <translation>Farbe ändern…</translation>
-    </message>
-    <message>
-        <source>Changes the colour of the current label</source>
-        <translation>Ändert die Farbe des aktuellen Labels</translation>
-    </message>
-    <message>
         <source>Remove label</source>
         <translation>Label entfernen</translation>
     </message>
@@ -2515,7 +2507,15 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Entfernen</translation>
     </message>
     <message>
-        <source>Colour of “%1”</source>
+        <source>Change color…</source>
+        <translation>Farbe ändern…</translation>
+    </message>
+    <message>
+        <source>Changes the color of the current label</source>
+        <translation>Ändert die Farbe des aktuellen Labels</translation>
+    </message>
+    <message>
+        <source>Color of “%1”</source>
         <translation>Farbe von „%1“</translation>
     </message>
 </context>
@@ -2625,10 +2625,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Labels</translation>
     </message>
     <message>
-        <source>Click to change the colour of “%1”</source>
-        <translation>Klicken, um die Farbe von „%1“ zu ändern</translation>
-    </message>
-    <message>
         <source>Hidden: click to show it</source>
         <translation>Ausgeblendet: klicken, um es einzublenden</translation>
     </message>
@@ -2661,10 +2657,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>nicht gesperrt</translation>
     </message>
     <message>
-        <source>Change colour…</source>
-        <translation>Farbe ändern…</translation>
-    </message>
-    <message>
         <source>Show</source>
         <translation>Einblenden</translation>
     </message>
@@ -2683,6 +2675,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Lock</source>
         <translation>Sperren</translation>
+    </message>
+    <message>
+        <source>Click to change the color of “%1”</source>
+        <translation>Klicken, um die Farbe von „%1“ zu ändern</translation>
+    </message>
+    <message>
+        <source>Change color…</source>
+        <translation>Farbe ändern…</translation>
     </message>
 </context>
 <context>
@@ -3193,10 +3193,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Ansicht</translation>
     </message>
     <message>
-        <source>Colours</source>
-        <translation>Farben</translation>
-    </message>
-    <message>
         <source>Language</source>
         <translation>Sprache</translation>
     </message>
@@ -3239,6 +3235,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Tabs</source>
         <translation>Reiter</translation>
+    </message>
+    <message>
+        <source>Colors</source>
+        <translation>Farben</translation>
     </message>
 </context>
 <context>
@@ -3324,7 +3324,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Schätzverfahren</translation>
     </message>
     <message>
-        <source>Estimate all views instead of the centre view only</source>
+        <source>Estimate all views instead of the center view only</source>
         <translation>Alle Ansichten schätzen statt nur der mittleren</translation>
     </message>
 </context>
@@ -3674,14 +3674,6 @@ s</translation>
         <translation>2016</translation>
     </message>
     <message>
-        <source>Protocol vmv2013: all pixels with ground truth, centre view</source>
-        <translation>Protokoll vmv2013: alle Pixel mit Referenz, mittlere Ansicht</translation>
-    </message>
-    <message>
-        <source>Protocol benchmark2016: without a border of 15 px, centre view</source>
-        <translation>Protokoll benchmark2016: ohne einen Rand von 15 px, mittlere Ansicht</translation>
-    </message>
-    <message>
         <source>Metrics appear here once there is a result and a ground truth.</source>
         <translation>Fehlermaße erscheinen hier, sobald es ein Ergebnis und eine Referenz gibt.</translation>
     </message>
@@ -3741,6 +3733,22 @@ s</translation>
         <source>Compare with</source>
         <translation>Vergleichen mit</translation>
     </message>
+    <message>
+        <source>present</source>
+        <translation>vorhandene</translation>
+    </message>
+    <message>
+        <source>Of the pixels that have a value; else missing values count as the farthest true disparity</source>
+        <translation>Nur Pixel mit einem Wert; sonst zählen fehlende Werte als die fernste wahre Disparität</translation>
+    </message>
+    <message>
+        <source>Protocol vmv2013: all pixels with ground truth, center view</source>
+        <translation>Protokoll vmv2013: alle Pixel mit Referenz, mittlere Ansicht</translation>
+    </message>
+    <message>
+        <source>Protocol benchmark2016: without a border of 15 px, center view</source>
+        <translation>Protokoll benchmark2016: ohne einen Rand von 15 px, mittlere Ansicht</translation>
+    </message>
 </context>
 <context>
     <name>episcope::MovieExport</name>
@@ -3792,14 +3800,6 @@ s</translation>
         <translation>Umschalten: A und B im Wechsel</translation>
     </message>
     <message>
-        <source>Around the centre</source>
-        <translation>Um die Mitte</translation>
-    </message>
-    <message>
-        <source>Along the row of the centre</source>
-        <translation>Entlang der mittleren Zeile</translation>
-    </message>
-    <message>
         <source>Through all views</source>
         <translation>Durch alle Ansichten</translation>
     </message>
@@ -3846,6 +3846,14 @@ s</translation>
     <message>
         <source>Width</source>
         <translation>Breite</translation>
+    </message>
+    <message>
+        <source>Around the center</source>
+        <translation>Um die Mitte</translation>
+    </message>
+    <message>
+        <source>Along the row of the center</source>
+        <translation>Entlang der mittleren Zeile</translation>
     </message>
 </context>
 <context>
@@ -4351,6 +4359,14 @@ s</translation>
         <source>%1 and %2 more</source>
         <translation>%1 und %2 weitere</translation>
     </message>
+    <message>
+        <source>Replace files</source>
+        <translation>Dateien ersetzen</translation>
+    </message>
+    <message>
+        <source>The folder already holds %1. Replace it?</source>
+        <translation>Der Ordner enthält schon %1. Ersetzen?</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ReadingQuestion</name>
@@ -4507,20 +4523,20 @@ s</translation>
         <translation>Ergebnis, alle Ansichten (*.h5);;Karte dieser Ansicht (*.pfm);;Karte dieser Ansicht (*.tiff);;Punktwolke dieser Ansicht (*.ply)</translation>
     </message>
     <message>
-        <source>%1 has no map of this view: go to the centre view (Home) first.</source>
-        <translation>%1 hat keine Karte dieser Ansicht: erst zur mittleren Ansicht gehen (Pos1).</translation>
-    </message>
-    <message>
         <source>Folder of the submission for %1</source>
         <translation>Ordner der Einreichung, in die %1 kommt</translation>
     </message>
     <message>
-        <source>%1 has no map of the centre view, which is submitted.</source>
-        <translation>%1 hat keine Karte der mittleren Ansicht, die eingereicht wird.</translation>
-    </message>
-    <message>
         <source>Reloading adds the results in the file to the list.</source>
         <translation>Neuladen fügt der Liste der Ergebnisse hinzu, was in der Datei steht.</translation>
+    </message>
+    <message>
+        <source>%1 has no map of this view: go to the center view (Home) first.</source>
+        <translation>%1 hat keine Karte dieser Ansicht: erst zur mittleren Ansicht gehen (Pos1).</translation>
+    </message>
+    <message>
+        <source>%1 has no map of the center view, which is submitted.</source>
+        <translation>%1 hat keine Karte der mittleren Ansicht, die eingereicht wird.</translation>
     </message>
 </context>
 <context>
@@ -4635,6 +4651,10 @@ s</translation>
     <message>
         <source>%1 was estimated from different samples than those of this light field: its errors may be meaningless.</source>
         <translation>%1 wurde aus anderen Samples als denen dieses Lichtfelds geschätzt: seine Fehler sind womöglich bedeutungslos.</translation>
+    </message>
+    <message>
+        <source>%1: %2 to episcope-cli convert, and open the file that it writes.</source>
+        <translation>%1: Geben Sie episcope-cli convert %2 mit, und öffnen Sie die Datei, die es schreibt.</translation>
     </message>
 </context>
 <context>
@@ -4949,10 +4969,6 @@ s</translation>
     <message>
         <source>Between neighboring positions of the gantry, in the unit of the mesh; with 1, depth is in steps</source>
         <translation>Abstand benachbarter Positionen des Kameraportals, in der Einheit des Netzes; mit 1 ist die Tiefe in Schritten</translation>
-    </message>
-    <message>
-        <source>Bring all views to the brightness of the centre view</source>
-        <translation>Gleicht alle Ansichten der Helligkeit der mittleren an</translation>
     </message>
     <message>
         <source>Cap offset</source>
@@ -5467,10 +5483,6 @@ s</translation>
         <translation>Zeilen</translation>
     </message>
     <message>
-        <source>Rows and columns of views to keep around the centre: 9x9, or all; empty = the largest grid whose views are filled</source>
-        <translation>Zeilen und Spalten der Ansichten, die um die Mitte bleiben: 9x9, oder all für alle; leer = das größte Raster mit vollen Ansichten</translation>
-    </message>
-    <message>
         <source>Rows and columns of views, where the files do not tell: 9x9, or 1x49 for a scan along a line</source>
         <translation>Zeilen und Spalten von Ansichten, wo die Dateien sie nicht nennen: 9x9, oder 1x49 für eine Fahrt entlang einer Linie</translation>
     </message>
@@ -5657,10 +5669,6 @@ s</translation>
     <message>
         <source>Two superimposed orientations on epipolar plane images: transparent and reflective surfaces</source>
         <translation>Zwei überlagerte Orientierungen in Epipolarebenenbildern: durchsichtige und spiegelnde Flächen</translation>
-    </message>
-    <message>
-        <source>Values of black and white samples as stored: 0,1023 for 10 bits in 16, -1,1 for normalised floats; empty = detected</source>
-        <translation>Werte von Schwarz und Weiß, wie gespeichert: 0,1023 für 10 von 16 Bit, -1,1 für normalisierte Gleitkommazahlen; leer = erkannt</translation>
     </message>
     <message>
         <source>View</source>
@@ -6330,6 +6338,58 @@ s</translation>
         <source>volume</source>
         <translation>Volumen</translation>
     </message>
+    <message>
+        <source>A network chooses and refines disparities by the evidence of all views</source>
+        <translation>Ein Netz wählt und verfeinert Disparitäten nach dem, was alle Ansichten belegen</translation>
+    </message>
+    <message>
+        <source>Bring all views to the brightness of the center view</source>
+        <translation>Gleicht alle Ansichten der Helligkeit der mittleren an</translation>
+    </message>
+    <message>
+        <source>File of the network&apos;s weights; by default those of the program</source>
+        <translation>Datei mit den Gewichten des Netzes; sonst die des Programms</translation>
+    </message>
+    <message>
+        <source>Rounds in which each pixel chooses among the disparities around it</source>
+        <translation>Runden, in denen jedes Pixel unter den Disparitäten seiner Umgebung wählt</translation>
+    </message>
+    <message>
+        <source>Row and column of the view to estimate, or to begin with; auto = center view</source>
+        <translation>Zeile und Spalte der Ansicht, die geschätzt wird oder mit der begonnen wird; auto = mittlere Ansicht</translation>
+    </message>
+    <message>
+        <source>Rows and columns of views to keep around the center: 9x9, or all; empty = the largest grid whose views are filled</source>
+        <translation>Zeilen und Spalten der Ansichten, die um die Mitte bleiben: 9x9, oder all für alle; leer = das größte Raster mit vollen Ansichten</translation>
+    </message>
+    <message>
+        <source>Silhouettes</source>
+        <translation>Silhouetten</translation>
+    </message>
+    <message>
+        <source>Values of black and white samples as stored: 0,1023 for 10 bits in 16, -1,1 for normalized floats; empty = detected</source>
+        <translation>Werte von Schwarz und Weiß, wie gespeichert: 0,1023 für 10 von 16 Bit, -1,1 für normalisierte Gleitkommazahlen; leer = erkannt</translation>
+    </message>
+    <message>
+        <source>Weights</source>
+        <translation>Gewichte</translation>
+    </message>
+    <message>
+        <source>Where a pixel shows two surfaces: mode, the more probable one; mean, the mean of both by their shares, which has the smaller squared error</source>
+        <translation>Wo ein Pixel zwei Flächen zeigt: Modus, die wahrscheinlichere; Mittel, beide nach ihren Anteilen gemittelt, was den kleineren quadratischen Fehler hat</translation>
+    </message>
+    <message>
+        <source>faint</source>
+        <translation>schwach</translation>
+    </message>
+    <message>
+        <source>mean</source>
+        <translation>Mittel</translation>
+    </message>
+    <message>
+        <source>mode</source>
+        <translation>Modus</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>
@@ -6441,10 +6501,6 @@ s</translation>
         <translation>wird trainiert …</translation>
     </message>
     <message>
-        <source>labelling …</source>
-        <translation>wird gelabelt …</translation>
-    </message>
-    <message>
         <source>refining … %1</source>
         <translation>wird verfeinert … %1</translation>
     </message>
@@ -6495,6 +6551,10 @@ s</translation>
     <message>
         <source>Reading labels</source>
         <translation>Labels werden gelesen</translation>
+    </message>
+    <message>
+        <source>labeling …</source>
+        <translation>wird gelabelt …</translation>
     </message>
 </context>
 <context>
@@ -6649,10 +6709,6 @@ s</translation>
         <translation>Doppelklick</translation>
     </message>
     <message>
-        <source>Shows the centre view; in tiles: shows that tile alone</source>
-        <translation>Zeigt die mittlere Ansicht; in Kacheln: nur diese Kachel</translation>
-    </message>
-    <message>
         <source>Drag</source>
         <translation>Ziehen</translation>
     </message>
@@ -6752,6 +6808,10 @@ s</translation>
         <source>Reassign</source>
         <translation>Neu zuweisen</translation>
     </message>
+    <message>
+        <source>Shows the center view; in tiles: shows that tile alone</source>
+        <translation>Zeigt die mittlere Ansicht; in Kacheln: nur diese Kachel</translation>
+    </message>
 </context>
 <context>
     <name>episcope::StatisticsController</name>
@@ -6764,16 +6824,16 @@ s</translation>
         <translation>Automatischer Bereich</translation>
     </message>
     <message>
-        <source>Stretches the colours over the visible values</source>
-        <translation>Spreizt die Farben über die sichtbaren Werte</translation>
-    </message>
-    <message>
         <source>Default range</source>
         <translation>Standardbereich</translation>
     </message>
     <message>
         <source>Restores the default range of the quantity</source>
         <translation>Stellt den Standardbereich der Größe wieder her</translation>
+    </message>
+    <message>
+        <source>Stretches the colors over the visible values</source>
+        <translation>Spreizt die Farben über die sichtbaren Werte</translation>
     </message>
 </context>
 <context>
@@ -6917,10 +6977,6 @@ s</translation>
         <translation>Erst ein Lichtfeld öffnen.</translation>
     </message>
     <message>
-        <source>%1 runs on the centre view, the present values first</source>
-        <translation>%1 Läufe auf der mittleren Ansicht, die jetzigen Werte zuerst</translation>
-    </message>
-    <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
     </message>
@@ -6957,12 +7013,16 @@ s</translation>
         <translation>CSV (*.csv)</translation>
     </message>
     <message>
-        <source>%1 runs on each of %2 centre views, the present values first</source>
+        <source>Press Run: a point is plotted here for each value.</source>
+        <translation>„Starten“ zeichnet hier zu jedem Wert einen Punkt.</translation>
+    </message>
+    <message>
+        <source>%1 runs on each of %2 center views, the present values first</source>
         <translation>Je %1 Läufe auf %2 mittleren Ansichten, die jetzigen Werte zuerst</translation>
     </message>
     <message>
-        <source>Press Run: a point is plotted here for each value.</source>
-        <translation>„Starten“ zeichnet hier zu jedem Wert einen Punkt.</translation>
+        <source>%1 runs on the center view, the present values first</source>
+        <translation>%1 Läufe auf der mittleren Ansicht, die jetzigen Werte zuerst</translation>
     </message>
 </context>
 <context>
@@ -7016,10 +7076,6 @@ s</translation>
         <translation>%1: was es zeigt</translation>
     </message>
     <message>
-        <source>Runs the method on the centre view with each of the values</source>
-        <translation>Führt das Verfahren auf der mittleren Ansicht mit jedem der Werte aus</translation>
-    </message>
-    <message>
         <source>Ends the sweep and keeps its points</source>
         <translation>Beendet die Versuchsreihe; vorhandene Punkte bleiben</translation>
     </message>
@@ -7062,6 +7118,10 @@ s</translation>
     <message>
         <source>Which light fields are plotted</source>
         <translation>Welche Lichtfelder gezeichnet werden</translation>
+    </message>
+    <message>
+        <source>Runs the method on the center view with each of the values</source>
+        <translation>Führt das Verfahren auf der mittleren Ansicht mit jedem der Werte aus</translation>
     </message>
 </context>
 <context>
@@ -7140,10 +7200,6 @@ s</translation>
         <translation>Wie die Arbeitsumgebung</translation>
     </message>
     <message>
-        <source>Colours of the desktop</source>
-        <translation>Farben der Arbeitsumgebung</translation>
-    </message>
-    <message>
         <source>Light</source>
         <translation>Hell</translation>
     </message>
@@ -7158,6 +7214,10 @@ s</translation>
     <message>
         <source>Light text on a dark background</source>
         <translation>Heller Text auf dunklem Grund</translation>
+    </message>
+    <message>
+        <source>Colors of the desktop</source>
+        <translation>Farben der Arbeitsumgebung</translation>
     </message>
 </context>
 <context>

@@ -8,8 +8,8 @@ lupdate=$2
 cd "$3"
 folder=$4
 shift 4
-"$texts" . >"$folder/engine_texts.h.new"
-mv "$folder/engine_texts.h.new" "$folder/engine_texts.h"
+trap 'rm -f "$folder/engine_texts.h"' EXIT
+"$texts" . >"$folder/engine_texts.h"
 set -- "$@" -silent -I . -extensions cpp,h -locations none -source-language en
 for file in "$folder"/episcope_*.ts; do
   # English needs no more than plurals.

@@ -34,7 +34,7 @@ struct Ablation {
 /// `name` and `parameters` as texts). Throws InvalidInput for what no method takes.
 [[nodiscard]] Ablation read_ablation(const std::filesystem::path& file);
 
-/// Runs every variant on every scene in the centre view and hands out a Markdown table for each
+/// Runs every variant on every scene in the center view and hands out a Markdown table for each
 /// method as soon as it is known: MSE × 100 by scene; before them the geometric mean of the ratios
 /// to the first variant, in how many scenes it is at least as good, and the mean BadPix(0.07).
 void run_ablation(const Ablation& ablation, const std::function<void(const std::string&)>& print,

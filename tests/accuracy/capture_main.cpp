@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints a Markdown table: from photographs of the synthesised gantry to ground truth, seed by
+// Prints a Markdown table: from photographs of the synthesized gantry to ground truth, seed by
 // seed.
 #include "engine/core/error.h"
 #include "tests/engine/capture/capture_way.h"
@@ -70,7 +70,7 @@ void print_table(const Request& request) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Errors of the way from photographs of the synthesised gantry to ground truth");
+  CLI::App app("Errors of the way from photographs of the synthesized gantry to ground truth");
   Request request;
   request.options.height = 300;
   request.options.width = 400;

@@ -10,7 +10,7 @@
 
 namespace episcope::accuracy {
 
-/// Shares of right pixels of the centre view that a correcting user wants.
+/// Shares of right pixels of the center view that a correcting user wants.
 inline constexpr std::array kWantedShares = {0.90, 0.95, 0.98};
 /// Strokes after which the user gives up.
 inline constexpr int kMostCorrections = 150;
@@ -18,7 +18,7 @@ inline constexpr int kMostCorrections = 150;
 /// Strokes until each of kWantedShares was reached first; nullopt = not by kMostCorrections.
 using CorrectionCounts = std::array<std::optional<int>, kWantedShares.size()>;
 
-/// Has a user begin with a bare scene and stroke the largest wrong region of the centre view
+/// Has a user begin with a bare scene and stroke the largest wrong region of the center view
 /// (add_correction) until all of kWantedShares are reached. While one label alone is painted, every
 /// pixel has it. The scene's own strokes are not used, but only labels that have one are asked
 /// for.
@@ -36,7 +36,7 @@ using CorrectionCounts = std::array<std::optional<int>, kWantedShares.size()>;
 [[nodiscard]] std::optional<int> median_count(std::vector<std::optional<int>> counts);
 
 /// Writes what `sklearn_forest.py` needs of a scene into a folder named after it:
-/// `features.npy` `[feature][y][x]` of the image of the centre view, and `truth.npy` `[y][x]`,
+/// `features.npy` `[feature][y][x]` of the image of the center view, and `truth.npy` `[y][x]`,
 /// 0 = not asked for. Throws IoError.
 void export_features(const PaintedScene& painted, const std::filesystem::path& folder);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/registry.h"
 #include "tests/accuracy/label_measure.h"
 
 #include "app/session/run_estimator.h"
@@ -79,7 +80,7 @@ LabelingDisparity disparity_for(const PaintedScene& painted, FeatureSet features
       source.kept.empty() || features == FeatureSet::ImageTruth ? "" : kept_file(painted, source);
   if (features != FeatureSet::ImageTruth && (file.empty() || !std::filesystem::exists(file))) {
     const EstimatePtr estimate =
-        run_estimator(painted.scene, {source.method, {}, {}}, Progress()).estimate;
+        run_estimator(painted.scene, find_estimator(source.method), {}, {}, Progress()).estimate;
     if (!file.empty()) io::write_result(file, *estimate, Progress());
     return {{estimate, &estimate->field}, source.method, estimate};
   }

@@ -25,7 +25,7 @@ struct PaintedScene {
 /// A name for files of a scene: all but letters, digits and "-" become "_".
 [[nodiscard]] std::string file_stem(std::string scene);
 
-/// Strokes on the centre view; StrokeStyle::Stored takes those of the scene.
+/// Strokes on the center view; StrokeStyle::Stored takes those of the scene.
 [[nodiscard]] PaintedScene paint_scene(const std::string& name, StrokeStyle style, Scene scene);
 
 /// How well labels came out, and how long they took.
@@ -35,7 +35,7 @@ struct MeasuredLabels {
   double seconds = 0;
 };
 
-/// Labels all views, or the centre view alone, which has no consistency.
+/// Labels all views, or the center view alone, which has no consistency.
 [[nodiscard]] MeasuredLabels measure_labels(const PaintedScene& painted,
                                             const LabelerParameters& parameters,
                                             const LabelingDisparity& disparity, bool center_only);

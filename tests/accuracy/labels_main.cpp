@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints a Markdown table: how well light fields are labeled from simulated strokes, by features
-// and regulariser.
+// and regularizer.
 #include "engine/core/error.h"
 #include "tests/accuracy/corrections.h"
 #include "tests/accuracy/label_measure.h"
@@ -93,7 +93,7 @@ void for_scenes(const Request& request, const Visit& visit) {
 
 void print_table(const Request& request) {
   std::puts(
-      "| scene | features | regulariser | right % | mAcc % | mIoU % | near boundaries % | thin IoU "
+      "| scene | features | regularizer | right % | mAcc % | mIoU % | near boundaries % | thin IoU "
       "% | consistency % | s |\n"
       "|---|---|---|---:|---:|---:|---:|---:|---:|---:|");
   Means means;
@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
                  "Folder where estimates are kept and found again")
       ->check(CLI::ExistingDirectory);
   app.add_option("--size", request.size, "Side of the views of built-in scenes, px");
-  app.add_flag("--center", request.center_only, "The centre view only");
+  app.add_flag("--center", request.center_only, "The center view only");
   app.add_flag("--per-label", request.per_label, "A row for every label as well");
   app.add_flag("--corrections", request.corrections,
                "Instead, how many strokes a user needs who begins with none and corrects what is "

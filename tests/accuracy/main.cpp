@@ -45,7 +45,7 @@ void declare(CLI::App& app, Request& request) {
   app.add_option("--param", request.settings,
                  "key=value for all methods that have it, or method.key=value; may be repeated");
   app.add_option("--profile", request.profile, "As --param profile=NAME: paper or tuned");
-  app.add_flag("--center", request.center_only, "Estimate the centre view alone, which is faster");
+  app.add_flag("--center", request.center_only, "Estimate the center view alone, which is faster");
   app.add_flag("--small{256}", request.size, "Built-in scenes of 256×256 px instead of 512×512");
   app.add_option("--size", request.size, "Side of the built-in scenes, px")
       ->check(CLI::Range(16, 4096));

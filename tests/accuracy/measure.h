@@ -9,7 +9,7 @@
 
 namespace episcope::accuracy {
 
-/// How one method did on one scene; errors of the centre view.
+/// How one method did on one scene; errors of the center view.
 struct Measurement {
   std::string group;  ///< "choosing, thin": the set of scenes, and which part of it.
   std::string scene;
@@ -23,11 +23,11 @@ struct Measurement {
   Interval truth;  ///< and that is there.
 };
 
-/// From the least to the largest true disparity of the centre view, which the scene must have.
+/// From the least to the largest true disparity of the center view, which the scene must have.
 [[nodiscard]] Interval true_range(const Scene& scene);
 
-/// Runs `estimator` with `values` over its defaults for all views if it can, or for the centre view
-/// alone. The scene must have truth for its centre view. Throws as the estimator.
+/// Runs `estimator` with `values` over its defaults for all views if it can, or for the center view
+/// alone. The scene must have truth for its center view. Throws as the estimator.
 [[nodiscard]] Measurement measure(const std::string& name, const Scene& scene,
                                   const Estimator& estimator, const ParameterSet& values,
                                   ViewSelection views, const Progress& progress);

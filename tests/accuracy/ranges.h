@@ -14,7 +14,7 @@ struct FoundRange {
   std::string scene;
   Interval found;
   Interval truth;
-  double covered = 0;  ///< Share of the pixels of the centre view that `found` holds, in [0, 1].
+  double covered = 0;  ///< Share of the pixels of the center view that `found` holds, in [0, 1].
   double seconds = 0;
 
   /// The greatest width that a range found may have.
@@ -23,7 +23,7 @@ struct FoundRange {
   [[nodiscard]] bool covers() const { return covered >= 0.995; }
 };
 
-/// The scene must have truth for its centre view. Throws as find_disparity_range.
+/// The scene must have truth for its center view. Throws as find_disparity_range.
 [[nodiscard]] FoundRange find_range(const Scene& scene, const Progress& progress);
 
 /// The head of a Markdown table of ranges, a row, and how many of the ranges pass.

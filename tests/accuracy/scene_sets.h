@@ -33,7 +33,7 @@ struct SceneSet {
 
 /// Opens a scene of a set. Built-in scenes have `size`×`size` pixels unless their name says another
 /// size; a stored one is looked for in `data`, and nullopt if it is not there or has no truth for
-/// its centre view. Throws as the reader, and Unavailable or InvalidInput for a name that cannot be
+/// its center view. Throws as the reader, and Unavailable or InvalidInput for a name that cannot be
 /// read.
 [[nodiscard]] std::optional<Scene> open_scene_of_set(const std::string& name, int size,
                                                      const std::filesystem::path& data,

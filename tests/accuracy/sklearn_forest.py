@@ -3,7 +3,7 @@
 """Counts the strokes that a plain random forest needs, for comparison.
 
 The same user as in `episcope_label_accuracy --corrections`, who strokes the largest wrong region
-of the centre view, corrects scikit-learn's RandomForestClassifier on the same features of the
+of the center view, corrects scikit-learn's RandomForestClassifier on the same features of the
 image. Needs Debian's python3-sklearn. First write the features, then count:
 
     episcope_label_accuracy --set choosing --size 256 --export FOLDER

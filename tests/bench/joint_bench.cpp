@@ -57,7 +57,7 @@ void measure(benchmark::State& state, double bytes, const Run& run) {
 }
 
 // Compute-bound: multigrid works within the cache of its thread. Counted is what must come from
-// memory: in each sweep of a view its samples, f, confidence and u, that of four neighbours twice,
+// memory: in each sweep of a view its samples, f, confidence and u, that of four neighbors twice,
 // and u written.
 void epi_c(benchmark::State& state) {
   const EpiCParameters parameters{.tensor = {.range = kRange}};

@@ -215,7 +215,7 @@ void visibility(benchmark::State& state) {
 }
 EPISCOPE_BENCH_KERNEL(visibility);
 
-// Both pulls between a view and one neighbour, for all rows of views: each reads slopes and both
+// Both pulls between a view and one neighbor, for all rows of views: each reads slopes and both
 // images and renews curvature and force. Where the lines of a view end follows from its slopes, and
 // two lines may end at one pixel, so it is scalar; a thread keeps its view in the cache. An eighth
 // of the time of EPI_C, the rest being the TV-L2 problems that it prepares.

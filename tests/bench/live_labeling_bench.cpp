@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Labels of the centre view of 9×9 views of 512×512 pixels after a stroke, as the window asks for
+// Labels of the center view of 9×9 views of 512×512 pixels after a stroke, as the window asks for
 // them: the draft, the refined labels, and those of another view after the same strokes; against a
 // labeler that knows nothing yet, in the same run. The demo scene (11 labels), or the archive
 // folder still_life (13) where EPISCOPE_SHARED_DATA names its parent.
@@ -61,7 +61,7 @@ struct Bench {
   }
 };
 
-/// Paints one more short stroke on the centre view, of the label that is truly there.
+/// Paints one more short stroke on the center view, of the label that is truly there.
 void paint(const Scene& scene, int number, Scribbles& scribbles) {
   const ViewIndex center = scene.light_field->center();
   const auto view = std::ranges::find(scribbles.views, center, &ViewScribbles::view);

@@ -17,7 +17,7 @@ struct OpenCvRun {
 /// step (separable filters for smoothing, derivatives and integration, whole-plane arithmetic for
 /// products and orientation), with the same scales, shears and channels as `parameters` and the
 /// range of `ours`, for all views. EPIs run on all threads, OpenCV itself on one. Only every
-/// `step`th horizontal and vertical EPI is done; the average over neighbouring EPIs then takes
+/// `step`th horizontal and vertical EPI is done; the average over neighboring EPIs then takes
 /// copies of the one there is.
 [[nodiscard]] OpenCvRun run_opencv_epi_l(const LightField& light_field,
                                          const EpiLParameters& parameters, const Estimate& ours,

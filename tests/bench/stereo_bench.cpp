@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Multi-view stereo of the centre view at 9×9×768×768 RGB, 64 labels: each method's time and
+// Multi-view stereo of the center view at 9×9×768×768 RGB, 64 labels: each method's time and
 // memory, and the matching costs against the same work through OpenCV.
 #include "engine/core/parallel.h"
 #include "engine/disparity/matching_cost.h"

@@ -159,7 +159,7 @@ double seconds_per_iteration() {
 
 // How near an iteration comes to copying the bytes that it must read and write. A tenth: a plane of
 // 2.4 MB is copied within the cache, which holds those of the solver as well, so what counts is
-// arithmetic. A sweep of one colour computes all lanes and keeps half of them, and there are four
+// arithmetic. A sweep of one color computes all lanes and keeps half of them, and there are four
 // on each level, besides two projections with reciprocal roots and the residual: about 100
 // operations a pixel.
 void tv_l2_bytes(benchmark::State& state) {

@@ -96,7 +96,7 @@ std::vector<double> latencies_at_rest(MainWindow& window) {
       window, [&](int number) { give_input(window, number); }, [&] { return Clock::now() > end; });
 }
 
-// Results of the centre view that are off the truth by more and more.
+// Results of the center view that are off the truth by more and more.
 void add_results(Session& session, int count) {
   const LightField& light_field = *session.light_field();
   for (int i = 0; i < count; ++i) {

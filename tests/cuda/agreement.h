@@ -13,7 +13,7 @@ struct Agreement {
   double within = 0;      ///< Share of the pixels of all views whose disparity is within 1e-4 px.
   double largest = 0;     ///< Largest difference of disparity, px.
   double confidence = 0;  ///< Share whose confidence is within 1e-3.
-  double cpu_mse = 0;     ///< ×100, centre view.
+  double cpu_mse = 0;     ///< ×100, center view.
   double device_mse = 0;
   bool is_repeatable = false;  ///< Two runs on the device gave the same bits.
   bool passes = false;         ///< By the limits of its kind.

@@ -77,7 +77,7 @@ std::vector<Case> cases(const std::string& filter) {
     if (std::ranges::count(info.devices, Device::Cuda) == 0) continue;
     cases.push_back({estimator, {}, info.id});
     if (info.all_views) {
-      cases.push_back({estimator, {}, info.id + ", centre view", ViewSelection::Center});
+      cases.push_back({estimator, {}, info.id + ", center view", ViewSelection::Center});
     }
     if (!has_profiles(estimator)) continue;
     cases.push_back(

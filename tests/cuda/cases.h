@@ -25,7 +25,7 @@ enum class Kind {
 [[nodiscard]] Kind kind_of(const Estimator& estimator);
 
 /// Every method that computes on a GPU whose id begins with `filter`, in each of its profiles, and
-/// for the centre view alone.
+/// for the center view alone.
 [[nodiscard]] std::vector<Case> cases(const std::string& filter);
 
 /// Names of the built-in scenes compared on: flat, slanted, cluttered, noisy, invalid pixels, grids

@@ -27,7 +27,7 @@ struct LabelRun {
 /// The votes of a forest of 96 seeded trees on random features, of `views` views of `size`² pixels.
 [[nodiscard]] LabelRun forest_run(int size, int views);
 
-/// The labeler from strokes along the true labels of the centre view; without run in builds without
+/// The labeler from strokes along the true labels of the center view; without run in builds without
 /// OpenCV.
 [[nodiscard]] LabelRun whole_labeler(const Scene& scene);
 

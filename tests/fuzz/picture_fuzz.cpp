@@ -13,7 +13,7 @@
 namespace episcope::fuzz {
 namespace {
 
-/// As renderers name them; of colours, and of depth.
+/// As renderers name them; of colors, and of depth.
 void write_layers(const std::filesystem::path& path) {
   const Image<float> values(4, 5);
   const std::string layer = "View Layer.Combined.";

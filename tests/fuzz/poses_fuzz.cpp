@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/base/npy.h"
-#include "engine/io/models/pose_grid.h"
 #include "engine/io/models/poses.h"
 #include "tests/fuzz/harness.h"
 

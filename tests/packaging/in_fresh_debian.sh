@@ -28,6 +28,17 @@ chown nobody /home/user
 cd /home/user
 apt-get update -qq
 
+install /media/packages/python3-episcope_*.deb
+as_user python3 -c '
+import episcope
+lf = episcope.demo("edge?size=64&grid=5")
+episcope.estimate(lf, "net")  # finds its weights
+result = episcope.estimate(lf, "epi_s")
+result.save("python.h5")
+print(result, lf.views.shape, episcope.score(result, lf)["mse_100"])'
+apt-get purge -qq -y --autoremove python3-episcope >/tmp/apt.log 2>&1
+[ ! -e /usr/lib/python3/dist-packages/episcope ]
+
 install /media/packages/episcope-cli_*.deb
 as_user episcope-cli --version
 as_user episcope-cli estimate epi_s demo -o d.h5 --quiet
@@ -35,6 +46,7 @@ as_user episcope-cli evaluate d.h5 --truth demo
 as_user episcope-cli synthesize objects -o lf.h5 --views 5x5 --size 96x96
 [ -s /usr/share/man/man1/episcope-cli-estimate.1.gz ]
 [ -s /usr/share/episcope/blender/episcope_light_field.py ]
+as_user episcope-cli methods net | grep -q 'SHA-256.* /usr/share/episcope/weights/net.npz'
 
 install /media/packages/episcope_*.deb
 as_user episcope --version

@@ -11,7 +11,7 @@
 
 namespace episcope::test {
 
-/// A picture in which every pixel has a colour of its own: (x, y, 128).
+/// A picture in which every pixel has a color of its own: (x, y, 128).
 inline QImage coordinate_picture(int width, int height) {
   QImage picture(width, height, QImage::Format_RGB32);
   for (int y = 0; y < height; ++y) {
@@ -20,7 +20,7 @@ inline QImage coordinate_picture(int width, int height) {
   return picture;
 }
 
-/// How many colours an image has.
+/// How many colors an image has.
 inline std::size_t color_count(const QImage& image) {
   std::set<QRgb> colors;
   for (int y = 0; y < image.height(); ++y) {

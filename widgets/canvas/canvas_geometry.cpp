@@ -42,7 +42,7 @@ CanvasTransform fit_transform(QSizeF image, QSizeF widget, double margin) {
 
 namespace {
 
-// Lines wherever `differs(y, x, y', x')` for neighbours; runs of them are one line each. Pixels
+// Lines wherever `differs(y, x, y', x')` for neighbors; runs of them are one line each. Pixels
 // from −1 to `height` and `width` are compared if `beyond` is 1, else only pixels of the image.
 template <class Differs>
 PixelEdges edges_where(int height, int width, int beyond, const Differs& differs) {

@@ -37,8 +37,8 @@ struct ScribbleLayers {
   ImageView<const std::uint8_t> carried;  ///< From other views; drawn where nothing is painted.
 };
 
-/// Picture of the pixels of `rect` in label colours on a transparent ground: painted pixels opaque
-/// in this style, carried pixels as fainter stripes. Unknown labels get their default colour.
+/// Picture of the pixels of `rect` in label colors on a transparent ground: painted pixels opaque
+/// in this style, carried pixels as fainter stripes. Unknown labels get their default color.
 /// Linear in the pixels of `rect`, which lies inside the view.
 [[nodiscard]] QImage scribble_picture(const ScribbleLayers& layers, const LabelSet& labels,
                                       const PixelRect& rect, const render::LabelStyle& style = {});

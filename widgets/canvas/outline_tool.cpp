@@ -3,8 +3,6 @@
 
 #include <QPainter>
 
-#include <utility>
-
 namespace episcope {
 namespace {
 

@@ -15,7 +15,7 @@ class OutlineTool : public CanvasTool {
  public:
   using CanvasTool::CanvasTool;
 
-  /// Line colour: the current label's; invalid = no label.
+  /// Line color: the current label's; invalid = no label.
   void setColor(const QColor& color);
   /// Corners set so far, in image coordinates.
   [[nodiscard]] const QPolygonF& corners() const { return corners_; }

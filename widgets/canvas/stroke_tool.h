@@ -30,7 +30,7 @@ class StrokeTool : public CanvasTool {
   /// Diameters in image pixels, 1 … 100.
   void setBrushSize(double diameter_px);
   void setEraserSize(double diameter_px);
-  /// Colour of the current label, shown in the centre of the ring; invalid = none.
+  /// Color of the current label, shown in the center of the ring; invalid = none.
   void setColor(const QColor& color);
 
   [[nodiscard]] double brushSize() const { return brush_px_; }

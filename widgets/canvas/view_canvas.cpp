@@ -330,7 +330,6 @@ void ViewCanvas::mouseReleaseEvent(QMouseEvent* event) {
   if (ended == Gesture::Tool) tool_->release();
   updateCursorShape();
   updateMark();
-  if (ended == Gesture::Parallax) emit parallaxFinished();
   if (ended != Gesture::Press) return;
   if (const auto pixel = pixelAt(press_position_)) {
     if (press_modifiers_ & Qt::ShiftModifier) {
@@ -461,7 +460,7 @@ void ViewCanvas::setScribbleOpacity(double opacity) {
 }
 
 void ViewCanvas::updatePixels(const QRect& pixels) {
-  // Smoothing spreads a pixel to its neighbours.
+  // Smoothing spreads a pixel to its neighbors.
   const QRectF spread = QRectF(pixels).adjusted(-1, -1, 1, 1);
   update(QRectF(transform_.to_widget(spread.topLeft(), size()),
                 transform_.to_widget(spread.bottomRight(), size()))

@@ -23,7 +23,7 @@ class CanvasTool;
 /// It owns no model: what the user does is emitted, and the host answers with a setter.
 ///
 /// The wheel zooms at the cursor; middle drag or Space+drag pans; click moves the cross-hair;
-/// Shift+click focuses; drag is parallax while browsing; double click asks for the centre view.
+/// Shift+click focuses; drag is parallax while browsing; double click asks for the center view.
 /// Keys are left to the host, whose commands call the slots. With a tool in hand, the left and
 /// right buttons belong to it, Ctrl+click moves the cross-hair, and Ctrl+Shift+wheel changes its
 /// size.
@@ -97,7 +97,7 @@ class ViewCanvas : public QWidget {
   [[nodiscard]] bool isFitted() const { return fitted_; }
   /// Pixel under a widget position; none outside the picture.
   [[nodiscard]] std::optional<PixelIndex> pixelAt(QPointF position) const;
-  /// Centre of a pixel in widget coordinates.
+  /// Center of a pixel in widget coordinates.
   [[nodiscard]] QPointF positionOf(PixelIndex pixel) const;
 
   [[nodiscard]] QSize sizeHint() const override;
@@ -123,11 +123,10 @@ class ViewCanvas : public QWidget {
   void centerRequested();
   /// Pixel under the mouse, or none.
   void cursorMoved(std::optional<episcope::PixelIndex> pixel);
-  /// A left drag in browse mode: begin, movement since then, end. `views` is (du, dv), not rounded;
+  /// A left drag in browse mode: begin, movement since then. `views` is (du, dv), not rounded;
   /// points nearer than the zero plane follow the hand.
   void parallaxStarted();
   void parallaxDragged(QPointF views);
-  void parallaxFinished();
   /// The user dragged the divider to a part of the width.
   void wipeMoved(double position);
   /// Space was pressed and released without a drag. Held Space pans; shortcuts on Space do not

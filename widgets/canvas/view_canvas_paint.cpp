@@ -261,7 +261,7 @@ std::optional<int> ViewCanvas::markAt(QPointF position) const {
   return nearest;
 }
 
-// What is emphasised lies over the others.
+// What is emphasized lies over the others.
 void ViewCanvas::paintMarks(QPainter& painter) const {
   if (marks_.empty()) return;
   painter.save();

@@ -36,7 +36,7 @@ class CloudActor {
   /// Draws few points, for speed, or all.
   void drawFew(bool few);
   void setPointSize(double device_pixels);
-  /// Lights surfaces from the viewer; else shows plain colours.
+  /// Lights surfaces from the viewer; else shows plain colors.
   void setShaded(bool is_shaded);
   /// Scales z by a factor around a point.
   void setStretch(double factor, const std::array<double, 3>& around);
@@ -63,7 +63,7 @@ class CloudActor {
   vtkNew<vtkActor> actor_;
 };
 
-/// Marks drawn over the clouds of a scene, never hidden: crosses, named marks and the colour bar.
+/// Marks drawn over the clouds of a scene, never hidden: crosses, named marks and the color bar.
 class CloudMarks {
  public:
   /// `renderer` must outlive this.
@@ -74,9 +74,9 @@ class CloudMarks {
 
   /// Draws a cross at each place.
   void setCrosses(const std::vector<std::array<double, 3>>& places);
-  /// Draws a small named cross at each mark; emphasised ones in the colour of the cross-hair.
+  /// Draws a small named cross at each mark; emphasized ones in the color of the cross-hair.
   void setNamed(const std::vector<CloudMark>& marks);
-  /// Shows the colour bar; an empty title removes it.
+  /// Shows the color bar; an empty title removes it.
   void setLegend(const QString& title, const render::Shading& shading);
   /// Scales marks: device pixels per logical pixel, and height of the view.
   void setScale(double ratio, int height);

@@ -17,7 +17,6 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -119,11 +118,6 @@ void CloudDisplay::showEvent(QShowEvent* event) {
   emit shown();
 }
 
-void CloudDisplay::hideEvent(QHideEvent* event) {
-  QWidget::hideEvent(event);
-  emit hidden();
-}
-
 namespace {
 
 constexpr int kStretchSteps = 50;  // Of the slider, for a factor of 10 either way.
@@ -185,8 +179,8 @@ CloudControls::CloudControls(QWidget* parent)
 
 void CloudControls::addColoring(QGridLayout& grid) {
   coloring_->setObjectName("cloud.coloring");
-  coloring_->setToolTip(tr("Colour of the points"));
-  coloring_->setAccessibleName(tr("Colour"));
+  coloring_->setToolTip(tr("Color of the points"));
+  coloring_->setAccessibleName(tr("Color"));
   const std::pair<CloudColoring, QString> rows[] = {
       {CloudColoring::Image, tr("view")},        {CloudColoring::Disparity, tr("disparity")},
       {CloudColoring::Error, tr("error")},       {CloudColoring::Labels, tr("labels")},
@@ -197,7 +191,7 @@ void CloudControls::addColoring(QGridLayout& grid) {
                             "other result, in units of the scene"),
                          Qt::ToolTipRole);
   connect(coloring_, &QComboBox::currentIndexChanged, this, &CloudControls::choiceChanged);
-  grid.addWidget(new QLabel(tr("Colour"), this), 0, 0);
+  grid.addWidget(new QLabel(tr("Color"), this), 0, 0);
   grid.addWidget(coloring_, 0, 1);
 }
 
@@ -229,7 +223,7 @@ void CloudControls::addCompanion(QGridLayout& grid) {
 
 void CloudControls::addSurface(QGridLayout& grid) {
   surface_->setObjectName("cloud.surface");
-  surface_->setToolTip(tr("Joins neighbouring points to a surface, which is cut at jumps"));
+  surface_->setToolTip(tr("Joins neighboring points to a surface, which is cut at jumps"));
   shaded_->setObjectName("cloud.shaded");
   shaded_->setToolTip(tr("Lights the surface from where you look"));
   jump_->setObjectName("cloud.jump");

@@ -32,15 +32,13 @@ class CloudDisplay : public QWidget {
   [[nodiscard]] PointCloudView* view() const { return view_; }
 
  signals:
-  /// The display became visible or hidden.
+  /// The display became visible.
   void shown();
-  void hidden();
   /// The user clicked a point that comes from this pixel.
   void pixelPicked(episcope::PixelIndex pixel);
 
  protected:
   void showEvent(QShowEvent* event) override;
-  void hideEvent(QHideEvent* event) override;
 
  private:
   QLabel* hint_;

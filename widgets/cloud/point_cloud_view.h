@@ -90,7 +90,7 @@ class PointCloudView : public OffscreenGl {
   /// Draws a cross at each place, in the coordinates of the clouds.
   void setMarkedPlaces(const std::vector<std::array<double, 3>>& places);
   void setNamedMarks(const std::vector<CloudMark>& marks);
-  /// Shows a colour bar; an empty title removes it.
+  /// Shows a color bar; an empty title removes it.
   void setLegend(const QString& title, const render::Shading& shading = {});
 
   [[nodiscard]] std::size_t pointCount() const;

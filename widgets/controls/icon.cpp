@@ -19,7 +19,7 @@ static void register_resources() {
 namespace episcope {
 namespace {
 
-/// Draws an SVG whose `currentColor` is the palette's text colour at the time of drawing.
+/// Draws an SVG whose `currentColor` is the palette's text color at the time of drawing.
 class TintedSvgEngine : public PaintedIconEngine {
  public:
   TintedSvgEngine(QString path, QByteArray svg) : path_(std::move(path)), svg_(std::move(svg)) {}

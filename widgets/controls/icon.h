@@ -10,7 +10,7 @@
 
 namespace episcope {
 
-/// Icon of resources/icons by name ("open", "play", …) in the text colour of the current palette,
+/// Icon of resources/icons by name ("open", "play", …) in the text color of the current palette,
 /// so that it follows light and dark themes. Null for an unknown name.
 [[nodiscard]] QIcon themed_icon(const QString& name);
 
@@ -24,14 +24,14 @@ class PaintedIconEngine : public QIconEngine {
   QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) final;
 
  protected:
-  /// Key that distinguishes this picture from all other icons, including colours.
+  /// Key that distinguishes this picture from all other icons, including colors.
   [[nodiscard]] virtual QString look(QIcon::Mode mode) const = 0;
 };
 
 /// Side of a swatch, logical pixels.
 inline constexpr int kSwatchSize = 16;
 
-/// A label's colour as an icon, unchanged in selected rows.
+/// A label's color as an icon, unchanged in selected rows.
 [[nodiscard]] QIcon swatch(const Rgb& rgb, const QPalette& palette);
 
 }  // namespace episcope

@@ -41,14 +41,14 @@ struct PlotPlace {
 
 enum class PlotMarker { Circle, Square, Diamond, Cross, Plus };
 
-/// How a line of a plot looks: colours of Okabe and Ito, which the colour-blind tell apart, and a
-/// marker of its own, so that colour is not the only difference.
+/// How a line of a plot looks: colors of Okabe and Ito, which the color-blind tell apart, and a
+/// marker of its own, so that color is not the only difference.
 struct SeriesLook {
   QColor color;  ///< Contrast ≥ 3 against the base of the palette.
   PlotMarker marker;
 };
 
-/// Colours repeat after six series, markers after five.
+/// Colors repeat after six series, markers after five.
 [[nodiscard]] SeriesLook series_look(std::size_t series, const QPalette& palette);
 
 /// Lines over an axis, with their points. A click near a point chooses it; with the focus, arrows

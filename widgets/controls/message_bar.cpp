@@ -96,9 +96,7 @@ void MessageBar::showMessage(Severity severity, const QString& text, Action acti
 
 void MessageBar::dismiss() {
   timer_.stop();
-  if (isHidden()) return;
   hide();
-  emit dismissed();
 }
 
 QColor MessageBar::accent() const {

@@ -39,9 +39,6 @@ class MessageBar : public QWidget {
  public slots:
   void dismiss();
 
- signals:
-  void dismissed();
-
  protected:
   void paintEvent(QPaintEvent* event) override;
   void changeEvent(QEvent* event) override;

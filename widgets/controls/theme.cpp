@@ -46,7 +46,7 @@ QPalette make_palette(const Surfaces& s) {
 QColor text_of_contrast(const QPalette& palette, double contrast, double least) {
   const QColor window = palette.color(QPalette::Window);
   const QColor text = palette.color(QPalette::WindowText);
-  // Tabs and group boxes are drawn in shades of the button colour.
+  // Tabs and group boxes are drawn in shades of the button color.
   const QColor pane = palette.color(QPalette::Button).lighter(is_dark(palette) ? 128 : 104);
   for (double part = least; part < 1; part += 0.05) {
     const QColor color = blend(window, text, part);

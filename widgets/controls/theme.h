@@ -12,7 +12,7 @@ class QPainter;
 
 namespace episcope::theme {
 
-/// Colours of our dark canvases, which ignore the desktop theme.
+/// Colors of our dark canvases, which ignore the desktop theme.
 inline constexpr QColor kCanvas{0x26, 0x28, 0x2b};
 inline constexpr QColor kCanvasText{0xd6, 0xd9, 0xdd};
 inline constexpr QColor kCanvasMuted{0x9a, 0xa0, 0xa8};
@@ -29,20 +29,20 @@ inline constexpr int kMargin = 8;   ///< Around groups.
 [[nodiscard]] bool is_dark(const QPalette& palette);
 /// Less prominent text, still legible: contrast ≥ 4.5 against window and tabs.
 [[nodiscard]] QColor muted_text(const QPalette& palette);
-/// Frame colour of controls: contrast ≥ 3 against window and tabs, less if disabled.
+/// Frame color of controls: contrast ≥ 3 against window and tabs, less if disabled.
 [[nodiscard]] QColor frame(const QPalette& palette);
-/// Text colours for errors, warnings and success, legible on the palette's window.
+/// Text colors for errors, warnings and success, legible on the palette's window.
 [[nodiscard]] QColor error_text(const QPalette& palette);
 [[nodiscard]] QColor warning_text(const QPalette& palette);
 [[nodiscard]] QColor success_text(const QPalette& palette);
 
-/// Interpolates between two colours; `part` in [0, 1].
+/// Interpolates between two colors; `part` in [0, 1].
 [[nodiscard]] QColor blend(const QColor& from, const QColor& to, double part);
 
-/// Palette that sets only the colour of labels and inherits the rest.
+/// Palette that sets only the color of labels and inherits the rest.
 [[nodiscard]] QPalette text_palette(const QColor& color);
 
-/// Contrast ratio of two opaque colours, 1 … 21 (WCAG 2.1, relative luminance).
+/// Contrast ratio of two opaque colors, 1 … 21 (WCAG 2.1, relative luminance).
 [[nodiscard]] double contrast_ratio(const QColor& a, const QColor& b);
 
 /// Complete light and dark palettes, for `--theme` options, screenshots and tests.
@@ -58,11 +58,11 @@ enum class Side { None, A, B };
 
 /// "A", "B" or nothing.
 [[nodiscard]] QString side_letter(Side side);
-/// Blue for A, orange for B: distinct on any picture and for the colour-blind.
+/// Blue for A, orange for B: distinct on any picture and for the color-blind.
 [[nodiscard]] QColor side_color(Side side);
-/// The letter on its colour, for lists; null for None.
+/// The letter on its color, for lists; null for None.
 [[nodiscard]] QIcon side_icon(Side side);
-/// Draws the letter on its colour.
+/// Draws the letter on its color.
 void draw_side(QPainter& painter, const QRectF& badge, Side side);
 
 /// The Fusion style with changes for dark themes and little room: visible frames of check boxes,

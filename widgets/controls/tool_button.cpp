@@ -6,8 +6,11 @@
 
 #include <QAction>
 #include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
 #include <QPainter>
 #include <QToolButton>
+#include <QVBoxLayout>
 
 #include <algorithm>
 
@@ -43,6 +46,22 @@ void follow_tip(QWidget* widget, const QAction* action) {
   const auto follow = [widget, action] { widget->setToolTip(action->toolTip()); };
   QObject::connect(action, &QAction::changed, widget, follow);
   follow();
+}
+
+void lay_out_list(QWidget* panel, QLabel* hint, QWidget* list,
+                  std::initializer_list<QToolButton*> buttons) {
+  hint->setAlignment(Qt::AlignCenter);
+  hint->setWordWrap(true);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(2);
+  for (auto* button : buttons) row->addWidget(button);
+  row->addStretch(1);
+  auto* layout = new QVBoxLayout(panel);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+  layout->addWidget(hint, 1);
+  layout->addWidget(list, 1);
+  layout->addLayout(row);
 }
 
 FittingSplitter::FittingSplitter(int least_rest, QWidget* parent)

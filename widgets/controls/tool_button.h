@@ -5,7 +5,10 @@
 #include <QString>
 #include <QStyledItemDelegate>
 
+#include <initializer_list>
+
 class QAction;
+class QLabel;
 class QToolButton;
 class QWidget;
 
@@ -27,6 +30,10 @@ struct ToolButtonText {
 
 /// Keeps a widget's tool tip equal to its command's, including keys.
 void follow_tip(QWidget* widget, const QAction* action);
+
+/// Lays out a panel: a list, or the hint that stands in its place, above a row of buttons.
+void lay_out_list(QWidget* panel, QLabel* hint, QWidget* list,
+                  std::initializer_list<QToolButton*> buttons);
 
 /// A vertical splitter that gives its first part its preferred height and the rest to the second,
 /// but at least `least_rest` pixels. Dragging the handle ends that.

@@ -104,7 +104,7 @@ void BrushPanel::addFill(QFormLayout& form) {
   gradient_->setDecimals(1);
   gradient_->setValue(kFirstGradient);
   gradient_->setToolTip(
-      tr("Edge threshold: the change of colour from pixel to pixel that counts as an edge, in grey "
+      tr("Edge threshold: the change of color from pixel to pixel that counts as an edge, in grey "
          "levels (0 … 255)"));
   auto* line = new QHBoxLayout;
   line->setSpacing(theme::kSpacing);

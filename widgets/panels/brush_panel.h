@@ -42,7 +42,7 @@ class BrushPanel : public QWidget {
   void setSegmentationAvailable(bool is_available);
 
   [[nodiscard]] FillBound fillBound() const;
-  /// Least difference between neighbouring pixels at an edge, in grey levels of 255.
+  /// Least difference between neighboring pixels at an edge, in grey levels of 255.
   [[nodiscard]] double fillGradient() const;
   [[nodiscard]] bool protectsOthers() const;
   [[nodiscard]] double scribbleOpacity() const;

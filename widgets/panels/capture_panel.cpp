@@ -79,7 +79,7 @@ CapturePanel::CapturePanel(QWidget* parent)
   setObjectName("capturePanel");
   snap_->setObjectName("capture.snap");
   snap_->setToolTip(
-      tr("Takes the corner or the centre of the blob beside the cross-hair, to a "
+      tr("Takes the corner or the center of the blob beside the cross-hair, to a "
          "fraction of a pixel"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -99,7 +99,7 @@ CapturePanel::CapturePanel(QWidget* parent)
 QWidget* CapturePanel::makeView() {
   auto* part = new QWidget(this);
   hint_->setText(
-      tr("Open a mesh of an object in the light field. Then set the cross-hair in the centre view, "
+      tr("Open a mesh of an object in the light field. Then set the cross-hair in the center view, "
          "click the same point of the mesh here, and add the pair. Four pairs give its "
          "pose.\n\nWithout a gantry at hand, “Lens” makes a demo to try it with."));
   hint_->setAlignment(Qt::AlignCenter);

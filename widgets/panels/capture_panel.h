@@ -31,7 +31,7 @@ class PointCloudView;
 /// A row of the table of pairs.
 struct CaptureRow {
   QString name;
-  QPointF pixel;                 ///< In the centre view.
+  QPointF pixel;                 ///< In the center view.
   std::array<double, 3> point;   ///< On the mesh.
   std::optional<double> off_px;  ///< From where the pose puts it; nothing without a pose.
   bool is_outlier = false;

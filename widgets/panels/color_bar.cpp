@@ -53,7 +53,7 @@ ColorBar::ColorBar(QWidget* parent)
   title_->setTextInteractionFlags(Qt::NoTextInteraction);
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   invalid_->setObjectName("colorBar.invalid");
-  invalid_->setToolTip(tr("Colour of pixels without a value"));
+  invalid_->setToolTip(tr("Color of pixels without a value"));
   lock_->setCheckable(true);
 
   auto* foot = new QHBoxLayout;
@@ -77,10 +77,7 @@ ColorBar::ColorBar(QWidget* parent)
 
   connect(min_, &NumberSpin::valueChanged, this, &ColorBar::editRange);
   connect(max_, &NumberSpin::valueChanged, this, &ColorBar::editRange);
-  connect(lock_, &QToolButton::toggled, this, [this](bool locked) {
-    setRangeLocked(locked);
-    emit rangeLockToggled(locked);
-  });
+  connect(lock_, &QToolButton::toggled, this, &ColorBar::setRangeLocked);
   connect(automatic_, &QToolButton::clicked, this, &ColorBar::automaticRangeRequested);
   connect(own_, &QToolButton::clicked, this, &ColorBar::ownRangeRequested);
 }

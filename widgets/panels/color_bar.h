@@ -15,7 +15,7 @@ namespace episcope {
 class ColorRamp;
 class NumberSpin;
 
-/// Legend of an overlay: name and unit, the colour map between two editable limits, the colour of
+/// Legend of an overlay: name and unit, the color map between two editable limits, the color of
 /// invalid pixels, a lock, and a button for the automatic range. Setters never emit.
 class ColorBar : public QWidget {
   Q_OBJECT
@@ -36,7 +36,6 @@ class ColorBar : public QWidget {
 
  signals:
   void rangeEdited(episcope::Interval range);
-  void rangeLockToggled(bool locked);
   /// The user wants a range from the data of this map.
   void automaticRangeRequested();
   /// The user wants the quantity's own range.
@@ -55,7 +54,7 @@ class ColorBar : public QWidget {
   QToolButton* own_;
 };
 
-/// The colour map of a ColorBar, low to high from left to right.
+/// The color map of a ColorBar, low to high from left to right.
 class ColorRamp : public QWidget {
   Q_OBJECT
 

@@ -6,7 +6,6 @@
 #include "widgets/controls/tool_button.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
@@ -14,7 +13,6 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QTreeWidget>
-#include <QVBoxLayout>
 
 namespace episcope {
 namespace {
@@ -44,19 +42,8 @@ LabelPalette::LabelPalette(QWidget* parent)
   setUpTree();
   setUpActions();
   hint_->setObjectName("labels.hint");
-  hint_->setAlignment(Qt::AlignCenter);
-  hint_->setWordWrap(true);
   hint_->setMargin(theme::kMargin);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(2);
-  for (auto* button : {add_, rename_, remove_}) row->addWidget(button);
-  row->addStretch(1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
-  layout->addWidget(hint_, 1);
-  layout->addWidget(tree_, 1);
-  layout->addLayout(row);
+  lay_out_list(this, hint_, tree_, {add_, rename_, remove_});
   setLabels({});
 }
 
@@ -115,7 +102,7 @@ void LabelPalette::setLabels(const std::vector<LabelInfo>& labels) {
     item->setData(kColor, Qt::UserRole, label.id);
     item->setIcon(kColor, swatch(label.color, palette()));
     item->setSizeHint(kColor, {0, fontMetrics().height() + kLabelRowPadding});
-    item->setToolTip(kColor, tr("Click to change the colour of “%1”").arg(name));
+    item->setToolTip(kColor, tr("Click to change the color of “%1”").arg(name));
     item->setText(kId, QString::number(label.id));
     item->setTextAlignment(kId, Qt::AlignRight | Qt::AlignVCenter);
     item->setText(kLabelName, name);
@@ -243,7 +230,7 @@ void LabelPalette::showMenu(const QPoint& position) {
   menu->setObjectName("labels.menu");
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addAction(themed_icon("rename"), tr("Rename"), this, [this, id] { editName(id); });
-  menu->addAction(tr("Change colour…"), this, [this, id] { emit colorRequested(id); });
+  menu->addAction(tr("Change color…"), this, [this, id] { emit colorRequested(id); });
   menu->addSeparator();
   const bool is_hidden = hidden_.contains(id);
   const bool is_locked = locked_.contains(id);

@@ -19,8 +19,8 @@ class QTreeWidgetItem;
 
 namespace episcope {
 
-/// The labels: colour, id, name, amount, visibility and lock of each, with the current one marked.
-/// A click makes a label current; a click on its colour, eye or lock changes that; a double click
+/// The labels: color, id, name, amount, visibility and lock of each, with the current one marked.
+/// A click makes a label current; a click on its color, eye or lock changes that; a double click
 /// renames it; Delete removes it. Setters never emit; user actions are signals.
 class LabelPalette : public QWidget {
   Q_OBJECT

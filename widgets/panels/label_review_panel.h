@@ -84,7 +84,7 @@ class LabelReviewPanel : public QWidget {
   QTreeWidget* pieces_;
 };
 
-/// EPIs through a label, one below the other, with label boundaries: the label's own in its colour,
+/// EPIs through a label, one below the other, with label boundaries: the label's own in its color,
 /// others thin. Each EPI is stretched to the widget's width.
 class EpiStripView : public QWidget {
   Q_OBJECT

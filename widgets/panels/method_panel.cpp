@@ -64,7 +64,7 @@ MethodPanel::MethodPanel(QWidget* parent)
   reference_->setWordWrap(true);
   reference_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   all_views_->setObjectName("method.allViews");
-  all_views_->setToolTip(tr("Estimate all views instead of the centre view only"));
+  all_views_->setToolTip(tr("Estimate all views instead of the center view only"));
   live_->setCheckable(true);
   live_status_->setObjectName("method.liveStatus");
   live_status_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);

@@ -11,18 +11,15 @@
 #include <QClipboard>
 #include <QEvent>
 #include <QGuiApplication>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLocale>
 #include <QMenu>
 #include <QTableWidget>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace episcope {
 namespace {
@@ -81,8 +78,6 @@ MetricTable::MetricTable(QWidget* parent)
                              this)) {
   setObjectName("metricTable");
   empty_->setObjectName("metrics.empty");
-  empty_->setAlignment(Qt::AlignCenter);
-  empty_->setWordWrap(true);
   setUpTable();
   auto* menu = new QMenu(save_);
   menu->addAction(tr("CSV…"), this, [this] { emit saveRequested("csv", toCsv()); });
@@ -90,16 +85,7 @@ MetricTable::MetricTable(QWidget* parent)
   // No menu of the button's own, whose arrow would stand below the text.
   connect(save_, &QToolButton::clicked, menu,
           [this, menu] { menu->popup(save_->mapToGlobal(QPoint(0, save_->height()))); });
-  auto* row = new QHBoxLayout;
-  row->setSpacing(2);
-  for (auto* button : {copy_csv_, copy_latex_, save_}) row->addWidget(button);
-  row->addStretch(1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
-  layout->addWidget(empty_, 1);
-  layout->addWidget(table_, 1);
-  layout->addLayout(row);
+  lay_out_list(this, empty_, table_, {copy_csv_, copy_latex_, save_});
   connect(copy_csv_, &QToolButton::clicked, this, &MetricTable::copyCsv);
   connect(copy_latex_, &QToolButton::clicked, this, &MetricTable::copyLatex);
   fill();
@@ -231,7 +217,7 @@ void MetricTable::setSides(quint64 a, quint64 b) {
   fitColumns();
 }
 
-// Emphasises all ties, but not a value without others.
+// Emphasizes all ties, but not a value without others.
 void MetricTable::stressBest() {
   for (int column = 0; column < table_->columnCount(); ++column) {
     const BestValue best = columns_[static_cast<std::size_t>(column)].best;

@@ -35,7 +35,7 @@ struct MetricRow {
 };
 
 /// Metrics of all results, sortable by any column (numbers as numbers, missing and NaN last), with
-/// the best of each column emphasised. Copies or saves the shown order as CSV or LaTeX; Ctrl+C
+/// the best of each column emphasized. Copies or saves the shown order as CSV or LaTeX; Ctrl+C
 /// copies CSV.
 class MetricTable : public QWidget {
   Q_OBJECT

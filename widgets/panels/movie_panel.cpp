@@ -58,8 +58,8 @@ void MoviePanel::addKinds(QFormLayout& form) {
   kind_->addItem(tr("Refocusing: the focus plane moves"), static_cast<int>(MovieKind::Refocus));
   kind_->addItem(tr("Flip: A and B take turns"), static_cast<int>(MovieKind::Flip));
   path_->setObjectName("movie.path");
-  path_->addItem(tr("Around the centre"), static_cast<int>(CameraPath::Circle));
-  path_->addItem(tr("Along the row of the centre"), static_cast<int>(CameraPath::Swing));
+  path_->addItem(tr("Around the center"), static_cast<int>(CameraPath::Circle));
+  path_->addItem(tr("Along the row of the center"), static_cast<int>(CameraPath::Swing));
   path_->addItem(tr("Through all views"), static_cast<int>(CameraPath::Snake));
   form.addRow(tr("What changes"), kind_);
   form.addRow(tr("Path"), path_);

@@ -7,7 +7,6 @@
 #include "widgets/controls/tool_button.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
@@ -15,7 +14,6 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QTreeWidget>
-#include <QVBoxLayout>
 
 #include <algorithm>
 
@@ -55,18 +53,7 @@ ResultList::ResultList(QWidget* parent)
   setObjectName("resultList");
   setUpTree();
   hint_->setObjectName("results.hint");
-  hint_->setAlignment(Qt::AlignCenter);
-  hint_->setWordWrap(true);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(2);
-  for (auto* button : {export_, reuse_, remove_}) row->addWidget(button);
-  row->addStretch(1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
-  layout->addWidget(hint_, 1);
-  layout->addWidget(tree_, 1);
-  layout->addLayout(row);
+  lay_out_list(this, hint_, tree_, {export_, reuse_, remove_});
 
   const auto connect_button = [this](QToolButton* button, void (ResultList::*intent)(quint64)) {
     connect(button, &QToolButton::clicked, this, [this, intent] {

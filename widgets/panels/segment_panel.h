@@ -21,7 +21,7 @@ namespace episcope {
 class NumberSpin;
 class ParameterForm;
 
-/// Meaning of the state chip's colour.
+/// Meaning of the state chip's color.
 enum class ChipMood { Quiet, Busy, Stale, Hint, Failed };
 
 /// The segmentation learnt from scribbles: state and quality, action buttons, and settings folded

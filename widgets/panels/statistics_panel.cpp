@@ -148,7 +148,7 @@ HistogramView::HistogramView(QWidget* parent) : QWidget(parent) {
   setObjectName("histogramView");
   setMouseTracking(true);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  setToolTip(tr("Visible values. Drag the handles to change the colour range."));
+  setToolTip(tr("Visible values. Drag the handles to change the color range."));
 }
 
 void HistogramView::setHistogram(const render::Histogram& histogram,

@@ -61,7 +61,7 @@ class StatisticsPanel : public QWidget {
   NumberSpin* threshold_;
 };
 
-/// A histogram in the colours of its map, with a handle at each end of the colour range. Dragging a
+/// A histogram in the colors of its map, with a handle at each end of the color range. Dragging a
 /// handle asks to change the range; dragging between them moves both. Setters never emit.
 class HistogramView : public QWidget {
   Q_OBJECT

@@ -116,7 +116,7 @@ SweepPanel::Part SweepPanel::makePart(int number, const QString& name, const QSt
 
 QHBoxLayout* SweepPanel::makeButtons() {
   run_->setObjectName("sweep.run");
-  run_->setToolTip(tr("Runs the method on the centre view with each of the values"));
+  run_->setToolTip(tr("Runs the method on the center view with each of the values"));
   cancel_->setObjectName("sweep.cancel");
   cancel_->setToolTip(tr("Ends the sweep and keeps its points"));
   auto* row = new QHBoxLayout;

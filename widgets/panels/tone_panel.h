@@ -5,8 +5,6 @@
 
 #include <QWidget>
 
-#include <array>
-
 class QSlider;
 
 namespace episcope {

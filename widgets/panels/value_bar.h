@@ -27,7 +27,7 @@ struct EstimateReading {
 /// Everything known about one pixel.
 struct PixelReading {
   PixelIndex pixel;
-  QString samples;  ///< As stored, e.g. "120 88 40"; colour of the swatch beside it:
+  QString samples;  ///< As stored, e.g. "120 88 40"; color of the swatch beside it:
   QColor color;
   bool has_truth = false;          ///< The scene has truth for this view;
   std::optional<double> truth_px;  ///< none = invalid at this pixel.
@@ -35,7 +35,7 @@ struct PixelReading {
   std::optional<double> background_truth_px = {};  ///< Second surface, where two are visible.
 };
 
-/// The line at the bottom: pixel, colour, truth, every estimate with its difference (estimate −
+/// The line at the bottom: pixel, color, truth, every estimate with its difference (estimate −
 /// truth), and on the right a short state ("1 job · ready").
 class ValueBar : public QWidget {
   Q_OBJECT

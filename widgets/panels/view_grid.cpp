@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/panels/view_grid.h"
 
+#include "engine/render/movie.h"
 #include "widgets/controls/icon.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
@@ -129,11 +130,6 @@ void ViewGrid::setPlaying(bool playing) {
   } else {
     timer_.stop();
   }
-  emit playingChanged(playing);
-}
-
-void ViewGrid::setPlayPath(CameraPath path) {
-  path_->setCurrentIndex(path_->findData(static_cast<int>(path)));
 }
 
 void ViewGrid::playNext() {

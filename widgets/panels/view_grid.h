@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/indices.h"
-#include "engine/render/movie.h"
 
 #include <QImage>
 #include <QTimer>
@@ -29,7 +28,7 @@ class ViewGrid : public QWidget {
  public:
   explicit ViewGrid(QWidget* parent = nullptr);
 
-  /// Starts a light field: no thumbnails, centre view current, playing stops.
+  /// Starts a light field: no thumbnails, center view current, playing stops.
   void setGrid(GridShape grid);
   void setCurrent(ViewIndex view);
   /// Tells that a light field is being read, while there is no grid.
@@ -50,12 +49,10 @@ class ViewGrid : public QWidget {
 
  public slots:
   void setPlaying(bool playing);
-  void setPlayPath(episcope::render::CameraPath path);
 
  signals:
   /// The user or the player requests this view.
   void viewSelected(episcope::ViewIndex view);
-  void playingChanged(bool playing);
 
  private:
   void select(ViewIndex view);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/pages/completions.h"
+#include "app/cli/pages/verb_pages.h"
 
 #include "engine/core/text.h"
 
@@ -70,7 +70,7 @@ std::string bash_completion(const std::vector<VerbPage>& verbs) {
 
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string fish_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
     if (c == '\'' || c == '\\') result += '\\';
@@ -80,16 +80,16 @@ std::string quoted(const std::string& text) {
 }
 
 std::string option_line(const OptionPage& option, const std::string& condition) {
-  std::string line = "complete -c episcope-cli -n " + quoted(condition);
+  std::string line = "complete -c episcope-cli -n " + fish_quoted(condition);
   for (const std::string& name : option.names) {
     line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   }
   if (!option.choices.empty()) {
-    line += " -x -a " + quoted(joined(option.choices, " "));
+    line += " -x -a " + fish_quoted(joined(option.choices, " "));
   } else if (!option.value.empty()) {
     line += " -r";
   }
-  return line + " -d " + quoted(option.help) + "\n";
+  return line + " -d " + fish_quoted(option.help) + "\n";
 }
 
 }  // namespace
@@ -102,13 +102,13 @@ std::string fish_completion(const std::vector<VerbPage>& verbs) {
   for (const VerbPage& verb : verbs) {
     const std::string is_verb = "__fish_seen_subcommand_from " + verb.name;
     text += fmt::format("complete -c episcope-cli -n __fish_use_subcommand -f -a {} -d {}\n",
-                        verb.name, quoted(verb.summary));
+                        verb.name, fish_quoted(verb.summary));
     for (const OptionPage& option : verb.options) text += option_line(option, is_verb);
     for (const MethodPage& method : verb.methods) {
       text += fmt::format("complete -c episcope-cli -n {} -f -a {} -d {}\n",
-                          quoted(is_verb + "; and not __fish_seen_subcommand_from " +
+                          fish_quoted(is_verb + "; and not __fish_seen_subcommand_from " +
                                  joined(verb.methods, " ", &MethodPage::id)),
-                          method.id, quoted(method.summary));
+                          method.id, fish_quoted(method.summary));
       const std::string is_method = is_verb + "; and __fish_seen_subcommand_from " + method.id;
       for (const OptionPage& option : method.parameters) text += option_line(option, is_method);
     }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // episcope_pages DIR [HELP]: writes man/*.1 and the completions of bash, zsh and fish below DIR;
 // with HELP, a file of what the window prints for --help, its page too.
-#include "app/cli/pages/completions.h"
-#include "app/cli/pages/man_page.h"
+#include "app/cli/pages/verb_pages.h"
 
 #include <exception>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/pages/man_page.h"
+#include "app/cli/pages/verb_pages.h"
 
 #include "app/cli/verbs/verbs.h"
 #include "engine/core/text.h"

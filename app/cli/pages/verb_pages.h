@@ -44,4 +44,17 @@ struct VerbPage {
 /// Every verb, in the order of the help, asked for its `--help-json`.
 [[nodiscard]] std::vector<VerbPage> verb_pages();
 
+/// Completion of verbs, options, methods with their parameters, and the words that options take;
+/// where none of these is asked for, of files.
+[[nodiscard]] std::string bash_completion(const std::vector<VerbPage>& verbs);
+[[nodiscard]] std::string zsh_completion(const std::vector<VerbPage>& verbs);
+[[nodiscard]] std::string fish_completion(const std::vector<VerbPage>& verbs);
+
+/// The page of the manual of `episcope-cli`, in troff.
+[[nodiscard]] std::string program_man_page(const std::vector<VerbPage>& verbs);
+/// Page of one verb, `episcope-cli-estimate`.
+[[nodiscard]] std::string verb_man_page(const VerbPage& verb);
+/// Page of the window, around what its `--help` prints.
+[[nodiscard]] std::string window_man_page(const std::string& help);
+
 }  // namespace episcope::cli

@@ -45,6 +45,7 @@ struct SlurmRequest {
 struct BenchmarkRequest {
   std::vector<std::string> inputs;
   std::vector<std::string> submissions;
+  ParameterOptions map;
   std::optional<std::vector<Estimator>> methods;
   bool has_labels = false;
   std::optional<std::vector<FeatureSet>> features;
@@ -87,7 +88,7 @@ std::vector<Estimator> methods_named(const std::string& list) {
   for (std::string name; std::getline(names, name, ',');) {
     const Estimator* const known = known_estimator(name);
     if (known == nullptr) throw unknown_name("method", name, estimator_ids());
-    const auto is_same = [&](const Estimator& each) { return each.info.id == name; };
+    const auto is_same = [&](const Estimator& each) { return each.info.id == known->info.id; };
     if (std::none_of(chosen.begin(), chosen.end(), is_same)) chosen.push_back(*known);
   }
   if (chosen.empty()) throw UsageError("--methods is empty; name ids of methods, or all");
@@ -156,8 +157,10 @@ void declare_what(Arguments& parser, BenchmarkRequest& request) {
   parser.optional_positionals("INPUT", request.inputs,
                               "The light fields, or folders that hold some");
   parser.required_option("-o,--output", request.output, text_value("DIR"), "Output folder");
-  parser.option("--methods", request.methods, methods_value(),
-                "Ids of estimators, separated by commas, or all");
+  parser.option(
+      "--methods", request.methods, methods_value(),
+      "Ids of estimators, separated by commas, or all (default all; none with --labels or "
+      "--submission)");
   parser.flag("--labels", request.has_labels,
               "Label all views from the scribbles of each scene, with every set of features and "
               "regularizer; replaces methods unless --methods is given");
@@ -172,7 +175,8 @@ void declare_what(Arguments& parser, BenchmarkRequest& request) {
   parser.flag("--search", request.has_search,
               "Also search for the best parameters, of each scene and of all scenes together");
   parser.list_option("--submission", request.submissions, "DIR...",
-                     "Folders with maps from other programs, named after the scenes");
+                     "Folders with maps from other programs, named after the scenes: .pfm, .npy, "
+                     ".tif or .h5; without --methods they are judged alone");
   ParameterDescription views = run_schema().description("views");
   views.help = "Views to estimate for the tables; all if the method can";
   ParameterDescription device = run_schema().description("device");
@@ -209,15 +213,21 @@ void declare_tasks(Arguments& parser, BenchmarkRequest& request) {
   parser.exclude_each_other({"--slurm", "--plan", "--point", "--collect", "--status"});
 }
 
+/// Whether methods are run: those that are named, else all unless something else is asked for.
+bool runs_methods(const BenchmarkRequest& request) {
+  return request.methods || (!request.has_labels && request.submissions.empty());
+}
+
 /// What contradicts itself beyond what the parser knows.
-void check(const BenchmarkRequest& request) {
-  if (!request.has_labels && (request.features || request.regularizers || request.scribbles)) {
-    throw UsageError(
-        "benchmark: --features, --regularizers and --scribbles have no effect without --labels; "
-        "add it");
-  }
-  if (request.task_seconds && !request.makes_plan()) {
-    throw UsageError("benchmark: --task-seconds has no effect without --slurm or --plan; add one");
+void check(const BenchmarkRequest& request, const Arguments& parser) {
+  const bool runs = runs_methods(request);
+  parser.check_uses(
+      {{{"--features", "--regularizers", "--scribbles"}, request.has_labels, "without --labels"},
+       {{"--task-seconds"}, request.makes_plan(), "without --slurm or --plan"},
+       {{"--search", "--profile"}, runs, "without --methods, since no method is run"}});
+  if (!request.map.values().empty() && request.submissions.empty()) {
+    throw UsageError("benchmark: --" + request.map.values().front().first +
+                     " has no effect without --submission; add it");
   }
   if (!request.inputs.empty()) return;
   if (!request.follows_plan()) {
@@ -244,9 +254,9 @@ bool parse_benchmark(const VerbArguments& arguments, BenchmarkRequest& request) 
        "\"--time=1:00:00\""});
   declare_what(parser, request);
   declare_tasks(parser, request);
-  parser.heading("Options");
+  declare_map_options(parser, request.map);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
-  check(request);
+  check(request, parser);
   return true;
 }
 
@@ -254,12 +264,13 @@ bool parse_benchmark(const VerbArguments& arguments, BenchmarkRequest& request) 
 BenchmarkOptions benchmark_options(const BenchmarkRequest& request) {
   BenchmarkOptions options;
   if (request.has_labels) options.labels = label_ways(request);
-  options.methods = request.methods.value_or(request.has_labels ? std::vector<Estimator>()
-                                                                : registered_estimators());
+  options.methods = request.methods.value_or(runs_methods(request) ? registered_estimators()
+                                                                   : std::vector<Estimator>());
   for (Estimator& method : options.methods) {
     method.parameters = with_defaults(std::move(method.parameters), request.profile.values());
   }
   options.submissions.assign(request.submissions.begin(), request.submissions.end());
+  options.map_reading = io::map_schema().parse(request.map.values());
   options.folder = request.output;
   options.views = request.job.run_options().views;
   options.device = request.job.run_options().device;
@@ -497,6 +508,16 @@ void print_answer(const BenchmarkRequest& request, const BenchmarkReport& report
             << " points searched, " << report.reused << " taken from before\n";
 }
 
+/// What is to be known of maps of other programs.
+void note_submissions(const BenchmarkReport& report, Job& job) {
+  for (const auto& result : report.results) {
+    if (!result.is_foreign) continue;
+    for (const std::string& note : result.notes) {
+      job.note(result.entry + " on " + result.scene + ": " + note);
+    }
+  }
+}
+
 // What a scene does to every method is said once.
 void note_problems(const BenchmarkReport& report, Job& job) {
   std::map<std::pair<std::string, std::string>, std::string> entries;  // by scene and problem
@@ -522,6 +543,7 @@ void require_devices(const BenchmarkOptions& options) {
 /// Writes what a benchmark found out, of whatever machines.
 void answer(const BenchmarkRequest& request, const BenchmarkReport& report, Job& job) {
   note_problems(report, job);
+  note_submissions(report, job);
   job.finish();
   require_success(report, request.output);
   print_answer(request, report);

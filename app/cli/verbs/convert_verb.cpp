@@ -8,6 +8,7 @@
 #include "app/session/result_files.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
+#include "engine/io/formats/write_scene.h"
 #include "engine/io/write.h"
 
 #include <iostream>
@@ -21,6 +22,7 @@ struct ConvertRequest {
   std::string truth;
   std::string form;  ///< Id of a writer; empty = told by the output.
   Overwrite overwrite = Overwrite::No;
+  ParameterOptions map;
   JobOptions job;
   ReadOptions read;
 };
@@ -38,9 +40,10 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
        "--to. Light fields: .h5 (archive form), .npy, .npz, .mat (LFToolbox), .png (lenslets,\n"
        "ESLF) or a folder (benchmark form). Disparity of the center view: .pfm, .tiff, .ply,\n"
        "and .npy for a RESULT; an INPUT gives its truth. Views, truth, labels, masks and\n"
-       "camera are kept where the form can hold them; notes name what it cannot hold.\n"
-       "A RESULT becomes the truth of its light field. Light fields in a folder are converted\n"
-       "one by one into the folder OUT and keep their names.",
+       "camera are kept where the form can hold them; notes name what it cannot hold. Labels\n"
+       "of the archive form are in OUT_labels.h5, or in labels.h5 beside lf.h5.\n"
+       "A RESULT takes the place of the truth of its light field; .h5 says so. Light fields\n"
+       "in a folder are converted one by one into the folder OUT and keep their names.",
        "episcope-cli convert demo demo_folder/\n"
        "  episcope-cli convert demo views/ --to grid\n"
        "  episcope-cli convert demo.h5 demo.ply"});
@@ -50,7 +53,9 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
                 "Form of the light field; by default chosen by the suffix of OUT");
   parser.option("--truth", request.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one named in its file");
-  parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
+              "Replace an existing light field, or a map with other values");
+  declare_map_options(parser, request.map);
   return parse_reading(parser, arguments, request.job, request.read);
 }
 
@@ -93,6 +98,7 @@ Target target_of(const ConvertRequest& request) {
 struct ConvertSubject {
   std::optional<Scene> scene;
   std::optional<Estimate> estimate;
+  std::string source;  ///< The INPUT that the estimate was made from; empty = not known.
 
   [[nodiscard]] const DisparityField& field() const {
     return estimate ? estimate->field : scene->truth->field;
@@ -102,20 +108,24 @@ struct ConvertSubject {
 ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
                             const Progress& progress) {
   ConvertSubject subject;
+  const io::MapReading reading = io::map_schema().parse(request.map.values());
   if (request.truth.empty() && !names_result(request.input)) {
+    require_no_map_options(request.map, request.input);
     subject.scene = load_input(request.input, request.read, progress);
     return subject;
   }
   if (request.truth.empty()) {
-    subject.estimate = read_result_alone(request.input);
+    subject.estimate = read_result_alone(request.input, reading);
     const std::string source = existing_source(subject.estimate->source, request.input);
     protect_input(request.output, source);
+    subject.source = source;
     if (target.needs_scene() && !source.empty()) {
       subject.scene = load_input_of(reading_of(request.input), source, request.read, progress);
     }
   } else {
+    subject.source = request.truth;
     subject.scene = load_input_of(reading_of(request.input), request.truth, request.read, progress);
-    subject.estimate = read_result_of(*subject.scene->light_field, request.input);
+    subject.estimate = read_result_of(*subject.scene->light_field, request.input, reading);
   }
   if (target.needs_scene() && !subject.scene) {
     throw IoError(request.input,
@@ -135,7 +145,7 @@ DisparityView map_of(const ConvertSubject& subject, const std::string& name) {
 }
 
 /// The scene to write; the disparity of a result takes the place of the truth.
-Scene scene_to_write(ConvertSubject& subject) {
+Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
   Scene scene = std::move(*subject.scene);
   if (!subject.estimate) return scene;
   auto truth = std::make_shared<GroundTruth>();
@@ -144,24 +154,38 @@ Scene scene_to_write(ConvertSubject& subject) {
   truth->background = std::move(subject.estimate->layered.background);
   if (!scene.truth->labels.empty()) truth->labels = scene.truth->labels.clone();
   truth->regions = scene.truth->regions;
+  truth->estimated = subject.estimate->provenance();
+  truth->estimated->source = source_text(subject.source, output);
   scene.truth = truth;
   return scene;
 }
 
 void write_map(const ConvertSubject& subject, const ConvertRequest& request, MapForm form) {
   const DisparityView map = map_of(subject, request.input);
-  if (form != MapForm::PointCloud) return save_map(request.output, map);
-  const LightField& light_field = *subject.scene->light_field;
-  save_point_cloud(request.output, light_field, light_field.center(), map);
+  write_output(request.output, request.overwrite, [&](const std::filesystem::path& path) {
+    if (form != MapForm::PointCloud) return save_map(path, map);
+    const LightField& light_field = *subject.scene->light_field;
+    save_point_cloud(path, light_field, light_field.center(), map);
+  });
 }
 
-void write(ConvertSubject& subject, const ConvertRequest& request, const Target& target, Job& job,
-           const Progress& progress) {
+/// Returns the file of labels that was written; empty if there is none.
+std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& request,
+                            const Target& target, Job& job, const Progress& progress) {
   progress.step("writing " + request.output);
-  if (target.writer == nullptr) return write_map(subject, request, target.map);
-  const Scene scene = scene_to_write(subject);
-  for (const std::string& sentence : io::unsupported_parts(*target.writer, scene)) job.note(sentence);
+  if (target.writer == nullptr) {
+    write_map(subject, request, target.map);
+    return {};
+  }
+  const Scene scene = scene_to_write(subject, request.output);
+  for (const std::string& sentence : io::unsupported_parts(*target.writer, scene))
+    job.note(sentence);
+  const bool is_archive = std::string(target.writer->id) == "archive";
+  const std::filesystem::path labels =
+      is_archive ? io::labels_place(request.output, scene, io::LabelFile::NamedAfter)
+                 : std::filesystem::path();
   target.writer->write(request.output, scene, progress);
+  return labels;
 }
 
 /// Maps in image formats forget what a result file remembers.
@@ -190,9 +214,10 @@ void convert_one(const ConvertRequest& request, Job& job, const Progress& progre
   }
   note_forgotten_options(subject, request, target, job);
   progress.check();
-  write(subject, request, target, job, progress.part(0.5, 1));
+  const std::filesystem::path labels = write(subject, request, target, job, progress.part(0.5, 1));
   job.finish();
   std::cout << request.output << ": written\n";
+  print_labels_written(labels, request.output);
 }
 
 /// Where a light field of a collection goes: a folder, or a file; files of the archive have a

@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 
 namespace episcope::cli {
 namespace {
@@ -33,6 +34,7 @@ struct EstimateArguments {
   std::string output;
   Frames frames = Frames::One;
   bool is_submission = false;
+  Overwrite overwrite = Overwrite::No;
   bool is_json = false;
   std::size_t memory = 0;  ///< 0: two thirds of what is free.
   JobOptions job;
@@ -63,15 +65,20 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
       "estimate",
       {"Estimates disparity and writes a result file. METHOD is an id listed by\n"
        "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its parameters.\n"
-       "Several light fields, or those in a folder, get a result file each in the folder DIR,\n"
-       "named after the light field; one that fails does not stop the others.",
+       "OUT.npy, OUT.pfm and OUT.tiff hold the map of one view. Several light fields, or those in\n"
+       "a folder, get a result file each in the folder DIR, named after light field and method\n"
+       "(cotton_epi_l.h5); one that fails does not stop the others. A result of another method,\n"
+       "other parameters or another light field is replaced only with --overwrite.",
        "episcope-cli estimate epi_l demo -o demo.h5 --views center\n"
        "  episcope-cli estimate epi_l demo:edge demo:bars -o results\n"
        "  episcope-cli estimate plane_pm benchmark2016 -o ours --submission"});
-  parser.positional("METHOD", request.method, "Id of the estimator");
+  parser.positional("METHOD", request.method, "Id of the estimator, in any case");
   parser.positionals("INPUT", request.inputs, "The light field, or several");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5|DIR"),
-                         "Result file to write; for several light fields, a folder");
+                         "Result file to write, or a map: .npy, .pfm, .tiff; for several light "
+                         "fields, a folder");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
+              "Replace a result of another method, other parameters or another light field");
   parser.flag("--frames", request.frames, Frames::All,
               "Estimate all frames of a sequence, one result file each");
   parser.flag("--submission", request.is_submission,
@@ -81,7 +88,7 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
   parser.option("--memory", request.memory, bytes_value("SIZE"),
                 "Memory for program, light field and method together, such as 4G; by default two "
                 "thirds of what is free. Within it, epi_l, epi_s, epi_c, epi_two_layer, the local "
-                "and denoised stereo methods and plane_pm write their maps block by block to "
+                "and denoised stereo methods, plane_pm and net write their maps block by block to "
                 "OUT.h5.partial, and the same command continues an interrupted run; other methods "
                 "run at once and put on disk what does not fit");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
@@ -108,26 +115,23 @@ bool parse(const VerbArguments& arguments, EstimateArguments& request) {
   return parse_as(named, arguments, request);
 }
 
+/// The form of an output that is a map of one view; empty for a result file and for a folder.
+std::optional<MapForm> map_form(const std::string& output) {
+  const auto form = map_form_of(output);
+  const bool is_map = form == MapForm::Npy || form == MapForm::Pfm || form == MapForm::Tiff;
+  return is_map ? form : std::nullopt;
+}
+
 ViewSelection selected_views(const EstimateArguments& request) {
-  const Estimator& estimator = *request.estimator;
-  const bool can_all = estimator.info.all_views;
-  if (request.is_submission) {
-    if (request.job.run.is_given("views") &&
-        request.job.run_options().views != ViewSelection::Center) {
-      throw UsageError("a submission holds center views; leave out --views");
-    }
-    return ViewSelection::Center;
-  }
-  if (!request.job.run.is_given("views")) {
-    return can_all ? ViewSelection::All : ViewSelection::Center;
-  }
-  const ViewSelection wanted = request.job.run_options().views;
-  if (can_all || wanted == ViewSelection::Center) return wanted;
-  const auto& parameters = estimator.parameters;
-  const bool chooses = std::any_of(parameters.begin(), parameters.end(),
-                                   [](const auto& one) { return one.key == "view"; });
-  throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center" +
-                     (chooses ? ", or --view V,U for another" : ""));
+  std::optional<ViewSelection> wanted;
+  if (request.job.run.is_given("views")) wanted = request.job.run_options().views;
+  const bool is_map = map_form(request.output).has_value();
+  if (!request.is_submission && !is_map) return views_to_estimate(*request.estimator, wanted);
+  if (wanted.value_or(ViewSelection::Center) == ViewSelection::Center) return ViewSelection::Center;
+  throw UsageError(request.is_submission
+                       ? "a submission holds center views; leave out --views"
+                       : request.output +
+                             " holds the map of one view; leave out --views, or name it OUT.h5");
 }
 
 /// For JSON "all", "center" or row and column of the only view; in words for people.
@@ -154,6 +158,7 @@ struct Answer {
   Provenance provenance;
   MapGeometry maps;
   ViewIndex center;
+  std::string runtime_file{};  ///< Of a submission.
 };
 
 void print_line(const Answer& answer) {
@@ -163,6 +168,9 @@ void print_line(const Answer& answer) {
             << " in " << estimate.seconds << " s, disparity " << estimate.range.min << " … "
             << estimate.range.max << " px, " << std::setprecision(0) << peak_memory_mib()
             << " MiB at most\n";
+  if (!answer.runtime_file.empty()) {
+    std::cout << answer.runtime_file << ": its seconds\n";
+  }
 }
 
 Json answer_json(const Answer& answer) {
@@ -176,6 +184,8 @@ Json answer_json(const Answer& answer) {
   json["range"] = interval_json(estimate.range);
   if (!estimate.notes.empty()) json["notes"] = estimate.notes;
   json["output"] = answer.output;
+  json["written"] = Json::array({answer.output});
+  if (!answer.runtime_file.empty()) json["written"].push_back(answer.runtime_file);
   return json;
 }
 
@@ -203,9 +213,21 @@ class Runner {
 
   /// Refuses an output that cannot be written, before hours are spent. Throws UsageError, IoError.
   void check(const Task& task) const {
-    if (!request_.is_submission) {
+    if (!request_.is_submission && !map_form(task.output)) {
       check_hdf5_output("estimate", task.output);
-      check_result_output(task.output);
+      check_result_output(task.output,
+                          {request_.estimator->info.id, request_.parameters.values(), task.input,
+                           io::given_options(options_of(task))},
+                          request_.overwrite);
+    } else {
+      if (!request_.is_submission) check_output_file(task.output);
+      std::error_code ignored;
+      if (request_.overwrite == Overwrite::No && std::filesystem::exists(task.output, ignored) &&
+          std::filesystem::file_size(task.output, ignored) > 0) {
+        throw IoError(task.output,
+                      "exists and does not tell which method made it; choose another name, or "
+                      "replace it with --overwrite");
+      }
     }
     protect_input(task.output, task.input);
   }
@@ -213,9 +235,10 @@ class Runner {
   [[nodiscard]] Answer run(const Task& task, const Progress& progress) {
     const Scene scene = load(task, progress.part(0, 0.3));
     const EstimateRequest run{request_.estimator->info.id, request_.parameters.values(), options_};
-    const bool in_blocks = !request_.is_submission &&
-                           should_run_in_blocks(*scene.light_field, *request_.estimator, options_);
-    if (request_.memory > 0 && !request_.is_submission && !in_blocks) {
+    const bool is_file = !request_.is_submission && !map_form(task.output);
+    const bool in_blocks =
+        is_file && should_run_in_blocks(*scene.light_field, *request_.estimator, options_);
+    if (request_.memory > 0 && is_file && !in_blocks) {
       note(task, run.method +
                      " runs at once: what does not fit is put on disk, and an interrupted "
                      "run begins again");
@@ -227,11 +250,15 @@ class Runner {
   }
 
  private:
-  /// The light field alone: truth and labels of all views would double the memory that is held.
-  [[nodiscard]] Scene load(const Task& task, const Progress& progress) {
+  [[nodiscard]] io::OpenOptions options_of(const Task& task) const {
     io::OpenOptions open = io::open_schema().parse(request_.read.options.values());
     open.frame = task.frame.value_or(open.frame);
-    Scene scene = load_input(task.input, std::move(open), false, progress);
+    return open;
+  }
+
+  /// The light field alone: truth and labels of all views would double the memory that is held.
+  [[nodiscard]] Scene load(const Task& task, const Progress& progress) {
+    Scene scene = load_input(task.input, options_of(task), false, progress);
     for (const auto& warning : scene.convention.warnings) note(task, warning);
     if (const std::string warning = sign_warning(scene.convention); !warning.empty()) {
       note(task, warning);
@@ -260,14 +287,19 @@ class Runner {
                                    const Progress& progress) {
     const ViewIndex center = scene.light_field->center();
     const EstimatePtr estimate =
-        run_estimator(scene, *request_.estimator, run, progress.part(0, 0.85)).estimate;
+        run_estimator(scene, *request_.estimator, run.parameters, options_, progress.part(0, 0.85))
+            .estimate;
     progress.step("writing " + task.output);
     if (request_.is_submission) {
       submit(task, *estimate, center);
+    } else if (map_form(task.output)) {
+      save_map(task.output, estimate->field.view(estimate->field.disparity.first()));
     } else {
       save_result(task.output, *estimate, task.input, progress.part(0.85, 1));
     }
-    return {task.output, estimate->provenance(), geometry_of(estimate->field.disparity), center};
+    return {task.output, estimate->provenance(), geometry_of(estimate->field.disparity), center,
+            request_.is_submission ? io::submitted_runtime_file(request_.output, task.name).string()
+                                   : std::string()};
   }
 
   void submit(const Task& task, const Estimate& estimate, ViewIndex center) {
@@ -339,7 +371,8 @@ void estimate_many(const EstimateArguments& request, const std::vector<SceneInpu
     try {
       const auto output = request.is_submission
                               ? io::submitted_map_file(request.output, scenes[i].name)
-                              : std::filesystem::path(request.output) / (scenes[i].name + ".h5");
+                              : std::filesystem::path(request.output) /
+                                    (scenes[i].name + "_" + request.estimator->info.id + ".h5");
       const Task task{scenes[i].input, output.string(), scenes[i].name, scenes[i].frame};
       runner.check(task);
       const Answer answer = runner.run(task, progress);
@@ -362,7 +395,7 @@ void estimate_many(const EstimateArguments& request, const std::vector<SceneInpu
 bool wants_many(const EstimateArguments& request, const Progress& progress) {
   const std::string suffix = suffix_of(request.output);
   if (request.is_submission) return true;
-  const bool names_file = suffix == ".h5" || suffix == ".hdf5";
+  const bool names_file = suffix == ".h5" || suffix == ".hdf5" || map_form(request.output);
   if (request.inputs.size() == 1 && request.frames == Frames::One) {
     return !names_file && is_collection(request.inputs.front(), request.read, progress);
   }

@@ -30,6 +30,7 @@ struct EvaluateRequest {
   InvalidEstimates invalid = InvalidEstimates::Bad;
   std::string error_map;
   Format format = Format::Text;
+  ParameterOptions map;
   JobOptions job;
   ReadOptions read;
 };
@@ -43,6 +44,8 @@ struct Row {
   ViewIndex view;
   Metrics metrics;
   std::vector<std::string> notes;
+  std::optional<io::BetterReading> better;
+  std::string error_map{};  ///< The picture that was written; empty = none.
 };
 
 OptionValue<Protocol> protocol_value() {
@@ -62,8 +65,10 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   Arguments parser("evaluate", {"Compares results with the ground truth of a light field.",
                                 "episcope-cli evaluate demo.h5 --truth demo --protocol "
                                 "benchmark2016 --error-map error.png"});
-  parser.positionals("RESULT", request.files,
-                     "Result files, HDF5 files with one map, PFM, TIFF, submission folders");
+  parser.positionals(
+      "RESULT", request.files,
+      "Result files, HDF5 or .mat (v7.3) files with one map, .npy, PFM, TIFF, submission "
+      "folders");
   parser.required_option("--truth", request.truth, text_value("INPUT"),
                          "The light field with its ground truth");
   parser.option("--protocol", request.protocol, protocol_value(),
@@ -71,13 +76,16 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   parser.option("--invalid", request.invalid,
                 choice_of<InvalidEstimates>(
                     {{InvalidEstimates::Bad, "bad"}, {InvalidEstimates::Compatible, "compatible"}}),
-                "Count missing values as bad, or as the 2016 tool does");
+                "Missing values (NaN): bad counts them as the farthest true disparity and as bad "
+                "pixels; compatible as good pixels that means leave out, as the 2016 tool does "
+                "(default bad)");
   parser.flag("--json", request.format, Format::Json, "Print one JSON object");
   parser.flag("--csv", request.format, Format::Csv, "Print comma-separated values");
   parser.flag("--latex", request.format, Format::Latex, "Print a LaTeX tabular");
   parser.exclude_each_other({"--json", "--csv", "--latex"});
   parser.option("--error-map", request.error_map, text_value("OUT.png"),
-                "Write a picture of truth − estimate, one for each result");
+                "Write a picture of truth − estimate; OUT-<result>.png of several results");
+  declare_map_options(parser, request.map);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   if (!request.error_map.empty() && suffix_of(request.error_map) != ".png") {
     throw UsageError("evaluate writes error maps as PNG, but the output is " + request.error_map +
@@ -107,11 +115,32 @@ std::vector<std::filesystem::path> error_map_paths(const EvaluateRequest& reques
   return paths;
 }
 
+/// What pixels without a value count as.
+const char* missing_rule(InvalidEstimates invalid) {
+  return invalid == InvalidEstimates::Bad ? "the farthest true disparity, and bad"
+                                          : "good, and left out of means";
+}
+
+/// Both numbers, as read and by the options that would fit better.
+Json better_reading_json(const io::BetterReading& found) {
+  Json json;
+  json["options"] = map_options_text(found.reading).substr(1);
+  const auto add = [&json](const char* key, std::optional<double> value) {
+    if (value) json[key] = *value;
+  };
+  add("mse_100", found.better.mse_100);
+  add("mse_100_as_read", found.as_read.mse_100);
+  add("grey_levels", found.better.grey_levels);
+  add("grey_levels_as_read", found.as_read.grey_levels);
+  return json;
+}
+
 Json results_json(const EvaluateRequest& request, const std::vector<Row>& rows) {
   Json json;
   json["protocol"] = protocol_name(request.protocol);
   json["truth"] = request.truth;
   json["view"] = view_json(rows.front().view);
+  json["missing_values"] = missing_rule(request.invalid);
   json["results"] = Json::array();
   for (const Row& row : rows) {
     Json result;
@@ -123,7 +152,9 @@ Json results_json(const EvaluateRequest& request, const std::vector<Row>& rows) 
       if (has_runtime_classes(request)) result["runtime_class"] = runtime_class(row.seconds);
     }
     result["all_views"] = row.has_all_views;
+    if (row.better) result["better_reading"] = better_reading_json(*row.better);
     if (!row.notes.empty()) result["notes"] = row.notes;
+    if (!row.error_map.empty()) result["error_map"] = row.error_map;
     json["results"].push_back(result);
   }
   return json;
@@ -174,8 +205,22 @@ void print_answer(const EvaluateRequest& request, const std::vector<Row>& rows) 
     std::cout << table_to_latex(table);
   } else {
     std::cout << protocol_name(request.protocol) << " against " << request.truth << ", view "
-              << view_text(rows.front().view) << "\n\n"
+              << view_text(rows.front().view) << "\nmissing values count as "
+              << missing_rule(request.invalid) << "\n\n"
               << table_to_narrow_text(table);
+  }
+}
+
+/// Names the pictures that were written, where the answer itself is for programs as notes.
+void tell_error_maps(const EvaluateRequest& request, const std::vector<Row>& rows, Job& job) {
+  for (const Row& row : rows) {
+    if (row.error_map.empty() || request.format == Format::Json) continue;
+    const std::string line = row.error_map + ": error of " + row.file;
+    if (request.format == Format::Text) {
+      std::cout << line << '\n';
+    } else {
+      job.note("wrote " + line);
+    }
   }
 }
 
@@ -206,14 +251,29 @@ class TruthScene {
   ParameterSet given_;
 };
 
+/// A result, and where its error map goes; empty = nowhere.
+struct JudgedFile {
+  std::string path;
+  std::filesystem::path error_map;
+  io::MapReading reading;
+};
+
+/// Nothing without a path.
+void write_error_map(const std::filesystem::path& path, MapSource source) {
+  if (path.empty()) return;
+  source.quantity = render::Quantity::SignedError;
+  io::write_picture(path, map_picture(*make_map(source), shading_of(source.quantity, {})).view());
+}
+
 /// Judges one result and writes its error map, if a path is given for it.
-Row judge_file(const std::string& file, const Scene& scene, EvaluationOptions options,
-               const std::filesystem::path& error_map, Job& job) {
+Row judge_file(const JudgedFile& result, const Scene& scene, EvaluationOptions options, Job& job) {
+  const std::string& file = result.path;
   options.progress = job.progress();
   job.progress().check();
   job.progress().step("evaluating " + file);
   const LightField& light_field = *scene.light_field;
-  auto estimate = std::make_shared<const Estimate>(read_result_of(light_field, file));
+  auto estimate =
+      std::make_shared<const Estimate>(read_result_of(light_field, file, result.reading));
   EvaluationPtr evaluation;
   try {
     evaluation = std::make_shared<const Evaluation>(judge(*estimate, scene, options));
@@ -225,22 +285,19 @@ Row judge_file(const std::string& file, const Scene& scene, EvaluationOptions op
   if (!io::is_result_file(file)) {
     notes.insert(notes.begin(), estimate->notes.begin(), estimate->notes.end());
   }
+  const auto better = find_better_reading(*estimate, scene);
+  if (better) notes.push_back(better_reading_text(*better));
   for (const std::string& sentence : notes) job.note(file + ": " + sentence);
-  if (!error_map.empty()) {
-    const MapSource source{.quantity = render::Quantity::SignedError,
-                           .view = judged_view(scene),
-                           .estimate = estimate,
-                           .evaluation = evaluation};
-    io::write_png(error_map,
-                  map_picture(*make_map(source), shading_of(source.quantity, {})).view());
-  }
+  write_error_map(result.error_map,
+                  {.view = judged_view(scene), .estimate = estimate, .evaluation = evaluation});
   return {file,
           estimate->method,
           estimate->seconds,
           estimate->field.disparity.grid() == light_field.grid(),
           judged_view(scene),
           evaluation->metrics,
-          std::move(notes)};
+          std::move(notes),
+          better};
 }
 
 }  // namespace
@@ -249,6 +306,7 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
   EvaluateRequest request;
   if (!parse(arguments, request)) return;
   const EvaluationOptions options{request.protocol, request.invalid, {}};
+  const io::MapReading reading = io::map_schema().parse(request.map.values());
   check_input(request.truth);
   const auto maps = error_map_paths(request);
   for (const auto& map : maps) {
@@ -262,11 +320,13 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
   for (std::size_t i = 0; i < request.files.size(); ++i) {
     const std::filesystem::path map = maps.empty() ? std::filesystem::path() : maps[i];
     const Scene& scene = truth.for_result(request.files[i]);
-    rows.push_back(judge_file(request.files[i], scene, options, map, job));
+    rows.push_back(judge_file({request.files[i], map, reading}, scene, options, job));
+    rows.back().error_map = map.string();
     job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / request.files.size());
   }
   job.finish();
   print_answer(request, rows);
+  tell_error_maps(request, rows, job);
 }
 
 }  // namespace episcope::cli

@@ -75,7 +75,8 @@ LightFieldPtr with_step(const LightFieldPtr& field, double step) {
   return std::make_shared<LightField>(std::move(samples), std::move(info), field->valid().clone());
 }
 
-void print(const GroundTruthRequest& request, const Scene& scene) {
+void print(const GroundTruthRequest& request, const Scene& scene,
+           const std::filesystem::path& labels) {
   const GroundTruth& truth = *scene.truth;
   std::size_t valid = 0;
   std::size_t seen = 0;
@@ -93,6 +94,9 @@ void print(const GroundTruthRequest& request, const Scene& scene) {
     json["valid_percent"] = valid_percent;
     json["mesh_percent"] = seen_percent;
     json["output"] = request.output;
+    json["written"] = labels.empty() || labels == request.output
+                          ? std::vector<std::string>{request.output}
+                          : std::vector<std::string>{request.output, labels.string()};
     return print_json(json);
   }
   std::cout << fmt::format(
@@ -100,6 +104,7 @@ void print(const GroundTruthRequest& request, const Scene& scene) {
       "pixels, {:.1f} % have depth\n",
       request.output, scene.light_field->grid().count(), request.poses.size(),
       request.poses.size() == 1 ? "" : "es", seen_percent, valid_percent);
+  print_labels_written(labels, request.output);
 }
 
 }  // namespace
@@ -117,9 +122,10 @@ void run_ground_truth(const VerbArguments& arguments, std::stop_token stop) {
   if (request.step) scene.light_field = with_step(scene.light_field, *request.step);
   scene.truth =
       std::make_shared<GroundTruth>(truth_of(request, scene, job.progress().part(0.05, 0.9)));
+  const std::filesystem::path labels = io::labels_place(request.output, scene);
   io::write_archive(request.output, scene, job.progress().part(0.9, 1));
   job.finish();
-  print(request, scene);
+  print(request, scene, labels);
 }
 
 }  // namespace episcope::cli

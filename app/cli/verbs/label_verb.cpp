@@ -9,15 +9,23 @@
 #include "app/session/segmentation_files.h"
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
+#include "engine/core/text.h"
 #include "engine/disparity/estimator.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/scribble_file.h"
+#include "engine/io/models/scribble_picture.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <iterator>
 #include <optional>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace episcope::cli {
 namespace {
@@ -26,28 +34,35 @@ struct LabelRequest {
   std::string input;
   std::string output;
   std::string scribbles;
+  std::string colors;  // Table of the colors of scribbles that are pictures.
   std::string disparity;
   std::string given;    // Probabilities to begin with.
   std::string archive;  // Folder to write,
   std::string masks;    // likewise.
   bool is_json = false;
-  StoredProbabilities probabilities = StoredProbabilities::All;
+  Overwrite overwrite = Overwrite::No;
+  StoredProbabilities probabilities = StoredProbabilities::None;
   LabelerParameters parameters;
   JobOptions job;
   ReadOptions read;
 };
 
 bool parse(const VerbArguments& arguments, LabelRequest& request) {
-  Arguments parser("label",
-                   {"Segments all views of a light field from scribbles on some of them, and\n"
-                    "writes a file of labels and their probabilities.",
-                    "episcope-cli label demo -o labels.h5 --features image"});
+  Arguments parser(
+      "label", {"Segments all views of a light field from scribbles on some of them, and\n"
+                "writes a file of labels.",
+                "episcope-cli label demo -o labels.h5 --features image\n"
+                "  episcope-cli label demo --scribbles strokes.png --colors colors.csv -o l.h5"});
   parser.positional("INPUT", request.input, "The light field");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "File of labels to write");
-  parser.option("--scribbles", request.scribbles, text_value("LABELS.h5"),
-                "File of scribbles, a picture of label numbers (0 = unpainted) of the center view, "
-                "or a folder of scribbles_VV_UU.png; by default the file next to INPUT");
+  parser.option("--scribbles", request.scribbles, text_value("LABELS.h5|PICTURE"),
+                "File of scribbles, a picture of those of the center view, or a folder of "
+                "scribbles_VV_UU.png; by default the file next to INPUT. In pictures a label is a "
+                "gray level, an index of the palette (0 = unpainted), or a distinct color; "
+                "transparent pixels, or else those of the most frequent color, are unpainted");
+  parser.option("--colors", request.colors, text_value("TABLE.csv"),
+                "What the colors of a picture mean: lines r,g,b,id,name; id 0 = unpainted");
   parser.option(
       "--disparity", request.disparity, text_value("RESULT.h5"),
       std::string("Disparity of all views; by default ") + kLabelingEstimator + " estimates it");
@@ -59,8 +74,14 @@ bool parse(const VerbArguments& arguments, LabelRequest& request) {
                 "into this folder, under the archive's names");
   parser.option("--write-masks", request.masks, text_value("DIR"),
                 "Also write a black and white PNG of every label in every view into this folder");
+  parser.flag(
+      "--write-probabilities", request.probabilities, StoredProbabilities::All,
+      "Also write the probabilities of all labels, which take four bytes per ray and label");
   parser.flag("--no-probabilities", request.probabilities, StoredProbabilities::None,
-              "Write labels only; probabilities take four bytes per ray and label");
+              "Write labels only, as is the default");
+  parser.exclude_each_other({"--write-probabilities", "--no-probabilities"});
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
+              "Replace labels made with other parameters or of another light field");
   request.job.run.declare(parser, {run_schema().description("device")});
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
   const Schema<LabelerParameters> schema = labeler_schema();
@@ -69,6 +90,9 @@ bool parse(const VerbArguments& arguments, LabelRequest& request) {
   options.declare(parser, schema.descriptions());
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   request.parameters = schema.parse(options.values());
+  parser.check_uses({{{"--colors"},
+                      io::holds_scribble_pictures(request.scribbles),
+                      "unless --scribbles names a picture or a folder of pictures"}});
   if (!request.disparity.empty() && request.parameters.features == FeatureSet::ImageTruth) {
     throw UsageError(
         "label: --features image+truth uses the ground truth, so --disparity would have no effect");
@@ -86,20 +110,31 @@ void check_device(Device device) {
 
 void check_output(const LabelRequest& request) {
   check_hdf5_output("label", request.output);
-  check_labeling_output(request.output);
+  const ParameterSet reading =
+      io::given_options(io::open_schema().parse(request.read.options.values()));
+  check_labeling_output(request.output,
+                        {{}, labeler_schema().values(request.parameters), request.input, reading},
+                        request.overwrite);
   protect_input(request.output, request.input);
   for (const std::string& file : {request.scribbles, request.disparity, request.given}) {
     if (!file.empty()) protect_input(request.output, file);
   }
 }
 
-Scribbles load_scribbles(const LabelRequest& request, Scene& scene, const Progress& progress) {
-  if (io::holds_scribble_pictures(request.scribbles)) {
-    const LightField& lf = *scene.light_field;
-    return io::read_scribble_pictures(request.scribbles, lf.grid(), lf.height(), lf.width());
-  }
+Scribbles load_pictures(const LabelRequest& request, const Scene& scene, Job& job) {
+  const LightField& lf = *scene.light_field;
+  io::PictureLabels labels{.known = scene.scribbles.labels};
+  if (!request.colors.empty()) labels.table = io::read_color_table(request.colors);
+  io::PictureStrokes strokes =
+      io::read_scribble_pictures(request.scribbles, {lf.grid(), lf.height(), lf.width()}, labels);
+  for (const std::string& note : strokes.notes) job.note(note);
+  return std::move(strokes.scribbles);
+}
+
+Scribbles load_scribbles(const LabelRequest& request, Scene& scene, Job& job) {
+  if (io::holds_scribble_pictures(request.scribbles)) return load_pictures(request, scene, job);
   if (!request.scribbles.empty()) {
-    return io::read_scribbles(request.scribbles, scene, progress);
+    return io::read_scribbles(request.scribbles, scene, job.progress());
   }
   if (scene.scribbles.empty() && !request.given.empty() && request.archive.empty()) return {};
   if (scene.scribbles.empty()) {
@@ -107,6 +142,25 @@ Scribbles load_scribbles(const LabelRequest& request, Scene& scene, const Progre
                        " has no scribbles next to it; name a file of scribbles with --scribbles");
   }
   return std::move(scene.scribbles);
+}
+
+/// Names painted ids that the true labels do not have: they can only be wrong.
+void note_unknown_labels(const Scribbles& scribbles, const Scene& scene, Job& job) {
+  const ViewStack<std::int32_t>& truth = scene.truth->labels;
+  if (truth.empty()) return;
+  std::set<std::int32_t> known(truth.data(), truth.data() + truth.size());
+  known.erase(0);
+  std::set<std::int32_t> unknown;
+  for (const ViewScribbles& one : scribbles.views) {
+    for (const std::int32_t id : one.labels) {
+      if (id > 0 && !known.contains(id)) unknown.insert(id);
+    }
+  }
+  if (unknown.empty()) return;
+  const auto text = [](std::int32_t id) { return std::to_string(id); };
+  job.note("GT_LABELS do not have " + std::string(unknown.size() == 1 ? "label " : "labels ") +
+           joined(unknown, ", ", text) + ", but " + joined(known, ", ", text) +
+           "; pixels of the former count as wrong");
 }
 
 Labeling label_views(Labeler& labeler, const Scribbles& scribbles, const Scene& scene,
@@ -121,52 +175,54 @@ Labeling label_views(Labeler& labeler, const Scribbles& scribbles, const Scene& 
 }
 
 /// What the archive calls features with disparity has an estimate even where labels use the truth.
-void write_archive(const Scene& scene, const Scribbles& scribbles, const LabelRequest& request,
-                   const LabelingDisparity& used, Job& job) {
-  if (request.archive.empty()) return;
+std::vector<std::string> write_archive(const Scene& scene, const Scribbles& scribbles,
+                                       const LabelRequest& request, const LabelingDisparity& used,
+                                       const Job& job) {
+  if (request.archive.empty()) return {};
   LabelingDisparity estimate = used;
   if (request.parameters.features == FeatureSet::ImageTruth) {
     LabelerParameters parameters = request.parameters;
     parameters.features = FeatureSet::ImageEstimate;
     estimate = find_labeling_disparity(scene, parameters, {}, job.progress());
   }
-  for (const std::string& file :
-       write_label_archive(request.archive, scene, scribbles, request.parameters, estimate,
-                           job.progress().part(1, 1))) {
-    job.note("wrote " + request.archive + "/" + file);
-  }
+  std::vector<std::string> files = write_label_archive(
+      request.archive, scene, scribbles, request.parameters, estimate, job.progress().part(1, 1));
+  for (std::string& file : files) file = (std::filesystem::path(request.archive) / file).string();
+  return files;
 }
 
-void write_masks(const Segmentation& segmentation, const LabelRequest& request, Job& job) {
-  if (request.masks.empty()) return;
+std::vector<std::string> write_masks(const Segmentation& segmentation, const LabelRequest& request,
+                                     Job& job) {
+  if (request.masks.empty()) return {};
   const int count = write_label_masks(request.masks, segmentation, job.progress().part(1, 1));
   job.note("wrote " + std::to_string(count) + " masks to " + request.masks);
+  return {request.masks};
 }
 
-void print_json_answer(const LabelRequest& request, const Labeling& labeling,
-                       const LabelingScores& scores, double seconds) {
+/// Scores of labels, with what else there is to tell of them.
+struct LabelAnswer {
+  const Labeling& labeling;
+  LabelingScores scores;
+  double seconds = 0;
+  std::vector<std::string> written;  ///< Files and folders.
+};
+
+void print_json_answer(const LabelRequest& request, const LabelAnswer& answer) {
+  const auto& [labeling, scores, seconds, written] = answer;
   Json json;
   json["labels"] = labeling.probabilities.ids.size();
   json["seconds"] = seconds;
-  const auto add = [&json](const char* key, const std::optional<double>& share) {
-    if (share) json[key] = *share;
-  };
-  add("accuracy_all_views", scores.all_views.all.share());
-  add("accuracy_center", scores.view.all.share());
-  add("miou", scores.all_views.all.mean_overlap());
-  add("macc", scores.all_views.all.mean_share());
-  add("boundary_accuracy", scores.all_views.boundaries.share());
-  add("thin_iou", scores.all_views.thin_overlap());
-  if (scores.consistency) json["consistency"] = *scores.consistency;
+  for (const auto& [key, share] : labeling_metrics(scores)) json[key] = share;
   if (request.parameters.regularizer != Regularizer::None) json["gap"] = labeling.gap;
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = io::parameters_json(labeler_schema().values(request.parameters));
   json["output"] = request.output;
+  json["written"] = written;
   print_json(json);
 }
 
-void print_text_answer(const LabelRequest& request, const Labeling& labeling,
-                       const LabelingScores& scores, double seconds) {
+void print_text_answer(const LabelRequest& request, const LabelAnswer& answer) {
+  const auto& [labeling, scores, seconds, written] = answer;
   std::cout << request.output << ": " << labeling.probabilities.ids.size() << " labels in "
             << labeling.labels.grid().count() << " views, " << std::fixed << std::setprecision(2)
             << seconds << " s, " << std::setprecision(0) << peak_memory_mib() << " MiB at most\n";
@@ -189,6 +245,9 @@ void print_text_answer(const LabelRequest& request, const Labeling& labeling,
                 << " %\n";
     }
   }
+  for (const std::string& file : written) {
+    if (file != request.output) std::cout << file << ": written\n";
+  }
 }
 
 }  // namespace
@@ -205,7 +264,8 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const Progress& progress = job.progress();
   Scene scene = load_input(request.input, request.read, progress.part(0, 0.1));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
-  const Scribbles scribbles = load_scribbles(request, scene, progress);
+  const Scribbles scribbles = load_scribbles(request, scene, job);
+  note_unknown_labels(scribbles, scene, job);
   const Stopwatch watch;
   const LabelingDisparity disparity = find_labeling_disparity(
       scene, request.parameters, request.disparity, progress.part(0.1, 0.2), device);
@@ -225,17 +285,14 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   segmentation.reading = scene.light_field->info().reading;
   write_segmentation(request.output, segmentation, request.input, request.probabilities,
                      progress.part(0.95, 1));
-  write_archive(scene, scribbles, request, disparity, job);
-  write_masks(segmentation, request, job);
-  const LabelingScores scores =
-      judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
-                     *scene.truth, disparity.field.get(), progress.part(1, 1));
+  LabelAnswer answer{*labeling, {}, seconds, {request.output}};
+  std::ranges::move(write_archive(scene, scribbles, request, disparity, job),
+                    std::back_inserter(answer.written));
+  std::ranges::move(write_masks(segmentation, request, job), std::back_inserter(answer.written));
+  answer.scores = judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
+                                 *scene.truth, disparity.field.get(), progress.part(1, 1));
   job.finish();
-  if (request.is_json) {
-    print_json_answer(request, *labeling, scores, seconds);
-  } else {
-    print_text_answer(request, *labeling, scores, seconds);
-  }
+  request.is_json ? print_json_answer(request, answer) : print_text_answer(request, answer);
 }
 
 }  // namespace episcope::cli

@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -34,7 +33,8 @@ bool parse(const VerbArguments& arguments, ListRequest& request) {
   Arguments parser(
       "list",
       {"Lists all light fields in and below folders: form, views, size, truth, labels, and\n"
-       "the results next to them. Reads headers only, and remembers them.",
+       "the results next to them. Reads headers only, and remembers them. Pictures that this\n"
+       "program made are no light fields.",
        "episcope-cli list ~/light_fields\n"
        "  episcope-cli list training test --json"});
   parser.positionals("FOLDER", request.folders, "Folders to search");
@@ -115,15 +115,6 @@ void print_table(const std::vector<io::CollectionEntry>& entries) {
   for (const io::CollectionEntry& entry : entries) {
     if (!entry.problem.empty()) std::cout << "cannot be opened: " << entry.problem << '\n';
   }
-}
-
-std::string time_text(std::int64_t seconds) {
-  const std::time_t time = seconds;
-  std::tm parts{};
-  gmtime_r(&time, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
 }
 
 Json results_json(const std::vector<io::ListedResult>& results) {

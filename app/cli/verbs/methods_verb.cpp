@@ -3,77 +3,92 @@
 #include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
 #include "app/cli/verbs/verbs.h"
+#include "app/session/command_line.h"
 #include "engine/disparity/registry.h"
-#include "engine/io/base/json.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iostream>
+#include <string>
+#include <vector>
 
 namespace episcope::cli {
 namespace {
 
-Json parameter_json(const ParameterDescription& parameter) {
-  Json json;
-  json["key"] = parameter.key;
-  json["label"] = parameter.label;
-  json["help"] = parameter.help;
-  json["unit"] = parameter.unit;
-  json["default"] = value_json(parameter.default_value);
-  if (!parameter.choices.empty()) json["choices"] = parameter.choices;
-  for (const Preset& preset : parameter.presets) {
-    json["presets"][preset.choice] = io::parameters_json(preset.values);
-  }
-  if (has_numeric_domain(parameter)) {
-    json["min"] = parameter.min;
-    json["max"] = parameter.max;
-  }
-  return json;
-}
-
-Json method_json(const Estimator& method) {
-  Json json;
-  json["id"] = method.info.id;
-  json["name"] = method.info.name;
-  json["summary"] = method.info.summary;
-  json["reference"] = method.info.reference;
-  json["all_views"] = method.info.all_views;
-  json["parameters"] = Json::array();
-  for (const auto& parameter : method.parameters) {
-    json["parameters"].push_back(parameter_json(parameter));
-  }
-  return json;
+std::string weights_text(const std::string& name) {
+  const Json json = weights_json(name);
+  if (json.contains("problem")) return json["problem"].get<std::string>();
+  const auto text_of = [&](const char* key) {
+    return json[key].is_string() ? json[key].get<std::string>() : json[key].dump();
+  };
+  return "version " + text_of("version") + " of " + text_of("date") + ", SHA-256 " +
+         text_of("sha256") + ", " + text_of("file");
 }
 
 void print_method(const Estimator& method) {
   std::cout << method.info.id << "  " << method.info.name << ": " << method.info.summary << "\n  "
             << method.info.reference << (method.info.all_views ? "; all views" : "; one view")
             << '\n';
+  if (!method.info.weights.empty()) {
+    std::cout << "  weights: " << weights_text(method.info.weights) << '\n';
+  }
   for (const auto& parameter : method.parameters) {
     std::cout << "    --" << parameter.key << "  " << parameter.help << " ("
               << domain_text(parameter) << "; default " << to_text(parameter.default_value)
               << ")\n";
   }
-  std::cout << '\n';
+}
+
+/// A line for each.
+void print_table(const std::vector<const Estimator*>& methods) {
+  std::size_t longest = 0;
+  for (const Estimator* each : methods) longest = std::max(longest, each->info.id.size());
+  for (const Estimator* each : methods) {
+    const bool has_gpu = std::ranges::count(each->info.devices, Device::Cuda) > 0;
+    std::cout << fmt::format("{:<{}}  {:<{}}  {}  {}  {}\n", each->info.id, longest,
+                             each->info.name, longest,
+                             each->info.all_views ? "all views" : "one view ",
+                             has_gpu ? "CPU, GPU" : "CPU     ", each->info.summary);
+  }
+  std::cout << "\n'episcope-cli methods ID' tells reference and parameters, such as --range.\n";
+}
+
+/// Those that are named, each once; all if none is.
+std::vector<const Estimator*> methods_named(const std::vector<std::string>& names) {
+  std::vector<const Estimator*> methods;
+  for (const std::string& name : names) {
+    const Estimator* const known = known_estimator(name);
+    if (known == nullptr) throw unknown_name("method", name, estimator_ids());
+    if (std::ranges::find(methods, known) == methods.end()) methods.push_back(known);
+  }
+  if (!methods.empty()) return methods;
+  for (const Estimator& each : registered_estimators()) methods.push_back(&each);
+  return methods;
 }
 
 }  // namespace
 
 void run_methods(const VerbArguments& arguments, std::stop_token) {
   bool is_json = false;
+  std::vector<std::string> names;
   Arguments parser("methods",
-                   {"Lists every estimator with its parameters.", "episcope-cli methods --json"});
+                   {"Lists every estimator in a line, or those that are named with reference and\n"
+                    "parameters, and of a learned one its weights. Ids are read in any case.",
+                    "episcope-cli methods net\n"
+                    "  episcope-cli methods --json"});
+  parser.optional_positionals("ID", names, "Methods to tell all of");
   parser.flag("--json", is_json, "Print one JSON object instead of a table");
   if (!parser.parse(arguments)) return;
-  Json list = Json::array();
-  for (const auto& method : registered_estimators()) {
-    if (is_json) {
-      list.push_back(method_json(method));
-    } else {
-      print_method(method);
-    }
+  const std::vector<const Estimator*> methods = methods_named(names);
+  if (is_json) {
+    Json list = Json::array();
+    for (const Estimator* each : methods) list.push_back(method_json(*each));
+    return print_json(Json::object({{"methods", list}}));
   }
-  if (is_json) print_json(Json::object({{"methods", list}}));
+  if (names.empty()) return print_table(methods);
+  for (const Estimator* each : methods) print_method(*each);
 }
 
 }  // namespace episcope::cli

@@ -77,6 +77,7 @@ Json answer(const capture::Rectified& rectified, const std::string& output) {
   json["focal_length_px"] = field.info().camera.focal_length;
   json["gains"] = rectified.gains;
   json["output"] = output;
+  json["written"] = std::vector<std::string>{output};
   return json;
 }
 
@@ -124,8 +125,13 @@ void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
   const capture::Rectified& rectified = made.rectified;
   if (!pairs.empty()) capture::write_pairs(request.pairs, pairs);
   job.finish();
-  if (request.is_json) return print_json(answer(rectified, request.output));
+  if (request.is_json) {
+    Json json = answer(rectified, request.output);
+    if (!pairs.empty()) json["written"].push_back(request.pairs);
+    return print_json(json);
+  }
   print(rectified, request.output);
+  if (!pairs.empty()) std::cout << request.pairs << ": " << pairs.size() << " pairs\n";
 }
 
 }  // namespace episcope::cli

@@ -22,6 +22,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace episcope::cli {
 namespace {
@@ -111,6 +112,10 @@ struct What {
   std::optional<MovieKind> movie{};  ///< Of the view.
 };
 
+What epi() {
+  return {"epi", true, Quantity::View};
+}
+
 enum class Layer { Foreground, Background };
 
 struct ShowRequest {
@@ -122,8 +127,10 @@ struct ShowRequest {
   std::optional<int> column;
   ShadingChoice shading;
   MovieRequest movie;
+  ParameterOptions maps;          ///< Of a result.
   int longest_px = 0;             ///< Of a picture; 0 = as large as what it shows.
   std::optional<double> opacity;  ///< Over the view; empty = the map by itself.
+  Overwrite overwrite = Overwrite::No;
   JobOptions job;
   ReadOptions read;
 };
@@ -156,7 +163,7 @@ OptionValue<int> index_value(const std::string& name) {
 
 OptionValue<What> what_value() {
   std::vector<Named<What>> choices{
-      {{"epi", true, Quantity::View}, "epi"},
+      {epi(), "epi"},
       {{"parallax", false, Quantity::View, MovieKind::Parallax}, "parallax"},
       {{"refocus", false, Quantity::View, MovieKind::Refocus}, "refocus"}};
   for (const auto& info : render::quantities()) {
@@ -186,17 +193,43 @@ bool is_movie(const ShowRequest& request) {
 /// What follows from the options.
 void complete(ShowRequest& request) {
   while (request.output.size() > 1 && request.output.ends_with('/')) request.output.pop_back();
+  if (request.what.id.empty() && (request.row || request.column)) request.what = epi();
   if (request.what.movie) request.movie.kind = request.what.movie;
   if (is_movie(request) && !request.movie.kind) request.movie.kind = MovieKind::Parallax;
   request.map.needs_light_field = request.opacity.has_value();
   request.map.kind = kind_of(request);
   request.map.quantity = quantity_of(request);
+  if (request.map.kind != ShownKind::Result) {
+    require_no_map_options(request.maps, request.map.subject);
+  }
+  request.map.reading = io::map_schema().parse(request.maps.values());
   if (request.movie.kind == MovieKind::Flip) request.map.quantity = Quantity::Difference;
   if (request.what.id.empty()) {
     const bool is_of_labels = request.map.kind == ShownKind::Labels;
     request.what.id =
         render::info_of(is_of_labels ? Quantity::TrueLabels : request.map.quantity).id;
   }
+}
+
+/// Options that fit other pictures than the one that is asked for.
+std::vector<Arguments::Use> uses_of(const ShowRequest& request) {
+  const bool is_epi = request.what.is_epi;
+  const Quantity quantity = request.map.quantity;
+  const std::optional<MovieKind>& movie = request.movie.kind;
+  const bool has_layers = quantity == Quantity::Truth || quantity == Quantity::TruthBackground ||
+                          quantity == Quantity::Disparity || quantity == Quantity::Background;
+  const bool is_map = !is_epi && quantity != Quantity::View;
+  const std::string what = "on --what " + request.what.id;
+  return {{{"--row", "--column"}, is_epi, what + "; a line is shown by --what epi"},
+          {{"--label"}, quantity == Quantity::Probability, what},
+          {{"--minus"}, quantity == Quantity::Difference, what + "; say --what difference"},
+          {{"--layer"}, has_layers, what},
+          {{"--range", "--colormap"}, is_map && render::info_of(quantity).has_scale(), what},
+          {{"--over-view"}, is_map, what},
+          {{"--fit"}, !movie, "on a movie, whose size is --width"},
+          {{"--seconds", "--width"}, movie.has_value(), "on a picture"},
+          {{"--path"}, movie == MovieKind::Parallax, "unless the movie is a parallax"},
+          {{"--focus-range"}, movie == MovieKind::Refocus, "unless the movie is a refocus"}};
 }
 
 bool parse(const VerbArguments& arguments, ShowRequest& request) {
@@ -213,8 +246,10 @@ bool parse(const VerbArguments& arguments, ShowRequest& request) {
                 "labels of a file of labels");
   parser.option("--view", request.map.view, view_value(),
                 "Camera row and column; by default the center view");
-  parser.option("--row", request.row, index_value("Y"), "Image row of a horizontal EPI");
-  parser.option("--column", request.column, index_value("X"), "Image column of a vertical EPI");
+  parser.option("--row", request.row, index_value("Y"),
+                "Image row of a horizontal EPI (then --what is epi)");
+  parser.option("--column", request.column, index_value("X"),
+                "Image column of a vertical EPI (then --what is epi)");
   parser.exclude_each_other({"--row", "--column"});
   parser.option("--range", request.shading.range, interval_value(),
                 "Values at the ends of the color map");
@@ -235,9 +270,12 @@ bool parse(const VerbArguments& arguments, ShowRequest& request) {
                 "For a difference: the result to subtract; for a flip: the other result");
   parser.option("--over-view", request.opacity, real_value("OPACITY", 0, 1),
                 "Overlay the map on the view, with an opacity from 0 to 1");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace another picture");
   declare_movie_options(parser, request.movie);
+  declare_map_options(parser, request.maps);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   complete(request);
+  parser.check_uses(uses_of(request));
   return true;
 }
 
@@ -265,7 +303,8 @@ std::string write_picture(const ShowRequest& request, const LoadedMap& loaded, J
                           : picture_of(request, loaded, loaded.source);
   if (request.longest_px > 0) picture = render::fitted(picture, request.longest_px);
   job.progress().check();
-  io::write_png(request.output, picture.view());
+  write_output(request.output, request.overwrite,
+               [&](const std::filesystem::path& path) { io::write_picture(path, picture.view()); });
   return fmt::format("{}, {}×{} px", request.what.id, picture.width(), picture.height());
 }
 
@@ -273,7 +312,9 @@ std::string write_movie_of(const ShowRequest& request, const LoadedMap& loaded, 
   const Movie movie = movie_of(request.movie, loaded, [&](const MapSource& source) {
     return picture_of(request, loaded, source);
   });
-  write_movie(request.output, movie, request.movie.choice.width_px, job.progress());
+  write_output(request.output, request.overwrite, [&](const std::filesystem::path& path) {
+    write_movie(path, movie, request.movie.choice.width_px, job.progress());
+  });
   const std::string what = request.movie.kind == MovieKind::Flip ? "flip" : request.what.id;
   return fmt::format("{}, {} pictures in {:.1f} s", what, movie.count, movie.count / movie.rate);
 }

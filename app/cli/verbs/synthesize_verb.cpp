@@ -112,7 +112,8 @@ void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   job.progress().step("rendering " + request.scene);
   const Scene scene = scenes::render_builtin(id, options, job.progress().part(0, 0.9));
   job.progress().step("writing " + request.output);
-  if (!scene.scribbles.empty() && io::puts_labels_inside(request.output, scene)) {
+  const std::filesystem::path labels = io::labels_place(request.output, scene);
+  if (!scene.scribbles.empty() && labels == request.output) {
     job.note("the labels and scribbles are in " + request.output +
              " itself, because the labels.h5 beside it is of another light field");
   }
@@ -120,6 +121,7 @@ void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   job.finish();
   std::cout << request.output << ": " << request.scene << ", " << options.grid.v << "×"
             << options.grid.u << " views of " << options.width << "×" << options.height << " px\n";
+  print_labels_written(labels, request.output);
 }
 
 }  // namespace episcope::cli

@@ -303,7 +303,7 @@ QString edit_text(EditKind kind) {
     case EditKind::RenameLabel:
       return AnnotateController::tr("label name");
     case EditKind::RecolorLabel:
-      return AnnotateController::tr("label colour");
+      return AnnotateController::tr("label color");
     case EditKind::RemoveLabel:
       return AnnotateController::tr("label removal");
     case EditKind::Import:

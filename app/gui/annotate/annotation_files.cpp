@@ -13,6 +13,7 @@
 #include "engine/core/shear.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/scribble_file.h"
+#include "engine/io/models/scribble_picture.h"
 #include "widgets/panels/brush_panel.h"
 
 #include <QCoreApplication>
@@ -221,7 +222,11 @@ void AnnotationFiles::exportDialog() {
   ask_for_folder(
       &bench_.window,
       {.name = "export_scribbles", .title = tr("Folder for the images of the painted views")},
-      [this](const QString& folder) { exportPictures(folder); });
+      [this](const QString& folder) {
+        confirm_replacing(&bench_.window,
+                          QDir(folder).entryList({"scribbles_*.png"}, QDir::Files, QDir::Name),
+                          [this, folder] { exportPictures(folder); });
+      });
 }
 
 void AnnotationFiles::exportPictures(const QString& folder) {
@@ -242,35 +247,42 @@ void AnnotationFiles::importDialog() {
   ask_for_file(&bench_.window,
                {.name = "import_scribbles",
                 .title = tr("Import scribbles"),
-                .filter = tr("Archive labels or exported scribble images (*.h5 *.hdf5 "
-                             "scribbles_*.png);;All files (*)")},
+                .filter = tr("Archive labels or pictures of strokes (*.h5 *.hdf5 *.png *.bmp "
+                             "*.tif *.tiff *.pgm);;All files (*)")},
                [this](const QString& path) { importFrom(path); });
 }
 
 void AnnotationFiles::importFrom(const QString& path) {
   if (!document_.document()) return;
-  const bool is_folder = QFileInfo(path).isDir();
-  const bool has_pictures = is_folder || QFileInfo(path).suffix().toLower() == "png";
-  const QString folder = is_folder ? path : QFileInfo(path).path();
+  const bool has_pictures = io::holds_scribble_pictures(path_of(path));
+  // A picture that was exported stands for all of them.
+  const bool is_exported = QFileInfo(path).fileName().startsWith("scribbles_");
+  const QString place = has_pictures && is_exported ? QFileInfo(path).path() : path;
   const std::uint64_t generation = session_.generation();
-  bench_.jobs.start<std::shared_ptr<Scribbles>>(
+  bench_.jobs.start<std::shared_ptr<io::PictureStrokes>>(
       Lane::Load, tr("Importing %1").arg(QFileInfo(path).fileName()),
-      [scene = session_.scene(), path, folder, has_pictures](const Progress& progress) {
+      [scene = session_.scene(), place, has_pictures,
+       known = document_.document()->labels().labels()](const Progress& progress) {
+        auto read = std::make_shared<io::PictureStrokes>();
         if (!has_pictures) {
-          return std::make_shared<Scribbles>(io::read_scribbles(path_of(path), *scene, progress));
+          read->scribbles = io::read_scribbles(path_of(place), *scene, progress);
+          return read;
         }
-        const LightField& light_field = *scene->light_field;
-        const Scribbles read = io::read_scribble_pictures(
-            path_of(folder), light_field.grid(), light_field.height(), light_field.width());
-        return std::make_shared<Scribbles>(
-            sheared(read, light_field.center(), scene->convention.focus_px));
+        const LightField& field = *scene->light_field;
+        *read = io::read_scribble_pictures(path_of(place),
+                                           {field.grid(), field.height(), field.width()},
+                                           {.known = {known.begin(), known.end()}});
+        read->scribbles = sheared(read->scribbles, field.center(), scene->convention.focus_px);
+        return read;
       },
-      [this, path, generation](const std::shared_ptr<Scribbles>& scribbles) {
+      [this, path, generation](const std::shared_ptr<io::PictureStrokes>& read) {
         if (generation != session_.generation()) return;
         const bool is_new = document_.edit(
-            [&](AnnotationDocument& document) { import_scribbles(document, *scribbles); });
+            [&](AnnotationDocument& document) { import_scribbles(document, read->scribbles); });
         if (is_new) {
-          bench_.messages.success(tr("Imported: %1").arg(path));
+          QStringList sentences{tr("Imported: %1").arg(path)};
+          for (const std::string& note : read->notes) sentences << QString::fromStdString(note);
+          bench_.messages.success(sentences.join("\n"));
         } else {
           bench_.messages.hint(tr("%1 contains no new scribbles.").arg(QFileInfo(path).fileName()));
         }
@@ -377,7 +389,7 @@ void export_segmentation(const Workbench& bench, const SegmentController& segmen
   const auto source = segment.map_source(render::Quantity::Segmentation, bench.session.view());
   if (!source) return;
   write_in_background(bench.jobs, bench.messages, path, [file, source = *source](const Progress&) {
-    io::write_png(file, map_picture(*make_map(source), {}).view());
+    io::write_picture(file, map_picture(*make_map(source), {}).view());
   });
 }
 
@@ -391,7 +403,10 @@ void ask_to_export_masks(const Workbench& bench, const SegmentController& segmen
        .title = has_all ? SegmentationExportText::tr("Folder for the masks of all views")
                         : SegmentationExportText::tr("Folder for the masks of this view; segment "
                                                      "all views first to save all masks")},
-      [bench, &segment](const QString& folder) { export_masks(bench, segment, folder); });
+      [bench, &segment](const QString& folder) {
+        confirm_replacing(&bench.window, QDir(folder).entryList({"labels.txt"}, QDir::Files),
+                          [bench, &segment, folder] { export_masks(bench, segment, folder); });
+      });
 }
 
 void export_masks(const Workbench& bench, const SegmentController& segment, const QString& folder) {

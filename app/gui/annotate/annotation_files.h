@@ -12,7 +12,6 @@
 #include <QPointer>
 #include <QString>
 
-#include <filesystem>
 #include <functional>
 #include <set>
 
@@ -41,7 +40,8 @@ class AnnotationFiles : public QObject {
   void exportDialog();
   void exportPictures(const QString& folder);
   void importDialog();
-  /// Imports an HDF5 file of labels, or the folder of an exported picture.
+  /// Imports an HDF5 file of labels, a picture of strokes, or all pictures that were exported with
+  /// one, and tells how their pixels were understood.
   void importFrom(const QString& path);
   /// Compares the segmentation with the GT_LABELS of another file.
   void compareDialog();
@@ -79,7 +79,7 @@ class AnnotationFiles : public QObject {
 /// Asks for a file, then calls `export_segmentation` for the current view or all views.
 void ask_to_export_segmentation(const Workbench& bench, const SegmentController& segment);
 
-/// Writes labels and probabilities (.h5), or the labels of this view in their colours (.png), in
+/// Writes labels and probabilities (.h5), or the labels of this view in their colors (.png), in
 /// the background. Rejects other suffixes with a message.
 void export_segmentation(const Workbench& bench, const SegmentController& segment,
                          const QString& path);

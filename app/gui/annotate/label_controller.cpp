@@ -111,7 +111,7 @@ void LabelController::addEditCommands() {
           {tr("Ctrl+Shift+N")}, [this] { add(); });
   add_one("rename_label", tr("Rename label"), tr("Renames the current label"), "rename",
           {Qt::Key_F2}, [this] { rename(); });
-  add_one("recolor_label", tr("Change colour…"), tr("Changes the colour of the current label"), {},
+  add_one("recolor_label", tr("Change color…"), tr("Changes the color of the current label"), {},
           {}, [this] { recolor(labels_.current()); });
   add_one("remove_label", tr("Remove label"),
           tr("Removes the current label and everything painted with it"), "trash", {},
@@ -204,7 +204,7 @@ void LabelController::recolor(int id) {
   auto* dialog =
       new QColorDialog(QColor(label->color[0], label->color[1], label->color[2]), &bench_.window);
   dialog->setObjectName("label_color");
-  dialog->setWindowTitle(tr("Colour of “%1”").arg(QString::fromStdString(label->name)));
+  dialog->setWindowTitle(tr("Color of “%1”").arg(QString::fromStdString(label->name)));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QColorDialog::colorSelected, this, [this, id](const QColor& color) {
     const Rgb rgb{static_cast<std::uint8_t>(color.red()), static_cast<std::uint8_t>(color.green()),

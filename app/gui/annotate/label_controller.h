@@ -16,7 +16,7 @@ namespace episcope {
 struct Edit;
 class LabelPalette;
 
-/// Lists the labels, and adds, renames, recolours, removes and chooses them.
+/// Lists the labels, and adds, renames, recolors, removes and chooses them.
 class LabelController : public QObject {
   Q_OBJECT
 

@@ -5,8 +5,7 @@
 #include "app/session/labeling_inputs.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
-
-#include <algorithm>
+#include "engine/disparity/registry.h"
 
 namespace episcope {
 namespace {
@@ -101,7 +100,7 @@ void LabelingSource::provide() {
   const quint64 job = jobs_.start<FinishedEstimate>(
       Lane::Estimate, job_title(tr("Disparity for labels"), session_),
       [scene](const Progress& progress) {
-        return run_estimator(*scene, {kQuickEstimator, {}, {}}, progress);
+        return run_estimator(*scene, find_estimator(kQuickEstimator), {}, {}, progress);
       },
       [this, generation](const FinishedEstimate& finished) {
         const auto own = own_.find(generation);

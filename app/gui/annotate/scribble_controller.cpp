@@ -91,7 +91,7 @@ void ScribbleController::showRect(ViewIndex view, const PixelRect& rect) {
 
 void ScribbleController::showChange(const DocumentChange& change) {
   if (change.has_new_labels) {
-    show();  // colours may be others
+    show();  // colors may be others
   } else {
     for (const auto& part : change.views) showRect(part.view, part.rect);
   }

@@ -304,7 +304,7 @@ SegmentController::State SegmentController::state() const {
     case LiveState::Training:
       return {tr("training …"), ChipMood::Busy};
     case LiveState::Labeling:
-      return {tr("labelling …"), ChipMood::Busy};
+      return {tr("labeling …"), ChipMood::Busy};
     case LiveState::Refining:
       return {tr("refining … %1").arg(seconds), ChipMood::Busy};
     case LiveState::Hint:

@@ -404,7 +404,7 @@ void BrowseController::addWalkCommands() {
   addStep("down", tr("View below"), tr("Shows the view below"), 1, 0, Qt::Key_Down);
   bench_.commands.add({.id = "view.center",
                        .menu = Menu::Views,
-                       .text = tr("Centre view"),
+                       .text = tr("Center view"),
                        .tip = tr("Shows the view in the middle of the grid"),
                        .keys = {Qt::Key_Home},
                        .run = [this] { goToCenter(); },

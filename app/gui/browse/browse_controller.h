@@ -11,9 +11,7 @@
 #include <QList>
 #include <QObject>
 
-#include <optional>
 #include <utility>
-#include <vector>
 
 namespace episcope {
 

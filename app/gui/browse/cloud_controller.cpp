@@ -87,7 +87,7 @@ CloudController::CloudController(const Workbench& bench, QWidget* tab)
   connect(&bench.frame, &Frame::layoutReset, this, [this] { setLarge(false); });
   connect(&bench.viewer_area, &ViewerArea::guestDismissed, this, [this] { setLarge(false); });
   connect(&bench.overlay, &Overlay::drawn, this, [this] {
-    // Colour ranges and labels may have changed.
+    // Color ranges and labels may have changed.
     if (panel_ && panel_->controls().choice().coloring != CloudColoring::Image) refresh();
   });
   session_.on_changed([this](Parts parts) { hear(parts); });
@@ -296,7 +296,7 @@ QString CloudRequests::obstacle() const {
   if (result() || truth()) return {};
   const EstimateEntry* shown = session.shown();
   if (!shown) return CloudRequestsText::tr("Run a method: its disparity appears here in 3D.");
-  return CloudRequestsText::tr("%1 has no map of this view. Go to the centre view (Home).")
+  return CloudRequestsText::tr("%1 has no map of this view. Go to the center view (Home).")
       .arg(QString::fromStdString(shown->name));
 }
 
@@ -365,7 +365,7 @@ CloudChoice CloudRequests::possible(CloudChoice choice) const {
   return choice;
 }
 
-// The truth has its own colours.
+// The truth has its own colors.
 Quantity CloudRequests::quantity(CloudColoring coloring) const {
   const Quantity quantity = quantity_of(coloring, bench_.overlay);
   return quantity == Quantity::Disparity && !result() ? Quantity::Truth : quantity;

@@ -34,7 +34,7 @@ class CloudRequests {
   [[nodiscard]] QString referenceName(const CloudChoice& choice) const;
   /// Name of the drawn clouds: "EPI_L", or "EPI_L and ground truth".
   [[nodiscard]] QString title(const CloudChoice& choice) const;
-  /// Quantity whose colours need a legend; none for colours of views, labels and sources.
+  /// Quantity whose colors need a legend; none for colors of views, labels and sources.
   [[nodiscard]] QString legend(const CloudChoice& choice) const;
 
  private:

@@ -10,7 +10,9 @@
 #include "app/gui/shell/jobs.h"
 #include "app/session/scene_summary.h"
 #include "app/session/session.h"
+#include "engine/core/error.h"
 #include "engine/core/shear.h"
+#include "widgets/controls/text.h"
 #include "widgets/panels/overlay_bar.h"
 
 namespace episcope {
@@ -133,7 +135,7 @@ void FocusController::moveResults(const Kept& kept, double moved_px) {
       [this, kept, moved_px, scene = session_.generation()](const Outcome<Moved>& outcome) {
         is_moving_ = false;
         if (outcome.value) return addMoved(kept, *outcome.value, scene);
-        bench_.messages.fail(failure_sentence(outcome.failure));
+        bench_.messages.fail(schema_text(failure_text(outcome.failure)));
         if (moved_px == 0 || scene != session_.generation()) return;
         const double former_px = session_.scene()->convention.focus_px - moved_px;
         bench_.opener.reopenAt(former_px, [this, kept] { bringBack(kept, 0); });

@@ -312,6 +312,7 @@ QString truth_text(const GroundTruth& truth, GridShape grid) {
     parts << InfoPanelText::tr("disparity (%1)").arg(coverage(truth.field.disparity, grid));
   }
   if (truth.has_layers()) parts << InfoPanelText::tr("two layers");
+  if (truth.estimated) parts << QString::fromStdString(estimated_text(*truth.estimated));
   if (!truth.labels.empty()) parts << InfoPanelText::tr("labels");
   if (!truth.regions.empty()) {
     const int regions = static_cast<int>(truth.regions.size());
@@ -431,7 +432,7 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
     info.rows.push_back(
         {InfoPanelText::tr("Focus"),
          InfoPanelText::tr("%1 px applied").arg(number_text(convention.focus_px, 2)),
-         InfoPanelText::tr("All views but the centre one are interpolated.")});
+         InfoPanelText::tr("All views but the center one are interpolated.")});
   }
   info.rows.push_back({InfoPanelText::tr("Truth"), truth_text(*scene.truth, grid), {}});
   add_conventions(info, light_field.info().camera, convention);

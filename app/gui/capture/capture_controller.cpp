@@ -39,7 +39,7 @@ QString obstacle(const Session& session) {
   if (!session.scene()) return CaptureController::tr("Open a light field first.");
   if (!session.light_field()->info().camera.pinhole) {
     return CaptureController::tr(
-        "This light field does not tell its focal length and centre in pixels, which a pose "
+        "This light field does not tell its focal length and center in pixels, which a pose "
         "needs. Rectify photographs with their calibrated lens; pairs are carried over.");
   }
   return {};
@@ -355,7 +355,7 @@ void CaptureController::showNext() {
     const auto& [x, y, z] = mesh()->mesh->vertices[*vertex_];
     point = {x, y, z};
   }
-  const QString elsewhere = bench_.session.scene() ? tr("go to the centre view (Home)") : QString();
+  const QString elsewhere = bench_.session.scene() ? tr("go to the center view (Home)") : QString();
   panel_->setPicked(point ? std::optional(in_mesh_view({(*point)[0], (*point)[1], (*point)[2]}))
                           : std::nullopt);
   panel_->setNext(is_here ? nextText() : elsewhere, point, is_here && point);

@@ -28,7 +28,7 @@ class MeshShelf;
 class Photographs;
 struct ReadMesh;
 
-/// Snaps picks in the centre view to the nearest corner or blob. Caches the grey centre view of the
+/// Snaps picks in the center view to the nearest corner or blob. Caches the grey center view of the
 /// last light field.
 class PickSnapper {
  public:
@@ -92,7 +92,7 @@ class CaptureController : public QObject {
   void showPairs();
   /// Shows the points that the next pair would use.
   void showNext();
-  /// Marks the pairs on centre view and mesh while the tab exists.
+  /// Marks the pairs on center view and mesh while the tab exists.
   void showMarks();
   /// Corner or blob near the cross-hair, if snapping is on.
   [[nodiscard]] std::optional<capture::SnappedPick> snapped();

@@ -8,7 +8,6 @@
 #include <QString>
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <set>

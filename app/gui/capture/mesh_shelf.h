@@ -30,7 +30,7 @@ class MeshResults : public QObject {
   MeshResults(const Workbench& bench, const CaptureDocuments& documents, const MeshShelf& shelf,
               QObject* parent);
 
-  /// Adds the depth of all objects in the centre view as a result, replacing the previous one.
+  /// Adds the depth of all objects in the center view as a result, replacing the previous one.
   void showOverView();
   /// Writes the light field with the depth of all objects in all views as ground truth.
   void writeTruth(const QString& path);

@@ -30,7 +30,7 @@ struct PairMarks {
   std::vector<CloudMark> on_mesh;
 };
 
-/// Emphasises the pair at place `is_emphasised`; `pose` may be null.
+/// Emphasizes the pair at place `is_emphasised`; `pose` may be null.
 [[nodiscard]] PairMarks pair_marks(const std::vector<capture::PointPair>& pairs,
                                    const capture::RigidPose* pose,
                                    const std::optional<Pinhole>& pinhole,

@@ -13,7 +13,6 @@
 #include "engine/core/error.h"
 #include "engine/core/parameter.h"
 #include "widgets/controls/parameter_form.h"
-#include "widgets/controls/text.h"
 #include "widgets/panels/capture_panel.h"
 
 #include <QDialog>

@@ -18,7 +18,6 @@
 #include <QActionGroup>
 
 #include <limits>
-#include <memory>
 #include <utility>
 
 namespace episcope {

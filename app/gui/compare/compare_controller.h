@@ -3,7 +3,7 @@
 
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
-#include "app/session/map_choice.h"
+#include "app/session/quantity_map.h"
 #include "app/session/open_scene.h"
 #include "app/session/picture.h"
 #include "app/session/session.h"

@@ -18,9 +18,9 @@ namespace {
 constexpr int kBins = 20;
 constexpr const char* kTab = "errors";
 
-using Profile = std::vector<ErrorBin>;
+using ErrorProfile = std::vector<ErrorBin>;
 
-PlotSeries series_of(const std::string& name, const Profile& profile, double ErrorBin::*number) {
+PlotSeries series_of(const std::string& name, const ErrorProfile& profile, double ErrorBin::*number) {
   PlotSeries series{QString::fromStdString(name), {}};
   for (const ErrorBin& bin : profile) {
     series.points.emplace_back((bin.disparity.min + bin.disparity.max) / 2, bin.*number);
@@ -93,10 +93,10 @@ void ErrorPlotController::update() {
 
 void ErrorPlotController::start(const std::vector<Judged>& results) {
   const double threshold_px = session_.bad_threshold_px();
-  job_.start<std::vector<Profile>>(
+  job_.start<std::vector<ErrorProfile>>(
       [results, scene = session_.scene(), region = region_.region(),
        threshold_px](const Progress& progress) {
-        std::vector<Profile> profiles;
+        std::vector<ErrorProfile> profiles;
         for (const Judged& each : results) {
           progress.check();
           profiles.push_back(
@@ -104,7 +104,7 @@ void ErrorPlotController::start(const std::vector<Judged>& results) {
         }
         return profiles;
       },
-      [this, results, threshold_px, part = region_.name()](const std::vector<Profile>& profiles) {
+      [this, results, threshold_px, part = region_.name()](const std::vector<ErrorProfile>& profiles) {
         const PlotAxis x{tr("True disparity [px]")};
         Plot squares{x, {tr("MSE×100 [px²]")}, {}};
         Plot bad{x, {tr("Off by more than %1 px [%]").arg(number_text(threshold_px, 2))}, {}};

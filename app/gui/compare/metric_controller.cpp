@@ -339,6 +339,10 @@ constexpr PartName kParts[] = {
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Of the surface in front")},
     {"_background", QT_TRANSLATE_NOOP("episcope::MetricTable", "behind"),
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Of what is seen through it")},
+    {"_present", QT_TRANSLATE_NOOP("episcope::MetricTable", "present"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "Of the pixels that have a value; else missing values count as the farthest "
+                       "true disparity")},
     {kLowResSuffix, QT_TRANSLATE_NOOP("episcope::MetricTable", "low res."),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
                        "In the resolution of the views: the official score needs the truth of ten "
@@ -390,9 +394,9 @@ MetricColumn metric_column(Protocol protocol, const std::string& key) {
       protocol == Protocol::Vmv2013 ? MetricTableText::tr("2013") : MetricTableText::tr("2016");
   const QString rules =
       protocol == Protocol::Vmv2013
-          ? MetricTableText::tr("Protocol vmv2013: all pixels with ground truth, centre view")
+          ? MetricTableText::tr("Protocol vmv2013: all pixels with ground truth, center view")
           : MetricTableText::tr(
-                "Protocol benchmark2016: without a border of 15 px, centre "
+                "Protocol benchmark2016: without a border of 15 px, center "
                 "view");
   const bool is_share =
       key.starts_with("density") || key.starts_with("shown") || key == "layers_right";

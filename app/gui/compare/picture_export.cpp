@@ -6,17 +6,23 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
+#include "app/session/movie.h"
 #include "app/session/picture.h"
 #include "app/session/session.h"
 #include "engine/io/base/image_file.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
+#include "widgets/panels/movie_panel.h"
 
 #include <QCoreApplication>
+#include <QDialog>
+#include <QVBoxLayout>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace episcope {
@@ -97,9 +103,9 @@ void save_picture(const Workbench& bench, const QString& path) {
       bench.jobs, bench.messages, path,
       [file = std::filesystem::path(path.toStdString()), picture, drawn = drawn_map(bench.overlay),
        opacity = bench.viewer_area.canvas()->overlayOpacity()](const Progress&) {
-        if (!drawn) return io::write_png(file, picture->view());
+        if (!drawn) return io::write_picture(file, picture->view());
         const RgbaImage over = overlay_picture(*make_map(drawn->source), drawn->shading);
-        io::write_png(file, blended(*picture, over, opacity).view());
+        io::write_picture(file, blended(*picture, over, opacity).view());
       });
 }
 
@@ -109,8 +115,125 @@ void save_map_picture(const Workbench& bench, const QString& path) {
   write_in_background(bench.jobs, bench.messages, path,
                       [file = std::filesystem::path(path.toStdString()), drawn](const Progress&) {
                         const QuantityMapPtr map = make_map(drawn->source);
-                        io::write_png(file, map_picture(*map, drawn->shading).view());
+                        io::write_picture(file, map_picture(*map, drawn->shading).view());
                       });
 }
 
+namespace {
+
+using render::MovieKind;
+using render::Quantity;
+
+// How maps are drawn over views; held by the job that writes the movie.
+struct Look {
+  std::shared_ptr<const Scene> scene;
+  std::map<Quantity, render::Shading> shadings;
+  double opacity = 1;
+  std::shared_ptr<const render::ToneTable> tone;
+
+  [[nodiscard]] RgbaImage draw(const MapSource& source) const {
+    RgbaImage view = render::shade_view(*scene->light_field, source.view, tone.get());
+    if (source.quantity == Quantity::View) return view;
+    const RgbaImage over = overlay_picture(*make_map(source), shadings.at(source.quantity));
+    return blended(view, over, opacity);
+  }
+};
+
+// Falls back to the view alone without a map.
+MapSource source_of(const Workbench& bench, const MapChoice& choice) {
+  auto source = bench.overlay.sourceOf(choice);
+  if (source) return std::move(*source);
+  return {.view = bench.session.view(), .light_field = bench.session.light_field()};
+}
+
+std::shared_ptr<const Look> look_of(const Workbench& bench, const MovieSubject& subject) {
+  auto look = std::make_shared<Look>();
+  look->scene = bench.session.scene();
+  look->opacity = bench.viewer_area.canvas()->overlayOpacity();
+  look->tone = render::table_of(bench.session.place().tone);
+  for (const auto* source : {&subject.source, subject.other ? &*subject.other : nullptr}) {
+    if (!source || source->quantity == Quantity::View) continue;
+    look->shadings.try_emplace(source->quantity, bench.overlay.shadingOf(source->quantity));
+  }
+  return look;
+}
+
+bool is_flippable(const Overlay& overlay) {
+  return overlay.sourceOf(overlay.choiceA()) && !(overlay.choiceA() == overlay.choiceB());
+}
+
+MovieSubject subject_of(const Workbench& bench, MovieKind kind, bool with_overlay) {
+  MovieSubject subject;
+  const Overlay& overlay = bench.overlay;
+  if (kind == MovieKind::Flip) {
+    subject.source = source_of(bench, overlay.choiceA());
+    subject.other = source_of(bench, overlay.choiceB());
+  } else {
+    const bool has_map = kind == MovieKind::Parallax && with_overlay;
+    subject.source = source_of(bench, has_map ? overlay.choice() : MapChoice{});
+  }
+  return subject;
+}
+
+}  // namespace
+
+MovieExport::MovieExport(const Workbench& bench)
+    : QObject(&bench.owner),
+      bench_(bench),
+      dialog_(new QDialog(&bench.window)),
+      panel_(new MoviePanel(dialog_)) {
+  dialog_->setObjectName("movie");
+  dialog_->setWindowTitle(tr("Save a movie"));
+  auto* layout = new QVBoxLayout(dialog_);
+  layout->addWidget(panel_);
+  layout->setSizeConstraint(QLayout::SetFixedSize);
+  connect(panel_, &MoviePanel::saveRequested, this, &MovieExport::ask);
+  connect(panel_, &MoviePanel::cancelRequested, dialog_, &QDialog::reject);
+  bench.commands.add({.id = "file.save_movie",
+                      .menu = Menu::File,
+                      .text = tr("Save movie…"),
+                      .tip = tr("Parallax, refocusing or flips as MP4, WebM or GIF"),
+                      .keys = {tr("Ctrl+Shift+M")},
+                      .run = [this] { open(); },
+                      .section = section::kExport,
+                      .enabled = [this] { return bench_.session.scene() != nullptr; }});
+}
+
+void MovieExport::open() {
+  std::set<MovieKind> kinds{MovieKind::Parallax, MovieKind::Refocus};
+  if (is_flippable(bench_.overlay)) kinds.insert(MovieKind::Flip);
+  panel_->setAvailable(kinds);
+  panel_->setOverlayAvailable(bench_.overlay.sourceOf(bench_.overlay.choice()).has_value());
+  panel_->setFocusRange(bench_.overlay.shadingOf(Quantity::Disparity).range);
+  dialog_->show();
+}
+
+void MovieExport::ask() {
+  ask_where_to_save(
+      &bench_.window,
+      {.name = "save_movie_file",
+       .title = tr("Save the movie"),
+       .filter = tr("MP4 (*.mp4);;WebM (*.webm);;GIF (*.gif)"),
+       .proposal = QString::fromStdString(bench_.session.light_field()->info().name) + ".mp4"},
+      [this](const QString& path) { save(path); });
+}
+
+void MovieExport::save(const QString& path) {
+  if (!has_suffix(path, {"mp4", "webm", "gif"}, bench_.messages)) return;
+  const render::MovieChoice choice = panel_->choice();
+  MovieSubject subject = subject_of(bench_, choice.kind, panel_->showsOverlay());
+  const std::shared_ptr<const Look> look = look_of(bench_, subject);
+  subject.scene = look->scene.get();
+  subject.tone = look->tone.get();
+  subject.draw = [look](const MapSource& source) { return look->draw(source); };
+  write_in_background(bench_.jobs, bench_.messages, path,
+                      [file = std::filesystem::path(path.toStdString()), choice,
+                       subject](const Progress& progress) {
+                        write_movie(file, make_movie(choice, subject), choice.width_px, progress);
+                      });
+  dialog_->close();
+}
+
 }  // namespace episcope
+
+#include "moc_picture_export.cpp"

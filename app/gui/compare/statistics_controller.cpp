@@ -42,7 +42,7 @@ Quantity measured_by(Quantity quantity) {
   return quantity == Quantity::BadPixels ? Quantity::AbsoluteError : quantity;
 }
 
-// Zero stays in the middle of colours that tell signs apart.
+// Zero stays in the middle of colors that tell signs apart.
 Interval balanced(Interval range) {
   const double reach = std::max(std::abs(range.min), std::abs(range.max));
   return {-reach, reach};
@@ -76,7 +76,7 @@ void StatisticsController::addCommands() {
       bench_.commands.add({.id = "compare.auto_range",
                            .menu = Menu::Compare,
                            .text = tr("Automatic range"),
-                           .tip = tr("Stretches the colours over the visible values"),
+                           .tip = tr("Stretches the colors over the visible values"),
                            .icon = "auto",
                            .keys = {Qt::Key_A},
                            .run = [this] { useAutomaticRange(); },
@@ -152,7 +152,7 @@ void StatisticsController::useAutomaticRange() {
 
 void StatisticsController::applyAutomaticRange() {
   wants_range_ = false;
-  if (measured_by(choice_.quantity) != choice_.quantity) return;  // its colours have no range
+  if (measured_by(choice_.quantity) != choice_.quantity) return;  // its colors have no range
   const bool is_signed = render::info_of(choice_.quantity).is_signed();
   const Interval range = is_signed ? balanced(statistics_->robust) : statistics_->robust;
   if (statistics_->count > 0 && range.length() > 0) overlay_.setRange(range);

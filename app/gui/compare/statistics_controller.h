@@ -3,7 +3,6 @@
 
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
-#include "app/session/map_choice.h"
 #include "app/session/quantity_map.h"
 #include "engine/render/region_statistics.h"
 
@@ -16,14 +15,14 @@ namespace episcope {
 class StatisticsPanel;
 
 /// Computes statistics of the visible part of the shown map in the background, and the automatic
-/// colour range.
+/// color range.
 class StatisticsController : public QObject {
   Q_OBJECT
 
  public:
   StatisticsController(const Workbench& bench, StatisticsPanel* panel);
 
-  /// Stretches the colours over the visible values, as soon as they are known.
+  /// Stretches the colors over the visible values, as soon as they are known.
   void useAutomaticRange();
   /// Statistics of the visible part; none while unknown.
   [[nodiscard]] const std::optional<render::RegionStatistics>& statistics() const {

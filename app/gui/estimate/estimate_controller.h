@@ -6,7 +6,6 @@
 #include "app/session/open_scene.h"
 #include "app/session/run_estimator.h"
 #include "app/session/session.h"
-#include "engine/core/parameter.h"
 
 #include <QObject>
 

@@ -37,7 +37,10 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
   const quint64 job = bench_.jobs.start<FinishedEstimate>(
       Lane::Estimate, job_title(method, scene),
       [request, source = scene_source(scene, bench_.opener.cacheFolder(), false)](
-          const Progress& progress) { return run_estimator(*source(progress), request, progress); },
+          const Progress& progress) {
+        return run_estimator(*source(progress), find_estimator(request.method), request.parameters,
+                             request.options, progress);
+      },
       [this, id = scene.id](const FinishedEstimate& finished) {
         bench_.session.add_estimate(finished.estimate, finished.display_range, id);
         if (finished.warning.empty()) return;

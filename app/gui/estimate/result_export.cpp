@@ -9,6 +9,7 @@
 #include "engine/io/models/external_result.h"
 
 #include <QCoreApplication>
+#include <QFileInfo>
 
 #include <filesystem>
 #include <functional>
@@ -36,7 +37,7 @@ Write writer_of(const Workbench& bench, const EstimateEntry& entry,
   const ViewIndex view = bench.session.view();
   if (!result->contains(view)) {
     bench.messages.hint(
-        ResultExportText::tr("%1 has no map of this view: go to the centre view (Home) first.")
+        ResultExportText::tr("%1 has no map of this view: go to the center view (Home) first.")
             .arg(QString::fromStdString(entry.name)));
     return nullptr;
   }
@@ -113,9 +114,15 @@ void ask_to_submit(const Workbench& bench, const EstimateEntry& entry) {
                   .title = ResultExportText::tr("Folder of the submission for %1")
                                .arg(QString::fromStdString(entry.name))},
                  [bench, id = entry.id](const QString& path) {
-                   if (const auto* found = bench.session.find_estimate(id)) {
-                     submit_result(bench, *found, path);
-                   }
+                   const auto map = io::submitted_map_file(
+                       path.toStdString(), bench.session.light_field()->info().name);
+                   const QString name = QString::fromStdString(map.string());
+                   confirm_replacing(&bench.window,
+                                     QFileInfo::exists(name) ? QStringList(name) : QStringList(),
+                                     [bench, id, path] {
+                                       const auto* found = bench.session.find_estimate(id);
+                                       if (found) submit_result(bench, *found, path);
+                                     });
                  });
 }
 
@@ -124,7 +131,7 @@ void submit_result(const Workbench& bench, const EstimateEntry& entry, const QSt
   const ViewIndex center = light_field->center();
   if (!entry.estimate->contains(center)) {
     bench.messages.hint(
-        ResultExportText::tr("%1 has no map of the centre view, which is submitted.")
+        ResultExportText::tr("%1 has no map of the center view, which is submitted.")
             .arg(QString::fromStdString(entry.name)));
     return;
   }

@@ -17,11 +17,11 @@ void ask_to_export(const Workbench& bench, const EstimateEntry& entry);
 /// missing map, and asks if another program has changed the file.
 void export_result(const Workbench& bench, const EstimateEntry& entry, const QString& path);
 
-/// Asks for a folder and adds centre view and run time of the shown scene to the submission there.
+/// Asks for a folder and adds center view and run time of the shown scene to the submission there.
 void ask_to_submit(const Workbench& bench, const EstimateEntry& entry);
 
 /// Writes disp_maps/<scene>.pfm and runtimes/<scene>.txt of a submission to the 2016 benchmark, in
-/// the background. Tells the user if the result has no centre view.
+/// the background. Tells the user if the result has no center view.
 void submit_result(const Workbench& bench, const EstimateEntry& entry, const QString& folder);
 
 }  // namespace episcope

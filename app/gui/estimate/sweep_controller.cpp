@@ -182,10 +182,10 @@ void SweepController::showPlan() {
     const auto count = plan.points.size();
     const auto scenes = plan.sweep.scenes.size();
     panel_->setPlan(scenes > 1
-                        ? tr("%1 runs on each of %2 centre views, the present values first")
+                        ? tr("%1 runs on each of %2 center views, the present values first")
                               .arg(count)
                               .arg(scenes)
-                        : tr("%1 runs on the centre view, the present values first").arg(count),
+                        : tr("%1 runs on the center view, the present values first").arg(count),
                     !runs_->isRunning());
   } catch (const InvalidInput& error) {
     QString sentence = with_minus(QString::fromUtf8(error.what()));
@@ -285,7 +285,8 @@ void SweepController::runAgain(SweepPlace place) {
   const quint64 job = bench_.jobs.start<FinishedEstimate>(
       Lane::Estimate, QString::fromStdString(name_of(sweep, point)),
       [scene = bench_.session.scene(), request](const Progress& progress) {
-        return run_estimator(*scene, request, progress);
+        return run_estimator(*scene, find_estimator(request.method), request.parameters,
+                             request.options, progress);
       },
       [this, place, id = current_,
        scene = sweep.scenes[place.scene].scene](const FinishedEstimate& finished) {

@@ -9,6 +9,7 @@
 #include "app/session/project_store.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
+#include "widgets/controls/text.h"
 
 #include <algorithm>
 
@@ -132,8 +133,8 @@ void Autosave::finish(const Outcome<bool>& outcome, const Kept& kept) {
   for (const auto& [estimate, file] : kept.results) bench_.session.set_kept(estimate, file);
   for (const Kept::Labels& each : kept.labels) keepLabels(each);
   if (outcome.failure && !std::exchange(has_failed_, true)) {
-    bench_.messages.warn(
-        tr("Results cannot be kept for a crash: %1").arg(failure_sentence(outcome.failure)));
+    bench_.messages.warn(tr("Results cannot be kept for a crash: %1")
+                             .arg(schema_text(failure_text(outcome.failure))));
   }
   if (is_due_ && !has_failed_) write();
 }

@@ -12,7 +12,6 @@
 #include <QAbstractButton>
 
 #include <algorithm>
-#include <utility>
 
 namespace episcope {
 namespace {

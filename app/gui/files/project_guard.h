@@ -10,7 +10,6 @@
 #include <QPointer>
 #include <QString>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -168,7 +168,7 @@ class LabelChoice : public QObject {
   void swap();
 
  signals:
-  /// Another label is current, or its name or colour changed.
+  /// Another label is current, or its name or color changed.
   void changed();
 
  private:

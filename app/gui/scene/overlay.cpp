@@ -2,7 +2,7 @@
 #include "app/gui/scene/overlay.h"
 
 #include "app/gui/shell/jobs.h"
-#include "app/session/scheduling.h"
+#include "engine/core/parallel.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
@@ -55,7 +55,7 @@ void Overlay::connectStage() {
   connect(scale, &ColorBar::rangeEdited, this, [this](Interval range) { setRange(range); });
   connect(scale, &ColorBar::ownRangeRequested, this, [this] { setRange(std::nullopt); });
   connect(canvas, &ViewCanvas::cursorMoved, this, [this, scale](std::optional<PixelIndex> pixel) {
-    // Colours of bad pixels say nothing of their numbers.
+    // Colors of bad pixels say nothing of their numbers.
     const bool has_marker = pixel && map_ && map_->measured.empty();
     const auto value = has_marker ? valueAt(*pixel) : std::nullopt;
     scale->setMarker(value.value_or(std::numeric_limits<double>::quiet_NaN()));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/scene/viewer_area.h"
-#include "app/session/map_choice.h"
+#include "app/session/quantity_map.h"
 #include "app/session/picture.h"
 #include "app/session/session.h"
 #include "engine/core/jobs.h"
@@ -37,7 +37,7 @@ class MapProvider {
                                                             ViewIndex view) const = 0;
 };
 
-/// Coloured pictures of maps, made in the background one at a time. Keeps the most recent ones,
+/// Colored pictures of maps, made in the background one at a time. Keeps the most recent ones,
 /// since flips and wipes alternate between two.
 class OverlayPictures {
  public:
@@ -109,7 +109,7 @@ class Overlay : public QObject {
   [[nodiscard]] QString describe(const MapChoice& choice) const;
   /// Description of B; says so where B is the truth, which has no error to show.
   [[nodiscard]] QString describeB() const;
-  /// Current colours, with edited ranges.
+  /// Current colors, with edited ranges.
   [[nodiscard]] render::Shading shadingOf(render::Quantity quantity) const;
   /// Source of a choice's map in the current view; none if there is none, or not yet.
   [[nodiscard]] std::optional<MapSource> sourceOf(const MapChoice& choice) const;
@@ -117,7 +117,7 @@ class Overlay : public QObject {
   /// `drawn` tells when to ask again.
   [[nodiscard]] std::optional<QImage> pictureOf(const MapChoice& choice);
 
-  /// Sets the range of the colours; none = the quantity's own range.
+  /// Sets the range of the colors; none = the quantity's own range.
   void setRange(std::optional<Interval> range);
   /// Whether `map` shows the last choice, instead of the previous map.
   [[nodiscard]] bool isUpToDate() const { return is_up_to_date_; }
@@ -131,7 +131,7 @@ class Overlay : public QObject {
  signals:
   /// Quantity, difference or availability changed.
   void choiceChanged();
-  /// The picture over the view, or its colours, changed.
+  /// The picture over the view, or its colors, changed.
   void drawn();
 
  private:

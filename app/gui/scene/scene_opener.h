@@ -21,7 +21,7 @@ class SceneSwitcher;
 class ViewerArea;
 
 /// Opens light fields in the background, and asks if files leave their reading open. Shows the
-/// centre view as soon as it is read; the previous scene stays until loading succeeds.
+/// center view as soon as it is read; the previous scene stays until loading succeeds.
 class SceneOpener : public QObject {
   Q_OBJECT
 

@@ -196,11 +196,12 @@ namespace {
 struct ReadEstimate : FinishedEstimate {
   bool is_of_others = false;
   std::string differing_options;
+  std::string better_reading;  ///< A sentence.
   FileStamp stamp;
 };
 
-ReadEstimate read_estimate(const LightField& light_field, const std::string& path,
-                           const Progress& progress) {
+ReadEstimate read_estimate(const Scene& scene, const std::string& path, const Progress& progress) {
+  const LightField& light_field = *scene.light_field;
   const FileStamp stamp = stamp_of(path);
   auto estimate = std::make_shared<Estimate>(read_result_of(light_field, path));
   progress.check();
@@ -210,7 +211,12 @@ ReadEstimate read_estimate(const LightField& light_field, const std::string& pat
   bring_to_focus(*estimate, light_field, progress);
   const Interval range = display_range(*estimate);
   std::string options = differing_options(*estimate, light_field);
-  return {{std::move(estimate), range}, is_of_others && !is_moved, std::move(options), stamp};
+  const auto better = find_better_reading(*estimate, scene);
+  return {{std::move(estimate), range},
+          is_of_others && !is_moved,
+          std::move(options),
+          better ? better_reading_text(*better) : std::string(),
+          stamp};
 }
 
 }  // namespace
@@ -230,8 +236,8 @@ void ResultOpener::open(const QString& path) {
   const QString name = QFileInfo(path).fileName();
   jobs_.start<ReadEstimate>(
       Lane::Load, tr("Opening %1").arg(name),
-      [light_field = session_.light_field(), path = path.toStdString()](const Progress& progress) {
-        return read_estimate(*light_field, path, progress);
+      [scene = session_.scene(), path = path.toStdString()](const Progress& progress) {
+        return read_estimate(*scene, path, progress);
       },
       [this, generation = session_.generation(), name, path](const ReadEstimate& read) {
         files_.note(path.toStdString(), read.stamp);
@@ -240,6 +246,9 @@ void ResultOpener::open(const QString& path) {
           messages_.warn(tr("%1 was estimated with%2: its errors may be meaningless. Choose the "
                             "same values in Conventions…")
                              .arg(name, QString::fromStdString(read.differing_options)));
+        } else if (!read.better_reading.empty()) {
+          messages_.warn(tr("%1: %2 to episcope-cli convert, and open the file that it writes.")
+                             .arg(name, QString::fromStdString(read.better_reading)));
         } else if (read.is_of_others) {
           messages_.warn(
               tr("%1 was estimated from different samples than those of this light field: "

@@ -34,7 +34,7 @@ struct Theme {
 
 constexpr Theme kThemes[] = {
     {"system", QT_TRANSLATE_NOOP("episcope::Theme", "Follow the desktop"),
-     QT_TRANSLATE_NOOP("episcope::Theme", "Colours of the desktop")},
+     QT_TRANSLATE_NOOP("episcope::Theme", "Colors of the desktop")},
     {"light", QT_TRANSLATE_NOOP("episcope::Theme", "Light"),
      QT_TRANSLATE_NOOP("episcope::Theme", "Dark text on a light background")},
     {"dark", QT_TRANSLATE_NOOP("episcope::Theme", "Dark"),
@@ -67,7 +67,7 @@ void add_theme_commands(Commands& commands) {
   for (const Theme& theme : kThemes) {
     const QString name = theme.name;
     commands.add({.id = "theme." + name,
-                  .menu = Menu::Colours,
+                  .menu = Menu::Colors,
                   .text = QCoreApplication::translate(kThemeContext, theme.text),
                   .tip = QCoreApplication::translate(kThemeContext, theme.tip),
                   .run =

@@ -9,7 +9,7 @@ namespace episcope {
 class Commands;
 class Messages;
 
-/// Applies a theme: "light", "dark", or "system" for the desktop's colours. Returns false for any
+/// Applies a theme: "light", "dark", or "system" for the desktop's colors. Returns false for any
 /// other name and changes nothing.
 bool apply_theme(const QString& name);
 

@@ -265,7 +265,7 @@ constexpr MenuInfo kMenus[] = {
     {Menu::Measurements, QT_TRANSLATE_NOOP("episcope::Menu", "Measurements"), true, Menu::View},
     {Menu::Tabs, QT_TRANSLATE_NOOP("episcope::Menu", "Tabs"), true, Menu::View},
     {Menu::Panes, QT_TRANSLATE_NOOP("episcope::Menu", "Panes"), true, Menu::View},
-    {Menu::Colours, QT_TRANSLATE_NOOP("episcope::Menu", "Colours"), true, Menu::View},
+    {Menu::Colors, QT_TRANSLATE_NOOP("episcope::Menu", "Colors"), true, Menu::View},
     {Menu::Language, QT_TRANSLATE_NOOP("episcope::Menu", "Language"), true, Menu::View},
     {Menu::Estimate, QT_TRANSLATE_NOOP("episcope::Menu", "Estimate")},
     {Menu::Compare, QT_TRANSLATE_NOOP("episcope::Menu", "Compare")},

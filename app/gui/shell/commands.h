@@ -29,7 +29,7 @@ enum class Menu {
   Measurements,
   Tabs,
   Panes,
-  Colours,
+  Colors,
   Language,
   Estimate,
   Compare,
@@ -50,9 +50,9 @@ struct MenuInfo {
 /// Every menu; a submenu stands after its parent.
 [[nodiscard]] std::span<const MenuInfo> menus();
 
-/// "View", or "View › Colours" for a submenu, translated.
+/// "View", or "View › Colors" for a submenu, translated.
 [[nodiscard]] QString menu_path(Menu menu);
-/// "Colours", translated.
+/// "Colors", translated.
 [[nodiscard]] QString menu_text(Menu menu);
 
 /// Sections of menus that several features fill. A menu shows its sections by number with lines

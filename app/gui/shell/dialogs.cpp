@@ -146,6 +146,21 @@ QString listed(const QStringList& names) {
       .arg(names.size() - kMostNames);
 }
 
+void confirm_replacing(QWidget* window, const QStringList& existing, std::function<void()> go_on) {
+  if (existing.isEmpty()) return go_on();
+  auto* box = new_question_box(
+      window,
+      {.name = "replace_files",
+       .icon = QMessageBox::Warning,
+       .title = QuestionBoxText::tr("Replace files"),
+       .text =
+           QuestionBoxText::tr("The folder already holds %1. Replace it?").arg(listed(existing)),
+       .buttons = QMessageBox::Yes | QMessageBox::Cancel});
+  box->setDefaultButton(QMessageBox::Cancel);
+  QObject::connect(box->button(QMessageBox::Yes), &QAbstractButton::clicked, box, std::move(go_on));
+  box->open();
+}
+
 namespace {
 
 struct ChangedFileText {

@@ -41,6 +41,10 @@ void ask_for_files(QWidget* window, const FileQuestion& question,
 void ask_for_folder(QWidget* window, const FileQuestion& question, Answer answer);
 void ask_where_to_save(QWidget* window, const FileQuestion& question, Answer answer);
 
+/// Calls `go_on` at once if there are no such files; else asks whether to replace them, and calls
+/// it on Yes. For exports into folders; dialogs for files ask by themselves.
+void confirm_replacing(QWidget* window, const QStringList& existing, std::function<void()> go_on);
+
 /// Whether `path` has one of the suffixes; tells the user if not.
 [[nodiscard]] bool has_suffix(const QString& path, const QStringList& suffixes, Messages& messages);
 

@@ -103,7 +103,7 @@ Frame::Frame(QWidget* parent)
   book_->setDocumentMode(true);
   book_->setUsesScrollButtons(true);
   book_->tabBar()->setElideMode(Qt::ElideNone);
-  // A neighbour nobody asked for might be one that lets the mouse paint.
+  // A neighbor nobody asked for might be one that lets the mouse paint.
   book_->tabBar()->setSelectionBehaviorOnRemove(QTabBar::SelectPreviousTab);
   book_->setCornerWidget(make_list_of_tabs(*this, book_), Qt::TopRightCorner);
   auto* stack = new TabStack(side_);

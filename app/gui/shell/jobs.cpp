@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <new>
 #include <utility>
 
 namespace episcope {
@@ -22,10 +21,6 @@ namespace {
 constexpr std::chrono::milliseconds kTimeBetweenProgress{100};
 
 }  // namespace
-
-QString failure_sentence(const std::exception_ptr& failure) {
-  return schema_text(failure_text(failure));
-}
 
 Jobs::Jobs(QObject* parent) : QObject(parent) {
   for (auto& each : runners_) each = std::make_unique<JobRunner>(queued_post(this));
@@ -71,7 +66,7 @@ void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
   const QString title = jobs_[id].title;
   jobs_.erase(id);
   emit removed(id);
-  if (failure) emit failed(tr("%1 failed: %2").arg(title, failure_sentence(failure)), id);
+  if (failure) emit failed(tr("%1 failed: %2").arg(title, schema_text(failure_text(failure))), id);
 }
 
 void Jobs::cancel(quint64 id) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/session/scheduling.h"
 #include "app/session/session.h"
 #include "engine/core/jobs.h"
+#include "engine/core/parallel.h"
 
 #include <QElapsedTimer>
 #include <QObject>
@@ -124,9 +124,6 @@ class Jobs : public QObject {
   QTimer progress_;  // Runs for a while after progress was told.
   std::array<std::unique_ptr<JobRunner>, static_cast<std::size_t>(Lane::Count)> runners_;
 };
-
-/// Failure as a sentence for the user.
-[[nodiscard]] QString failure_sentence(const std::exception_ptr& failure);
 
 /// A quick background computation of which only the latest matters: a new start drops the previous
 /// one.

@@ -122,7 +122,7 @@ void ShortcutWindow::fillGestures() {
       {
           {tr("Click"), tr("Moves the cross-hair")},
           {tr("Shift+click"), tr("Focuses on the pixel")},
-          {tr("Double click"), tr("Shows the centre view; in tiles: shows that tile alone")},
+          {tr("Double click"), tr("Shows the center view; in tiles: shows that tile alone")},
           {tr("Drag"), tr("Moves between the views (parallax); in tiles: pans")},
           {tr("Middle drag, Space+drag"), tr("Pans")},
           {tr("Wheel"), tr("Zooms at the cursor")},

@@ -11,34 +11,42 @@ namespace {
 constexpr int kGroup = 16;
 constexpr int kGroupVecs = kGroup / kLanes;
 constexpr float kLeakySlope = 0.1F;
+constexpr int kWeightsAhead = 24 * kGroup;  // So far weights are fetched before they are used.
 
 // Sums of as many columns as registers hold, for one group of outputs or two.
 #if EPISCOPE_VECTOR_BYTES == 64
 constexpr int kColumns[2] = {14, 12};
+constexpr int kMixedColumns = 12;
 #elif EPISCOPE_VECTOR_BYTES == 32
 constexpr int kColumns[2] = {6, 2};
+constexpr int kMixedColumns = 6;
 #else
 constexpr int kColumns[2] = {2, 1};
+constexpr int kMixedColumns = 2;
 #endif
+
+// A number as a type, which functions without a name can be given.
+template <int kValue>
+struct Whole {
+  static constexpr int value = kValue;
+};
 
 inline Vec leaky(Vec value) {
   return greatest(value, value * kLeakySlope);
 }
 
+// The sums of products of kCount inputs, kStep apart, and of groups of outputs.
 template <int kGroups, int kCount, int kStep>
-inline void convolve_tile(const NetConvolutionRow& row, int group, int x) {
+[[gnu::always_inline]] inline void add_products(const NetConvolutionRow& row, long from_at,
+                                                long weights_at,
+                                                Vec (&sums)[kCount][kGroups * kGroupVecs]) {
   constexpr int kVecs = kGroups * kGroupVecs;
-  Vec sums[kCount][kVecs];
-  for (int i = 0; i < kVecs; ++i) {
-    const Vec bias = load(row.bias + group * kGroup + i * kLanes);
-    for (int p = 0; p < kCount; ++p) sums[p][i] = bias;
-  }
-  const long first_weight = group * row.group_stride;
   for (int t = 0; t < row.tap_count; ++t) {
-    const float* from = row.taps[t].from + static_cast<long>(x) * kStep;
-    const float* weights = row.taps[t].weights + first_weight;
+    const float* from = row.taps[t].from + from_at;
+    const float* weights = row.taps[t].weights + weights_at;
     const float* const end = from + row.inputs;
     for (; from != end; ++from, weights += kGroup) {
+      __builtin_prefetch(weights + kWeightsAhead);
       Vec weight[kVecs];
       for (int i = 0; i < kVecs; ++i) {
         weight[i] = load(weights + i / kGroupVecs * row.group_stride + i % kGroupVecs * kLanes);
@@ -50,15 +58,28 @@ inline void convolve_tile(const NetConvolutionRow& row, int group, int x) {
       }
     }
   }
+}
+
+inline void finish(const NetOutput& to, long at, bool is_leaky, Vec sum) {
+  if (to.before != nullptr) sum += load(to.before + at);
+  if (is_leaky) sum = leaky(sum);
+  if (to.after != nullptr) sum += load(to.after + at);
+  store(to.out + at, sum);
+}
+
+template <int kGroups, int kCount, int kStep>
+inline void convolve_tile(const NetConvolutionRow& row, int group, int x) {
+  constexpr int kVecs = kGroups * kGroupVecs;
+  Vec sums[kCount][kVecs];
+  for (int i = 0; i < kVecs; ++i) {
+    const Vec bias = load(row.bias + group * kGroup + i * kLanes);
+    for (int p = 0; p < kCount; ++p) sums[p][i] = bias;
+  }
+  add_products<kGroups, kCount, kStep>(row, static_cast<long>(x) * kStep, group * row.group_stride,
+                                       sums);
   for (int p = 0; p < kCount; ++p) {
     const long at = static_cast<long>(x + p) * row.out_step + group * kGroup;
-    for (int i = 0; i < kVecs; ++i) {
-      Vec sum = sums[p][i];
-      if (row.before != nullptr) sum += load(row.before + at + i * kLanes);
-      if (row.is_leaky) sum = leaky(sum);
-      if (row.after != nullptr) sum += load(row.after + at + i * kLanes);
-      store(row.out + at + i * kLanes, sum);
-    }
+    for (int i = 0; i < kVecs; ++i) finish(row.out, at + i * kLanes, row.is_leaky, sums[p][i]);
   }
 }
 
@@ -77,33 +98,181 @@ void convolve_groups(const NetConvolutionRow& row, int group) {
   if (x < row.columns) convolve_tile<kGroups, kCount, kStep>(row, group, row.columns - kCount);
 }
 
-template <int kStep>
-void convolve_steps(const NetConvolutionRow& row) {
+// Calls `convolve_groups` for all groups of outputs, two at a time where registers hold as many.
+template <class ConvolveGroups>
+inline void for_groups(const NetConvolutionRow& row, const ConvolveGroups& convolve_groups) {
   int group = 0;
   if constexpr (kGroupVecs == 1) {
-    for (; group + 2 <= row.outputs / kGroup; group += 2) convolve_groups<2, kStep>(row, group);
+    for (; group + 2 <= row.outputs / kGroup; group += 2) convolve_groups(Whole<2>(), group);
   }
-  for (; group < row.outputs / kGroup; ++group) convolve_groups<1, kStep>(row, group);
+  for (; group < row.outputs / kGroup; ++group) convolve_groups(Whole<1>(), group);
+}
+
+// Calls `convolve_steps` with the distance of inputs as a constant.
+template <class ConvolveSteps>
+inline void for_step(int step, const ConvolveSteps& convolve_steps) {
+  switch (step) {
+    case 16:
+      return convolve_steps(Whole<16>());
+    case 32:
+      return convolve_steps(Whole<32>());
+    case 48:
+      return convolve_steps(Whole<48>());
+    case 64:
+      return convolve_steps(Whole<64>());
+    case 96:
+      return convolve_steps(Whole<96>());
+    case 128:
+      return convolve_steps(Whole<128>());
+    default:
+      return convolve_steps(Whole<192>());
+  }
 }
 
 void convolve(const NetConvolutionRow& row) {
-  switch (row.input_step) {
-    case 16:
-      return convolve_steps<16>(row);
-    case 32:
-      return convolve_steps<32>(row);
-    case 48:
-      return convolve_steps<48>(row);
-    case 64:
-      return convolve_steps<64>(row);
-    case 96:
-      return convolve_steps<96>(row);
-    case 128:
-      return convolve_steps<128>(row);
-    default:
-      return convolve_steps<192>(row);
+  for_step(row.input_step, [&](auto step) {
+    for_groups(row, [&](auto groups, int group) {
+      convolve_groups<groups.value, step.value>(row, group);
+    });
+  });
+}
+
+// Mixed convolutions.
+
+constexpr float kRootOfHalf = 0.70710678F;
+constexpr float kRootOfTwo = 1.41421356F;
+
+inline void mix_six(const Vec (&d)[kNetMixed], Vec (&mixed)[kNetMixed]) {
+  const Vec even = d[4] - d[2] * 2.0F, odd = (d[3] - d[1] * 2.0F) * kRootOfHalf;
+  const Vec wide_even = d[4] - d[2] * 0.5F, wide_odd = (d[3] - d[1] * 0.5F) * kRootOfTwo;
+  mixed[0] = d[4] - d[2] * 2.5F + d[0];
+  mixed[1] = even + odd;
+  mixed[2] = even - odd;
+  mixed[3] = wide_even + wide_odd;
+  mixed[4] = wide_even - wide_odd;
+  mixed[5] = d[5] - d[3] * 2.5F + d[1];
+}
+
+inline void unmix_six(const Vec (&m)[kNetMixed], Vec (&sums)[kNetTile]) {
+  const Vec even = m[1] + m[2], odd = (m[1] - m[2]) * kRootOfHalf;
+  const Vec wide_even = m[3] + m[4], wide_odd = (m[3] - m[4]) * kRootOfTwo;
+  sums[0] = m[0] + even + wide_even;
+  sums[1] = odd + wide_odd;
+  sums[2] = even * 0.5F + wide_even * 2.0F;
+  sums[3] = odd * 0.5F + wide_odd * 2.0F + m[5];
+}
+
+inline int first_column(const NetBlock& block, int tile) {
+  const int at = block.first + tile;
+  return at / block.dilation * kNetTile * block.dilation + at % block.dilation;
+}
+
+// As many channels of a tile as a register holds, `first` numbers from the first output's.
+template <int kPlanes>
+inline void mix_tile(const NetMixing& mixing, long first, float* out) {
+  const long step = static_cast<long>(mixing.block.dilation) * mixing.channels;
+  const long channels = mixing.channels;
+  Vec planes[kPlanes][kNetMixed];
+  for (int z = 0; z < kPlanes; ++z) {
+    Vec row[kNetMixed] = {};
+    if (const float* from = mixing.rows[z]; from != nullptr) {
+      from += first - step;
+      for (int i = 0; i < kNetMixed; ++i, from += step) row[i] = load(from);
+    }
+    mix_six(row, planes[z]);
+  }
+  for (int i = 0; i < kNetMixed; ++i, out += channels) {
+    if constexpr (kPlanes == 1) {
+      store(out, planes[0][i]);
+    } else {
+      Vec column[kNetMixed], mixed[kNetMixed];
+      for (int z = 0; z < kNetMixed; ++z) column[z] = planes[z][i];
+      mix_six(column, mixed);
+      for (int z = 0; z < kNetMixed; ++z) store(out + z * kNetMixed * channels, mixed[z]);
+    }
   }
 }
+
+template <int kPlanes>
+void mix_tiles(const NetMixing& mixing) {
+  const int channels = mixing.channels;
+  float* out = mixing.out;
+  for (int tile = 0; tile < mixing.block.count; ++tile) {
+    const long first = static_cast<long>(first_column(mixing.block, tile)) * channels;
+    for (int c = 0; c < channels; c += kLanes) mix_tile<kPlanes>(mixing, first + c, out + c);
+    out += kPlanes * kNetMixed * channels;
+  }
+}
+
+void mix(const NetMixing& mixing) {
+  mixing.planes == 1 ? mix_tiles<1>(mixing) : mix_tiles<kNetMixed>(mixing);
+}
+
+// Outputs of the tile that begins with column x and of as many channels as a register holds, from
+// products `stride` apart.
+template <int kPlanes>
+inline void finish_mixed(const NetMixedRow& row, const float* products, long stride, int x,
+                         int channel) {
+  constexpr int kRows = kPlanes == 1 ? 1 : kNetTile;
+  Vec columns[kPlanes][kNetTile];
+  for (int z = 0; z < kPlanes; ++z) {
+    Vec mixed[kNetMixed];
+    for (int i = 0; i < kNetMixed; ++i) mixed[i] = load(products + (z * kNetMixed + i) * stride);
+    unmix_six(mixed, columns[z]);
+  }
+  const Vec bias = load(row.plain.bias + channel);
+  for (int i = 0; i < kNetTile && x < row.plain.columns; ++i, x += row.block.dilation) {
+    Vec sums[kRows];
+    if constexpr (kPlanes == 1) {
+      sums[0] = columns[0][i];
+    } else {
+      Vec mixed[kNetMixed];
+      for (int z = 0; z < kNetMixed; ++z) mixed[z] = columns[z][i];
+      unmix_six(mixed, sums);
+    }
+    const long at = static_cast<long>(x) * row.plain.out_step + channel;
+    for (int z = 0; z < kRows; ++z) {
+      if (row.outputs[z].out == nullptr) continue;
+      finish(row.outputs[z], at, row.plain.is_leaky, sums[z] + bias);
+    }
+  }
+}
+
+template <int kPlanes, int kGroups, int kStep>
+void convolve_mixed_groups(const NetMixedRow& row, int group) {
+  constexpr int kVecs = kGroups * kGroupVecs, kKinds = kPlanes * kNetMixed;
+  static_assert(kNetBlock % kMixedColumns == 0);
+  alignas(64) float products[kKinds][kNetBlock + 1][kVecs * kLanes];  // Not a power of two.
+  for (int kind = 0; kind < kKinds; ++kind) {
+    for (int tile = 0; tile < row.block.count; tile += kMixedColumns) {
+      Vec sums[kMixedColumns][kVecs] = {};
+      add_products<kGroups, kMixedColumns, kKinds * kStep>(
+          row.plain, kind * kStep + static_cast<long>(tile) * kKinds * kStep,
+          kind * row.weights_stride + group * row.plain.group_stride, sums);
+      for (int p = 0; p < kMixedColumns; ++p) {
+        for (int i = 0; i < kVecs; ++i) store(products[kind][tile + p] + i * kLanes, sums[p][i]);
+      }
+    }
+  }
+  for (int tile = 0; tile < row.block.count; ++tile) {
+    const int x = first_column(row.block, tile);
+    for (int c = 0; c < kVecs * kLanes; c += kLanes) {
+      finish_mixed<kPlanes>(row, products[0][tile] + c, (kNetBlock + 1) * kVecs * kLanes, x,
+                            group * kGroup + c);
+    }
+  }
+}
+
+void convolve_mixed(const NetMixedRow& row) {
+  for_step(row.plain.input_step, [&](auto step) {
+    for_groups(row.plain, [&](auto groups, int group) {
+      row.planes == 1 ? convolve_mixed_groups<1, groups.value, step.value>(row, group)
+                      : convolve_mixed_groups<kNetMixed, groups.value, step.value>(row, group);
+    });
+  });
+}
+
+// Layers of few outputs.
 
 inline float sum_of_lanes(Vec value) {
   float lanes[kLanes];
@@ -126,7 +295,7 @@ inline void narrow_tile(const NetConvolutionRow& row, int output, int x) {
     }
   }
   for (int p = 0; p < kCount; ++p) {
-    row.out[static_cast<long>(x + p) * row.out_step + output] =
+    row.out.out[static_cast<long>(x + p) * row.out_step + output] =
         row.bias[output] + sum_of_lanes(sums[p]);
   }
 }
@@ -162,203 +331,8 @@ void enlarge(const NetEnlargedRow& row) {
   }
 }
 
-// Evidence. A pixel of a view is one register of eight numbers whatever the instruction set.
-
-typedef float Eight __attribute__((vector_size(32)));
-typedef float LooseEight __attribute__((vector_size(32), aligned(4), may_alias));
-typedef int EightInts __attribute__((vector_size(32)));
-
-inline Eight load_pixel(const float* from) {
-  return *reinterpret_cast<const LooseEight*>(from);
-}
-inline Eight distance(Eight a, Eight b) {
-  const Eight difference = a - b;
-  const EightInts bits = reinterpret_cast<EightInts>(difference) & 0x7fffffff;
-  return reinterpret_cast<Eight>(bits);
-}
-
-template <bool kHasInvalid>
-inline Eight counted(Eight off) {
-  if constexpr (kHasInvalid) return off == off ? off : Eight{};
-  return off;
-}
-
-inline void add_to(float* sum, Eight off) {
-  *reinterpret_cast<LooseEight*>(sum) = load_pixel(sum) + off;
-}
-
-// The rows of a view around a coordinate, and the weight of the second.
-struct RowPair {
-  const float* upper;
-  const float* lower;
-  float weight;
-};
-
-// Sums of pixels [begin, end) of a row, and what is added to them.
-struct Run {
-  const float* reference;  // Of its first pixel.
-  int begin;
-  int end;
-  float* sums;
-};
-
-// Pixels [first, last) of a run, whose samples lie `part` behind the pixels at `from`.
-template <bool kHasInvalid, bool kIsBetween>
-void add_columns(const Run& run, int first, int last, const RowPair& from, float part) {
-  const auto column = [&](long at) {
-    const Eight above = load_pixel(from.upper + at);
-    return above + (load_pixel(from.lower + at) - above) * from.weight;
-  };
-  Eight left = column(first * kNetPixel);
-  for (long at = first * kNetPixel; at < last * kNetPixel; at += kNetPixel) {
-    Eight sample = kIsBetween ? left : column(at);
-    if constexpr (kIsBetween) {
-      const Eight right = column(at + kNetPixel);
-      sample += (right - left) * part;
-      left = right;
-    }
-    const long i = at - static_cast<long>(run.begin) * kNetPixel;
-    add_to(run.sums + i, counted<kHasInvalid>(distance(sample, load_pixel(run.reference + i))));
-  }
-}
-
-// Adds how far one view is from the reference, at one disparity.
-template <bool kHasInvalid>
-void add_plane(const NetEvidenceRow& row, const NetView& view, const Run& run) {
-  const float y = static_cast<float>(row.y) - row.disparity * view.dv;
-  if (!(y >= 0 && y <= static_cast<float>(row.height - 1))) return;
-  const int upper = static_cast<int>(y);
-  const int lower = upper + 1 < row.height ? upper + 1 : upper;
-  const float shift = -row.disparity * view.du;
-  const int whole = static_cast<int>(__builtin_floorf(shift));
-  const float part = shift - static_cast<float>(whole);
-  // Pixels whose sample x + shift lies in [0, width − 1].
-  const int first = run.begin > -whole ? run.begin : -whole;
-  const int end_within = row.width - whole - (part > 0 ? 1 : 0);
-  const int last = run.end < end_within ? run.end : end_within;
-  if (first >= last) return;
-  const auto pixels = [&](int at) {
-    return view.pixels + (at - view.first_row) * view.row_stride + whole * kNetPixel;
-  };
-  const RowPair from{pixels(upper), pixels(lower), y - static_cast<float>(upper)};
-  if (part > 0) return add_columns<kHasInvalid, true>(run, first, last, from, part);
-  add_columns<kHasInvalid, false>(run, first, last, from, part);
-}
-
-// Where the pixels of a run are sampled.
-struct Places {
-  int offset[kNetRun];    // Of the first of four pixels, in the rows that are held.
-  float along[kNetRun];   // Weights of the second column
-  float down[kNetRun];    // and row.
-  float within[kNetRun];  // 1 or 0
-};
-
-// An axis: coordinates clamped, the first of two places, the second never outside.
-struct Axis {
-  IntVec first;
-  Vec weight;
-  IntVec is_within;
-};
-
-inline Axis axis_at(Vec at, int size) {
-  const Vec last = splat(static_cast<float>(size - 1));
-  const IntVec is_within = (at >= 0.0F) & (at <= last);
-  const Vec inside = greatest(least(at, last), Vec{});
-  const IntVec first = least(convert<int>(inside), IntVec{} + (size > 1 ? size - 2 : 0));
-  return {first, inside - convert<float>(first), is_within};
-}
-
-void find_places(const NetEvidenceRow& row, const NetView& view, const Run& run, Places& places) {
-  IntVec column;
-  for (int i = 0; i < kLanes; ++i) column[i] = run.begin + i;
-  alignas(64) float disparities[kNetRun] = {};
-  for (int i = run.begin; i < run.end; ++i) disparities[i - run.begin] = row.disparities[i];
-  for (int i = 0; i < kNetRun; i += kLanes, column += kLanes) {
-    const Vec d = load(disparities + i);
-    const Axis x = axis_at(convert<float>(column) - d * view.du, row.width);
-    const Axis y = axis_at(static_cast<float>(row.y) - d * view.dv, row.height);
-    const IntVec offset =
-        (y.first - view.first_row) * static_cast<int>(view.row_stride) + x.first * kNetPixel;
-    __builtin_memcpy(places.offset + i, &offset, sizeof offset);
-    store(places.along + i, x.weight);
-    store(places.down + i, y.weight);
-    store(places.within + i, choose(x.is_within & y.is_within, splat(1), Vec{}));
-  }
-}
-
-// The same where each pixel has its own disparity.
-template <bool kHasInvalid>
-void add_map(const NetEvidenceRow& row, const NetView& view, const Run& run) {
-  Places places;
-  find_places(row, view, run, places);
-  const long right = row.width > 1 ? kNetPixel : 0;
-  const long below = row.height > 1 ? view.row_stride : 0;
-  for (int i = 0; i < run.end - run.begin; ++i) {
-    const float* const from = view.pixels + places.offset[i];
-    const Eight upper = load_pixel(from);
-    const Eight lower = load_pixel(from + below);
-    const Eight first = upper + (load_pixel(from + right) - upper) * places.along[i];
-    const Eight second = lower + (load_pixel(from + below + right) - lower) * places.along[i];
-    const Eight sample = first + (second - first) * places.down[i];
-    const Eight off = distance(sample, load_pixel(run.reference + i * kNetPixel));
-    add_to(run.sums + i * kNetPixel, counted<kHasInvalid>(off) * places.within[i]);
-  }
-}
-
-template <bool kHasInvalid>
-inline void add_view(const NetEvidenceRow& row, const NetView& view, const Run& run) {
-  if (row.disparities == nullptr) return add_plane<kHasInvalid>(row, view, run);
-  add_map<kHasInvalid>(row, view, run);
-}
-
-inline Vec evidence_of(Vec sum, Vec count, float channels) {
-  constexpr float kFloor = 0.003F, kAdd = 4.2F, kScale = 0.8F, kNone = 1.5F;
-  const Vec mean = sum / (greatest(count, splat(1)) * channels);
-  const Vec value = (natural_log(mean + kFloor) + kAdd) * kScale;
-  return choose(count > 0.0F, value, splat(kNone));
-}
-
-// Evidence of one sector from the sums of a run of pixels.
-void finish_sector(const NetEvidenceRow& row, const float* sums, int sector, int begin, int end) {
-  float parts[3][kNetRun];
-  for (int i = 0; i < kNetRun; ++i) {
-    const float* const sum = sums + i * kNetPixel;
-    parts[0][i] = sum[0] + sum[1] + sum[2];
-    parts[1][i] = sum[3] + sum[4];
-    parts[2][i] = sum[5];
-  }
-  for (int i = 0; i < kNetRun; i += kLanes) {
-    const Vec count = load(parts[2] + i);
-    store(parts[0] + i, evidence_of(load(parts[0] + i), count, 3));
-    store(parts[1] + i, evidence_of(load(parts[1] + i), count, 2));
-  }
-  for (int i = 0; i < end - begin; ++i) {
-    float* const out = row.out + static_cast<long>(begin + i) * row.out_step;
-    out[sector] = parts[0][i];
-    out[8 + sector] = parts[1][i];
-  }
-}
-
-void evidence(const NetEvidenceRow& row) {
-  for (int begin = 0; begin < row.width; begin += kNetRun) {
-    const int end = begin + kNetRun < row.width ? begin + kNetRun : row.width;
-    for (int k = 0; k < 8; ++k) {
-      alignas(64) float sums[kNetRun * kNetPixel] = {};
-      const Run run{row.reference + static_cast<long>(begin) * kNetPixel, begin, end, sums};
-      for (int i = row.sector_begin[k]; i < row.sector_begin[k + 1]; ++i) {
-        if (row.has_invalid) {
-          add_view<true>(row, row.views[i], run);
-        } else {
-          add_view<false>(row, row.views[i], run);
-        }
-      }
-      finish_sector(row, sums, k, begin, end);
-    }
-  }
-}
-
 }  // namespace
 
-const NetKernel kNetKernel = {convolve, convolve_narrow, enlarge, evidence};
+const NetKernel kNetKernel = {convolve, convolve_narrow, convolve_mixed, mix, enlarge};
 
 }  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE

@@ -4,8 +4,6 @@
 #include "engine/core/isa.h"
 #include "engine/disparity/kernels/shared_constants.h"
 
-#include <cstdint>
-
 namespace episcope {
 
 /// The longest filter of the structure tensor, in taps.

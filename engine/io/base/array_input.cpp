@@ -4,7 +4,6 @@
 #include "engine/core/text.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>

@@ -312,6 +312,26 @@ std::optional<std::string> Hdf5Input::text(const std::string& object,
   return value.substr(0, value.find('\0'));
 }
 
+std::vector<std::string> Hdf5Input::texts(const std::string& object,
+                                          const std::string& name) const {
+  const Hdf5Lock session;
+  const Hdf5Handle attribute(open_attribute(object, name), H5Aclose);
+  if (!attribute.ok()) return {};
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (count < 1 || H5Tis_variable_str(type) <= 0) return {};
+  if (!fits_file(path_, static_cast<double>(count) * static_cast<double>(H5Tget_size(type)))) {
+    return {};
+  }
+  std::vector<char*> stored(static_cast<std::size_t>(count), nullptr);
+  if (H5Aread(attribute, type, stored.data()) < 0) return {};
+  std::vector<std::string> texts;
+  for (const char* text : stored) texts.emplace_back(text ? text : "");
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, stored.data());
+  return texts;
+}
+
 namespace {
 
 herr_t add_link(hid_t, const char* name, const H5L_info_t*, void* names) {
@@ -380,14 +400,19 @@ hid_t creation_of(hid_t type) {
   return creation;
 }
 
+hid_t access_of(Hdf5WriteLog& log) {
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  use_logging_write_driver(access, log);
+  return access;
+}
+
 }  // namespace
 
 Hdf5Output::Hdf5Output(const AtomicFile& file, std::size_t user_bytes) : path_(file.target()) {
   const Hdf5Lock session;
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  use_logging_write_driver(access, log_);
+  const Hdf5Handle access(access_of(log_), H5Pclose);
   const Hdf5Handle creation(creation_of(H5P_FILE_CREATE), H5Pclose);
   H5Pset_userblock(creation, user_bytes);
   file_ = H5Fcreate(file.temporary().c_str(), H5F_ACC_TRUNC, creation, access);
@@ -397,10 +422,7 @@ Hdf5Output::Hdf5Output(const AtomicFile& file, std::size_t user_bytes) : path_(f
 Hdf5Output::Hdf5Output(const std::filesystem::path& file, const std::filesystem::path& target)
     : path_(target) {
   const Hdf5Lock session;
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  use_logging_write_driver(access, log_);
+  const Hdf5Handle access(access_of(log_), H5Pclose);
   file_ = H5Fopen(file.c_str(), H5F_ACC_RDWR, access);
   require(file_ >= 0);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/indices.h"
 #include "engine/io/base/array_input.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/hdf5_drivers.h"
@@ -36,10 +37,19 @@ struct Hdf5Block {
   Hdf5Shape count;
 };
 
+/// Part of one view in a dataset whose first axes are v and u.
+[[nodiscard]] inline Hdf5Block view_block(const Hdf5Shape& shape, ViewIndex view) {
+  Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
+  block.start[0] = static_cast<std::size_t>(view.v);
+  block.start[1] = static_cast<std::size_t>(view.u);
+  block.count[0] = block.count[1] = 1;
+  return block;
+}
+
 /// Version of the loaded library: "1.10.8".
 [[nodiscard]] std::string hdf5_version();
 
-/// Whether the name of a file ends as those of HDF5 files do: .h5, .hdf5.
+/// Whether the name of a file ends in .h5 or .hdf5.
 [[nodiscard]] bool has_hdf5_name(const std::filesystem::path& path);
 /// Whether the file begins with the signature of HDF5; false also if it cannot be read.
 [[nodiscard]] bool has_hdf5_signature(const std::filesystem::path& path);
@@ -96,6 +106,9 @@ class Hdf5Input {
                                             const std::string& name) const;
   [[nodiscard]] std::optional<std::string> text(const std::string& object,
                                                 const std::string& name) const;
+  /// All elements of an attribute of texts of variable length; empty if there is none.
+  [[nodiscard]] std::vector<std::string> texts(const std::string& object,
+                                               const std::string& name) const;
 
  private:
   friend class Hdf5Output;  // Copies from here.

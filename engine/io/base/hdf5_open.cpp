@@ -244,12 +244,11 @@ double file_bytes(const std::filesystem::path& path) {
 double claimed_bytes(hid_t dataset) {
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
-  const int rank = H5Sget_simple_extent_ndims(space);
-  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(rank, 0)));
-  if (rank > 0) H5Sget_simple_extent_dims(space, extent.data(), nullptr);
   auto bytes = static_cast<double>(H5Tget_size(type));
   // One that is empty along an axis must not claim too much along the others, either.
-  for (const hsize_t length : extent) bytes *= static_cast<double>(std::max<hsize_t>(length, 1));
+  for (const std::size_t length : shape_of(space)) {
+    bytes *= static_cast<double>(std::max<std::size_t>(length, 1));
+  }
   return bytes;
 }
 

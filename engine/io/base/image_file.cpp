@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <png.h>
+#include <zlib.h>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -360,6 +361,9 @@ constexpr std::size_t kSignatureBytes = 8;
 constexpr std::uintmax_t kLargestExpansion = 1100;
 constexpr std::size_t kBufferBytes = 1 << 20;
 
+/// What becomes of stored pixels: samples of 8 or 16 bits without alpha, or labels as they are.
+enum class PngPixels { Samples, Labels };
+
 /// An open file and its decoder. Errors of libpng jump: its functions are called only from the two
 /// members below that set the place to jump to, which hold nothing to be destroyed.
 class PngDecoder {
@@ -379,15 +383,20 @@ class PngDecoder {
   PngDecoder& operator=(const PngDecoder&) = delete;
 
   /// Whether all before the samples could be read; sets the sizes below.
-  [[nodiscard]] bool read_header() {
+  [[nodiscard]] bool read_header(PngPixels pixels = PngPixels::Samples) {
     if (file_ == nullptr || info_ == nullptr) return false;
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     std::setvbuf(file_, nullptr, _IOFBF, kBufferBytes);
     png_init_io(png_, file_);
     png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
     png_read_info(png_, info_);
-    png_set_expand(png_);
-    png_set_strip_alpha(png_);
+    has_palette = png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE;
+    if (pixels == PngPixels::Labels) {
+      keep_labels();
+    } else {
+      png_set_expand(png_);
+      png_set_strip_alpha(png_);
+    }
     if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
     passes_ = png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
@@ -411,13 +420,39 @@ class PngDecoder {
     return true;
   }
 
+  /// Colors and opacities of the palette, which has no opacity where all is opaque.
+  void read_palette(std::vector<std::array<std::uint8_t, 3>>& colors,
+                    std::vector<std::uint8_t>& alpha) const {
+    png_colorp entries = nullptr;
+    png_bytep opacities = nullptr;
+    int count = 0;
+    int opacity_count = 0;
+    png_get_PLTE(png_, info_, &entries, &count);
+    png_get_tRNS(png_, info_, &opacities, &opacity_count, nullptr);
+    for (int i = 0; i < count; ++i) {
+      colors.push_back({entries[i].red, entries[i].green, entries[i].blue});
+    }
+    if (opacities != nullptr) alpha.assign(opacities, opacities + opacity_count);
+  }
+
   int width = 0;
   int height = 0;
   int channels = 0;
   int bits = 0;
   std::size_t row_bytes = 0;
+  bool has_palette = false;  ///< As stored.
 
  private:
+  void keep_labels() {
+    const int depth = png_get_bit_depth(png_, info_);
+    if (has_palette || depth < 8) {
+      png_set_packing(png_);
+      return;
+    }
+    if (png_get_valid(png_, info_, PNG_INFO_tRNS) != 0) png_set_tRNS_to_alpha(png_);
+    if ((png_get_color_type(png_, info_) & PNG_COLOR_MASK_COLOR) != 0) png_set_strip_16(png_);
+  }
+
   std::FILE* file_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
@@ -455,6 +490,87 @@ AnyImage decode_png_top(const fs::path& path, int rows) {
 
 namespace {
 
+/// Splits decoded pixels: 1 or 2 channels are numbers, 3 or 4 colors; the last of 2 or 4 is alpha.
+template <class T>
+LabelPicture split(const Image<T>& pixels) {
+  const int stored = pixels.channels();
+  const bool is_color = stored >= 3;
+  const int height = pixels.height();
+  const int width = pixels.width();
+  const auto byte = [](T sample) {
+    return static_cast<std::uint8_t>(sizeof(T) == 1 ? sample : sample >> 8);
+  };
+  LabelPicture picture;
+  if (is_color) picture.colors = Image<std::uint8_t>(height, width, 3);
+  if (!is_color) picture.numbers = Image<std::int32_t>(height, width);
+  if (stored % 2 == 0) picture.alpha = Image<std::uint8_t>(height, width);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const T* pixel = &pixels.at(y, x);
+      if (!is_color) picture.numbers.at(y, x) = static_cast<std::int32_t>(pixel[0]);
+      for (int c = 0; is_color && c < 3; ++c) picture.colors.at(y, x, c) = byte(pixel[c]);
+      if (stored % 2 == 0) picture.alpha.at(y, x) = byte(pixel[stored - 1]);
+    }
+  }
+  return picture;
+}
+
+template <class T>
+LabelPicture read_labels(PngDecoder& png, const fs::path& path) {
+  Image<T> image(png.height, png.width, png.channels);
+  if (!png.read_rows(reinterpret_cast<png_bytep>(image.data()), png.height)) refuse_image(path);
+  return split(image);
+}
+
+LabelPicture decode_png_labels(const fs::path& path) {
+  PngDecoder png(path);
+  if (!png.read_header(PngPixels::Labels)) refuse_image(path);
+  const bool is_byte = png.bits <= 8;
+  if (png.row_bytes * png.height / kLargestExpansion > fs::file_size(path)) refuse_image(path);
+  LabelPicture picture =
+      is_byte ? read_labels<std::uint8_t>(png, path) : read_labels<std::uint16_t>(png, path);
+  if (!png.has_palette) return picture;
+  std::vector<std::uint8_t> opacities;
+  png.read_palette(picture.palette, opacities);
+  if (opacities.empty()) return picture;
+  picture.alpha = Image<std::uint8_t>(png.height, png.width);
+  std::ranges::transform(picture.numbers, picture.alpha.begin(), [&](std::int32_t index) {
+    const auto place = static_cast<std::size_t>(index);
+    return place < opacities.size() ? opacities[place] : std::uint8_t{255};
+  });
+  return picture;
+}
+
+/// Pixels of OpenCV, whose colors are BGR or BGRA.
+template <class T>
+LabelPicture split_mat(const cv::Mat& decoded) {
+  const int channels = decoded.channels();
+  Image<T> image(decoded.rows, decoded.cols, channels);
+  for (int y = 0; y < decoded.rows; ++y) {
+    const T* in = decoded.ptr<T>(y);
+    T* out = image.row(y);
+    for (int x = 0; x < decoded.cols; ++x, in += channels, out += channels) {
+      std::copy_n(in, channels, out);
+      if (channels >= 3) std::swap(out[0], out[2]);
+    }
+  }
+  return split(image);
+}
+
+}  // namespace
+
+LabelPicture decode_label_picture(const fs::path& path) {
+  require_readable_file(path);
+  if (has_png_signature(path)) return decode_png_labels(path);
+  require_plausible_picture(path);
+  const cv::Mat decoded = read_mat(path, PicturePart::Colors);
+  if (decoded.depth() == CV_8U) return split_mat<std::uint8_t>(decoded);
+  if (decoded.depth() == CV_16U) return split_mat<std::uint16_t>(decoded);
+  throw IoError(path, "a picture of labels must hold integers of 8 or 16 bits; export it again");
+}
+
+namespace {
+
 template <class T>
 cv::Mat to_mat(ImageView<const T> image) {
   const int channels = image.channels;
@@ -469,8 +585,8 @@ cv::Mat to_mat(ImageView<const T> image) {
   return mat;
 }
 
-void encode(const fs::path& path, const char* suffix, const cv::Mat& image,
-            const std::vector<int>& options) {
+std::vector<std::uint8_t> encoded(const fs::path& path, const char* suffix, const cv::Mat& image,
+                                  const std::vector<int>& options) {
   std::vector<std::uint8_t> bytes;
   bool is_encoded = false;
   try {
@@ -479,7 +595,12 @@ void encode(const fs::path& path, const char* suffix, const cv::Mat& image,
     is_encoded = false;
   }
   if (!is_encoded) throw IoError(path, "the picture could not be encoded; choose another format");
-  write_atomically(path, bytes);
+  return bytes;
+}
+
+void encode(const fs::path& path, const char* suffix, const cv::Mat& image,
+            const std::vector<int>& options) {
+  write_atomically(path, encoded(path, suffix, image, options));
 }
 
 template <class T>
@@ -492,10 +613,51 @@ void require_channels(ImageView<const T> image, bool is_allowed, const char* exp
 
 }  // namespace
 
-void write_png(const fs::path& path, ImageView<const std::uint8_t> image) {
+namespace {
+
+std::vector<std::uint8_t> png_of(const fs::path& path, ImageView<const std::uint8_t> image) {
   require_channels(image, image.channels == 1 || image.channels == 3 || image.channels == 4,
                    "1, 3 or 4");
-  encode(path, ".png", to_mat(image), {cv::IMWRITE_PNG_COMPRESSION, 3});
+  return encoded(path, ".png", to_mat(image), {cv::IMWRITE_PNG_COMPRESSION, 3});
+}
+
+constexpr std::size_t kAfterHeader = 33;  ///< Bytes of the signature and of the chunk IHDR.
+
+/// A chunk tEXt: its length, type, keyword and text, checksum.
+std::string own_chunk() {
+  const std::string content = std::string("tEXtSoftware") + '\0' + "Episcope";
+  const auto word = [](std::uint32_t number) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift);
+    return bytes;
+  };
+  const auto sum =
+      crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size()));
+  return word(static_cast<std::uint32_t>(content.size() - 4)) + content +
+         word(static_cast<std::uint32_t>(sum));
+}
+
+}  // namespace
+
+void write_png(const fs::path& path, ImageView<const std::uint8_t> image) {
+  write_atomically(path, png_of(path, image));
+}
+
+void write_picture(const fs::path& path, ImageView<const std::uint8_t> image) {
+  std::vector<std::uint8_t> bytes = png_of(path, image);
+  const std::string chunk = own_chunk();
+  bytes.insert(bytes.begin() + kAfterHeader, chunk.begin(), chunk.end());
+  write_atomically(path, bytes);
+}
+
+bool is_own_picture(const fs::path& path) {
+  if (!has_png_signature(path)) return false;
+  const std::string chunk = own_chunk();
+  std::string found(chunk.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(kAfterHeader);
+  file.read(found.data(), static_cast<std::streamsize>(found.size()));
+  return file && found == chunk;
 }
 
 void write_png(const fs::path& path, ImageView<const std::uint16_t> image) {
@@ -507,6 +669,50 @@ void write_tiff(const fs::path& path, ImageView<const float> image) {
   require_channels(image, image.channels == 1 || image.channels == 3, "1 or 3");
   constexpr int kNoCompression = 1;  // COMPRESSION_NONE of libtiff
   encode(path, ".tiff", to_mat(image), {cv::IMWRITE_TIFF_COMPRESSION, kNoCompression});
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Visit>
+void for_each_image(const fs::path& folder, const Visit& visit) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (!is_hidden && is_image_name(entry.path()) && entry.is_regular_file(error)) {
+      visit(entry.path());
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<fs::path> list_images(const fs::path& folder) {
+  std::vector<fs::path> images;
+  for_each_image(folder, [&](const fs::path& path) { images.push_back(path); });
+  // Comparing whole paths, part by part, takes seconds where there are 100,000.
+  std::ranges::sort(images, {},
+                    [](const fs::path& path) { return std::string_view(path.native()); });
+  return images;
+}
+
+std::vector<fs::path> list_folders(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (!is_hidden && entry.is_directory(error)) folders.push_back(entry.path());
+  }
+  return folders;
+}
+
+int count_images(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return 0;
+  int count = 0;
+  for_each_image(folder, [&](const fs::path&) { ++count; });
+  return count;
 }
 
 }  // namespace episcope::io

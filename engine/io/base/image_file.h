@@ -5,6 +5,8 @@
 #include "engine/io/base/image_header.h"
 #include "engine/io/base/openexr_channels.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -21,7 +23,7 @@ using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<f
 /// palettes. Samples of OpenEXR and Radiance are linear. TIFF files that state an orientation come
 /// upright; Exif orientation (image_orientation.h) is ignored. Throws IoError.
 [[nodiscard]] AnyImage decode_image(const std::filesystem::path& path,
-                                    PicturePart part = PicturePart::Colours);
+                                    PicturePart part = PicturePart::Colors);
 
 /// Decodes the first `count` pages of a TIFF file. Throws IoError, also if there are fewer pages.
 [[nodiscard]] std::vector<AnyImage> decode_pages(const std::filesystem::path& path, int count);
@@ -39,6 +41,22 @@ using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<f
 /// Decodes the first channel of an integer image as numbers. Throws IoError for float images.
 [[nodiscard]] Image<std::int32_t> decode_numbers(const std::filesystem::path& path);
 
+/// A picture whose pixels stand for labels, as it is stored: numbers or colors.
+struct LabelPicture {
+  Image<std::int32_t>
+      numbers;  ///< Gray levels, or indices of `palette`; empty for a color picture.
+  std::vector<std::array<std::uint8_t, 3>> palette;  ///< RGB; empty unless the picture has one.
+  Image<std::uint8_t> colors;                        ///< RGB; empty for numbers.
+  Image<std::uint8_t> alpha;                         ///< 255 = opaque; empty = everywhere.
+
+  [[nodiscard]] int height() const { return std::max(numbers.height(), colors.height()); }
+  [[nodiscard]] int width() const { return std::max(numbers.width(), colors.width()); }
+};
+
+/// Decodes a picture of labels. Indices of a PNG's palette stay as they are, and so do gray levels
+/// of fewer than 8 bits; colors of 16 bits become 8. Throws IoError, also for float images.
+[[nodiscard]] LabelPicture decode_label_picture(const std::filesystem::path& path);
+
 /// Whether a file begins as a PNG does.
 [[nodiscard]] bool has_png_signature(const std::filesystem::path& path);
 
@@ -54,10 +72,27 @@ using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<f
 /// Writes 8-bit grey, RGB or RGBA as PNG. Atomic. Throws IoError.
 void write_png(const std::filesystem::path& path, ImageView<const std::uint8_t> image);
 
+/// Writes a picture for people, of a map, an error, labels, as `write_png` does, with a text that
+/// says that Episcope made it: such pictures are no views of a light field. Atomic. Throws IoError.
+void write_picture(const std::filesystem::path& path, ImageView<const std::uint8_t> image);
+
+/// Whether a file is a PNG that `write_picture` wrote. False for a file that cannot be read.
+[[nodiscard]] bool is_own_picture(const std::filesystem::path& path);
+
 /// Writes 16-bit grey or RGB as PNG. Atomic. Throws IoError.
 void write_png(const std::filesystem::path& path, ImageView<const std::uint16_t> image);
 
 /// Writes 32-bit float TIFF, grey or RGB. Atomic. Throws IoError.
 void write_tiff(const std::filesystem::path& path, ImageView<const float> image);
+
+/// Lists the images directly in a folder, by name. Omits hidden files and links that lead nowhere
+/// or to themselves. Throws filesystem_error if the folder cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
+
+/// Lists the visible folders directly in a folder, in any order; none if it cannot be opened.
+[[nodiscard]] std::vector<std::filesystem::path> list_folders(const std::filesystem::path& folder);
+
+/// Number of images directly in a folder; 0 if there is no such folder.
+[[nodiscard]] int count_images(const std::filesystem::path& folder);
 
 }  // namespace episcope::io

@@ -12,10 +12,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -312,6 +310,38 @@ template void write_npy(const std::filesystem::path&, const ArrayShape&,
                         std::span<const std::int32_t>);
 template void write_npy(const std::filesystem::path&, const ArrayShape&, std::span<const float>);
 
+namespace {
+
+class DeflatedNpy : public LinearArray {
+ public:
+  DeflatedNpy(const std::filesystem::path& path, const ZipEntry& entry, NpyHeader header)
+      : LinearArray(path, stored_shape(header), header.type),
+        entry_(entry),
+        header_(std::move(header)),
+        stream_(std::make_unique<InflateStream>(path, entry)) {}
+
+  [[nodiscard]] bool is_sequential() const override { return true; }
+
+ private:
+  void read_elements(std::size_t first, std::size_t count, std::uint8_t* out) const override {
+    const std::size_t bytes = count * byte_size(type());
+    const std::uint64_t begin = header_.bytes + first * byte_size(type());
+    if (begin < stream_->position()) stream_ = std::make_unique<InflateStream>(path(), entry_);
+    if (!stream_->skip_to(begin) || stream_->read(bytes, out) != bytes) {
+      throw IoError(path(), entry_.name +
+                                " in the zip archive is truncated or damaged; copy or save "
+                                "it again");
+    }
+    if (header_.is_big_endian) swap_bytes(type(), count, out);
+  }
+
+  ZipEntry entry_;
+  NpyHeader header_;
+  mutable std::unique_ptr<InflateStream> stream_;
+};
+
+}  // namespace
+
 NpyHeader read_zipped_header(const std::filesystem::path& path, const ZipEntry& entry) {
   if (!entry.is_deflated) return NpyFile(path, entry.begin, entry.stored).header();
   std::vector<std::uint8_t> begin(
@@ -320,22 +350,10 @@ NpyHeader read_zipped_header(const std::filesystem::path& path, const ZipEntry& 
   return parse_npy_header(path, {reinterpret_cast<const char*>(begin.data()), begin.size()});
 }
 
-DeflatedNpy::DeflatedNpy(const std::filesystem::path& path, const ZipEntry& entry, NpyHeader header)
-    : LinearArray(path, stored_shape(header), header.type),
-      entry_(entry),
-      header_(std::move(header)),
-      stream_(std::make_unique<InflateStream>(path, entry)) {}
-
-void DeflatedNpy::read_elements(std::size_t first, std::size_t count, std::uint8_t* out) const {
-  const std::size_t bytes = count * byte_size(type());
-  const std::uint64_t begin = header_.bytes + first * byte_size(type());
-  if (begin < stream_->position()) stream_ = std::make_unique<InflateStream>(path(), entry_);
-  if (!stream_->skip_to(begin) || stream_->read(bytes, out) != bytes) {
-    throw IoError(path(), entry_.name +
-                              " in the zip archive is truncated or damaged; copy or save "
-                              "it again");
-  }
-  if (header_.is_big_endian) swap_bytes(type(), count, out);
+std::unique_ptr<ArrayInput> open_zipped_npy(const std::filesystem::path& path,
+                                            const ZipEntry& entry) {
+  if (!entry.is_deflated) return std::make_unique<NpyFile>(path, entry.begin, entry.stored);
+  return std::make_unique<DeflatedNpy>(path, entry, read_zipped_header(path, entry));
 }
 
 }  // namespace episcope::io

@@ -84,19 +84,9 @@ void write_npy(const std::filesystem::path& path, const ArrayShape& shape,
 [[nodiscard]] NpyHeader read_zipped_header(const std::filesystem::path& path,
                                            const ZipEntry& entry);
 
-/// A deflated `.npy` file in an archive, inflated piece by piece while it is read.
-class DeflatedNpy : public LinearArray {
- public:
-  /// `header` is that of `entry`. Throws IoError.
-  DeflatedNpy(const std::filesystem::path& path, const ZipEntry& entry, NpyHeader header);
-  [[nodiscard]] bool is_sequential() const override { return true; }
-
- private:
-  void read_elements(std::size_t first, std::size_t count, std::uint8_t* out) const override;
-
-  ZipEntry entry_;
-  NpyHeader header_;
-  mutable std::unique_ptr<InflateStream> stream_;
-};
+/// Opens an `.npy` file inside an archive, stored or deflated; a deflated one is inflated piece by
+/// piece while it is read. Throws IoError.
+[[nodiscard]] std::unique_ptr<ArrayInput> open_zipped_npy(const std::filesystem::path& path,
+                                                          const ZipEntry& entry);
 
 }  // namespace episcope::io

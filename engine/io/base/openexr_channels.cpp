@@ -177,8 +177,8 @@ ExrNames names_of_layer(const std::vector<Channel>& channels) {
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const std::string& name = channels[i].name;
     const std::string_view part = last_part(name);
-    const bool is_colour = part == "R" || part == "G" || part == "B";
-    if (is_colour && part.size() < name.size()) {
+    const bool is_color = part == "R" || part == "G" || part == "B";
+    if (is_color && part.size() < name.size()) {
       layers[name.substr(0, name.size() - 1)][i] = part.front();
     }
   }

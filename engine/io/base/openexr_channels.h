@@ -9,7 +9,7 @@
 namespace episcope::io {
 
 /// Part of an OpenEXR file to decode, which may hold both.
-enum class PicturePart { Colours, Depth };
+enum class PicturePart { Colors, Depth };
 
 /// Renames channels that OpenCV does not know: layers of a render (`View Layer.Combined.R`) and
 /// depth (`Z`, `V`, `View Layer.Depth.Z`). Returns the bytes of the file with names by which OpenCV

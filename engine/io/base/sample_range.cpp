@@ -217,7 +217,7 @@ void scale_signed(ViewStack<float>& stack, const FloatSpread& spread, Convention
                            spread.largest <= 127 && amplitude > kMaxSignedSample;
   float black = spread.shadow;
   float white = std::max(spread.highlight, std::nextafter(spread.shadow, spread.largest));
-  const char* meaning = "normalised in some way: 0.1 % of them are darker, 0.1 % brighter";
+  const char* meaning = "normalized in some way: 0.1 % of them are darker, 0.1 % brighter";
   if (amplitude <= kMaxSignedSample) {
     black = -1;
     white = 1;

@@ -356,7 +356,7 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
 
 namespace {
 
-/// The view whose neighbours tell most: the centre, or another if depth is there only.
+/// The view whose neighbors tell most: the center, or another if depth is there only.
 ViewIndex reference_view(const DepthMaps& maps, GridShape grid) {
   return maps.depth.contains(grid.center()) ? grid.center() : maps.depth.first();
 }

@@ -61,10 +61,10 @@ std::optional<SampleType> sample_type(Hdf5Type type) {
   return std::nullopt;  // decided by the samples
 }
 
-/// "all views" or "the centre view" of a dataset; empty if there is none.
+/// "all views" or "the center view" of a dataset; empty if there is none.
 std::string covered(const Hdf5Input& file, const char* dataset) {
   if (!file.has(dataset)) return {};
-  return file.dataset(dataset).shape.size() > 2 ? "all views" : "the centre view";
+  return file.dataset(dataset).shape.size() > 2 ? "all views" : "the center view";
 }
 
 std::string truth_of(const Hdf5Input& file) {
@@ -82,10 +82,10 @@ std::string labels_of(const Hdf5Input& file) {
   return labels.empty() ? "scribbles" : labels + ", scribbles";
 }
 
-/// Labels of the file itself, or of labels.h5 beside it unless that belongs to another file.
+/// Labels of the file itself, or of the file beside it unless that belongs to another file.
 std::string labels_with(const Hdf5Input& file) {
   if (const std::string own = labels_of(file); !own.empty()) return own;
-  const fs::path beside = file.path().parent_path() / "labels.h5";
+  const fs::path beside = labels_beside(file.path());
   if (!has_hdf5_signature(beside)) return {};
   const Hdf5Input labels(beside);
   const auto owner = labels.text("/", "light_field");

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/memory.h"
 #include "engine/core/scene.h"
+#include "engine/io/base/json.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/archive_depth.h"
 #include "engine/io/formats/archive_layout.h"
@@ -21,7 +22,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <optional>
@@ -180,9 +180,9 @@ std::optional<ViewStack<T>> map_views(const Hdf5Input& file, const ArchiveLayout
 }
 
 /// The samples of an archive file in the stored order of views and in their stored type; wider
-/// integers are taken as bytes if the centre view fits. Those of a large light field
+/// integers are taken as bytes if the center view fits. Those of a large light field
 /// (is_better_mapped) stay in the file, if it stores them as an array of 8 or 16 bits that nothing
-/// asks to change: they are there at once, and read when they are looked at. Shows the centre view
+/// asks to change: they are there at once, and read when they are looked at. Shows the center view
 /// (OpenOptions::on_center_view) with `info`. Throws IoError, Cancelled.
 LightField::Samples read_archive_samples(const Hdf5Input& file, ArchiveLayout layout,
                                          const OpenOptions& options, const LightFieldInfo& info,
@@ -224,13 +224,13 @@ std::optional<Interval> stated_range(const Hdf5Input& file) {
   return Interval{*min, *max};
 }
 
-/// Labels of the file or of labels.h5 beside it, whose use is noted.
+/// Labels of the file or of the file beside it, whose use is noted.
 ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, ConventionReport& report,
                           FileUsage& account, const Progress& progress) {
   const bool has_own = file.has(kTrueLabels) || file.has("SCRIBBLES");
   ArchiveLabels own =
       has_own ? read_archive_labels(file, shape, report, progress) : ArchiveLabels();
-  const fs::path beside = file.path().parent_path() / "labels.h5";
+  const fs::path beside = labels_beside(file.path());
   if (!is_there(beside)) return own;
   const Hdf5Input labels(beside);
   // Where several light fields share a folder, labels that we wrote name theirs.
@@ -246,6 +246,23 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
     own.scribbles = read_scribble_dataset(labels, shape, false, progress).scribbles;
   }
   return own;
+}
+
+/// How the depth was estimated, if the file says that it is a result.
+std::optional<Provenance> read_estimated(const Hdf5Input& file) {
+  for (const char* name : {"GT_DEPTH", "GT_DEPTH_FOREGROUND"}) {
+    if (!file.has(name)) continue;
+    const auto method = file.text(name, kEstimatedBy);
+    if (!method) continue;
+    Provenance estimated;
+    estimated.method = *method;
+    estimated.parameters =
+        parameters_from_json(file.text(name, kEstimateParameters).value_or("{}"));
+    estimated.source = file.text(name, kEstimateSource).value_or("");
+    estimated.version = file.text(name, kEstimateVersion).value_or("");
+    return estimated;
+  }
+  return std::nullopt;
 }
 
 void tell_unused_depth(const ArchiveTruth& depth, bool has_disparity, ConventionReport& report) {
@@ -304,6 +321,11 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
       input, layout, options.needs_truth, {samples, truth, valid, info.camera, expected, report},
       progress.part(0.95, 0.97));
   tell_unused_depth(depth, !truth.field.empty(), report);
+  if (truth.has_disparity() || truth.has_layers()) truth.estimated = read_estimated(file);
+  if (truth.estimated && options.needs_truth) {
+    report.warnings.push_back("The depth of this file is no ground truth: it was " +
+                              estimated_text(*truth.estimated) + ".");
+  }
   assemble({.samples = std::move(samples),
             .truth = std::move(truth),
             .info = std::move(info),

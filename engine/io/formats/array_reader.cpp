@@ -11,7 +11,6 @@
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/archive_depth.h"
 #include "engine/io/formats/archive_layout.h"
-#include "engine/io/formats/archive_reader.h"
 #include "engine/io/formats/multi_field_file.h"
 #include "engine/io/models/array_file.h"
 #include "engine/io/models/array_maps.h"
@@ -103,7 +102,7 @@ void decode_luma_chroma(const std::string& name, LightField::Samples& samples,
         decode(stack, is_video);
         report.warnings.push_back(
             "By its name " + name + " holds Y, Cb and Cr: they were taken as those of " +
-            (is_video ? "video (16 … 235)" : "the full range") + " and turned into colours.");
+            (is_video ? "video (16 … 235)" : "the full range") + " and turned into colors.");
       },
       samples);
 }
@@ -165,7 +164,7 @@ bool may_be_stacked(const ArrayEntry& entry) {
          entry.shape[0] / kYuvPlanes >= kFewestListed;
 }
 
-/// The file as if a list of 3N grey pictures in C order, 3N×H×W, were one of N coloured ones,
+/// The file as if a list of 3N grey pictures in C order, 3N×H×W, were one of N colored ones,
 /// N×3×H×W, if the pictures are the channels of views one after the other, as networks take them:
 /// then views move, and channels do not. Null for other files, and where options say what is meant.
 /// `file` must outlive it.
@@ -325,8 +324,8 @@ std::span<const char* const> array_options() {
 SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
   const auto several = MultiFieldFile::find(file, options);
   if (!several) {
-    const auto colours = with_stacked_channels(file, options);
-    return probe_single(colours ? *colours : file, options);
+    const auto colored = with_stacked_channels(file, options);
+    return probe_single(colored ? *colored : file, options);
   }
   SceneProbe probe = probe_single(*several->one(file, several->index(file, options)), options);
   if (!several->is_named(options)) probe.frames = several->count();
@@ -336,14 +335,14 @@ SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
 }  // namespace
 
 /// Reads the light field of a file of arrays, and the maps beside it; then, if given, what else
-/// there is. A picture of the centre view is given first. Throws IoError, InvalidInput for options
+/// there is. A picture of the center view is given first. Throws IoError, InvalidInput for options
 /// that do not fit, Cancelled.
 Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOptions& options,
                        const Progress& progress, const OtherArrays& more = {}) {
   const auto several = MultiFieldFile::find(file, options);
   if (!several) {
-    const auto colours = with_stacked_channels(file, options);
-    return read_single(colours ? *colours : file, reader, options, progress, more);
+    const auto colored = with_stacked_channels(file, options);
+    return read_single(colored ? *colored : file, reader, options, progress, more);
   }
   const int index = several->index(file, options);
   Scene scene = read_single(*several->one(file, index), reader, options, progress, {});
@@ -448,7 +447,7 @@ bool is_archive_form(const ArrayEntry& light_field) {
   return (last == 1 || last == 3 || last == 4) && (stated.empty() || stated.starts_with("v,u,y,x"));
 }
 
-/// Maps and results have fewer axes, too, but no colours, and names that tell what they are.
+/// Maps and results have fewer axes, too, but no colors, and names that tell what they are.
 bool is_like_views(const ArrayEntry& entry) {
   if (can_be_stack(entry)) return !has_other_name(entry);
   if (entry.is_of_views()) return !map_kind(telling_name(entry));
@@ -589,6 +588,10 @@ SceneProbe probe_numpy(const fs::path& path, const OpenOptions& options) {
 }
 
 }  // namespace
+
+Scene read_arrays(const ArrayFile& file, const OpenOptions& options, const Progress& progress) {
+  return read_array_scene(file, kNumpyReader, options, progress);
+}
 
 Reader numpy_reader() {
   return {.id = kNumpyReader,

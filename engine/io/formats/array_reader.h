@@ -2,6 +2,8 @@
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/io/models/array_file.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/reader.h"
@@ -18,6 +20,11 @@ namespace episcope::io {
 void arrange_list(const std::filesystem::path& path, const OpenOptions& options, SceneParts& parts,
                   std::string& reason, const Progress& progress,
                   std::optional<GridShape> stored = std::nullopt);
+
+/// The light field of arrays that need not come from a file, read as `numpy_reader` reads `.npy`.
+/// Throws IoError, InvalidInput for options that do not fit, Cancelled.
+[[nodiscard]] Scene read_arrays(const ArrayFile& file, const OpenOptions& options,
+                                const Progress& progress);
 
 /// HDF5 files with a light field in another form than the archive's: a dataset of five axes with
 /// any name and order, or groups with a dataset for each channel.

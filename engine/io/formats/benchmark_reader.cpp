@@ -111,8 +111,8 @@ std::string truth_of(const fs::path& folder, GridShape grid) {
   const bool has_all = is_there(folder / disparity_file_name(0)) &&
                        is_there(folder / disparity_file_name(grid.count() - 1));
   if (has_all) return "disparity of all views";
-  if (is_there(folder / kCenterDisparity)) return "disparity of the centre view";
-  return is_there(folder / kCenterDepth) ? "depth of the centre view" : "";
+  if (is_there(folder / kCenterDisparity)) return "disparity of the center view";
+  return is_there(folder / kCenterDepth) ? "depth of the center view" : "";
 }
 
 std::vector<long long> counted(int length) {
@@ -177,7 +177,7 @@ SceneProbe probe_benchmark(const fs::path& folder, const OpenOptions& options) {
   if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
   SceneProbe probe = probe_views(benchmark_views(folder, config, given_grid(options)).views);
   probe.truth = truth_of(folder, probe.grid);
-  if (is_there(folder / kObjectIds)) probe.labels = "labels of the centre view";
+  if (is_there(folder / kObjectIds)) probe.labels = "labels of the center view";
   return probe;
 }
 
@@ -379,11 +379,11 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   }
   GroundTruth truth;
   const SidecarViews beside_views{views,
-                                 views.files.front().parent_path(),
-                                 samples,
-                                 info.camera,
-                                 options.map_views(),
-                                 options.needs_truth};
+                                  views.files.front().parent_path(),
+                                  samples,
+                                  info.camera,
+                                  options.map_views(),
+                                  options.needs_truth};
   const SidecarNotes notes{account, report};
   truth.field = read_benchmark_disparity(folder, beside_views, notes, progress.part(0.85, 0.9));
   if (truth.field.empty()) {

@@ -5,7 +5,7 @@
 #include "engine/core/ground_truth.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/pfm.h"
-#include "engine/io/models/order/flipped_truth.h"
+#include "engine/io/models/order/order_check.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
 #include "engine/io/models/sidecar_maps/infer_units.h"
@@ -154,7 +154,9 @@ class Files {
     }
   }
   [[nodiscard]] bool has_read_any() const { return !outcome_.read.empty(); }
-  void tell(const std::string& kind, const SidecarNotes& notes) const { outcome_.tell(kind, notes); }
+  void tell(const std::string& kind, const SidecarNotes& notes) const {
+    outcome_.tell(kind, notes);
+  }
 
  private:
   SetOutcome outcome_;
@@ -179,7 +181,7 @@ Image<float> read_map(const fs::path& path, const SidecarViews& views) {
   return map;
 }
 
-/// Depth of the benchmark is in metres or in millimetres, told apart by the focus distance.
+/// Depth of the benchmark is in meters or in millimeters, told apart by the focus distance.
 void depth_to_disparity(const CameraGrid& camera, Image<float>& map) {
   double nearest_difference[2] = {0, 0};
   for (const float depth : map) {
@@ -193,29 +195,20 @@ void depth_to_disparity(const CameraGrid& camera, Image<float>& map) {
   }
 }
 
-/// A field of views without a valid pixel.
-DisparityField invalid_field(const SidecarViews& views, GridShape part, ViewIndex first) {
-  DisparityField field{ViewStack<float>(part, views.height(), views.width(), 1, first),
-                       ViewStack<std::uint8_t>(part, views.height(), views.width(), 1, first)};
-  std::fill_n(field.disparity.data(), field.disparity.size(), 0.0F);
-  std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{0});
-  return field;
-}
-
 /// Files are numbered as in the whole grid.
 std::string disparity_file_of(ViewIndex view, const ViewFiles& views) {
   const ViewIndex at = views.in_whole(view);
   return disparity_file_name(at.v * views.whole_grid().u + at.u);
 }
 
-/// Of every view, or of the centre view alone where that is all that is asked for.
+/// Of every view, or of the center view alone where that is all that is asked for.
 DisparityField read_of_all_views(const fs::path& folder, const SidecarViews& views,
                                  const SidecarNotes& notes, const Progress& progress) {
   const GridShape grid = views.grid();
   const bool all = views.map_views == MapViews::All;
   const GridShape part = all ? grid : GridShape{1, 1};
   const ViewIndex first = all ? ViewIndex{} : grid.center();
-  DisparityField field = invalid_field(views, part, first);
+  DisparityField field = DisparityField::unknown(part, views.height(), views.width(), first);
   Files files;
   for (int i = 0; i < part.count(); ++i) {
     progress.check();
@@ -228,12 +221,12 @@ DisparityField read_of_all_views(const fs::path& folder, const SidecarViews& vie
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 
-/// Of the centre view; `convert` makes disparity of what is stored.
+/// Of the center view; `convert` makes disparity of what is stored.
 DisparityField read_of_center(const fs::path& file, const std::string& kind,
                               const SidecarViews& views, const SidecarNotes& notes,
                               const std::function<void(Image<float>&)>& convert) {
   const ViewIndex center = *views.files.whole_center();
-  DisparityField field = invalid_field(views, {1, 1}, center);
+  DisparityField field = DisparityField::unknown({1, 1}, views.height(), views.width(), center);
   Files files;
   files.read(file, [&] {
     Image<float> map = read_map(file, views);
@@ -244,11 +237,11 @@ DisparityField read_of_center(const fs::path& file, const std::string& kind,
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 
-/// Of the map in high resolution the value in the middle of each pixel of the centre view.
+/// Of the map in high resolution the value in the middle of each pixel of the center view.
 DisparityField read_reduced(const HighResFiles& high_res, const SidecarViews& views,
                             const SidecarNotes& notes) {
   const ViewIndex center = *views.files.whole_center();
-  DisparityField field = invalid_field(views, {1, 1}, center);
+  DisparityField field = DisparityField::unknown({1, 1}, views.height(), views.width(), center);
   Files files;
   files.read(high_res.disparity, [&] {
     const Image<float> map =
@@ -266,14 +259,14 @@ DisparityField read_reduced(const HighResFiles& high_res, const SidecarViews& vi
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 
-/// Truth of the centre of the whole grid, which must be one of the views.
+/// Truth of the center of the whole grid, which must be one of the views.
 DisparityField read_stored_center(const fs::path& folder, const SidecarViews& views,
                                   const SidecarNotes& notes) {
   std::string& units = notes.report.units;
   const fs::path disparity = folder / kCenterDisparity;
   if (is_there(disparity)) {
     units = "disparity as stored in gt_disp_lowres.pfm";
-    DisparityField field = read_of_center(disparity, "disparity maps of the centre view", views,
+    DisparityField field = read_of_center(disparity, "disparity maps of the center view", views,
                                           notes, [](Image<float>&) {});
     if (!field.empty()) return field;
   }
@@ -281,7 +274,7 @@ DisparityField read_stored_center(const fs::path& folder, const SidecarViews& vi
   if (is_there(depth) && views.camera.is_known() && views.camera.cam_distance) {
     units = "disparity from gt_depth_lowres.pfm and the camera of parameters.cfg";
     DisparityField field =
-        read_of_center(depth, "depth maps of the centre view", views, notes,
+        read_of_center(depth, "depth maps of the center view", views, notes,
                        [&](Image<float>& map) { depth_to_disparity(views.camera, map); });
     if (!field.empty()) return field;
   }
@@ -373,7 +366,7 @@ void find_high_res(const fs::path& folder, const SidecarViews& views, const Side
   const HighResFiles files = find_high_res_files(folder);
   truth.high_res = high_res_truth(files, views.height(), views.width());
   if (!truth.high_res) return;
-  notes.account.use(files.disparity, "disparity map of the centre view in high resolution");
+  notes.account.use(files.disparity, "disparity map of the center view in high resolution");
   notes.account.use(files.masks, "region masks in high resolution");
 }
 
@@ -389,7 +382,7 @@ void read_object_ids(const fs::path& folder, const SidecarViews& views, const Si
         ViewStack<std::int32_t>({1, 1}, ids.height(), ids.width(), 1, *views.files.whole_center());
     std::copy_n(ids.data(), ids.size(), truth.labels.data());
   });
-  files.tell("label maps of the centre view", notes);
+  files.tell("label maps of the center view", notes);
 }
 
 }  // namespace

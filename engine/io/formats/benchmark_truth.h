@@ -13,7 +13,7 @@ namespace episcope::io {
 /// Names of files in a scene folder of the 2016 benchmark; views have three digits.
 inline constexpr const char* kBenchmarkConfig = "parameters.cfg";
 inline constexpr const char* kViewPrefix = "input_Cam";
-/// Truth of the centre view: disparity or depth, and ids of objects.
+/// Truth of the center view: disparity or depth, and ids of objects.
 inline constexpr const char* kCenterDisparity = "gt_disp_lowres.pfm";
 inline constexpr const char* kCenterDepth = "gt_depth_lowres.pfm";
 inline constexpr const char* kObjectIds = "objectids_lowres.png";

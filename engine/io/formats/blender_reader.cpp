@@ -30,7 +30,7 @@
 namespace episcope::io {
 namespace {
 
-/// The views at most `radius` rows and columns from the centre.
+/// The views at most `radius` rows and columns from the center.
 ViewCrop around_center(GridShape stored, int radius) {
   const ViewIndex center = stored.center();
   const ViewIndex first{std::max(0, center.v - radius), std::max(0, center.u - radius)};
@@ -39,8 +39,8 @@ ViewCrop around_center(GridShape stored, int radius) {
   return {stored, first, {last.v - first.v + 1, last.u - first.u + 1}};
 }
 
-/// The largest grid around the centre whose views are all complete: the add-on renders rings around
-/// the centre one after another. Throws IoError if not even the centre is complete.
+/// The largest grid around the center whose views are all complete: the add-on renders rings around
+/// the center one after another. Throws IoError if not even the center is complete.
 ViewCrop complete_crop(const RenderManifest& manifest) {
   const GridShape grid = manifest.grid;
   std::vector<std::uint8_t> is_complete(static_cast<std::size_t>(grid.count()), 0);
@@ -56,7 +56,7 @@ ViewCrop complete_crop(const RenderManifest& manifest) {
   };
   if (!is_whole(around_center(grid, 0))) {
     throw IoError(manifest.folder,
-                  "no view is rendered yet: the centre comes first; open the folder again later, "
+                  "no view is rendered yet: the center comes first; open the folder again later, "
                   "or start the rendering anew if it was stopped");
   }
   int radius = 0;
@@ -68,7 +68,7 @@ ViewCrop complete_crop(const RenderManifest& manifest) {
 std::string progress_text(const RenderManifest& manifest, const ViewCrop& crop) {
   if (!crop.leaves_out()) return {};
   return fmt::format(
-      "{} of {} views are rendered so far; shown are the {}×{} around the centre. Read it "
+      "{} of {} views are rendered so far; shown are the {}×{} around the center. Read it "
       "again to see more; if the rendering was stopped, the same command in Blender continues it.",
       manifest.complete.size(), manifest.grid.count(), crop.kept.v, crop.kept.u);
 }
@@ -148,7 +148,7 @@ void read_labels(const RenderManifest& manifest, const Block& block, ViewIndex v
 }
 
 /// Disparity, layers and labels of the views of `crop`, or with MapViews::Center the disparity of
-/// the centre view alone. Pixels in which a transparent surface is seen before another have layers
+/// the center view alone. Pixels in which a transparent surface is seen before another have layers
 /// and no one disparity. Throws IoError for maps that are missing or of another size; Cancelled.
 GroundTruth read_render_truth(const RenderManifest& manifest, const ViewCrop& crop, MapViews views,
                               bool needs_labels, const Progress& progress) {

@@ -20,7 +20,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -207,7 +206,7 @@ std::vector<CollectionEntry> find_light_fields(const fs::path& root,
 namespace {
 
 using Json = nlohmann::json;
-constexpr int kForm = 3;  ///< Counts up when readers find other light fields.
+constexpr int kForm = 4;  ///< Counts up when readers find other light fields.
 
 /// Other readers may find other light fields.
 std::string key_of_program() {
@@ -538,6 +537,12 @@ bool is_around(const fs::path& folder) {
   return named_views_folder(folder) == folder && views_folder(folder) != folder;
 }
 
+/// Without the pictures that this program made of maps and views: they are no views.
+FolderListing without_own_pictures(FolderListing listing) {
+  std::erase_if(listing.files, [](const ListedFile& file) { return is_own_picture(file.path); });
+  return listing;
+}
+
 std::size_t image_count(const FolderListing& listing) {
   return static_cast<std::size_t>(std::ranges::count_if(
       listing.files, [](const ListedFile& file) { return is_image_name(file.path); }));
@@ -585,9 +590,11 @@ FolderRecord scan_folder(const FolderListing& listing) {
     record.entries.push_back(folder_entry(listing, found));
     return record;
   }
-  record.entries = image_entries(listing);
-  if (record.entries.empty() && is_folder) {
-    add_image_grid(listing, folder_entry(listing, found), record);
+  const FolderListing others = without_own_pictures(listing);
+  const bool has_own_alone = image_count(listing) > 0 && image_count(others) == 0;
+  record.entries = image_entries(others);
+  if (record.entries.empty() && is_folder && !has_own_alone) {
+    add_image_grid(others, folder_entry(listing, found), record);
     return record;
   }
   add_array_entries(listing, record);

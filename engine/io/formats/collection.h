@@ -113,7 +113,8 @@ struct FolderListing {
 [[nodiscard]] FolderListing list_file(const std::filesystem::path& file);
 
 /// Finds the light fields of a folder with the table of readers (reader.h): the folder itself if it
-/// is a scene folder, else each of its files that is a light field. Files that cannot be opened
+/// is a scene folder, else each of its files that is a light field. Pictures that this program made
+/// (is_own_picture) are none. Files that cannot be opened
 /// become entries with a problem. Reads headers only.
 [[nodiscard]] FolderRecord scan_folder(const FolderListing& listing);
 

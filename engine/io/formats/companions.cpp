@@ -105,11 +105,7 @@ ViewStack<float> read_edge_probabilities(const std::filesystem::path& path, cons
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
     const ViewIndex stored = grid.view_at(i);
-    Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
-    block.start[0] = static_cast<std::size_t>(stored.v);
-    block.start[1] = static_cast<std::size_t>(stored.u);
-    block.count[0] = block.count[1] = 1;
-    file.read(kEdgeWeights, block,
+    file.read(kEdgeWeights, view_block(shape, stored),
               weights.view(flipped(stored, grid, flip_of(scene.convention))).data);
     progress.report((i + 1.0) / grid.count());
   }
@@ -160,11 +156,7 @@ void write_label_probabilities(const std::filesystem::path& path, int label_coun
     progress.check();
     const ViewIndex stored = grid.view_at(i);
     fill_samples(probabilities(flipped(stored, grid, flip_of(scene.convention))), samples);
-    Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
-    block.start[0] = static_cast<std::size_t>(stored.v);
-    block.start[1] = static_cast<std::size_t>(stored.u);
-    block.count[0] = block.count[1] = 1;
-    file.write(kProbabilityData, block, samples.data());
+    file.write(kProbabilityData, view_block(shape, stored), samples.data());
     progress.report((i + 1.0) / grid.count());
   }
   file.close();

@@ -56,7 +56,7 @@ class ProbabilityFile {
   ProbabilityFile& operator=(ProbabilityFile&&) noexcept;
 
   [[nodiscard]] int label_count() const;
-  /// Views in the file: all, or the centre view only.
+  /// Views in the file: all, or the center view only.
   [[nodiscard]] bool contains(ViewIndex view) const;
   /// `[y][x][label]` of a view in canonical order. Precondition: `contains(view)`. Throws IoError.
   [[nodiscard]] Image<float> view(ViewIndex view) const;

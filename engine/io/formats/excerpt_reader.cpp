@@ -85,7 +85,7 @@ Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Pro
     extras.disparity_range = Interval{min->second, max->second};
   }
   extras.files = {{folder / "attributes.dat", "camera attributes"},
-                  {folder / "depth.bin", "depth of the centre view"}};
+                  {folder / "depth.bin", "depth of the center view"}};
   if (is_there(folder / "mask.png")) extras.files.emplace_back(folder / "mask.png", "mask");
   extras.read_truth = [&](const LightField::Samples& samples, CameraGrid& camera,
                           ConventionReport& report) {
@@ -109,7 +109,7 @@ Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Pro
 
 SceneProbe probe_excerpt(const fs::path& folder, const OpenOptions& options) {
   SceneProbe probe = probe_image_grid(folder, options);
-  probe.truth = "depth of the centre view";
+  probe.truth = "depth of the center view";
   return probe;
 }
 

@@ -5,7 +5,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/text.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/base/image_list.h"
+#include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/array_reader.h"
@@ -37,7 +37,7 @@ namespace {
 constexpr int kChannels = 3;
 constexpr int kFewestListedPages = 4;
 
-/// Whether pages in the middle of the list differ by colour, not by motion: motion that is too far
+/// Whether pages in the middle of the list differ by color, not by motion: motion that is too far
 /// to be followed leaves pictures that are not alike.
 bool are_channels(const LightField::Samples& samples, const PageOrder& order, int views) {
   constexpr double kAlike = 0.4;
@@ -60,20 +60,20 @@ bool are_channels(const LightField::Samples& samples, const PageOrder& order, in
 template <class T>
 ViewStack<T> joined_channels(const ViewStack<T>& pages, const PageOrder& order) {
   const int views = pages.grid().count() / order.channels;
-  ViewStack<T> coloured({1, views}, pages.height(), pages.width(), kChannels, {},
-                        allocate_large_zeros);
+  ViewStack<T> colored({1, views}, pages.height(), pages.width(), kChannels, {},
+                       allocate_large_zeros);
   for (int view = 0; view < views; ++view) {
     for (int channel = 0; channel < std::min(order.channels, kChannels); ++channel) {
       const T* from = pages.view({0, order.page(view, channel)}).data;
-      T* to = coloured.view({0, view}).data + channel;
+      T* to = colored.view({0, view}).data + channel;
       for (std::size_t n = 0; n < pages.view_size(); ++n) to[n * kChannels] = from[n];
     }
   }
-  return coloured;
+  return colored;
 }
 
 /// The order of 3N grey pictures, 1×3N, of which each three are the channels of one, as ImageJ
-/// stores colours of more than 8 bits, or each third of them is a channel: then views move, and
+/// stores colors of more than 8 bits, or each third of them is a channel: then views move, and
 /// channels do not. Nothing if they do.
 std::optional<PageOrder> find_channel_pages(const LightField::Samples& samples) {
   return std::visit(
@@ -90,7 +90,7 @@ std::optional<PageOrder> find_channel_pages(const LightField::Samples& samples) 
       samples);
 }
 
-/// Puts pictures, grey and 1×N, together to coloured ones: two channels become red and green, of
+/// Puts pictures, grey and 1×N, together to colored ones: two channels become red and green, of
 /// more than three the first three are kept.
 void join_channel_pages(LightField::Samples& samples, const PageOrder& order) {
   std::visit([&](auto& stack) { stack = joined_channels(stack, order); }, samples);
@@ -340,7 +340,7 @@ std::optional<StatedPages> pages_of(PageAxes axes, std::string program, int page
   const auto drop_channels = [](PageAxes& from) { std::erase_if(from, &PageAxis::is_channels); };
   PageAxes of_views = axes;
   drop_channels(of_views);
-  // Pages may be coloured: then their channels are no axis of pages.
+  // Pages may be colored: then their channels are no axis of pages.
   if (product_of(of_views) == pages) axes = of_views;
   if (axes.empty() || product_of(axes) != pages) return std::nullopt;
   StatedPages stated;

@@ -7,7 +7,6 @@
 #include "engine/core/text.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/base/image_list.h"
 #include "engine/io/base/image_orientation.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/models/assemble_scene.h"

@@ -101,7 +101,7 @@ namespace {
 /// dark borders show their period in the brightness itself.
 struct LensletPeriod {
   int period_px = 0;     ///< 0 = none was found.
-  double explained = 0;  ///< Part of the variance of differences of neighbours that repeats,
+  double explained = 0;  ///< Part of the variance of differences of neighbors that repeats,
   double jump = 0;       ///< their largest over their median within a period,
   double shading = 0;    ///< and part of the variance of the brightness itself that repeats.
 
@@ -124,7 +124,7 @@ constexpr double kExplained = 0.5;
 constexpr double kJump = 1.5;
 /// A period is taken before its multiples, which explain as much.
 constexpr double kAlmost = 0.9;
-/// Of JPEG, in px; with colours of half the size, they are twice as large.
+/// Of JPEG, in px; with colors of half the size, they are twice as large.
 constexpr int kJpegBlock = 8;
 
 struct Folded {
@@ -194,7 +194,7 @@ LensletPeriod find_lenslet_period(const Image<float>& lines) {
 /// How often a picture repeats along its lines: views side by side resemble each other.
 struct TileCount {
   int count = 0;           ///< 0 = nothing was found.
-  double correlation = 0;  ///< Of the brightness changes of neighbouring tiles, at the best of
+  double correlation = 0;  ///< Of the brightness changes of neighboring tiles, at the best of
                            ///< shifts by up to 8 px.
   double edge = 0;         ///< Differences across borders of tiles over those everywhere.
 
@@ -211,7 +211,7 @@ constexpr int kLineStep = 2;
 constexpr double kCorrelation = 0.3;
 constexpr double kEdge = 1.5;
 
-/// Differences of the means of neighbouring windows of 4 px: what disparity moves by a pixel or two
+/// Differences of the means of neighboring windows of 4 px: what disparity moves by a pixel or two
 /// still correlates.
 Image<float> smooth_changes(const Image<float>& lines) {
   const int width = std::max(lines.width() - 2 * kStepWindow + 1, 1);
@@ -378,7 +378,7 @@ std::optional<Answer> views_of(const Question& question) {
   if (!v.is_certain()) return std::nullopt;
   return Answer{Mosaic::Views,
                 {v.count, u.count},
-                fmt::format("neighbouring views correlate by {:.2f} along x and {:.2f} along y",
+                fmt::format("neighboring views correlate by {:.2f} along x and {:.2f} along y",
                             u.correlation, v.correlation)};
 }
 
@@ -422,7 +422,7 @@ std::vector<ReadingChoice> possible_lenslets(const Question& question) {
   throw IoError(
       question.path,
       "this is a single picture " + size +
-          " and not recognised as a light field; if it holds all views, give --mosaic "
+          " and not recognized as a light field; if it holds all views, give --mosaic "
           "lenslets --lenslet N or --mosaic views --grid RxC, else open a folder of views");
 }
 
@@ -485,7 +485,7 @@ struct Run {
 };
 
 /// Where all lines have one and the same brightness.
-std::vector<Run> runs_of_one_colour(const Image<float>& lines) {
+std::vector<Run> runs_of_one_color(const Image<float>& lines) {
   const int width = lines.width();
   std::vector<float> least(lines.row(0), lines.row(0) + width);
   std::vector<float> most = least;
@@ -514,7 +514,7 @@ std::vector<Run> runs_of_one_colour(const Image<float>& lines) {
 std::optional<TileGaps> gaps_along(const AnyImage& picture, LineAxis axis) {
   const Image<float> lines = picture_lines(picture, axis);
   if (lines.empty()) return std::nullopt;
-  std::vector<Run> runs = runs_of_one_colour(lines);
+  std::vector<Run> runs = runs_of_one_color(lines);
   TileGaps found;
   int end = lines.width();
   if (!runs.empty() && runs.back().end == end) {

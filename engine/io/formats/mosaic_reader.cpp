@@ -7,7 +7,6 @@
 #include "engine/core/text.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/base/image_list.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/mosaic_layout.h"
 #include "engine/io/models/array_file.h"
@@ -23,7 +22,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <sstream>
 #include <string>

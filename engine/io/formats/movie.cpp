@@ -347,7 +347,7 @@ class MovieFile::Numbered : public Sink {
  public:
   explicit Numbered(const std::filesystem::path& path) : folder_(path) {}
   void add(ImageView<const std::uint8_t> picture) override {
-    write_png(folder_.temporary() / fmt::format("frame_{:04}.png", number_++), picture);
+    write_picture(folder_.temporary() / fmt::format("frame_{:04}.png", number_++), picture);
   }
   void commit() override { folder_.commit(); }
 

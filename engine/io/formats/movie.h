@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <string>
 
 namespace episcope::io {
 
@@ -15,7 +14,7 @@ struct MovieShape {
   int height = 0;  ///< Of the pictures that are given, px.
   int width = 0;
   double rate = 10;  ///< Pictures per second; 0.1 … 120.
-  /// Pixels across the movie, whose height follows; 0 = those of the pictures. MP4 and WebM round
+  /// Pixels across the movie, whose height follows; 0 = as the pictures. MP4 and WebM round
   /// both sizes to even numbers.
   int width_shown = 0;
 };

@@ -19,7 +19,7 @@
 namespace episcope::io {
 namespace {
 
-/// Two neighbouring views, in one of several planes of an array.
+/// Two neighboring views, in one of several planes of an array.
 struct PlaneViews {
   Image<float> center;
   Image<float> neighbour;  ///< To the left or right of it, or above.
@@ -84,7 +84,7 @@ double median_correlation(const Image<float>& a, const Image<float>& b) {
   return all.empty() ? 0 : quantile(all, 0.5);
 }
 
-/// How far each square has moved in the neighbouring view, to a fraction of a pixel.
+/// How far each square has moved in the neighboring view, to a fraction of a pixel.
 std::vector<float> motion_of(const PlaneViews& plane) {
   std::vector<float> all;
   for_squares(plane.center, kFurthest_px, [&](int top, int left) {
@@ -127,7 +127,7 @@ bool are_correlated(const Image<float>& a, const Image<float>& b) {
 
 /// Whether planes of one size show scenes of their own, and are not the channels of one. No two of
 /// them may be correlated, neither as a whole nor in the median of squares of 16 px: channels of
-/// colour are at 0.9 as a rule, those of saturated colours without texture at 0.6 by one of the two
+/// color are at 0.9 as a rule, those of saturated colors without texture at 0.6 by one of the two
 /// measures; pictures of different scenes are below 0.4 by both. And squares must move differently
 /// from view to view, by more than 0.2 px in the median. False where a plane is of one value, as
 /// weights are.

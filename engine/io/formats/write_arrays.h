@@ -14,7 +14,7 @@ void write_npy(const std::filesystem::path& path, const Scene& scene, const Prog
 
 /// Writes an uncompressed archive of `lf` as above and, where the scene has them, `disparity`
 /// (float, NaN = invalid), `labels` (int32) and `valid` (uint8, 0 = invalid): `[y][x]` of the
-/// centre view alone, else `[v][u][y][x]`. Throws IoError, Cancelled.
+/// center view alone, else `[v][u][y][x]`. Throws IoError, Cancelled.
 void write_npz(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
 
 /// Writes a MATLAB file of version 7.3 as LFToolbox does: LF(t, s, v, u, c), t and s for rows and

@@ -6,6 +6,7 @@
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/base/json.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/formats/benchmark_truth.h"
 #include "engine/io/models/label_list.h"
@@ -111,10 +112,7 @@ void write_light_field(Hdf5Output& file, const LightField& field, const Progress
         for (int i = 0; i < grid.count(); ++i) {
           progress.check();
           const ViewIndex view = grid.view_at(i);
-          const Hdf5Block block{
-              {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0, 0},
-              {1, 1, shape[2], shape[3], shape[4]}};
-          file.write(std::string("LF"), block, stack.view(view).data);
+          file.write(std::string("LF"), view_block(shape, view), stack.view(view).data);
           progress.report((i + 1.0) / grid.count());
         }
       },
@@ -122,7 +120,7 @@ void write_light_field(Hdf5Output& file, const LightField& field, const Progress
 }
 
 /// Writes a disparity field as depth, 0 where there is none, and its mask if something is missing.
-/// A single view is stored as `[y][x]` if it is the centre, else as one valid view of all.
+/// A single view is stored as `[y][x]` if it is the center, else as one valid view of all.
 void write_depth(Hdf5Output& file, const std::string& name, const DisparityField& field,
                  const Scene& scene, const CameraGrid& camera, const Progress& progress) {
   if (field.empty()) return;
@@ -167,7 +165,15 @@ void write_depth(Hdf5Output& file, const std::string& name, const DisparityField
   });
 }
 
-/// Region masks of the centre view, and which pixels of the views are valid.
+/// Says that a map of depth is a result.
+void write_estimated(Hdf5Output& file, const std::string& name, const Provenance& estimated) {
+  file.set_text(name, kEstimatedBy, estimated.method);
+  file.set_text(name, kEstimateParameters, parameters_to_json(estimated.parameters));
+  file.set_text(name, kEstimateSource, estimated.source);
+  if (!estimated.version.empty()) file.set_text(name, kEstimateVersion, estimated.version);
+}
+
+/// Region masks of the center view, and which pixels of the views are valid.
 void write_masks(Hdf5Output& file, const Scene& scene, const Progress& progress) {
   for (const auto& [name, region] : scene.truth->regions) {
     const Hdf5Shape shape{static_cast<std::size_t>(region.height()),
@@ -179,7 +185,7 @@ void write_masks(Hdf5Output& file, const Scene& scene, const Progress& progress)
   if (!valid.empty()) write_stack(file, kValid, valid, "", progress);
 }
 
-/// A part of the views that is not the centre alone is stored among all, the others as 0 = none.
+/// A part of the views that is not the center alone is stored among all, the others as 0 = none.
 void write_true_labels(Hdf5Output& file, const Scene& scene, const Progress& progress) {
   const ViewStack<std::int32_t>& labels = scene.truth->labels;
   if (labels.empty()) return;
@@ -210,10 +216,14 @@ bool has_labels(const Scene& scene) {
   return !scene.truth->labels.empty() || !scene.scribbles.empty();
 }
 
-constexpr const char* kLabelsFile = "labels.h5";
+std::filesystem::path label_file(const std::filesystem::path& path, LabelFile labels) {
+  const std::vector<std::filesystem::path> files = label_files_of(path);
+  return labels == LabelFile::NamedAfter ? files.front() : files.back();
+}
 
-/// Whether labels.h5 may be written: there is none, or it is ours of the same light field. Labels
-/// of other programs are never overwritten; ours then go into the light-field file itself.
+/// Whether this file of labels may be written: there is none, or it is ours of the same light
+/// field. Labels of other programs are never overwritten; ours then go into the light-field file
+/// itself.
 bool may_write_labels(const std::filesystem::path& labels, const std::filesystem::path& file) {
   if (!std::filesystem::exists(labels)) return true;
   return has_hdf5_signature(labels) &&
@@ -282,18 +292,21 @@ std::uintmax_t label_bytes(const Scene& scene) {
 
 }  // namespace
 
-bool puts_labels_inside(const std::filesystem::path& path, const Scene& scene) {
-  const std::filesystem::path beside = path.parent_path() / kLabelsFile;
-  return has_labels(scene) && (beside == path || !may_write_labels(beside, path));
+std::filesystem::path labels_place(const std::filesystem::path& path, const Scene& scene,
+                                   LabelFile labels) {
+  if (!has_labels(scene)) return {};
+  const std::filesystem::path beside = label_file(path, labels);
+  return beside == path || !may_write_labels(beside, path) ? path : beside;
 }
 
-void write_archive(const std::filesystem::path& path, const Scene& scene,
-                   const Progress& progress) {
+void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress,
+                   LabelFile labels) {
   progress.check();
   progress.step("writing " + path.filename().string());
-  const std::filesystem::path beside = path.parent_path() / kLabelsFile;
-  const bool is_inside = puts_labels_inside(path, scene);
-  const bool is_apart = has_labels(scene) && !is_inside;
+  const std::filesystem::path beside = label_file(path, labels);
+  const std::filesystem::path place = labels_place(path, scene, labels);
+  const bool is_inside = !place.empty() && place == path;
+  const bool is_apart = !place.empty() && !is_inside;
   const GroundTruth& truth = *scene.truth;
   const CameraGrid camera = camera_for(scene);
 
@@ -309,6 +322,7 @@ void write_archive(const std::filesystem::path& path, const Scene& scene,
   for (const auto& [name, field] : fields) {
     progress.check();
     write_depth(file, name, *field, scene, camera, progress.part(done, done + 0.08));
+    if (truth.estimated && !field->empty()) write_estimated(file, name, *truth.estimated);
     done += 0.08;
   }
   write_masks(file, scene, progress.part(0.84, 0.86));
@@ -317,11 +331,11 @@ void write_archive(const std::filesystem::path& path, const Scene& scene,
 
   if (is_apart) {
     AtomicFile label_target(beside, label_bytes(scene));
-    Hdf5Output labels(label_target);
-    labels.set_text("/", "light_field", path.filename().string());
-    labels.set_text("/", kConvention, kConventionText);
-    write_labels(labels, scene, progress.part(0.86, 0.95));
-    labels.close();
+    Hdf5Output file_of_labels(label_target);
+    file_of_labels.set_text("/", "light_field", path.filename().string());
+    file_of_labels.set_text("/", kConvention, kConventionText);
+    write_labels(file_of_labels, scene, progress.part(0.86, 0.95));
+    file_of_labels.close();
     progress.check();
     FormerFile former(path);
     target.commit();
@@ -330,8 +344,9 @@ void write_archive(const std::filesystem::path& path, const Scene& scene,
     target.commit();
   }
   // Otherwise labels of the overwritten file would be taken for those of the new one.
-  if (!has_labels(scene) && std::filesystem::exists(beside) && may_write_labels(beside, path)) {
-    std::filesystem::remove(beside);
+  for (const std::filesystem::path& old : label_files_of(path)) {
+    if (old == place || !std::filesystem::exists(old) || !may_write_labels(old, path)) continue;
+    std::filesystem::remove(old);
   }
   progress.report(1);
 }

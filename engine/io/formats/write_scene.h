@@ -8,17 +8,23 @@
 
 namespace episcope::io {
 
+/// File beside the light field for its labels: `labels.h5`, or one of its name (label_files_of).
+enum class LabelFile { Usual, NamedAfter };
+
 /// Writes a scene in the form of the 2013 archive: the light field and its depth to `path`, labels
-/// and scribbles to `labels.h5` beside it. They go into `path` if a `labels.h5` of another light
-/// field exists. Rows are in canonical order, which the attribute `convention` states. Atomic for
+/// and scribbles to a file beside it. They go into `path` if that file is there and of another
+/// light field. Rows are in canonical order, which the attribute `convention` states. Atomic for
 /// each file. Throws IoError, Cancelled.
-void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
+void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress,
+                   LabelFile labels = LabelFile::Usual);
 
-/// Whether `write_archive` puts labels into `path`, because a `labels.h5` of another light field
-/// lies beside it.
-[[nodiscard]] bool puts_labels_inside(const std::filesystem::path& path, const Scene& scene);
+/// Where `write_archive` puts labels: `path` itself if a file of another light field lies beside
+/// it; empty if the scene has none.
+[[nodiscard]] std::filesystem::path labels_place(const std::filesystem::path& path,
+                                                 const Scene& scene,
+                                                 LabelFile labels = LabelFile::Usual);
 
-/// Writes a folder of the 2016 benchmark form: images, cfg, PFM truth of the centre
+/// Writes a folder of the 2016 benchmark form: images, cfg, PFM truth of the center
 /// view and, where known, of all views. Throws IoError (also if the folder holds other files),
 /// Cancelled.
 void write_benchmark_folder(const std::filesystem::path& folder, const Scene& scene,
@@ -34,12 +40,18 @@ inline constexpr const char* kConventionText =
 /// Attribute of the root: x and y of the camera of each view, row by row; and their unit.
 inline constexpr const char* kPositions = "camera_positions";
 inline constexpr const char* kPositionUnit = "camera_position_unit";
-/// Attribute of the root: the pinhole of the centre view: focal length, x and y of its centre in
+/// Attribute of the root: the pinhole of the center view: focal length, x and y of its center in
 /// px.
 inline constexpr const char* kPinhole = "pinhole";
+/// Attributes of GT_DEPTH that is no truth but a result: the method, its parameters (a JSON
+/// object), the light field it was estimated from, and the version of Episcope.
+inline constexpr const char* kEstimatedBy = "estimated_by";
+inline constexpr const char* kEstimateParameters = "parameters";
+inline constexpr const char* kEstimateSource = "source";
+inline constexpr const char* kEstimateVersion = "version";
 /// Dataset `[v][h][y][x]`, uint8: 0 = the pixel holds nothing that was seen.
 inline constexpr const char* kValid = "VALID";
-/// Datasets `[y][x]`, uint8: a region mask of the centre view, whose name follows.
+/// Datasets `[y][x]`, uint8: a region mask of the center view, whose name follows.
 inline constexpr const char* kRegionPrefix = "REGION_";
 
 }  // namespace episcope::io

@@ -52,7 +52,7 @@ std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, const ArrayLayout
   return std::nullopt;
 }
 
-/// A map of one view belongs to the centre.
+/// A map of one view belongs to the center.
 template <class T>
 ViewStack<T> read_maps(const ArrayInput& array, const ArrayLayout& layout, GridShape grid,
                        const Progress& progress) {
@@ -141,7 +141,7 @@ bool settle_stored(const LightField::Samples& samples, NamedValues values,
   report.units = fmt::format("disparity of {}: {}{}", values.name, settled.unit.text,
                              sign.is_negated ? ", negative = nearer" : "");
   report.units_check =
-      fmt::format("mean grey error of neighbouring views after warping {:.2f}, unwarped {:.2f}",
+      fmt::format("mean grey error of neighboring views after warping {:.2f}, unwarped {:.2f}",
                   settled.explanation.error, settled.explanation.unwarped);
   if (!sign.evidence.empty()) report.units_check += "; " + sign.evidence;
   return sign.is_known;
@@ -207,7 +207,7 @@ void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, Dispa
     return;
   }
   const auto meaning = infer_unknown_units(samples, {ValueForm::Inverse, ValueForm::Linear},
-                                             {field, maps.disparity_name}, report);
+                                           {field, maps.disparity_name}, report);
   if (!meaning) {
     field = {};
     return;

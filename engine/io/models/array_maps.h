@@ -25,7 +25,7 @@ struct ArrayMaps {
   [[nodiscard]] std::string disparity_text() const;
 };
 
-/// The axes of the light field, whose letters are those of the stored shape.
+/// The axes of the light field, with the letters of the stored shape.
 struct FieldAxes {
   ArrayLayout layout;
   IndexOrder order = IndexOrder::C;

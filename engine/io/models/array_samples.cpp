@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/array_samples.h"
 
-#include "engine/core/error.h"
 #include "engine/io/base/array_input.h"
 #include "engine/io/models/load_views.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>

@@ -7,7 +7,7 @@
 #include "engine/core/view_stack.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/models/dark_views.h"
-#include "engine/io/models/order/flipped_truth.h"
+#include "engine/io/models/order/order_check.h"
 #include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/order/view_order.h"
 

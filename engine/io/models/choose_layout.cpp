@@ -109,7 +109,7 @@ std::vector<ArrayLayout> layouts_of(const ArrayEntry& entry) {
 }
 
 /// Of several meanings of a shape the only one in which both axes of the grid show motion: channels
-/// differ in colour, not in place. Nothing if there is none or several.
+/// differ in color, not in place. Nothing if there is none or several.
 std::optional<ArrayLayout> layout_with_motion(const ArrayFile& file, const ArrayEntry& entry,
                                               const std::vector<ArrayLayout>& layouts) {
   const bool are_grids = std::ranges::all_of(layouts, [](const ArrayLayout& layout) {
@@ -128,7 +128,7 @@ std::optional<ArrayLayout> layout_with_motion(const ArrayFile& file, const Array
   return found;
 }
 
-/// Of a grid of grey views and a list of coloured ones, whose channels are the rows or columns of
+/// Of a grid of grey views and a list of colored ones, whose channels are the rows or columns of
 /// that grid: the grid if there is motion along both of its axes, the list if there is motion along
 /// the other one alone. Nothing if that does not tell.
 std::optional<ArrayLayout> grid_or_list(const ArrayFile& file, const ArrayEntry& entry,

@@ -20,7 +20,7 @@ struct ChosenLayout {
   std::string warning;  ///< A sentence where a doubt remains; else empty.
 };
 
-/// Whether the shape, or the axes that the file states, are those of a light field.
+/// Whether the shape, or the axes that the file states, fit a light field.
 [[nodiscard]] bool can_be_light_field(const ArrayEntry& entry);
 
 /// Whether the array is called lf, light_field, views or similar.

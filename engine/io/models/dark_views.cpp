@@ -2,6 +2,7 @@
 #include "engine/io/models/dark_views.h"
 
 #include "engine/core/memory.h"
+#include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/io/models/open_options.h"
 
@@ -96,9 +97,7 @@ Image<float> median_of_the_middle(const ViewStack<float>& cells) {
         if (grid.contains({v, u})) values.push_back(cells.view({v, u}).data[i]);
       }
     }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    median.data()[i] = *middle;
+    median.data()[i] = quantile(values, 0.5);
   }
   return median;
 }

@@ -10,15 +10,14 @@
 #include "engine/io/base/npy.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/models/array_samples.h"
+#include "engine/io/models/stored_maps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -77,22 +76,18 @@ Hdf5Dataset find_map(const Hdf5Input& file) {
 DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
   const Hdf5Input file(path);
   const Hdf5Dataset map = find_map(file);
-  const auto length = [&](std::size_t axis) { return static_cast<int>(map.shape[axis]); };
-  const std::size_t rank = map.shape.size();
-  const bool is_single = rank == 2 || (map.shape[0] == 1 && map.shape[1] == 1);
-  const GridShape stored = is_single ? GridShape{1, 1} : GridShape{length(0), length(1)};
   if (std::any_of(map.shape.begin(), map.shape.end(), [](std::size_t n) { return n == 0; })) {
     throw IoError(path, "the dataset " + map.name + " is empty; export it again");
   }
-  if (!is_single && !(stored == grid)) {
+  const ArrayLayout layout = stated_map_layout(file, map);
+  if (!layout.has_one_view() && !(layout.grid() == grid)) {
     throw IoError(path, fmt::format("the dataset {} has the shape {}, but the light field has "
                                     "{}×{} views; name the light field that it belongs to",
-                                    map.name, shape_text(map.shape), grid.v, grid.u));
+                                    map.name, layout_text(layout, IndexOrder::C), grid.v, grid.u));
   }
   DisparityField field;
-  field.disparity = ViewStack<float>(stored, length(rank - 2), length(rank - 1), 1,
-                                     is_single ? grid.center() : ViewIndex{});
-  file.read(map.name, {Hdf5Shape(rank, 0), map.shape}, field.disparity.data());
+  field.disparity = read_laid_out<float>(file, map.name, layout,
+                                         layout.has_one_view() ? grid.center() : ViewIndex{});
   mark_invalid(field);
   return field;
 }
@@ -148,12 +143,7 @@ void mark_invalid(DisparityField& field) {
   float* begin = field.disparity.data();
   float* end = begin + field.disparity.size();
   if (std::all_of(begin, end, [](float d) { return std::isfinite(d); })) return;
-  if (field.valid.empty()) {
-    const ViewStack<float>& like = field.disparity;
-    field.valid =
-        ViewStack<std::uint8_t>(like.grid(), like.height(), like.width(), 1, like.first());
-    std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{1});
-  }
+  field.require_mask();
   for (float* d = begin; d != end; ++d) {
     if (std::isfinite(*d)) continue;
     *d = 0;

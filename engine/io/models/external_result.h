@@ -12,8 +12,9 @@
 namespace episcope::io {
 
 /// Reads a disparity map of another program: PFM, 32-bit float TIFF, `.npy` of two or four axes, or
-/// an HDF5 file with one 2-D or 4-D dataset of float samples. A 2-D map belongs to the centre view
-/// of `grid`. Values that are not finite become invalid pixels. Throws IoError with one sentence.
+/// an HDF5 file with one 2-D or 4-D dataset of float samples, in the order of axes that it states
+/// (`stated_map_layout`). A 2-D map belongs to the center view of `grid`. Values that are not
+/// finite become invalid pixels. Throws IoError with one sentence.
 [[nodiscard]] DisparityField read_disparity_map(const std::filesystem::path& path, GridShape grid);
 
 /// Reads a result of another program: a file as above, or a folder of the 2016 submission form

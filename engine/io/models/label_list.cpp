@@ -1,12 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/label_list.h"
 
+#include "engine/core/error.h"
 #include "engine/core/numbers.h"
 
 #include <algorithm>
 #include <sstream>
 
 namespace episcope::io {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> label_files_of(const fs::path& file) {
+  std::vector<fs::path> files;
+  const fs::path folder = file.parent_path();
+  if (file.filename() != "lf.h5") files.push_back(folder / (file.stem().string() + "_labels.h5"));
+  files.push_back(folder / "labels.h5");
+  return files;
+}
+
+fs::path labels_beside(const fs::path& file) {
+  const std::vector<fs::path> files = label_files_of(file);
+  if (files.size() == 1 || !has_hdf5_signature(files.front())) return files.back();
+  try {
+    const Hdf5Input labels(files.front());
+    const bool has_labels = labels.has(kTrueLabels) || labels.has("SCRIBBLES");
+    return has_labels ? files.front() : files.back();
+  } catch (const IoError&) {
+    return files.back();  // damaged
+  }
+}
 namespace {
 
 constexpr int kColorChannels = 3;

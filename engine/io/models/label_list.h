@@ -5,6 +5,7 @@
 #include "engine/io/base/hdf5_file.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,6 +14,14 @@ namespace episcope::io {
 
 /// Dataset of the true labels.
 inline constexpr const char* kTrueLabels = "GT_LABELS";
+
+/// Files that may hold the labels of an archive file beside it, where they are looked for in this
+/// order: `<stem>_labels.h5`, then `labels.h5`; of `lf.h5` only the latter.
+[[nodiscard]] std::vector<std::filesystem::path> label_files_of(const std::filesystem::path& file);
+
+/// The first of these that holds true labels or scribbles; `labels.h5` if none does, whether it is
+/// there or not.
+[[nodiscard]] std::filesystem::path labels_beside(const std::filesystem::path& file);
 
 /// Reads names and colors of labels from attributes of a dataset, which other readers ignore:
 /// `label_ids`, `label_names` (one per line), `label_colors` (R, G, B each). Empty if the

@@ -11,7 +11,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace episcope::io {
 

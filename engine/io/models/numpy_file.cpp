@@ -55,7 +55,7 @@ std::vector<fs::path> arrays_in(const fs::path& folder) {
   return found;
 }
 
-/// Coloured, or grey in whole numbers: maps have one channel, and fractions mostly.
+/// Colored, or grey in whole numbers: maps have one channel, and fractions mostly.
 bool is_of_pictures(const ArrayEntry& entry) {
   if (!entry.is_of_views() || !entry.other_kind.empty() || has_other_name(entry)) return false;
   const std::size_t axes = entry.shape.size() - entry.leading.size();
@@ -126,13 +126,8 @@ void NumpyFile::add_source(Source source, bool is_needed) {
 std::unique_ptr<ArrayInput> NumpyFile::open_stored(const ArrayEntry& entry) const {
   const auto source = std::ranges::find(sources_, entry.name, &Source::name);
   if (!source->zipped) return std::make_unique<NpyFile>(source->path);
-  const ZipEntry& zipped = *source->zipped;
-  if (!zipped.is_deflated) {
-    return std::make_unique<NpyFile>(source->path, zipped.begin, zipped.stored);
-  }
-  require_plausible_size(path(), entry.shape, entry.type, zipped.stored);
-  return std::make_unique<DeflatedNpy>(source->path, zipped,
-                                       read_zipped_header(source->path, zipped));
+  require_plausible_size(path(), entry.shape, entry.type, source->zipped->stored);
+  return open_zipped_npy(source->path, *source->zipped);
 }
 
 }  // namespace episcope::io

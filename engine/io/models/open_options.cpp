@@ -64,7 +64,7 @@ Schema<OpenOptions> open_schema() {
       .text(
           "crop", &O::crop,
           {"Views to keep",
-           "Rows and columns of views to keep around the centre: 9x9, or all; empty = the largest "
+           "Rows and columns of views to keep around the center: 9x9, or all; empty = the largest "
            "grid whose views are filled"})
       .choice("mosaic", &O::mosaic, {"Mosaic", "How one image holds all views"})
       .integer("lenslet", &O::lenslet,
@@ -87,9 +87,9 @@ Schema<OpenOptions> open_schema() {
       .text("levels", &O::levels,
             {"Levels",
              "Values of black and white samples as stored: 0,1023 for 10 bits in 16, -1,1 for "
-             "normalised floats; empty = detected"})
+             "normalized floats; empty = detected"})
       .toggle("equalize", &O::equalize,
-              {"Equalize", "Bring all views to the brightness of the centre view"})
+              {"Equalize", "Bring all views to the brightness of the center view"})
       .toggle("no-equalize", &O::keep_brightness,
               {"Keep differences of brightness",
                "Have methods take differences of brightness between views as they are, which they "

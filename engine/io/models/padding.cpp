@@ -102,10 +102,7 @@ int common_frame(const DisparityField& field) {
 DisparityField framed(const DisparityField& field, int border) {
   const ViewStack<float>& maps = field.disparity;
   const int height = maps.height() + 2 * border, width = maps.width() + 2 * border;
-  DisparityField result{ViewStack<float>(maps.grid(), height, width, 1, maps.first()),
-                        ViewStack<std::uint8_t>(maps.grid(), height, width, 1, maps.first())};
-  std::fill_n(result.disparity.data(), result.disparity.size(), 0.0F);
-  std::fill_n(result.valid.data(), result.valid.size(), std::uint8_t{0});
+  DisparityField result = DisparityField::unknown(maps.grid(), height, width, maps.first());
   for (int i = 0; i < maps.grid().count(); ++i) {
     const ViewIndex view = maps.view_at(i);
     const DisparityView in = field.view(view);
@@ -122,11 +119,7 @@ DisparityField framed(const DisparityField& field, int border) {
 
 void make_border_invalid(DisparityField& field, int border) {
   const ViewStack<float>& maps = field.disparity;
-  if (field.valid.empty()) {
-    field.valid =
-        ViewStack<std::uint8_t>(maps.grid(), maps.height(), maps.width(), 1, maps.first());
-    std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{1});
-  }
+  field.require_mask();
   for (int i = 0; i < maps.grid().count(); ++i) {
     const auto valid = field.valid.view(maps.view_at(i));
     for (int depth = 0; depth < border; ++depth) {

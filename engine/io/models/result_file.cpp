@@ -53,7 +53,8 @@ void write_layers(Hdf5Output& file, const LayeredDisparity& layered, const Progr
   }
 }
 
-/// Reads the maps of an own result file, which all have the same views.
+/// Reads the maps of an own result file, which all have the same views, in the order of axes that
+/// the file states: other programs may have written it again.
 class ResultReader {
  public:
   ResultReader(const std::filesystem::path& path, GridShape grid) : file_(path), grid_(grid) {}
@@ -86,20 +87,18 @@ class ResultReader {
           fmt::format("the dataset {} has {} axes, but 2 or 4 are expected; write the result again",
                       map.name, rank));
     }
-    const auto length = [&](std::size_t axis) { return static_cast<int>(map.shape[axis]); };
-    const GridShape views = rank == 2 ? GridShape{1, 1} : GridShape{length(0), length(1)};
-    const ViewIndex first = first_view(views == GridShape{1, 1});
+    const ArrayLayout layout = stated_map_layout(file_, map);
+    const GridShape views = layout.grid();
+    const ViewIndex first = first_view(layout.has_one_view());
     const bool fits = views.v > 0 && views.u > 0 && grid_.contains(first) &&
                       views.v <= grid_.v - first.v && views.u <= grid_.u - first.u;
-    if (!fits || length(rank - 2) < 1 || length(rank - 1) < 1) {
+    if (!fits || layout.height() < 1 || layout.width() < 1) {
       throw IoError(file_.path(),
                     fmt::format("the dataset {} of {} does not fit a light field of {}×{} views; "
                                 "name the light field that it belongs to",
                                 map.name, shape_text(map.shape), grid_.v, grid_.u));
     }
-    ViewStack<T> stack(views, length(rank - 2), length(rank - 1), 1, first);
-    file_.read(map.name, {Hdf5Shape(rank, 0), map.shape}, stack.data());
-    return stack;
+    return read_laid_out<T>(file_, map.name, layout, first);
   }
 
   template <class T>

@@ -23,7 +23,7 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
 
 /// Reads a result file, or a result from elsewhere: an HDF5 file with one 2-D or 4-D float dataset,
 /// a PFM, a 32-bit float TIFF, or a folder of the 2016 submission form (`scene` picks the map).
-/// A 2-D map belongs to the centre view of `grid`. NaN and infinite values become invalid pixels.
+/// A 2-D map belongs to the center view of `grid`. NaN and infinite values become invalid pixels.
 /// Throws IoError with one sentence.
 [[nodiscard]] Estimate read_result(const std::filesystem::path& path, GridShape grid,
                                    const std::string& scene = "");

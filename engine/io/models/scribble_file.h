@@ -62,22 +62,6 @@ struct ScribblePlace {
 void add_scribbles(Hdf5Output& file, const Scribbles& scribbles, const ScribblePlace& place,
                    const Progress& progress);
 
-/// Writes two PNG for each painted view into an existing folder. `scribbles_<v>_<u>.png` holds the
-/// ids (8-bit grey, 16-bit for ids above 255; 0 = unpainted). `scribbles_<v>_<u>_preview.png` holds
-/// the colors of the labels on a transparent ground. Views are numbered in canonical order, two
-/// digits each. Returns the files written, each of them atomic. Throws IoError.
-std::vector<std::filesystem::path> write_scribble_pictures(const std::filesystem::path& folder,
-                                                           const Scribbles& scribbles);
-
-/// Whether this is a folder or has the name of a picture, which `read_scribble_pictures` reads.
-[[nodiscard]] bool holds_scribble_pictures(const std::filesystem::path& path);
-
-/// Reads the ids of every `scribbles_<v>_<u>.png` in a folder, or of one picture. A picture belongs
-/// to the center view unless its name says another. Throws IoError, also if there is no picture, or
-/// if one lies outside `grid` or is not `height` × `width`.
-[[nodiscard]] Scribbles read_scribble_pictures(const std::filesystem::path& path, GridShape grid,
-                                               int height, int width);
-
 /// Reads the true labels (GT_LABELS) of a file in archive form, `[v][u][y][x]` in canonical order.
 /// Assumes that the file stores views and labels as the files of the light field do. Omits views
 /// that the file lacks. Applies the focus plane of the scene (shear.h). Throws IoError if the file

@@ -32,12 +32,7 @@ std::uintmax_t segmentation_bytes(const StoredSegmentation& labeling, bool with_
 
 /// The block of a dataset that a view of the stack takes.
 Hdf5Block block_of(const Hdf5Shape& shape, ViewIndex place, bool has_views) {
-  Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
-  if (!has_views) return block;
-  block.start[0] = static_cast<std::size_t>(place.v);
-  block.start[1] = static_cast<std::size_t>(place.u);
-  block.count[0] = block.count[1] = 1;
-  return block;
+  return has_views ? view_block(shape, place) : Hdf5Block{Hdf5Shape(shape.size(), 0), shape};
 }
 
 void write_probabilities(Hdf5Output& file, const StoredSegmentation& labeling,

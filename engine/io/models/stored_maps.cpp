@@ -3,7 +3,9 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/core/text.h"
 #include "engine/io/base/files.h"
+#include "engine/io/models/array_file.h"
 
 #include <fmt/format.h>
 
@@ -168,6 +170,79 @@ template ViewStack<std::int32_t> read_maps(const Hdf5Input&, const std::string&,
 template ViewStack<float> read_maps(const Hdf5Input&, const std::string&, const FieldShape&,
                                     const Progress&, MapViews);
 
+namespace {
+
+/// The letter of an axis that is named so ("y", "rows", "height"); ? for any other name.
+char axis_letter(std::string name) {
+  name = lower_case(name);
+  if (name == "y" || name == "row" || name == "rows" || name == "height") return 'y';
+  if (name == "x" || name == "column" || name == "columns" || name == "width") return 'x';
+  if (name == "v" || name == "t") return 'v';
+  if (name == "u" || name == "s") return 'u';
+  return '?';
+}
+
+/// Letters of the axes that an attribute lists: "x,y", "xy", "u, v, x, y".
+std::string listed_axes(const std::string& list) {
+  std::string letters;
+  for (const char c : list) {
+    if (c != ',' && c != ' ') letters += axis_letter({c});
+  }
+  return letters;
+}
+
+std::string labeled_axes(const Hdf5Input& file, const std::string& name) {
+  std::string letters;
+  for (const std::string& label : file.texts(name, "DIMENSION_LABELS")) {
+    letters += axis_letter(label);
+  }
+  return letters;
+}
+
+}  // namespace
+
+ArrayLayout stated_map_layout(const Hdf5Input& file, const Hdf5Dataset& dataset) {
+  const std::string usual = dataset.shape.size() == 2 ? "yx" : "vuyx";
+  for (const std::string& stated : {listed_axes(file.text(dataset.name, "axes").value_or("")),
+                                    labeled_axes(file, dataset.name)}) {
+    if (std::ranges::is_permutation(stated, usual)) return {dataset.shape, stated};
+  }
+  const IndexOrder order = is_matlab_hdf5(file) ? IndexOrder::Fortran : IndexOrder::C;
+  return {dataset.shape, in_index_order(usual, order)};
+}
+
+template <class T>
+ViewStack<T> read_laid_out(const Hdf5Input& file, const std::string& name,
+                           const ArrayLayout& layout, ViewIndex first) {
+  ViewStack<T> stack(layout.grid(), layout.height(), layout.width(), 1, first);
+  const Hdf5Block all{Hdf5Shape(layout.shape.size(), 0), layout.shape};
+  if (layout.axes == "yx" || layout.axes == "vuyx") {
+    file.read(name, all, stack.data());
+    return stack;
+  }
+  // In large memory, which a size that a damaged file claims does not fill.
+  ViewStack<T> stored(layout.grid(), layout.height(), layout.width());
+  file.read(name, all, stored.data());
+  for (int i = 0; i < stack.grid().count(); ++i) {
+    const ViewIndex at = stack.grid().view_at(i);
+    const auto out = stack.view(stack.view_at(i));
+    const std::size_t begin = static_cast<std::size_t>(at.v) * layout.stride('v') +
+                              static_cast<std::size_t>(at.u) * layout.stride('u');
+    for (int y = 0; y < out.height; ++y) {
+      const std::size_t row = begin + static_cast<std::size_t>(y) * layout.stride('y');
+      for (int x = 0; x < out.width; ++x) {
+        out.at(y, x) = stored.data()[row + static_cast<std::size_t>(x) * layout.stride('x')];
+      }
+    }
+  }
+  return stack;
+}
+
+template ViewStack<std::uint8_t> read_laid_out(const Hdf5Input&, const std::string&,
+                                               const ArrayLayout&, ViewIndex);
+template ViewStack<float> read_laid_out(const Hdf5Input&, const std::string&, const ArrayLayout&,
+                                        ViewIndex);
+
 template <class T>
 bool read_stored_views(const Hdf5Input& file, const std::string& name, ViewStack<T>& views,
                        const Progress& progress) {
@@ -217,12 +292,8 @@ void write_maps(Hdf5Output& file, const std::string& name, const MapGeometry& ma
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
     const ViewIndex place = grid.view_at(i);
-    Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
-    if (grid.count() > 1) {
-      block.start[0] = static_cast<std::size_t>(place.v);
-      block.start[1] = static_cast<std::size_t>(place.u);
-      block.count[0] = block.count[1] = 1;
-    }
+    const Hdf5Block block =
+        grid.count() > 1 ? view_block(shape, place) : Hdf5Block{Hdf5Shape(shape.size(), 0), shape};
     file.write(name, block, samples({maps.first.v + place.v, maps.first.u + place.u}));
     progress.report((i + 1.0) / grid.count());
   }

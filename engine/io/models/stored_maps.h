@@ -5,6 +5,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/view_stack.h"
+#include "engine/io/base/array_layout.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/models/open_options.h"
 
@@ -38,6 +39,17 @@ template <class T>
 /// Whether the axes are stored in the opposite order. Throws as `read_maps`.
 [[nodiscard]] bool is_column_major(const Hdf5Input& file, const std::string& name,
                                    const FieldShape& shape);
+
+/// Order of the axes of maps, of two or four axes, as their file states it: by the attribute `axes`
+/// ("x,y"), by labels of the dimensions ("y", "rows", "height"), or as a file of MATLAB, whose axes
+/// are reversed. Without such a statement, or with one that names other axes, `[y][x]` or
+/// `[v][u][y][x]`.
+[[nodiscard]] ArrayLayout stated_map_layout(const Hdf5Input& file, const Hdf5Dataset& dataset);
+
+/// Reads maps of this layout, at view `first`. Throws IoError. T: uint8 or float.
+template <class T>
+[[nodiscard]] ViewStack<T> read_laid_out(const Hdf5Input& file, const std::string& name,
+                                         const ArrayLayout& layout, ViewIndex first);
 
 /// Fills `views` on several threads from a dataset stored as in memory (Hdf5Input::place_in_file).
 /// Most of the time of reading a large light field goes into getting memory from the system, which

@@ -3,12 +3,12 @@
 
 All cameras look the same way. A view is shifted by its lens so that a plane parallel to the image
 at the distance `zero_plane` appears at the same pixels everywhere: eq. (1) and (2) of Wanner,
-Meister, Goldluecke 2013. With the depth Z along the optical axis, and b the distance of neighbours,
+Meister, Goldluecke 2013. With the depth Z along the optical axis, and b the distance of neighbors,
 
     d = b·f/Z − b·f/Z0    px per view step, f in px, Z0 = zero_plane.
 
-Rows grow downwards and columns to the camera's right; a point at (x, y) in the centre view appears
-at (x − d·(column − centre), y − d·(row − centre)).
+Rows grow downwards and columns to the camera's right; a point at (x, y) in the center view appears
+at (x − d·(column − center), y − d·(row − center)).
 """
 
 from dataclasses import dataclass
@@ -57,7 +57,7 @@ class CameraGrid:
         return self.baseline * self.lens.focal_px * (1 / depth - 1 / self.zero_plane)
 
     def views_from_center(self):
-        """(row, column) of every view, rings around the centre one after another, so that what is
+        """(row, column) of every view, rings around the center one after another, so that what is
         rendered first is a light field, if a smaller one."""
         center_row, center_column = self.center
 
@@ -69,7 +69,7 @@ class CameraGrid:
 
 
 def baseline_for_range(width_px, near, far, focal_px):
-    """The distance of neighbours by which the disparities of depths from `near` to `far` cover
+    """The distance of neighbors by which the disparities of depths from `near` to `far` cover
     `width_px`."""
     return width_px / (focal_px * (1 / near - 1 / far))
 

@@ -42,7 +42,7 @@ def parser():
     options.add_argument("--camera", help="name of the camera; without, that of the scene")
     options.add_argument("--grid", type=GRID, metavar="9x9", help="rows and columns of views")
     options.add_argument("--size", type=SIZE, metavar="512x512", help="width and height in px")
-    options.add_argument("--baseline", type=float, help="distance of neighbours in scene units")
+    options.add_argument("--baseline", type=float, help="distance of neighbors in scene units")
     options.add_argument("--range", type=RANGE, metavar="A,B", help="wanted disparities in px")
     options.add_argument(
         "--zero", metavar="Z|OBJECT", help="zero plane: depth, or an object's name"

@@ -16,7 +16,7 @@ PLANE_COLOR = (0.2, 0.75, 1.0, 1.0)
 
 
 def grid_lines(grid, axes):
-    """Ends of the lines between neighbouring cameras, in the world; of a single one, none."""
+    """Ends of the lines between neighboring cameras, in the world; of a single one, none."""
 
     def place(row, column):
         return axes @ Vector((*grid.offset(row, column), 0))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later OR BSD-3-Clause
-"""Exact depth, labels and normals at the centres of the pixels: a render of one sample with a
+"""Exact depth, labels and normals at the centers of the pixels: a render of one sample with a
 filter of 0.01 px. The Z pass of Cycles is the depth along the optical axis."""
 
 import os

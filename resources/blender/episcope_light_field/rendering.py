@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later OR BSD-3-Clause
-"""Renders a light field, view by view from the centre outwards."""
+"""Renders a light field, view by view from the center outwards."""
 
 import os
 
@@ -34,7 +34,7 @@ def _axes(plan):
 
 
 def _principal_point(plan):
-    """Where the optical axis of the centre view meets the image, x right and y down from the outer
+    """Where the optical axis of the center view meets the image, x right and y down from the outer
     corner of the first pixel."""
     lens, data = plan.grid.lens, plan.camera.data
     scale = lens.shift_unit * lens.focal_px

@@ -12,7 +12,7 @@ from bpy.props import (
 )
 
 SPACING = (
-    ("BASELINE", "Baseline", "Distance of neighbouring cameras, in scene units"),
+    ("BASELINE", "Baseline", "Distance of neighboring cameras, in scene units"),
     ("RANGE", "Disparity range", "The distance follows from the depths that the camera sees"),
 )
 ZERO_PLANE = (
@@ -43,7 +43,7 @@ class LightFieldSettings(bpy.types.PropertyGroup):
     spacing: EnumProperty(name="Spacing", items=SPACING, default="RANGE")
     baseline: FloatProperty(
         name="Baseline",
-        description="Distance of neighbouring cameras",
+        description="Distance of neighboring cameras",
         default=0.1,
         min=0,
         precision=4,
@@ -66,7 +66,7 @@ class LightFieldSettings(bpy.types.PropertyGroup):
     zero_object: PointerProperty(
         name="Object", description="Disparity is 0 at its origin", type=bpy.types.Object
     )
-    samples: IntProperty(name="Samples", default=64, min=1, description="Of the colours, per pixel")
+    samples: IntProperty(name="Samples", default=64, min=1, description="Of the colors, per pixel")
     denoise: BoolProperty(
         name="Denoise",
         description="Denoising is done view by view: what is smoothed away differs between views",

@@ -50,7 +50,7 @@ class _Nodes:
         return node.outputs["Fac"]
 
     def ramp(self, value, stops):
-        """`stops`: (position, colour) pairs."""
+        """`stops`: (position, color) pairs."""
         node = self.add("ValToRGB")
         elements = node.color_ramp.elements
         while len(elements) < len(stops):

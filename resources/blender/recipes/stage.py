@@ -63,7 +63,7 @@ def twig(random, start, direction, length, steps=8, wander=0.12):
 
 
 def hue(random, value=0.5, saturation=0.6):
-    """A colour of any hue; linear."""
+    """A color of any hue; linear."""
     angle = random.uniform(0, 2 * math.pi)
     return tuple(
         value * (1 - saturation / 2 + saturation / 2 * math.cos(angle + k * 2 * math.pi / 3))

@@ -75,7 +75,7 @@ class PropagateTest : public QObject {
     QTest::addColumn<bool>("is_of_center_only");
     for (const char* id : {"edge", "bars", "objects", "demo"}) {
       QTest::addRow("%s, disparity of all views", id) << id << false;
-      QTest::addRow("%s, disparity of the centre view", id) << id << true;
+      QTest::addRow("%s, disparity of the center view", id) << id << true;
     }
   }
   void carriedLabels_agreeWithTheTrueOnes() {
@@ -109,7 +109,7 @@ class PropagateTest : public QObject {
     }
     QVERIFY(carried > 100);
     for (int x = 0; x < kSize; ++x) QCOMPARE(derived.label_at(kCenter, {40, x}), 0);
-    // A view beside the strokes follows them, not the centre.
+    // A view beside the strokes follows them, not the center.
     QCOMPARE(derived.label_at({1, 4}, {40, 60}), 9);
   }
 

@@ -47,7 +47,7 @@ class User : public WindowFixture {
     click("labels.add");
     auto* tree = window.findChild<LabelPalette*>()->findChild<QTreeWidget*>("labels.tree");
     type(qobject_cast<QLineEdit*>(QApplication::focusWidget()), name);
-    // Renaming filled the rows again; the first column is the colour.
+    // Renaming filled the rows again; the first column is the color.
     const int row = tree->visualItemRect(tree->currentItem()).center().y();
     QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, {8, row});
     chooseColor(color);
@@ -146,8 +146,8 @@ void StoryTest::whatIsPaintedAndSaved_isFoundAgain() {
   QCOMPARE(user.painted(0.8, 0.7), 0);
   QCOMPARE(user.painted(0.95, 0.7), corner);
   user.key(Qt::Key_Z, Qt::ControlModifier);                              // the other stroke there
-  for (int i = 0; i < 3; ++i) user.key(Qt::Key_Z, Qt::ControlModifier);  // label, name, colour
-  user.key(Qt::Key_Z, Qt::ControlModifier);  // the stroke on the centre view
+  for (int i = 0; i < 3; ++i) user.key(Qt::Key_Z, Qt::ControlModifier);  // label, name, color
+  user.key(Qt::Key_Z, Qt::ControlModifier);  // the stroke on the center view
   QVERIFY(user.view() == kCenter);
   QCOMPARE(user.painted(0.06, 0.3), 0);
   for (int i = 0; i < 5; ++i) user.key(Qt::Key_Y, Qt::ControlModifier);

@@ -197,7 +197,7 @@ void SessionTest::disparityRange_doesNotFollowTheShownEstimate() {
   QVERIFY(f.session.disparity_range() == (Interval{-2, 3}));
 }
 
-// 1e30 for "nothing" would make one colour of all disparities.
+// 1e30 for "nothing" would make one color of all disparities.
 void SessionTest::disparityRange_ignoresTruthThatCannotBe() {
   Fixture f;
   auto scene = std::make_shared<Scene>(*tiny_scene());

@@ -71,9 +71,8 @@ void Chores::exchange_forms() const {
 void Chores::estimate(int round) const {
   const LightField& lf = *scene_->light_field;
   for (const Estimator& method : registered_estimators()) {
-    EstimateRequest request{.method = method.info.id, .parameters = {}};
-    request.options.threads = 1 + round % 2;
-    const FinishedEstimate made = run_estimator(*scene_, request, Progress());
+    const RunOptions options{.threads = 1 + round % 2};
+    const FinishedEstimate made = run_estimator(*scene_, method, {}, options, Progress());
     const fs::path path = folder_ / (method.info.id + ".h5");
     save_result(path, *made.estimate, "demo:edge", Progress());
     const Estimate read = read_result_of(lf, path);
@@ -97,8 +96,8 @@ void Chores::cancel_a_run() const {
   std::stop_source stop;
   stop.request_stop();
   try {
-    const EstimateRequest request{.method = "epi_c", .parameters = {}};
-    static_cast<void>(run_estimator(*scene_, request, Progress(stop.get_token(), {})));
+    const Progress stopped(stop.get_token(), {});
+    static_cast<void>(run_estimator(*scene_, find_estimator("epi_c"), {}, {}, stopped));
     require(false, "a run was not cancelled");
   } catch (const Cancelled&) {
   }
@@ -110,7 +109,7 @@ void Chores::label() const {
   Labeler labeler(scene_->light_field, truth);
   const ViewRectangle all{{}, scene_->light_field->grid()};
   const Labeling labeling = labeler.label(scribbles, {}, all, Progress());
-  require(labeling.labels.grid() == all.grid, "not all views were labelled");
+  require(labeling.labels.grid() == all.grid, "not all views were labeled");
   io::write_scribbles(folder_ / "labels.h5", scribbles, *scene_, Progress());
   require(!io::read_scribbles(folder_ / "labels.h5", *scene_, Progress()).views.empty(),
           "no strokes were read");

@@ -14,7 +14,7 @@ class Chores {
   explicit Chores(const std::filesystem::path& folder);
 
   /// All of it: every form is written and opened; every method runs, its result is written, read
-  /// and judged, one run is cancelled, one goes in blocks; views are labelled; a project is saved
+  /// and judged, one run is cancelled, one goes in blocks; views are labeled; a project is saved
   /// and opened; damaged files are refused. `round` changes what is computed. Throws if something
   /// does not go as it should.
   void do_all(int round) const;

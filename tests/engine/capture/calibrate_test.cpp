@@ -87,7 +87,7 @@ class CalibrateTest : public QObject {
       QVERIFY2(calibration.photographs[i].is_used(),
                qPrintable(QString::fromStdString(calibration.photographs[i].problem)));
     }
-    // A smeared photograph is either not recognised or known to be blurred.
+    // A smeared photograph is either not recognized or known to be blurred.
     QVERIFY(!calibration.photographs[8].is_used());
     if (kind != static_cast<int>(PatternKind::Charuco)) {
       QVERIFY(!calibration.photographs[9].is_used());

@@ -11,7 +11,7 @@
 
 namespace episcope::accuracy {
 
-/// The whole way from photographs of a gantry to ground truth, on the synthesised gantry of
+/// The whole way from photographs of a gantry to ground truth, on the synthesized gantry of
 /// engine/capture/demo: photographs of a pattern and of the scan, calibration, rectification with
 /// gains evened, pose from noisy picks, depth of all views. Only the scan is known to the steps.
 struct CaptureWay {
@@ -29,8 +29,8 @@ struct CaptureWay {
 [[nodiscard]] CaptureWay go_capture_way(const capture::DemoOptions& options,
                                         const Progress& progress);
 
-/// What the true camera of the centre sees at pixels of the rectified centre view, by rays that
-/// share nothing with the rasteriser. `way` must outlive it.
+/// What the true camera of the center sees at pixels of the rectified center view, by rays that
+/// share nothing with the rasterizer. `way` must outlive it.
 class ExactCenter {
  public:
   explicit ExactCenter(const CaptureWay& way);
@@ -60,7 +60,7 @@ struct CaptureErrors {
   int missed = 0;               ///< and those that are not masked.
 };
 
-/// `samples`: unmasked pixels of the centre view looked at, at random places.
+/// `samples`: unmasked pixels of the center view looked at, at random places.
 [[nodiscard]] CaptureErrors capture_errors(const CaptureWay& way, int samples);
 
 }  // namespace episcope::accuracy

@@ -9,7 +9,7 @@ namespace episcope::capture {
 
 /// The nearest hit of the ray from (x, y, 0) along (dx, dy, 1) on any triangle, from either side,
 /// as its depth; by trying all (Möller, Trumbore: Fast, minimum storage ray-triangle intersection,
-/// 1997). Shares nothing with the rasteriser.
+/// 1997). Shares nothing with the rasterizer.
 [[nodiscard]] std::optional<double> exact_depth(const PlacedScene& scene, double x, double y,
                                                 double dx, double dy);
 

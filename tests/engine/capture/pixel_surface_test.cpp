@@ -51,7 +51,7 @@ std::vector<ScreenTriangle> random_triangles(std::mt19937& random, int count) {
   return triangles;
 }
 
-// As the rasteriser finds them.
+// As the rasterizer finds them.
 std::vector<Fragment> fragments_of(const std::vector<ScreenTriangle>& triangles) {
   std::vector<Fragment> fragments;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {

@@ -37,7 +37,7 @@ Image<float> picture(const std::function<double(double, double)>& brightness) {
   return grey;
 }
 
-/// Of a chequered corner that is turned by 0.3.
+/// Of a checkered corner that is turned by 0.3.
 double corner(double x, double y) {
   const double u = std::cos(0.3) * (x - kX) + std::sin(0.3) * (y - kY);
   const double v = std::cos(0.3) * (y - kY) - std::sin(0.3) * (x - kX);

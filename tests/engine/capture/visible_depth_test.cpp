@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/visible_depth.h"
 #include "engine/capture/pixel_surface.h"
 #include "engine/capture/scan_mesh.h"
-#include "engine/capture/visible_depth.h"
 #include "engine/core/error.h"
 
 #include "tests/engine/capture/exact_rays.h"
@@ -230,7 +230,7 @@ class VisibleDepthTest : public QObject {
                                        (y - pinhole.center_y) / pinhole.focal_px);
         QVERIFY(exact.has_value());
         const double d = cameras.camera.disparity_from_depth(*exact);
-        // Where the triangle at the centre is not the largest, its neighbour's plane continues it.
+        // Where the triangle at the center is not the largest, its neighbor's plane continues it.
         QVERIFY(std::abs(truth.field.disparity.view({0, 0}).at(y, x) - d) < 0.1);
         ++compared;
       }

@@ -273,17 +273,15 @@ class SchemaTest : public QObject {
     Schema<Tuning> searched = schema();
 
     searched.search("scale", {1, 2.5}).search("rounds", {1, 9}).search("weighted", {0, 1});
-    searched.search_choices("fusion", {"best"});
 
     const auto& all = searched.descriptions();
     QVERIFY(all[0].searched == (std::vector<ParameterValue>{1.0, 2.5}));
     QVERIFY(all[1].searched == (std::vector<ParameterValue>{1, 9}));
     QVERIFY(all[2].searched == (std::vector<ParameterValue>{false, true}));
-    QVERIFY(all[3].searched == (std::vector<ParameterValue>{std::string("best")}));
+    QVERIFY(all[3].searched.empty());
     QVERIFY(all[4].searched.empty());
     QVERIFY_THROWS_EXCEPTION(InvalidInput, searched.search("scale", {7}));
     QVERIFY_THROWS_EXCEPTION(InvalidInput, searched.search("scael", {1}));
-    QVERIFY_THROWS_EXCEPTION(InvalidInput, searched.search_choices("fusion", {"worst"}));
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/core/shear.h"
+#include "engine/core/error.h"
 #include "tests/test_main.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ double largest_difference(const LightField& a, const LightField& b, int inset) {
   return largest;
 }
 
-// Label 1 left of column 50, 2 from there, on a corner view, the centre and one between.
+// Label 1 left of column 50, 2 from there, on a corner view, the center and one between.
 Scribbles painted_everywhere() {
   Scribbles scribbles;
   scribbles.labels = {{1, "left", {}}, {2, "right", {}}};
@@ -285,7 +285,7 @@ class ShearTest : public QObject {
 
     const Scribbles back = unsheared(erased, before, kCenter, 2);
 
-    QCOMPARE(back.views.size(), before.views.size() - 1);  // all of the centre view is in sight
+    QCOMPARE(back.views.size(), before.views.size() - 1);  // all of the center view is in sight
     const Image<std::int32_t>& first = back.views[0].labels;
     QCOMPARE(first.at(0, 30), 1);  // the view begins at row 4 and column 6 now
     QCOMPARE(first.at(20, 2), 1);

@@ -43,7 +43,7 @@ LightField::Samples views(const Gain& gain, double exposure = 1) {
   return stack;
 }
 
-// From 0.8 to 1.2, another in each channel, 1 in the centre view.
+// From 0.8 to 1.2, another in each channel, 1 in the center view.
 double some_gain(ViewIndex view, int c) {
   if (view == kCenter) return 1;
   return 0.8 + 0.4 * ((7 * view.v + 3 * view.u + 5 * c) % 11) / 10.0;

@@ -203,6 +203,8 @@ void EstimatorTest::everyParameterAtItsEnds_runs_data() {
   QTest::addColumn<bool>("largest");
   for (const Estimator& estimator : registered_estimators()) {
     for (const ParameterDescription& parameter : estimator.parameters) {
+      const bool is_text = std::holds_alternative<std::string>(parameter.default_value);
+      if (is_text && parameter.choices.empty()) continue;  // has no ends
       for (const bool largest : {false, true}) {
         QTest::addRow("%s %s %s", estimator.info.id.c_str(), parameter.key.c_str(),
                       largest ? "max" : "min")

@@ -87,7 +87,7 @@ class GeometryTest : public QObject {
   void wideRange_isEstimated();
 };
 
-// Bias below 0.005 px and MSE × 100 below 0.01, 15 px from the border, in the centre view; views at
+// Bias below 0.005 px and MSE × 100 below 0.01, 15 px from the border, in the center view; views at
 // the rim of the grid see lines on one side only, which costs up to twice the bias.
 void GeometryTest::frontoPlane_isExactInEveryView() {
   const Scene scene = render("fronto", 80, 96);
@@ -272,7 +272,7 @@ void GeometryTest::size_ofAnyKind_isEstimated_data() {
   QTest::newRow("tiny") << 33 << 34;
 }
 
-// No column or row is left out or written by a neighbour: each is near the truth, to the border.
+// No column or row is left out or written by a neighbor: each is near the truth, to the border.
 void GeometryTest::size_ofAnyKind_isEstimated() {
   QFETCH(int, height);
   QFETCH(int, width);

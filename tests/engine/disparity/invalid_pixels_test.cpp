@@ -54,7 +54,7 @@ Estimate run(const std::string& method, const LightField& light_field) {
                                     {.views = ViewSelection::Center}, Progress(2));
 }
 
-// Root of the mean squared error in px, over the pixels that the centre view shows.
+// Root of the mean squared error in px, over the pixels that the center view shows.
 double rms_error(const Estimate& estimate, const Scene& scene) {
   constexpr int kInset = 6;
   const ViewIndex center = kGrid.center();

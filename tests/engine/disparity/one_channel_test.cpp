@@ -116,7 +116,7 @@ void OneChannelTest::gains_areThoseOfThree() {
 
 void OneChannelTest::estimate_isThatOfThree_data() {
   QTest::addColumn<QString>("method");
-  for (const char* method : {"epi_s", "epi_g", "st_av_l", "st_ch_s", "st_av_g", "plane_pm"}) {
+  for (const char* method : {"epi_s", "epi_g", "st_av_l", "st_ch_s", "st_av_g", "plane_pm", "net"}) {
     QTest::newRow(method) << method;
   }
 }

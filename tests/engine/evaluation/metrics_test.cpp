@@ -14,11 +14,9 @@ using namespace episcope::test;
 class MetricsTest : public QObject {
   Q_OBJECT
  private slots:
-  void protocolName_isReadBack() {
-    for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
-      QCOMPARE(parse_protocol(protocol_name(protocol)), protocol);
-    }
-    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)parse_protocol("2016"));
+  void protocolName_isThatOfTheCommandLine() {
+    QCOMPARE(protocol_name(Protocol::Vmv2013), "vmv2013");
+    QCOMPARE(protocol_name(Protocol::Benchmark2016), "benchmark2016");
   }
 
   void truthItself_hasNoError() {
@@ -153,6 +151,48 @@ class MetricsTest : public QObject {
     QCOMPARE(int{present_mask(bad).at(21, 30)}, 1);
   }
 
+  void missingValues_areToldWithBothNumbers_data() {
+    QTest::addColumn<int>("protocol");
+    for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
+      QTest::newRow(protocol_name(protocol)) << static_cast<int>(protocol);
+    }
+  }
+  void missingValues_areToldWithBothNumbers() {
+    QFETCH(int, protocol);
+    const auto by = static_cast<Protocol>(protocol);
+    const auto truth = map_of([](int, int x) { return x < 25 ? 1.0 : 3.0; });
+    auto estimate = map_of([&](int y, int x) { return truth.at(y, x) + 0.1; });
+    const auto whole_map = judge(estimate, truth, by);
+    for (int x = 25; x < 35; ++x) estimate.at(20, x) = kNan;
+
+    const auto bad = judge(estimate, truth, by);
+    const auto compatible = judge(estimate, truth, by, InvalidEstimates::Compatible);
+
+    QVERIFY(whole_map.notes.empty());
+    QVERIFY(!find_metric(whole_map.metrics, "mse_100_present"));
+    QVERIFY(std::abs(metric(bad, "mse_100_present") - 1) < 1e-4);
+    QVERIFY(metric(bad, "mse_100") > 1.1);
+    QCOMPARE(find_metric(bad.metrics, "badpix_0070_present").value_or(100), 100.0);
+    QCOMPARE(bad.notes.size(), std::size_t{1});
+    for (const char* words : {"have no value", "farthest true disparity, 1 px", "and 1 without"}) {
+      QVERIFY2(QString::fromStdString(bad.notes[0]).contains(words), bad.notes[0].c_str());
+    }
+    QVERIFY(QString::fromStdString(compatible.notes.at(0)).contains("means leave them out"));
+    QVERIFY(!find_metric(compatible.metrics, "mse_100_present"));
+  }
+
+  /// One of a thousand is no more than a few.
+  void fewMissingValues_areNotTold() {
+    const auto truth = constant(1);
+    auto estimate = constant(1.1);
+    estimate.at(20, 20) = kNan;
+
+    const auto evaluation = judge(estimate, truth, Protocol::Vmv2013);
+
+    QVERIFY(evaluation.notes.empty());
+    QVERIFY(find_metric(evaluation.metrics, "mse_100_present").has_value());
+  }
+
   // However small the error of the farthest disparity is.
   void q25_countsMissingValuesBehindAllOthers() {
     const auto truth = map_of([](int, int x) { return x < 25 ? 1.0 : 3.0; });
@@ -284,12 +324,12 @@ class MetricsTest : public QObject {
   }
 
   void pixelsThatAreNotShown_areNotJudged_data() {
-    QTest::addColumn<QString>("protocol");
-    QTest::newRow("2013") << "vmv2013";
-    QTest::newRow("2016") << "benchmark2016";
+    QTest::addColumn<Protocol>("protocol");
+    QTest::newRow("2013") << Protocol::Vmv2013;
+    QTest::newRow("2016") << Protocol::Benchmark2016;
   }
   void pixelsThatAreNotShown_areNotJudged() {
-    QFETCH(QString, protocol);
+    QFETCH(Protocol, protocol);
     const auto truth = wavy_truth();
     auto estimate = wavy_truth();
     Image<std::uint8_t> shown(kSize, kSize, 1, 1);
@@ -301,7 +341,7 @@ class MetricsTest : public QObject {
     }
     std::map<std::string, Image<std::uint8_t>> regions = everywhere("planes");
     regions.merge(everywhere("discontinuities"));
-    EvaluationOptions options{parse_protocol(protocol.toStdString()), InvalidEstimates::Bad, {}};
+    EvaluationOptions options{protocol, InvalidEstimates::Bad, {}};
     options.shown = shown.view();
 
     const auto evaluation = evaluate(whole(estimate), whole(truth), regions, options);

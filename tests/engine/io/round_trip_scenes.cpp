@@ -197,7 +197,7 @@ std::vector<RoundTripScene> round_trip_scenes() {
   const auto rgb8 = [] { return scene_of<std::uint8_t>({}); };
   return {
       {"8-bit RGB, 3x3, truth and labels of all views", rgb8},
-      {"16-bit RGB, 2x4, truth and labels of the centre",
+      {"16-bit RGB, 2x4, truth and labels of the center",
        [] {
          return with_truth(scene_of<std::uint16_t>({.grid = {2, 4}}), keep_center);
        }},
@@ -221,7 +221,7 @@ std::vector<RoundTripScene> round_trip_scenes() {
          return scene_of<std::uint16_t>({.grid = {5, 1}});
        }},
       {"holes in the truth", [=] { return with_truth(rgb8(), punch_holes); }},
-      {"holes in the truth of the centre",
+      {"holes in the truth of the center",
        [=] {
          return with_truth(rgb8(), [](GroundTruth& truth) {
            keep_center(truth);
@@ -244,6 +244,7 @@ io::FormContents common_contents(const io::FormContents& a, const io::FormConten
   return {.floats = std::min(a.floats, b.floats),
           .disparity = std::min(a.disparity, b.disparity),
           .is_depth = a.is_depth || b.is_depth,
+          .has_origin = a.has_origin && b.has_origin,
           .has_layers = a.has_layers && b.has_layers,
           .labels = std::min(a.labels, b.labels),
           .has_scribbles = a.has_scribbles && b.has_scribbles,

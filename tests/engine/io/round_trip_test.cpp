@@ -122,7 +122,7 @@ class RoundTripTest : public QObject {
 
     QCOMPARE(sentences.size(), std::size_t{4});
     const char* expected[] = {"The benchmark form holds no float samples; they are rounded",
-                              "labels of the centre view only; those of the others are left out.",
+                              "labels of the center view only; those of the others are left out.",
                               "The benchmark form holds no scribbles; they are left out.",
                               "The benchmark form holds no masks of valid pixels"};
     for (std::size_t i = 0; i < sentences.size(); ++i) {

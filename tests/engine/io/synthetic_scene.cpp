@@ -29,7 +29,7 @@ Scene plane_scene(const PlaneOptions& options) {
     const int dv = view.v - center.v;
     for (int y = 0; y < options.height; ++y) {
       for (int x = 0; x < options.width; ++x) {
-        // (x, y) shows the point that the centre view has at (x + d·du, y + d·dv).
+        // (x, y) shows the point that the center view has at (x + d·du, y + d·dv).
         const double d = (options.d0 + options.slope_x * (x - options.width / 2.0) +
                           options.slope_y * (y - options.height / 2.0)) /
                          (1 - options.slope_x * du - options.slope_y * dv);

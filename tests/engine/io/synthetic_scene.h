@@ -9,7 +9,7 @@
 namespace episcope::test {
 
 /// A textured slanted plane seen by a grid of cameras, exact in every view: disparity is
-/// `d0 + slope_x·(x − w/2) + slope_y·(y − h/2)` in the centre view.
+/// `d0 + slope_x·(x − w/2) + slope_y·(y − h/2)` in the center view.
 struct PlaneOptions {
   GridShape grid{5, 5};
   int height = 64;
@@ -21,7 +21,7 @@ struct PlaneOptions {
 };
 
 /// Scene with a camera (baseline·focal length 60, zero disparity at depth 12), disparity of all
-/// views, labels of all views (1 left, 2 right) and scribbles on the centre view.
+/// views, labels of all views (1 left, 2 right) and scribbles on the center view.
 [[nodiscard]] Scene plane_scene(const PlaneOptions& options = {});
 
 /// The views of a scene as they are, for writing to files by hand, `[v][u][y][x][c]` in bytes.

@@ -36,7 +36,7 @@ class ConsistencyTest : public QObject {
   void edges_refuseOtherSizes();
 };
 
-// Only where a ray arrives between two pixels may the nearer one belong to the neighbour.
+// Only where a ray arrives between two pixels may the nearer one belong to the neighbor.
 void ConsistencyTest::truth_agrees() {
   const Scene planes = render("edge"), objects = render("objects");
 

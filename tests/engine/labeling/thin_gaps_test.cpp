@@ -18,7 +18,7 @@ constexpr int kThing = 1;
 constexpr int kThingEnds = 60;  // Columns from here on show the wall, at its own depth.
 
 // A wall at disparity 0, and before it at 1 a thing of columns `bar` px wide, `period` apart, whose
-// disparity the estimate has in all the gaps. Forest and strokes know both by their colour.
+// disparity the estimate has in all the gaps. Forest and strokes know both by their color.
 struct Fence {
   Volume<float> features{kHeight, 1, kWidth};
   Image<float> disparity{kHeight, kWidth};

@@ -57,7 +57,7 @@ class ColorMapTest : public QObject {
 
     const Rgb color = color_map(map.toStdString()).colors[index];
 
-    // Three levels of 255 for the interpolation between stored colours; seismic's middle lies
+    // Three levels of 255 for the interpolation between stored colors; seismic's middle lies
     // between two of its 256 entries and is up to four off.
     QVERIFY(std::abs(color[0] - red) <= 4);
     QVERIFY(std::abs(color[1] - green) <= 4);

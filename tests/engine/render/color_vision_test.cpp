@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether colours can be told apart by those who lack a kind of cones: simulation of Machado,
+// Whether colors can be told apart by those who lack a kind of cones: simulation of Machado,
 // Oliveira, Fernandes 2009 (severity 1) on linear RGB, distances ΔE*ab of CIE 1976. A distance of
 // about 2.3 is just noticeable side by side; areas that lie apart need several times that.
 #include "engine/core/label_info.h"
@@ -42,7 +42,7 @@ Vector product(const Matrix& matrix, const Vector& vector) {
   return result;
 }
 
-// L*, a*, b* of an sRGB colour as it is seen.
+// L*, a*, b* of an sRGB color as it is seen.
 Vector seen(const Rgb& color, const Matrix& vision) {
   Vector linear{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -59,7 +59,7 @@ Vector seen(const Rgb& color, const Matrix& vision) {
   return {116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])};
 }
 
-// The least distance of two colours over all kinds of vision.
+// The least distance of two colors over all kinds of vision.
 double distance(const Rgb& a, const Rgb& b) {
   double least = 1e9;
   for (const Matrix* vision : {&kNormal, &kProtan, &kDeutan, &kTritan}) {

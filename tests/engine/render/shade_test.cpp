@@ -19,7 +19,7 @@ Rgb pixel(const Image<std::uint8_t>& picture, int y, int x) {
   return {picture.at(y, x, 0), picture.at(y, x, 1), picture.at(y, x, 2)};
 }
 
-/// A textured plane of disparity `d`: in view (v, u) the sample at (x, y) is that of the centre at
+/// A textured plane of disparity `d`: in view (v, u) the sample at (x, y) is that of the center at
 /// (x + d·(u − u_c), y + d·(v − v_c)).
 template <class T>
 LightField plane(double d, double scale, int size = 40, int channels = 3) {
@@ -42,7 +42,7 @@ LightField plane(double d, double scale, int size = 40, int channels = 3) {
   return LightField(std::move(stack), {});
 }
 
-/// Largest difference between refocused and true centre, away from the border.
+/// Largest difference between refocused and true center, away from the border.
 double worst_inside(const LightField& light_field, double focus) {
   const auto refocused = refocus(light_field, {2, 2}, focus);
   const auto center = light_field.view_as_float({2, 2});

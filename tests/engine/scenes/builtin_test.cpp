@@ -243,7 +243,7 @@ class BuiltinTest : public QObject {
         QVERIFY(std::abs(2.5F * a.at(y, x) - b.at(y, x)) < 2e-6F);
       }
     }
-    // The centre view does not move.
+    // The center view does not move.
     QVERIFY(std::equal(plain.light_field->view<std::uint8_t>({1, 1}).data,
                        plain.light_field->view<std::uint8_t>({1, 1}).data + 3 * kSize * kSize,
                        scaled.light_field->view<std::uint8_t>({1, 1}).data));

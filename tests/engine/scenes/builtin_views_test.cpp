@@ -32,7 +32,7 @@ bool is_inside(double y, double x) {
   return x >= 0 && y >= 0 && x < kSize - 1 && y < kSize - 1;
 }
 
-// Mean grey difference between the centre view and its neighbour, fetched where the truth says, or
+// Mean grey difference between the center view and its neighbor, fetched where the truth says, or
 // on the opposite side with `sign` −1.
 double warp_error(const Scene& scene, ViewIndex neighbour, int sign) {
   const LightField& lf = *scene.light_field;
@@ -117,7 +117,7 @@ class BuiltinViewsTest : public QObject {
     }
   }
 
-  // What a view sees is seen by the centre view as well, or hidden there behind something nearer.
+  // What a view sees is seen by the center view as well, or hidden there behind something nearer.
   void everyRay_meetsTheSameOrSomethingNearer_data() {
     QTest::addColumn<QString>("id");
     for (const char* id :

@@ -35,7 +35,7 @@ ViewStack<std::int32_t> seen(Shape shape, std::array<double, 3> extent,
   return cast_views(stage, model, options, Progress()).truth.labels;
 }
 
-// Distance of a pixel centre from the middle of the view.
+// Distance of a pixel center from the middle of the view.
 double from_middle(int at) {
   return at - (kSize - 1) / 2.0;
 }

@@ -21,7 +21,7 @@ Scene render(const std::string& text) {
   return scenes::render_builtin(id, options, Progress());
 }
 
-// An estimate of the centre view, made from its truth.
+// An estimate of the center view, made from its truth.
 using Estimator = std::function<float(float truth, int y, int x)>;
 
 Metrics judge(const Scene& scene, const Estimator& estimate) {

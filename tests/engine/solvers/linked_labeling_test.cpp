@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/solvers/linked_labeling.h"
+#include "engine/core/error.h"
 #include "engine/solvers/simplex_labeling.h"
 #include "tests/cpu_time.h"
 #include "tests/test_main.h"
@@ -23,7 +23,7 @@ struct Shape {
   int height = 2, labels = 3, width = 2;
 };
 
-// Images in a grid, each linked to its right and lower neighbour, `shift` pixels to the left and
+// Images in a grid, each linked to its right and lower neighbor, `shift` pixels to the left and
 // upwards; their costs are random, or an image of stripes that moves likewise, with errors.
 class Problem {
  public:

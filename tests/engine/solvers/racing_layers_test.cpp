@@ -110,7 +110,7 @@ class RacingLayersTest : public QObject {
     QVERIFY(raced.iterations > racing);
     QVERIFY(std::fabs(raced.relaxed - whole.relaxed) <= 2e-3 * whole.relaxed);
     QVERIFY(raced.bound <= whole.energy && whole.bound <= raced.energy);
-    QVERIFY(std::fabs(potts_energy(potts.problem(), labels) - raced.energy) < 1e-3);
+    QVERIFY(std::fabs(test::potts_energy(potts.problem(), labels) - raced.energy) < 1e-3);
   }
 
   void solver_isTheSameForAnyThreads() {

@@ -3,8 +3,12 @@
 
 #include "engine/core/image.h"
 #include "engine/core/volume.h"
+#include "engine/solvers/lifted_labeling.h"
+#include "engine/solvers/pair_limits.h"
+#include "engine/solvers/simplex_labeling.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <random>
@@ -34,6 +38,25 @@ Costs<Problem> random_costs(int height, int labels, int width, double smoothness
   }
   for (float& g : costs.g) g = 0.2F + 0.8F * uniform(random);
   return costs;
+}
+
+/// E(labels), added up row by row.
+template <class Problem, class Jump>
+double energy_of(const Problem& problem, double weight, ImageView<const int> labels,
+                 const Jump& jump) {
+  const PairLimits limits(labels.height, labels.width, weight, problem.g);
+  double sum = 0;
+  for (int y = 0; y < labels.height; ++y) {
+    sum += pair_row_energy(problem.cost, limits, labels, y, jump);
+  }
+  return sum;
+}
+inline double potts_energy(const SimplexProblem& problem, ImageView<const int> labels) {
+  return energy_of(problem, problem.smoothness / 2, labels, potts_jump);
+}
+inline double labeling_energy(const LiftedProblem& problem, ImageView<const int> labels) {
+  return energy_of(problem, problem.smoothness, labels,
+                   [](int from, int to) { return std::abs(to - from); });
 }
 
 /// The least energy of all labelings, one after the other.

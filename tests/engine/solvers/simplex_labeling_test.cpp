@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/solvers/simplex_labeling.h"
 #include "engine/core/error.h"
 #include "engine/solvers/layered_sweep.h"
 #include "engine/solvers/lifted_labeling.h"
-#include "engine/solvers/simplex_labeling.h"
 #include "tests/cpu_time.h"
 #include "tests/engine/solvers/random_costs.h"
 #include "tests/test_main.h"
@@ -98,14 +98,14 @@ void SimplexLabelingTest::solve_isWithinItsGapOfTheBest() {
     const auto [result, found] = solve(potts.problem(), 3000, 1e-6);
 
     // With three labels the relaxation may lie below the best labeling, but nothing lies below it.
-    const double least = test::least_energy(potts.problem(), potts_energy);
+    const double least = test::least_energy(potts.problem(), test::potts_energy);
     QVERIFY(result.bound <= least * (1 + 1e-5));
     QVERIFY(result.energy >= least * (1 - 1e-5));
     QVERIFY2(result.energy <= least * 1.02,
              qPrintable(QString("%1 and not %2").arg(result.energy).arg(least)));
     QVERIFY(result.relaxed <= result.energy && result.relaxed >= result.bound * (1 - 1e-5));
     QVERIFY2(result.converged, qPrintable(QString::number(result.relative_gap())));
-    QVERIFY(std::fabs(potts_energy(potts.problem(), found) - result.energy) < 1e-5);
+    QVERIFY(std::fabs(test::potts_energy(potts.problem(), found) - result.energy) < 1e-5);
   }
 }
 
@@ -118,7 +118,8 @@ void SimplexLabelingTest::solve_ofTwoLabelsIsBinaryVariation() {
                                                     {3000, 1e-5, 10}, Progress(1));
 
   QVERIFY(result.converged && lifted.converged);
-  QVERIFY2(result.label_gap() < 1e-4, qPrintable(QString::number(result.label_gap())));
+  QVERIFY2(labeling_gap(result.energy, result.bound) < 1e-4,
+           qPrintable(QString::number(labeling_gap(result.energy, result.bound))));
   QVERIFY(std::fabs(result.energy - lifted.energy) < 2e-4 * lifted.energy);
 }
 
@@ -298,7 +299,7 @@ void SimplexLabelingTest::solve_keepsTheBestWhenAskedToFinish() {
 
   QCOMPARE(result.iterations, 1);
   QVERIFY(!result.converged);
-  QVERIFY(std::fabs(potts_energy(potts.problem(), labels) - result.energy) < 1e-6);
+  QVERIFY(std::fabs(test::potts_energy(potts.problem(), labels) - result.energy) < 1e-6);
 }
 
 void SimplexLabelingTest::solve_stopsOnRequest() {
@@ -347,7 +348,7 @@ void SimplexLabelingTest::energy_countsBoundariesOnce() {
     for (int x = 0; x < kSize; ++x) halves.at(y, x) = x < 7 ? 0 : 2;
   }
 
-  QVERIFY(std::fabs(potts_energy({cost.view(), {}, 1}, halves) - kSize) < 1e-4);
+  QVERIFY(std::fabs(test::potts_energy({cost.view(), {}, 1}, halves) - kSize) < 1e-4);
 }
 
 void SimplexLabelingTest::coarseLevels_keepConstantsAndTotals() {

@@ -41,7 +41,7 @@ for row in "^camera" "^truth" "^layers" "^labels"; do
   fi
 done
 
-# As if rendering had got no further than the centre.
+# As if rendering had got no further than the center.
 sed -i '/"complete"/,$d' "$work/glass/light_field.json"
 printf ' "complete": [[1, 1]]\n}\n' >>"$work/glass/light_field.json"
 expect "$("$cli" info "$work/glass")" "1 of 9 views are rendered so far; shown are the 1×1"

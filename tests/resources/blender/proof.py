@@ -103,7 +103,7 @@ def _square_depth(rays, origin):
 
 
 def exact(manifest, view):
-    """Depth of every pixel's centre, and which surface it is: 0 wall, 1 square, 2 and 3 spheres."""
+    """Depth of every pixel's center, and which surface it is: 0 wall, 1 square, 2 and 3 spheres."""
     rays, origin = _rays(manifest, view)
     depths = [numpy.full(rays.shape[:2], WALL_DEPTH), _square_depth(rays, origin)]
     depths += [_sphere_depth(rays, origin, *sphere) for sphere in SPHERES]

@@ -38,7 +38,7 @@ def prove_depth(folder, manifest):
 
 
 def prove_disparity(folder, manifest, noise):
-    """The neighbours of the centre, warped with the truth, leave the noise of rendering."""
+    """The neighbors of the center, warped with the truth, leave the noise of rendering."""
     center = proof.picture(folder, manifest, WARPED_CENTER)
     depth, surface = proof.exact(manifest, WARPED_CENTER)
     d = proof.disparity(manifest, depth)
@@ -60,7 +60,7 @@ def prove_disparity(folder, manifest, noise):
 
 
 def prove_labels(folder, manifest):
-    """Every pixel of every view, carried to the centre along the truth."""
+    """Every pixel of every view, carried to the center along the truth."""
     center = manifest["complete"][0]
     center_depth = proof.array(folder, manifest, "depth", center)
     center_labels = proof.array(folder, manifest, "labels", center)
@@ -101,7 +101,7 @@ def main():
 
     camera.sensor_fit, camera.shift_x, camera.shift_y = "AUTO", 0, 0
     common = ["--size", "240x180", "--range=-1.4,1.6", "--views", "png16", "--samples", "64"]
-    folder, again = os.path.join(work, "colours"), os.path.join(work, "again")
+    folder, again = os.path.join(work, "colors"), os.path.join(work, "again")
     manifest = proof.render(scene, folder, *common, "--grid", "3x3")
     other = proof.render(scene, again, *common, "--grid", "1x1", "--seed", "5000")
     noise = proof.picture(folder, manifest, WARPED_CENTER) - proof.picture(again, other, (0, 0))

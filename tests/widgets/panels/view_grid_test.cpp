@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/panels/view_grid.h"
+#include "engine/render/movie.h"
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/theme.h"
-#include "widgets/panels/view_grid.h"
 
 #include <QComboBox>
 #include <QSignalSpy>
@@ -118,19 +119,19 @@ class ViewGridTest : public QObject {
   void play_passesEveryViewOfTheSnake() {
     ViewGrid grid;
     grid.setGrid({3, 3});
-    grid.setPlayPath(render::CameraPath::Snake);
+    auto* path = grid.findChild<QComboBox*>("viewGrid.path");
+    path->setCurrentIndex(path->findData(static_cast<int>(render::CameraPath::Snake)));
     connect(&grid, &ViewGrid::viewSelected, &grid, &ViewGrid::setCurrent);
     std::vector<ViewIndex> played;
     connect(&grid, &ViewGrid::viewSelected, &grid, [&](ViewIndex view) { played.push_back(view); });
-    QSignalSpy playing(&grid, &ViewGrid::playingChanged);
     auto* button = grid.findChild<QToolButton*>("viewGrid.play");
     grid.setCurrent({2, 2});
 
     button->click();
+    QVERIFY(grid.isPlaying());
     QTRY_VERIFY_WITH_TIMEOUT(played.size() >= 9, 5000);
     button->click();
 
-    QCOMPARE(playing.size(), 2);
     QVERIFY(!grid.isPlaying());
     // From the end of the snake back to its beginning, and on.
     QCOMPARE(played[0], (ViewIndex{2, 1}));

@@ -4,14 +4,12 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/image_list.h"
 #include "engine/io/base/image_orientation.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/names/view_names.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/list_layout.h"
-#include "engine/io/models/pose_grid.h"
 #include "engine/io/models/poses.h"
 
 #include <fmt/format.h>
@@ -37,14 +35,20 @@ std::vector<fs::path> images_of(const fs::path& folder) {
   return images;
 }
 
-/// The largest part of cameras of which some are missing; empty if that is too small.
-std::optional<PlacedViews> part_without_gaps(const PoseGrid& grid,
-                                             const std::vector<fs::path>& images) {
-  GridWithGaps views{.rows = std::vector<long long>(static_cast<std::size_t>(grid.grid.v)),
-                     .columns = std::vector<long long>(static_cast<std::size_t>(grid.grid.u)),
+/// A grid that counts rows and columns from 0, without files.
+GridWithGaps counted_grid(GridShape grid) {
+  GridWithGaps views{.rows = std::vector<long long>(static_cast<std::size_t>(grid.v)),
+                     .columns = std::vector<long long>(static_cast<std::size_t>(grid.u)),
                      .numbering = "from 0"};
   std::iota(views.rows.begin(), views.rows.end(), 0);
   std::iota(views.columns.begin(), views.columns.end(), 0);
+  return views;
+}
+
+/// The largest part of cameras of which some are missing; empty if that is too small.
+std::optional<PlacedViews> part_without_gaps(const PoseGrid& grid,
+                                             const std::vector<fs::path>& images) {
+  GridWithGaps views = counted_grid(grid.grid);
   for (const std::size_t i : grid.order) {
     views.files.push_back(i == kNoCamera ? fs::path() : images[i]);
   }
@@ -109,7 +113,7 @@ void refuse_poses(const fs::path& folder, const PosedViews& poses) {
 namespace {
 
 /// The views of a folder that has, or whose parent has, files of poses (read_poses.h), where these
-/// are those of a light field (pose_grid.h); not where options say how names are meant.
+/// are those of a light field (poses.h); not where options say how names are meant.
 PosedViews place_by_poses(const fs::path& folder, const OpenOptions& options) {
   if (!options.pattern.empty() || !options.grid.empty() || options.snake) return {};
   PosedViews with_gaps;
@@ -251,12 +255,8 @@ void place_list_with_gaps(const fs::path& folder, PlacedViews& placed, const Ope
                              gaps.text, gaps.length),
                  gaps.length);
   }
-  GridWithGaps views{.rows = std::vector<long long>(static_cast<std::size_t>(given->v)),
-                     .columns = std::vector<long long>(static_cast<std::size_t>(given->u)),
-                     .files = std::vector<fs::path>(static_cast<std::size_t>(gaps.length)),
-                     .numbering = "from 0"};
-  std::iota(views.rows.begin(), views.rows.end(), 0);
-  std::iota(views.columns.begin(), views.columns.end(), 0);
+  GridWithGaps views = counted_grid(*given);
+  views.files.resize(static_cast<std::size_t>(gaps.length));
   std::vector<CameraPosition> positions(views.files.size());
   const ListLayout layout = row_by_row(*given, options);
   for (std::size_t i = 0; i < gaps.places.size(); ++i) {

@@ -278,7 +278,7 @@ std::vector<Candidate> candidates_of(const std::vector<NameGroup>& groups) {
 
 struct Look {
   long long area = 0;
-  bool is_colour = false;
+  bool is_color = false;
 };
 
 /// Of the first image of a group; nothing for one that cannot be decoded.
@@ -316,7 +316,7 @@ const Candidate& best_of(const fs::path& folder, const std::vector<Candidate>& c
   if (equal.size() == 1) return candidates.front();
   for (auto& [merit, each] : equal) {
     const Look look = look_of(*each->group);
-    merit = {look.area, look.is_colour, !has_words(*each->group), !has_loss(*each->group)};
+    merit = {look.area, look.is_color, !has_words(*each->group), !has_loss(*each->group)};
   }
   std::ranges::stable_sort(equal, std::ranges::greater{},
                            &std::pair<Merit, const Candidate*>::first);

@@ -9,7 +9,6 @@
 #include <concepts>
 #include <memory>
 #include <type_traits>
-#include <vector>
 
 namespace episcope::io {
 

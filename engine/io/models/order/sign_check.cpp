@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/order/sign_check.h"
 
+#include "engine/core/numbers.h"
 #include "engine/io/models/order/line_matches.h"
 
 #include <fmt/format.h>
@@ -84,9 +85,7 @@ class Windows {
       }
     }
     if (errors.empty()) return;
-    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-    std::ranges::nth_element(errors, middle);
-    contrast_ = kLeastWindowContrast + kWindowAboveNoise * *middle;
+    contrast_ = kLeastWindowContrast + kWindowAboveNoise * quantile(errors, 0.5);
   }
   [[nodiscard]] float contrast() const { return contrast_; }
 

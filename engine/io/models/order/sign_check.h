@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/io/models/order/line_matches.h"
 #include "engine/io/models/order/view_order.h"

@@ -76,12 +76,7 @@ std::optional<Nearby> values_near(const DisparityView& map, float value) {
 }
 
 void mark(DisparityField& field, float value) {
-  if (field.valid.empty()) {
-    const ViewStack<float>& like = field.disparity;
-    field.valid =
-        ViewStack<std::uint8_t>(like.grid(), like.height(), like.width(), 1, like.first());
-    std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{1});
-  }
+  field.require_mask();
   for (std::size_t i = 0; i < field.disparity.size(); ++i) {
     if (field.disparity.data()[i] == value) field.valid.data()[i] = 0;
   }

@@ -3,13 +3,11 @@
 
 #include "engine/core/camera_grid.h"
 #include "engine/core/disparity_field.h"
-#include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
-#include "engine/io/models/order/flipped_truth.h"
+#include "engine/io/models/order/order_check.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <fstream>
 #include <initializer_list>
 #include <memory>
@@ -502,9 +501,7 @@ DisparityField reduced(const DisparityField& field, int times) {
     }
     result.valid.view(view).at(y, x) = values.empty() ? 0 : 1;
     if (values.empty()) return;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    result.disparity.view(view).at(y, x) = *middle;
+    result.disparity.view(view).at(y, x) = quantile(values, 0.5);
   });
   return result;
 }

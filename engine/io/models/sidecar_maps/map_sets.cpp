@@ -206,10 +206,7 @@ DisparityField read_value_set(const MapSet& set, const SidecarViews& views, SetO
     }
   }
   const SetPlace place = place_of(entries, views.grid());
-  field = {ViewStack<float>(place.grid, views.height(), views.width(), 1, place.first),
-           ViewStack<std::uint8_t>(place.grid, views.height(), views.width(), 1, place.first)};
-  std::fill_n(field.disparity.data(), field.disparity.size(), 0.0F);
-  std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{0});
+  field = DisparityField::unknown(place.grid, views.height(), views.width(), place.first);
   std::vector<ResampledMaps> fitted(entries.size());
   outcome = try_all(entries, progress, [&](const MapSet::Entry& entry) {
     DisparityField one = read_values(entry.file, views.grid());

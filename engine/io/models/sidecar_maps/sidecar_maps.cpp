@@ -321,13 +321,6 @@ Image<std::uint8_t> read_fitting_mask(const fs::path& path, const SidecarViews& 
   return mask;
 }
 
-void make_valid_mask(DisparityField& field) {
-  if (!field.valid.empty()) return;
-  const ViewStack<float>& like = field.disparity;
-  field.valid = ViewStack<std::uint8_t>(like.grid(), like.height(), like.width(), 1, like.first());
-  std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{1});
-}
-
 /// Clears pixels of a view; false, and nothing done, if no pixel would be left.
 bool apply(const Image<std::uint8_t>& mask, bool marks_valid, ImageView<std::uint8_t> valid) {
   const auto keeps = [&](int i) { return (mask.data()[i] != 0) == marks_valid; };
@@ -352,7 +345,7 @@ void read_validity(const MapSet& set, const SidecarViews& views, const SidecarNo
     }
     try {
       const Image<std::uint8_t> mask = read_fitting_mask(entry.file, views);
-      make_valid_mask(field);
+      field.require_mask();
       if (!apply(mask, marks_valid, field.valid.view(view))) {
         throw IoError(entry.file,
                       "this mask would leave no pixel with a disparity; remove or replace it");

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/benchmark/published.h"
 
 #include "app/benchmark/report.h"
 #include "tests/test_main.h"

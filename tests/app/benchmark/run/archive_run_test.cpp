@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/benchmark.h"
-#include "app/benchmark/published.h"
+#include "app/benchmark/report.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/open.h"

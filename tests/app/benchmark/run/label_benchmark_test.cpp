@@ -111,7 +111,7 @@ class LabelBenchmarkTest : public QObject {
     return run_benchmark(options_, load, Progress());
   }
 
-  // Outside the centre view, which the fingerprint of disparities knows.
+  // Outside the center view, which the fingerprint of disparities knows.
   [[nodiscard]] GroundTruthPtr edited_truth(const GroundTruth& truth) const {
     auto other = std::make_shared<GroundTruth>();
     other->field.disparity = truth.field.disparity.clone();

@@ -61,6 +61,13 @@ expect("a submission" 0 OUT "theirs +1 +0.000 +medium +12.50" ERR "^note: theirs
 if(NOT out MATCHES "1 of 2 scenes, those with scores for every ranked entry. Left out because of missing scores: slant .theirs.")
   fail_case("the table does not tell the gap:\n${out}")
 endif()
+file(MAKE_DIRECTORY "${WORK}/arrays")
+expect("an array" 0 ARGS estimate epi_l edge -o arrays/edge.npy)
+expect("submissions alone" 0 OUT "Algorithms ranked.*theirs.*index.html: 2 results"
+       ARGS benchmark edge -o alone --submission theirs --submission arrays)
+if(out MATCHES "epi_l")
+  fail_case("methods ran that were not asked for:\n${out}")
+endif()
 expect("a broken submission" 1 ERR "bad on edge: .*any.pfm.*. the tables of the others are in subs"
        ARGS benchmark edge --methods epi_l -o subs --submission theirs --submission bad)
 configure_file("${WORK}/edge/lf.h5" "${WORK}/light/edge.h5" COPYONLY)

@@ -15,6 +15,17 @@ json_near("${out}" 448 458 focal_length_px 0)
 json_is("${out}" ON photos 0 used)
 json_is("${out}" OFF photos 12 used)
 json_is("${out}" OFF photos 13 used)
+# One odd photograph among many is left out, even if it comes first.
+expect("an odd photograph" 0 ARGS show demo:fronto -o odd.png)
+expect("calibrate with an odd one" 0 ARGS calibrate odd.png ${photographs} --pattern 9x6 --square 25
+       -o again.yml --json)
+json_is("${out}" OFF photos 0 used)
+string(JSON problem GET "${out}" photos 0 problem)
+if(NOT problem MATCHES "^[0-9]+×[0-9]+ px, but 14 of 15 have [0-9]+×[0-9]+$")
+  fail_case("the odd photograph is not named: ${problem}")
+endif()
+json_is("${out}" ON photos 1 used)
+json_near("${out}" 448 458 focal_length_px 0)
 expect("calibrate with too few" 1 ERR "at least 3 photographs"
        ARGS calibrate rig/pattern/01.png --pattern 9x6 -o other.yml)
 expect("calibrate without a pattern" 2 ERR "pattern" ARGS calibrate rig/pattern/01.png -o other.yml)

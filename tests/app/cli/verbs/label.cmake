@@ -1,11 +1,12 @@
 # Painted strokes become labels of all views: label, show of what it wrote, and what it refuses.
 include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
 expect("make a scene" 0 ARGS synthesize objects -o lf.h5 --views 3x3 --size 96x96)
-expect("estimate the centre" 0 ARGS estimate epi_l lf.h5 -o center.h5 --views center)
+expect("estimate the center" 0 ARGS estimate epi_l lf.h5 -o center.h5 --views center)
 
 expect(label 0 ARGS label lf.h5 --scribbles labels.h5 -o l.h5 --features image+truth
-       --regularizer rayspace --json)
+       --regularizer rayspace --write-probabilities --json)
 json_is("${out}" 3 labels)
+json_is("${out}" l.h5 written 0)
 json_near("${out}" 0.001 100 seconds)
 json_near("${out}" 0.95 1 accuracy_all_views)
 json_near("${out}" 0.95 1 accuracy_center)
@@ -22,12 +23,27 @@ json_is("${out}" wsg13 parameters regularizer)
 json_near("${out}" 0 0.01 gap)
 json_near("${out}" 0.95 1 accuracy_all_views)
 json_near("${out}" 0.95 1 consistency)
+set(other label lf.h5 -o l.h5 --features image --regularizer none --trees 8 --write-probabilities)
+expect("labels of other parameters" 1 ERR "l.h5: exists and holds labels with --features image.truth.*--overwrite"
+       ARGS ${other})
 expect("label again, over its own result" 0 OUT "3 labels in 9 views.*consistency along rays.*accuracy of all views"
-       ARGS label lf.h5 -o l.h5 --features image --regularizer none --trees 8)
+       ARGS ${other} --overwrite)
+expect("the same again" 0 ARGS ${other} --quiet)
+expect("info of labels" 0 OUT "^labels +1 .*3×3 views of 96×96 px, with probabilities.*parameters +.*features image.*source +lf.h5\nversion"
+       ARGS info l.h5)
+expect("info of labels as JSON" 0 ARGS info l.h5 --json)
+json_is("${out}" labels kind)
+json_is("${out}" image parameters features)
+json_is("${out}" ON probabilities)
+json_is("${out}" lf.h5 source)
 
 foreach(what labels probability uncertainty)
+  set(options --view 0,2)
+  if(what STREQUAL probability)
+    list(APPEND options --label 2)
+  endif()
   expect("show ${what}" 0 OUT "${what}, 96×96 px" ARGS show l.h5 -o ${what}.png --what ${what}
-         --label 2 --view 0,2)
+         ${options})
   expect_file(${what}.png ${png})
 endforeach()
 expect("show by default" 0 OUT "labels, 96×96 px" ARGS show l.h5 -o l.png)
@@ -37,8 +53,13 @@ expect("show a view that is not there" 1 ERR "view 5,5 was asked for"
        ARGS show l.h5 -o no.png --view 5,5)
 expect("show what labels lack" 2 ERR "is a file of labels" ARGS show l.h5 -o no.png --what view)
 expect("labels alone" 0 ARGS label lf.h5 -o bare.h5 --features image --regularizer none --trees 8
-       --no-probabilities --quiet)
-expect("no probabilities to show" 1 ERR "has no probabilities"
+       --quiet)
+file(SIZE "${WORK}/bare.h5" bare)
+file(SIZE "${WORK}/l.h5" whole)
+if(NOT bare LESS 1000000 OR NOT whole GREATER 1000000)
+  fail_case("labels alone take ${bare} bytes, with probabilities ${whole}")
+endif()
+expect("no probabilities to show" 1 ERR "has no probabilities; label again with --write-probabilities"
        ARGS show bare.h5 -o no.png --what uncertainty)
 
 # Nothing that matters is written over.
@@ -57,3 +78,22 @@ expect("a result of other views" 1 ERR "covers 1 of 9"
 expect("an unknown set" 2 ERR "features" ARGS label lf.h5 -o no.h5 --features color)
 expect("truth and a result" 2 ERR "no effect"
        ARGS label lf.h5 -o no.h5 --features image+truth --disparity l.h5)
+
+# Drawings in colors: a label is a color, and what is not painted is said.
+expect("draw the labels" 0 ARGS show lf.h5 -o drawing.png --what labels)
+expect("strokes in colors" 0 ERR "note: drawing.png: a label is a color: 1 = #.*, 2 = #.*, 3 = #.*\nnote: drawing.png: .*(unpainted|every pixel is painted)"
+       ARGS label lf.h5 --scribbles drawing.png -o drawn.h5 --features image --regularizer none
+       --trees 8 --json)
+json_is("${out}" 3 labels)
+json_near("${out}" 0.8 1 accuracy_center)
+file(WRITE "${WORK}/empty.csv" "r,g,b,id,name\n")
+expect("an empty table" 1 ERR "empty.csv: has no line r,g,b,id,name"
+       ARGS label lf.h5 --scribbles drawing.png --colors empty.csv -o no.h5)
+expect("a table without pictures" 2 ERR "--colors has no effect"
+       ARGS label lf.h5 --colors empty.csv -o no.h5)
+file(WRITE "${WORK}/one.csv" "1,2,3,4,nothing\n")
+expect("a table that lacks colors" 1 ERR "drawing.png: has [0-9]+ px of the color #[0-9a-f]+ .*which the table of colors lacks"
+       ARGS label lf.h5 --scribbles drawing.png --colors one.csv -o no.h5)
+expect("a view in colors" 0 ARGS show lf.h5 -o view.png)
+expect("a photograph" 1 ERR "view.png: has .*[0-9]+ colors, but strokes have one a label"
+       ARGS label lf.h5 --scribbles view.png -o no.h5)

@@ -28,10 +28,10 @@ expect_files(made epi_c.h5 epi_l.h5 epi_s.h5 epi_two_layer.h5 plane_pm.h5 st_av_
 # Views of different brightness are evened out also where they stay in their file.
 run_cli(synthesize random?seed=9 -o uneven.h5 --views 5x6 --size 210x190 -q)
 foreach(method st_av_s st_ch_l)
-  expect("${method} of uneven views" 0 ERR "evened out" ARGS estimate ${method} uneven.h5 -o once/uneven.h5)
+  expect("${method} of uneven views" 0 ERR "evened out" ARGS estimate ${method} uneven.h5 -o once/uneven_${method}.h5)
   expect("${method} of uneven views on disk" 0 ERR "evened out" ARGS estimate ${method} uneven.h5
-         -o made/uneven.h5 --memory 20M)
-  expect_same("${method} of uneven views on disk" once/uneven.h5 made/uneven.h5)
+         -o made/uneven_${method}.h5 --memory 20M)
+  expect_same("${method} of uneven views on disk" once/uneven_${method}.h5 made/uneven_${method}.h5)
 endforeach()
 
 # A method that is not cut: what does not fit goes to disk.
@@ -89,11 +89,15 @@ foreach(method epi_two_layer epi_c)
   expect_continued(${method} small.h5 once/small_${method}.h5 8M 4 40)
 endforeach()
 
+# While corners are estimated, while they are carried.
+expect("at once" 0 ARGS estimate net small.h5 -o once/small_net.h5 -q)
+expect_continued(net small.h5 once/small_net.h5 20M 4 12)
+
 # The samples stay in their file where they are large beside the memory.
-expect("at once" 0 ARGS estimate epi_l large.h5 -o once/epi_l.h5 -q)
-expect("mapped samples" 0 OUT "epi_l of all views" ARGS estimate epi_l large.h5 -o made/epi_l.h5
+expect("at once" 0 ARGS estimate epi_l large.h5 -o once/large_epi_l.h5 -q)
+expect("mapped samples" 0 OUT "epi_l of all views" ARGS estimate epi_l large.h5 -o made/large_epi_l.h5
        --memory 44M --threads 1 -q)
-expect_same("mapped samples" once/epi_l.h5 made/epi_l.h5)
+expect_same("mapped samples" once/large_epi_l.h5 made/large_epi_l.h5)
 
 # What another run left is replaced.
 set(script "'${CLI}' estimate epi_s large.h5 -o killed/r.h5 --memory 64M --threads 1 -q & cli=$!

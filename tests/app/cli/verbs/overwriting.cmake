@@ -50,5 +50,65 @@ foreach(again 1 2)
   expect("a picture beside the light field" 0 ARGS show a -o a/view.png)
   expect("a map beside its result" 0 ARGS convert a/r.h5 a/r.pfm)
 endforeach()
+
+# A result of another method, other parameters or another scene stays unless asked otherwise.
+function(expect_kept file)
+  file(SHA256 "${WORK}/${file}" after)
+  if(NOT after STREQUAL "${before_${file}}")
+    fail_case("${file} has changed")
+  endif()
+endfunction()
+file(SHA256 "${WORK}/a/r.h5" before_a/r.h5)
+refused("a/r.h5: exists and holds a result of epi_l; .*--overwrite" estimate epi_s a -o a/r.h5)
+refused("a/r.h5: exists and holds a result with --inner_scale .*--overwrite" estimate epi_l a
+        -o a/r.h5 --inner_scale 0.9)
+refused("a/r.h5: exists and holds a result of another light field, a; .*--overwrite"
+        estimate epi_l b -o a/r.h5)
+refused("a/r.h5: exists and holds a result of another reading" estimate epi_l a -o a/r.h5
+        --focus 0.5)
+expect_kept(a/r.h5)
+expect("the same method again" 0 ARGS estimate epi_l a -o a/r.h5 --views center)
+expect("the same by the file" 0 ARGS estimate EPI_L a/lf.h5 -o a/r.h5 --views center)
+expect("parameters at their defaults" 0 ARGS estimate epi_l a -o a/r.h5 --views center --range auto)
+expect("another method when asked" 0 OUT "epi_s" ARGS estimate epi_s a -o a/r.h5 --views center
+       --overwrite -q)
+refused("a/r.pfm: exists and holds something else; .*--overwrite" convert a/r.h5 a/r.pfm)
+expect("a map when asked" 0 ARGS convert a/r.h5 a/r.pfm --overwrite)
+
+file(SHA256 "${WORK}/a/view.png" before_a/view.png)
+refused("a/view.png: exists and holds something else; .*--overwrite" show a/r.h5 -o a/view.png)
+expect_kept(a/view.png)
+expect("another picture when asked" 0 ARGS show a/r.h5 -o a/view.png --overwrite)
+expect_files(a labels.h5 lf.h5 r.h5 r.pfm view.png)
+
+# Maps do not say what made them.
+foreach(suffix npy pfm tiff)
+  expect("estimate a ${suffix}" 0 OUT "map.${suffix}: epi_l of the center view"
+         ARGS estimate epi_l a -o map.${suffix})
+  refused("map.${suffix}: exists and does not tell .*--overwrite" estimate epi_l a -o map.${suffix})
+  expect("estimate it when asked" 0 ARGS estimate epi_l a -o map.${suffix} --overwrite)
+endforeach()
+expect("evaluate them" 0 OUT "map.npy.*map.pfm" ARGS evaluate map.npy map.pfm map.tiff --truth a)
+expect("all views in a map" 2 ERR "one view; leave out --views" ARGS estimate epi_l a -o all.npy
+       --views all)
+
+# What is written is printed; labels bear the name of their light field.
+file(MAKE_DIRECTORY "${WORK}/c")
+expect("labels beside" 0 OUT "^c/copy.h5: written\nc/copy_labels.h5: labels of copy.h5\n$"
+       ARGS convert b c/copy.h5)
+expect_files(c copy.h5 copy_labels.h5)
+expect("they are read" 0 OUT "labels +1 in all" ARGS info c/copy.h5)
+expect("labels of lf.h5" 0 OUT "^c/lf.h5: written\nc/labels.h5: labels of lf.h5\n$"
+       ARGS convert b c/lf.h5)
+refused("c/copy.h5: exists" convert a c/copy.h5)
+file(REMOVE "${WORK}/c/copy.h5")
+refused("c/copy_labels.h5: exists" convert a c/copy.h5)
+expect("error maps" 0 OUT "\ne-r.png: error of a/r.h5\ne-map.png: error of map.npy\n$"
+       ARGS evaluate a/r.h5 map.npy --truth a --error-map e.png)
+expect_file(e-r.png ${png})
+expect("error maps as JSON" 0 ARGS evaluate a/r.h5 --truth a --error-map e.png --json)
+json_is("${out}" e.png results 0 error_map)
+expect("error maps as CSV" 0 ERR "^note: wrote e.png: error of a/r.h5\n$"
+       ARGS evaluate a/r.h5 --truth a --error-map e.png --csv)
 expect("the help tells of it" 0 OUT "--overwrite" ARGS convert --help)
 expect("the help of synthesize too" 0 OUT "--overwrite" ARGS synthesize --help)

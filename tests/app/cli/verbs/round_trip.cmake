@@ -44,7 +44,7 @@ json_near("${out}" 0.6999 0.7001 parameters inner_scale)
 json_is("${out}" "${result}" output)
 json_near("${out}" -4 0 range 0)
 expect_file("${result}" ${hdf5})
-expect("estimate of the centre" 0 OUT "center.h5: epi_l of the center view"
+expect("estimate of the center" 0 OUT "center.h5: epi_l of the center view"
        ARGS estimate epi_l "${lf}" -o center.h5 --views=center)
 expect("estimate smoothly" 0 ARGS estimate epi_s "${lf}" -o smooth.h5 --quiet)
 expect("evaluate two methods" 0 OUT "^file,[^\n]+\n[^\n]*epi_l,[^\n]+\n[^\n]*epi_s,[^\n]+\n$"
@@ -132,7 +132,7 @@ if(NOT of_result STREQUAL of_pfm)
 endif()
 
 expect("convert to the benchmark form" 0
-       ERR "^note: The benchmark form holds labels of the centre view only; those of the others are left out.\nnote: The benchmark form holds no scribbles; they are left out.\n$"
+       ERR "^note: The benchmark form holds labels of the center view only; those of the others are left out.\nnote: The benchmark form holds no scribbles; they are left out.\n$"
        ARGS convert "${lf}" bench/)
 expect_file(bench/input_Cam024.png ${png})
 expect("info of the benchmark form" 0 OUT "5×5 views of 64×48 px" ARGS info bench)

@@ -22,6 +22,13 @@ expect("evaluate a submission" 0 ARGS evaluate ours --truth scenes/boxes --json
 json_near("${out}" 0 100 results 0 mse_100)
 json_near("${out}" -6 4 results 0 runtime_log)
 json_near("${out}" 0 1000 results 0 seconds)
+file(SHA256 "${WORK}/ours/disp_maps/boxes.pfm" before)
+expect("over another submission" 1 ERR "2 of 2 .*boxes.pfm: exists and does not tell which method"
+       ARGS estimate st_av_l scenes -o ours --submission --quiet)
+file(SHA256 "${WORK}/ours/disp_maps/boxes.pfm" after)
+if(NOT before STREQUAL after)
+  fail_case("a submission was replaced")
+endif()
 expect("a method of one view" 2 ERR "leave out --views" ARGS estimate st_ch_l scenes -o ours
        --submission --views all)
 

@@ -50,11 +50,12 @@ int other_integer(const ParameterDescription& parameter) {
 
 std::string other_choice(const ParameterDescription& parameter) {
   const auto& choices = parameter.choices;
+  if (choices.empty()) return std::get<std::string>(parameter.default_value);  // a file
   const auto preset = std::ranges::find(choices, std::get<std::string>(parameter.default_value));
   return preset + 1 == choices.end() ? choices.front() : *(preset + 1);
 }
 
-/// Another value than the default.
+/// Another value than the default, but for files.
 ParameterValue other_value(const ParameterDescription& parameter) {
   const ParameterValue& preset = parameter.default_value;
   if (const bool* flag = std::get_if<bool>(&preset)) return !*flag;

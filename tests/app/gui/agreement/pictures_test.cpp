@@ -122,10 +122,10 @@ class Showing : public AgreementFixture {
 
   CommandLineRun show(Quantity quantity, const QStringList& options, const char* name) {
     const QString place = QString("%1,%2").arg(view().v).arg(view().u);
-    return run_command_line(
-        QStringList("show") + subject(quantity) + options +
-            QStringList{"-o", name, "--what", render::info_of(quantity).id, "--view", place},
-        path("."));
+    return run_command_line(QStringList("show") + subject(quantity) + options +
+                                QStringList{"-o", name, "--overwrite", "--what",
+                                            render::info_of(quantity).id, "--view", place},
+                            path("."));
   }
 
   QString labels_;

@@ -154,7 +154,7 @@ const std::vector<SampleScene>& sample_scenes() {
       {.name = "two layers", .builtin = "transparent", .is_drawn = false},
       {.name = "two layers of 3x3 views", .builtin = "transparent", .grid = {3, 3}},
       {.name = "one view", .builtin = "objects", .grid = {1, 1}},
-      {.name = "truth of the centre", .builtin = "objects", .truth = Truth::CenterView},
+      {.name = "truth of the center", .builtin = "objects", .truth = Truth::CenterView},
       {.name = "truth with holes", .builtin = "slant", .truth = Truth::WithHoles},
       {.name = "no truth", .builtin = "edge", .truth = Truth::None},
       {.name = "another focus plane", .builtin = "objects", .focus_px = 0.5}};

@@ -39,7 +39,7 @@ class AgreementFixture : public WindowFixture {
   [[nodiscard]] QStringList input();
   /// All views, with everything that a result can have; shown.
   [[nodiscard]] const EstimateEntry& first() { return session().estimates().at(0); }
-  /// The centre view in one layer.
+  /// The center view in one layer.
   [[nodiscard]] const EstimateEntry& second() { return session().estimates().at(1); }
   /// The result file that the window exports.
   [[nodiscard]] QString exported(const EstimateEntry& entry);

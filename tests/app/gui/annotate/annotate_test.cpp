@@ -313,7 +313,7 @@ void AnnotateTest::carriedLabels_neverCoverPaintedOnes() {
   QCOMPARE(f.labelAt({40, 45}, {4, 6}), 2);
   QVERIFY(carried.painted_views().size() > 70);
   QVERIFY(f.document().scribbles().painted_views().size() == 2);
-  // Carried pixels are drawn fainter than painted ones, in their colour.
+  // Carried pixels are drawn fainter than painted ones, in their color.
   int faint = 0;
   for (int x = 0; x < 96; ++x) {
     const int alpha = f.shownAt({40, x}).alpha();

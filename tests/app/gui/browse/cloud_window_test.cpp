@@ -235,7 +235,7 @@ void CloudWindowTest::distance_isToldAsNumberAndColours() {
   QTRY_VERIFY_WITH_TIMEOUT(f.summary().contains("mean"), kPatience);
   QVERIFY(f.summary().contains("nearest of the ground truth"));
   const auto [red, green, blue] = render::color_map("viridis").colors[255];
-  QTRY_VERIFY(count(f.view().grabFramebuffer(), QColor(red, green, blue)) > 10);  // colour bar
+  QTRY_VERIFY(count(f.view().grabFramebuffer(), QColor(red, green, blue)) > 10);  // color bar
 }
 
 void CloudWindowTest::whatIsNotSeen_isNotHeld() {

@@ -78,7 +78,7 @@ QString write_odd_grid(const QString& folder) {
   return folder;
 }
 
-// Views of one colour each: nothing tells how they lie.
+// Views of one color each: nothing tells how they lie.
 QString write_plain_list(const QString& folder, int count) {
   QDir().mkpath(folder);
   for (int i = 0; i < count; ++i) {

@@ -265,7 +265,7 @@ void FocusTest::whatIsPaintedAtAPlane_isSavedWhereItBelongs() {
   Focused f;
   f.clickApply();
   f.waitFor(kFocus);
-  constexpr ViewIndex corner{0, 0};  // four views from the centre: moved by 2 px
+  constexpr ViewIndex corner{0, 0};  // four views from the center: moved by 2 px
   f.session().set_view(corner);
   f.trigger("annotate.mode");
   f.drag({40, 20}, {40, 60});

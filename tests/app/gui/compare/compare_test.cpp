@@ -337,7 +337,7 @@ void CompareTest::badPixels_followTheirThreshold() {
   auto* panel = f.window.findChild<StatisticsPanel*>();
   QTRY_VERIFY2_WITH_TIMEOUT(panel->text().contains("bad 100.00 %"), qPrintable(panel->text()),
                             kPatience);
-  // Numbers are errors, not the places of the two colours.
+  // Numbers are errors, not the places of the two colors.
   QVERIFY2(panel->text().contains("median 0.200"), qPrintable(panel->text()));
   QVERIFY(std::abs(*f.window.bench().overlay.valueAt({40, 40}) - 0.2) < 1e-4);
   const QImage before = f.window.bench().overlay.picture();

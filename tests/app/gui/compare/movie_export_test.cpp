@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/compare/movie_export.h"
+#include "app/gui/compare/picture_export.h"
 #include "app/gui/scene/overlay.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"

@@ -62,6 +62,7 @@ class ResultsTest : public QObject {
   void chosenForm_namesTheFile();
   void openedResult_isListed();
   void resultOfAnotherLightField_isRefused();
+  void mapOfTheOtherSign_isOpenedWithAWarning();
   void resultOfOtherSamples_isOpenedWithAWarning();
   void lightField_isNoResult();
   void copiedCommand_opensTheSameFile();
@@ -200,6 +201,28 @@ void ResultsTest::resultOfAnotherLightField_isRefused() {
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("40×50"), qPrintable(messages->text()),
                             kPatience);
   QVERIFY(f.window.bench().session.estimates().empty());
+}
+
+void ResultsTest::mapOfTheOtherSign_isOpenedWithAWarning() {
+  WindowFixture f;
+  f.openSmall();
+  const Session& session = f.window.bench().session;
+  const auto truth = session.scene()->truth->field.view(session.light_field()->center()).disparity;
+  Image<float> map(truth.height, truth.width);
+  for (int y = 0; y < truth.height; ++y) {
+    for (int x = 0; x < truth.width; ++x) map.at(y, x) = -truth.at(y, x);
+  }
+  io::write_pfm(f.path("negated.pfm").toStdString(), map.view());
+
+  f.window.bench().results.open(f.path("negated.pfm"));
+
+  QTRY_COMPARE_WITH_TIMEOUT(session.estimates().size(), 1U, kPatience);
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
+  for (const char* words : {"negated.pfm: the map fits the truth far better with values negated",
+                            "add --map-scale=-1 to episcope-cli convert"}) {
+    QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains(words), qPrintable(messages->text()),
+                              kPatience);
+  }
 }
 
 void ResultsTest::resultOfOtherSamples_isOpenedWithAWarning() {

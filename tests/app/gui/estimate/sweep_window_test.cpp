@@ -288,7 +288,7 @@ void SweepWindowTest::severalScenes_arePlottedWithTheirMean() {
   QTRY_VERIFY(!f.session().find_scene(edge)->scene);
   f.vary("sweep.first", "inner_scale", "0.6, 0.9");
   f.click("sweep.everywhere");
-  QVERIFY(f.text("sweep.plan").contains("2 centre views"));
+  QVERIFY(f.text("sweep.plan").contains("2 center views"));
 
   f.run();
 

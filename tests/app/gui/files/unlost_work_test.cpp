@@ -8,6 +8,7 @@
 #include <QDir>
 #include <QFile>
 
+#include <algorithm>
 #include <csignal>
 #include <sys/resource.h>
 
@@ -186,16 +187,19 @@ void UnlostWorkTest::manyResults_areEvaluatedOnce() {
   for (int i = 1; i < kMany; ++i) {
     f.session().add_estimate(estimate, {-1, 1}, f.session().generation());
   }
-  QTRY_VERIFY_WITH_TIMEOUT(!f.session().is_evaluating(), kScenePatience);
+  const auto has_all = [&f] {
+    return std::ranges::all_of(f.session().estimates(), [&f](const EstimateEntry& each) {
+      const ViewIndex center = f.session().light_field()->center();
+      return f.session().evaluation({each.id, center, Protocol::Vmv2013}) &&
+             f.session().evaluation({each.id, center, Protocol::Benchmark2016});
+    });
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(!f.session().is_evaluating() && has_all(), kScenePatience);
 
   QTest::qWait(200);
 
   QVERIFY(!f.session().is_evaluating());
-  for (const EstimateEntry& each : f.session().estimates()) {
-    for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
-      QVERIFY(f.session().evaluation({each.id, f.session().light_field()->center(), protocol}));
-    }
-  }
+  QVERIFY(has_all());
 }
 
 }  // namespace episcope::in_unlost_work_test

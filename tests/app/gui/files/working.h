@@ -22,7 +22,7 @@ class Working : public WindowFixture {
   ProjectController& project() { return find<ProjectController>(window); }
   Autosave& autosave() { return find<Autosave>(window); }
 
-  /// Estimates the centre view of what is shown.
+  /// Estimates the center view of what is shown.
   void estimate(const std::string& method = "st_ch_l") {
     const std::size_t before = session().estimates().size();
     find<EstimateController>(window).run({method, {}, {.views = ViewSelection::Center}});

@@ -139,7 +139,7 @@ void KeyboardOnlyTest::fromStartToExport_keysAreEnough() {
 void KeyboardOnlyTest::everyControl_hasANameForScreenReaders() {
   Typist f;
   f.openSmall();
-  f.runAndWait();  // with a map there is a colour bar
+  f.runAndWait();  // with a map there is a color bar
   f.trigger("annotate.add_label");
   for (const Tab& tab : f.window.bench().frame.tabs()) {
     if (tab.id != "cloud") f.window.bench().frame.showTab(tab.id);  // that needs OpenGL

@@ -158,7 +158,7 @@ void PanesTest::tabs_canBeTornOff_andComeBackAtTheirPlace() {
   QVERIFY(frame.panes().isTorn("tab.compare"));
 }
 
-// Not for its neighbour: with the Annotate tab in front, the mouse would paint.
+// Not for its neighbor: with the Annotate tab in front, the mouse would paint.
 void PanesTest::tornOffTab_makesWayForTheOneBefore() {
   WindowFixture f;
   f.openSmall();

@@ -91,6 +91,44 @@ class JudgeTest : public QObject {
     QCOMPARE(*find_metric(corner.metrics, "mse_100_lowres"), 0.0);
   }
 
+  void estimateInThePlaceOfTruth_isTold() {
+    const auto made = tiny_scene();
+    Scene scene;
+    scene.light_field = made->light_field;
+    auto truth = std::make_shared<GroundTruth>();
+    truth->field.disparity = made->truth->field.disparity.clone();
+    truth->estimated.emplace().method = "epi_s";
+    scene.truth = truth;
+
+    const Evaluation evaluation = judge(*shifted_truth(*made, 0), scene, {});
+
+    QVERIFY(judge(*shifted_truth(*made, 0), *made, {}).notes.empty());
+    QVERIFY(QString::fromStdString(evaluation.notes.at(0)).endsWith("estimated by epi_s"));
+  }
+
+  void otherReading_isToldWithNumbersAndOptions() {
+    const auto scene = tiny_scene("objects");
+    const std::filesystem::path file = folder_.filePath("negated.pfm").toStdString();
+    const DisparityView truth = scene->truth->field.view(scene->light_field->center());
+    Image<float> map(kSide, kSide);
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) map.at(y, x) = -truth.disparity.at(y, x);
+    }
+    io::write_pfm(file, map.view());
+
+    const auto found = find_better_reading(read_result_of(*scene->light_field, file), *scene);
+    const Estimate right = read_result_of(*scene->light_field, file, {.scale = -1});
+
+    QVERIFY(found.has_value());
+    const QString text = QString::fromStdString(better_reading_text(*found));
+    for (const char* words : {"fits the truth far better with values negated", "MSE×100 0 instead",
+                              "; if it is stored so, add --map-scale=-1"}) {
+      QVERIFY2(text.contains(words), qPrintable(text));
+    }
+    QCOMPARE(*find_metric(judge(right, *scene, {}).metrics, "mse_100"), 0.0);
+    QVERIFY(!find_better_reading(right, *scene));
+  }
+
  private:
   /// Disparity 9 everywhere.
   class FlatTruth : public HighResTruth {
@@ -107,7 +145,7 @@ class JudgeTest : public QObject {
 
   [[nodiscard]] static EvaluationOptions by_2016() { return {.protocol = Protocol::Benchmark2016}; }
 
-  /// The true centre view, 0.1 px off, without its border.
+  /// The true center view, 0.1 px off, without its border.
   [[nodiscard]] std::filesystem::path write_map(const Scene& scene, Border border) const {
     const DisparityView truth = scene.truth->field.view(scene.light_field->center());
     const int cut = border == Border::Cut ? kBorder : 0;

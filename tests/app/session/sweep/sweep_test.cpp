@@ -86,9 +86,9 @@ class SweepTest : public QObject {
     QCOMPARE(first.change_px, 0.0);
     QVERIFY(other.change_px > 0);
     QCOMPARE(other.estimate->field.disparity.grid().count(), 1);
-    const auto judged =
-        judge(*run_estimator(*scene, {"epi_l", {{"inner_scale", 1.2}}, {}}, Progress()).estimate,
-              *scene, {});
+    const FinishedEstimate again = run_estimator(*scene, find_estimator("epi_l"),
+                                                 {{"inner_scale", 1.2}}, {}, Progress());
+    const auto judged = judge(*again.estimate, *scene, {});
     QCOMPARE(measure_of(other, SweepMeasure::MseTimes100), find_metric(judged.metrics, "mse_100"));
     QVERIFY(measure_of(other, SweepMeasure::BadPix007).has_value());
   }

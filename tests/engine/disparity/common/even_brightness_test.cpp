@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/even_views.h"
+#include "engine/core/view_gain.h"
 
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"

@@ -35,7 +35,7 @@ Estimate run(const std::string& method, const std::string& id, const ParameterSe
                                     {.views = ViewSelection::Center}, Progress());
 }
 
-// Mean squared error of the centre view.
+// Mean squared error of the center view.
 double mse(const std::string& method, const std::string& id) {
   const Estimate estimate = run(method, id, kPaper);
   const ViewIndex view = scene(id).light_field->center();

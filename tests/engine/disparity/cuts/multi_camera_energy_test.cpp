@@ -70,7 +70,7 @@ void MultiCameraEnergyTest::energy_isThatOfItsTermsByHand() {
   // Label 1 shifts by one: two pixels see each other and gain K; every pixel has label 1.
   QCOMPARE(energy.of(labels_from(0b111111)).value(), -2000);
   // The first pixel of the reference and the middle one of the other at label 1, which gain K; the
-  // last ones still see each other at label 0. Neighbours differ by 10, more than 8: each of the
+  // last ones still see each other at label 0. Neighbors differ by 10, more than 8: each of the
   // three jumps costs λ.
   QCOMPARE(energy.of(labels_from(0b010001)).value(), -1000 - 500 + 3 * 100);
 }

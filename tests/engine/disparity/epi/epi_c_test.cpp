@@ -125,8 +125,8 @@ void EpiCTest::observation_isWhatRaysReturnTo() {
           1e-3);
 }
 
-// Two views of one row each and hardly any smoothing: each pixel minimises ½ w (u − f)² and the
-// majorisers of the lines that begin and end there, the left view before the right one.
+// Two views of one row each and hardly any smoothing: each pixel minimizes ½ w (u − f)² and the
+// majorizers of the lines that begin and end there, the left view before the right one.
 void EpiCTest::oneSweep_isThatOfTheDefinition() {
   constexpr int width = 40;
   const EpiCParameters p = [] {

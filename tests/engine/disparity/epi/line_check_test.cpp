@@ -104,7 +104,7 @@ class Definition {
     return sum;
   }
 
-  // Squared differences to the neighbours along one axis, those that exist.
+  // Squared differences to the neighbors along one axis, those that exist.
   [[nodiscard]] std::vector<double> differences(ViewIndex view, int y, int x, bool down) const {
     std::vector<double> found;
     for (const int step : {-1, 1}) {

@@ -186,7 +186,7 @@ void SideChoiceTest::rays_takeTheSideAsDefined() {
 }
 
 // Most of the background two pixels beside the edge with the foreground's disparity gets its own
-// back; the rest is of the edge's colour by chance.
+// back; the rest is of the edge's color by chance.
 void SideChoiceTest::fattenedEdge_isMended() {
   const Scene scene = render("edge", 48, 64, {7, 7});
   const ViewStack<float>& truth = scene.truth->field.disparity;

@@ -5,7 +5,7 @@
 #include "engine/disparity/epi_s.h"
 #include "engine/disparity/layer_decision.h"
 #include "engine/scenes/builtin.h"
-#include "engine/scenes/sensor.h"
+#include "engine/scenes/stage.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

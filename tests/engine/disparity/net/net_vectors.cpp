@@ -3,7 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/io/base/npy.h"
-#include "engine/io/models/named_arrays_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +52,7 @@ std::string released_weights_path() {
 }
 
 const NetWeights& released_weights() {
-  static const NetWeights weights(io::read_named_arrays(EPISCOPE_NET_WEIGHTS));
+  static const NetWeights weights(read_named_arrays(EPISCOPE_NET_WEIGHTS));
   return weights;
 }
 

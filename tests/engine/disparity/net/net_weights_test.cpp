@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/net_weights.h"
 #include "engine/core/error.h"
-#include "engine/io/models/named_arrays_file.h"
 #include "tests/engine/disparity/net/net_vectors.h"
 #include "tests/test_main.h"
 
@@ -15,7 +14,7 @@ using namespace episcope::test;
 namespace {
 
 NamedArrays released() {
-  return io::read_named_arrays(released_weights_path());
+  return read_named_arrays(released_weights_path());
 }
 
 QByteArray released_bytes() {
@@ -30,7 +29,7 @@ std::string failure_of(const QByteArray& bytes) {
   if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size()) return "not written";
   file.close();
   try {
-    (void)NetWeights(io::read_named_arrays(file.fileName().toStdString()));
+    (void)NetWeights(read_named_arrays(file.fileName().toStdString()));
   } catch (const Error& error) {
     return error.what();
   }
@@ -51,6 +50,10 @@ class NetWeightsTest : public QObject {
   void truncatedFiles_areRefused();
   void otherNumbers_areRefused();
   void absurdSizes_areRefused();
+  void changedNumber_isRefused();
+  void compressedFiles_areRefused();
+  void otherFiles_areRefused();
+  void release_isInstalled();
 };
 
 void NetWeightsTest::release_isRead() {
@@ -59,11 +62,11 @@ void NetWeightsTest::release_isRead() {
   const NetWeights weights(arrays);
 
   QVERIFY(weights.record().find("\"name\": \"net\"") != std::string::npos);
-  const NetLayer& layer = weights.layer("selection.i.0");
-  QCOMPARE(layer.form.inputs, 85);
-  const auto array = std::ranges::find(arrays.arrays, "selection.i.0.weight", &NamedArray::name);
+  const NetLayer& layer = weights.layer("selection.d1.0");
+  QCOMPARE(layer.form.inputs, 64);
+  const auto array = std::ranges::find(arrays.arrays, "selection.d1.0.weight", &NamedArray::name);
   // Output 17, input 3, row 2, column 1 of the kernel.
-  const float value = array->values[((17 * 85 + 3) * 3 + 2) * 3 + 1];
+  const float value = array->values[((17 * 64 + 3) * 3 + 2) * 3 + 1];
   QCOMPARE(layer.weights_data()[layer.group_stride() + 7 * layer.tap_stride() + 3 * 16 + 1], value);
 }
 
@@ -131,7 +134,7 @@ void NetWeightsTest::otherNumbers_areRefused() {
   QByteArray bytes = released_bytes();
   bytes.replace("'<f2'", "'<i2'");
 
-  QVERIFY(QString::fromStdString(failure_of(bytes)).contains("int16"));
+  QVERIFY(QString::fromStdString(failure_of(bytes)).contains("<i2"));
 }
 
 void NetWeightsTest::absurdSizes_areRefused() {
@@ -139,6 +142,34 @@ void NetWeightsTest::absurdSizes_areRefused() {
   bytes.replace("(16, 5, 3, 3), ", "(99999999,)   ");
 
   QVERIFY(!failure_of(bytes).empty());
+}
+
+void NetWeightsTest::changedNumber_isRefused() {
+  QByteArray bytes = released_bytes();
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+
+  QVERIFY(QString::fromStdString(failure_of(bytes)).contains("damaged"));
+}
+
+void NetWeightsTest::compressedFiles_areRefused() {
+  QByteArray bytes = released_bytes();
+  const qsizetype entry = bytes.indexOf("PK\1\2");
+  QVERIFY(entry > 0);
+  bytes[entry + 10] = 8;
+
+  QVERIFY(QString::fromStdString(failure_of(bytes)).contains("numpy.savez"));
+}
+
+void NetWeightsTest::otherFiles_areRefused() {
+  QVERIFY(QString::fromStdString(failure_of("some text")).contains("choose a file of weights"));
+  for (const char* path : {"", "/", "/nowhere.npz"}) {
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_named_arrays(path));
+  }
+}
+
+void NetWeightsTest::release_isInstalled() {
+  QCOMPARE(read_named_arrays(installed_weights("net.npz")).hash, released().hash);
+  QVERIFY_THROWS_EXCEPTION(Unavailable, (void)installed_weights("none.npz"));
 }
 
 }  // namespace episcope::in_net_weights_test

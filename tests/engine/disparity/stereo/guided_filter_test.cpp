@@ -123,8 +123,8 @@ void GuidedFilterTest::constantLayer_staysConstant() {
   }
 }
 
-// What is affine in the colours of the guide has edges where the guide has them: it passes, but for
-// the regularisation.
+// What is affine in the colors of the guide has edges where the guide has them: it passes, but for
+// the regularization.
 void GuidedFilterTest::layerLikeTheGuide_isKept() {
   Volume<float> values = layers();
   for (int y = 0; y < kHeight; ++y) {

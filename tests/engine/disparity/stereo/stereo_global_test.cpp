@@ -115,7 +115,7 @@ void StereoGlobalTest::confidence_isThatOfTheLocalMethod() {
       estimate_stereo_global(*scene.light_field, fetched(), parameters(), Progress());
   const Estimate by_pixel = estimate_stereo_local(*scene.light_field, fetched(), local, Progress());
 
-  // One plane: the labels are the same but for a few of neighbouring ones.
+  // One plane: the labels are the same but for a few of neighboring ones.
   const double off = mean(global.confidence.view(view)) - mean(by_pixel.confidence.view(view));
   QVERIFY2(std::fabs(off) < 0.01, qPrintable(QString::number(off)));
 }

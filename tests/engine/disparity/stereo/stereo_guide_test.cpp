@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/stereo_costs.h"
 
-#include "engine/scenes/sensor.h"
+#include "engine/scenes/stage.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

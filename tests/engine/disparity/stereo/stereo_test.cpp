@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stereo methods ST_AV_L, ST_CH_L, ST_AV_S and ST_CH_S on scenes whose truth is known.
-#include "engine/disparity/registry.h"
 #include "engine/disparity/stereo.h"
+#include "engine/disparity/registry.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 
@@ -180,7 +180,7 @@ void StereoTest::everyView_canBeEstimated() {
     const Estimate estimate = run("st_av_l", scene("edge"), values);
     QCOMPARE(estimate.field.disparity.first(), view);
     QCOMPARE(estimate.confidence.first(), view);
-    // A corner view sees less of what is hidden: more errors at the edge than the centre's.
+    // A corner view sees less of what is hidden: more errors at the edge than the center's.
     const double error = mse("st_av_l", scene("edge"), values);
     QVERIFY2(error < 0.5, qPrintable(QString::number(error)));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stereo on views of different brightness, and of cameras that stand beside their grid.
-#include "engine/core/even_views.h"
+#include "engine/core/view_gain.h"
 #include "engine/disparity/registry.h"
 #include "engine/scenes/builtin.h"
 #include "tests/engine/disparity/light_fields.h"
@@ -28,7 +28,7 @@ double mse(const std::string& method, const Scene& scene, const LightField& lf,
       .mse_100;
 }
 
-// Every view but the centre brighter or darker by up to a tenth, which methods shall not even out.
+// Every view but the center brighter or darker by up to a tenth, which methods shall not even out.
 LightField with_gains(const LightField& lf) {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> gain(0.9F, 1.1F);
@@ -63,7 +63,7 @@ void take_trend(GridShape grid, std::vector<double>& offsets) {
   }
 }
 
-// Up to a third of a step beside the grid, the centre view on it.
+// Up to a third of a step beside the grid, the center view on it.
 std::vector<CameraPosition> jittered(GridShape grid) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> off(-0.33, 0.33);
@@ -157,7 +157,7 @@ void UnlikeViewsTest::positions_areUsed() {
   QVERIFY2(ignored > 2 * used, qPrintable(numbers(on_grid, used, ignored)));
 }
 
-// In millimetres, to the left and up, rows half as far apart again as columns.
+// In millimeters, to the left and up, rows half as far apart again as columns.
 void UnlikeViewsTest::rowsFartherApart_areMeasuredInColumns() {
   std::vector<CameraPosition> true_places, stated;
   for (int i = 0; i < kGrid.count(); ++i) {

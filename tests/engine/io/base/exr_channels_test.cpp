@@ -55,10 +55,10 @@ class ExrChannelsTest : public QObject {
     QTest::newRow("a value alone") << QStringList{"V"} << true << one;
     QTest::newRow("grey") << QStringList{"Y"} << true << one;
     QTest::newRow("depth with a long name") << QStringList{"View Layer.Depth.Z"} << false << one;
-    QTest::newRow("depth beside colours") << QStringList{"Z", "R", "G", "B"} << true << one;
-    QTest::newRow("colours beside depth")
+    QTest::newRow("depth beside colors") << QStringList{"Z", "R", "G", "B"} << true << one;
+    QTest::newRow("colors beside depth")
         << QStringList{"R", "G", "B", "Z", "depth.V"} << false << colours;
-    QTest::newRow("colours for depth") << QStringList{"R", "G", "B"} << true << colours;
+    QTest::newRow("colors for depth") << QStringList{"R", "G", "B"} << true << colours;
     QTest::newRow("layers") << QStringList{pass + "R",
                                            pass + "G",
                                            pass + "B",
@@ -79,7 +79,7 @@ class ExrChannelsTest : public QObject {
     write(names);
 
     const io::AnyImage decoded =
-        io::decode_image(path(), depth ? io::PicturePart::Depth : io::PicturePart::Colours);
+        io::decode_image(path(), depth ? io::PicturePart::Depth : io::PicturePart::Colors);
 
     const auto& image = std::get<Image<float>>(decoded);
     QCOMPARE(image.height(), kHeight);

@@ -117,7 +117,7 @@ class SampleRangeTest : public QObject {
     const auto [least, most] = std::minmax_element(views.data(), views.data() + views.size());
     // One in a thousand may lie outside.
     QVERIFY(*least > -0.05F && *least < 0.05F && *most > 0.95F && *most < 1.05F);
-    QVERIFY2(says(read.convention.warnings.front(), "normalised"),
+    QVERIFY2(says(read.convention.warnings.front(), "normalized"),
              read.convention.warnings.front().c_str());
   }
 

@@ -147,7 +147,7 @@ std::vector<Broken> broken_folders() {
          io::write_png(f / "a.png", Image<std::uint8_t>(2, 2).view());
          return f;
        },
-       "a.png: this is a single picture of 2×2 px and not recognised as a light field"},
+       "a.png: this is a single picture of 2×2 px and not recognized as a light field"},
       {"picture that claims more than its file can hold",
        [](const fs::path& f) {
          io::write_png(f / "a_eslf.png", Image<std::uint8_t>(2, 2).view());

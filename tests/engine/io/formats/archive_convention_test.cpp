@@ -123,7 +123,7 @@ class ArchiveConventionTest : public QObject, private ArchiveFolder {
 
     QVERIFY(!has_same_samples(scene, read));
     QVERIFY(read.convention.reversed_u);
-    QVERIFY(QString::fromStdString(describe(read.convention)).contains("check favours"));
+    QVERIFY(QString::fromStdString(describe(read.convention)).contains("check favors"));
     // Truth moves with its view.
     const auto moved = read.truth->field.disparity.view({1, 0});
     QVERIFY(std::abs(moved.at(5, 5) - scene.truth->field.disparity.view({1, 4}).at(5, 5)) <

@@ -42,6 +42,33 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QVERIFY2(read.convention.warnings.empty(), describe(read.convention).c_str());
   }
 
+  /// A result in the place of truth stays one.
+  void estimatedDepth_saysHowItWasMade() {
+    const Scene made = plane_scene();
+    Scene scene;
+    scene.light_field = made.light_field;
+    auto truth = std::make_shared<GroundTruth>();
+    truth->field.disparity = made.truth->field.disparity.clone();
+    truth->estimated.emplace();
+    truth->estimated->method = "epi_l";
+    truth->estimated->parameters = {{"outer_scale", 1.5}};
+    truth->estimated->source = "cotton/lf.h5";
+    scene.truth = truth;
+
+    io::write_archive(path("lf.h5"), scene, Progress(1));
+    const io::Hdf5Input file(path("lf.h5"));
+    const Scene read = open(path());
+
+    QCOMPARE(file.text("GT_DEPTH", "estimated_by").value_or(""), std::string("epi_l"));
+    QVERIFY(read.truth->estimated.has_value());
+    QCOMPARE(read.truth->estimated->method, std::string("epi_l"));
+    QVERIFY(read.truth->estimated->parameters == truth->estimated->parameters);
+    QCOMPARE(read.truth->estimated->source, std::string("cotton/lf.h5"));
+    QCOMPARE(QString::fromStdString(read.convention.warnings.at(0)),
+             QString("The depth of this file is no ground truth: it was estimated by epi_l from "
+                     "cotton/lf.h5."));
+  }
+
   void truthNotNeeded_isNotRead_data() {
     QTest::addColumn<bool>("is_reversed");
     QTest::newRow("in order") << false;
@@ -161,7 +188,7 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QTest::addColumn<bool>("is_one_view");
     QTest::newRow("0/1, all views") << 1 << false;
     QTest::newRow("0/255, all views") << 255 << false;
-    QTest::newRow("0/255, centre") << 255 << true;
+    QTest::newRow("0/255, center") << 255 << true;
   }
   void mask_excludesPixels() {
     QFETCH(int, inside);

@@ -54,7 +54,7 @@ class BenchmarkFolderTest : public QObject {
     write_truth(name,
                 [sign](int y, int x, const Image<float>& map) { return sign * map.at(y, x); });
   }
-  /// Of the truth of the centre view.
+  /// Of the truth of the center view.
   double error(const Scene& scene) const {
     const auto wanted = folder_->scene.disparity.view({1, 1});
     const DisparityView found = scene.truth->field.view({1, 1});
@@ -116,7 +116,7 @@ class BenchmarkFolderTest : public QObject {
 
     QCOMPARE(scene.light_field->grid(), (GridShape{2, 3}));
     QVERIFY2(warns_of(scene, "view 0,2 is missing"), warnings_of(scene).c_str());
-    // What was the centre view is one in the first row of the part.
+    // What was the center view is one in the first row of the part.
     const DisparityView truth = scene.truth->field.view({0, 1});
     const auto wanted = folder_->scene.disparity.view({1, 1});
     QVERIFY(std::equal(wanted.data, wanted.data + wanted.size(), truth.disparity.data));

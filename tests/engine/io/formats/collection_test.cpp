@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/formats/collection.h"
 #include "engine/core/error.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/formats/collection.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/result_file.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -101,7 +101,7 @@ class CollectionTest : public QObject {
                                    fs::file_size(root() / "a/deep/down/one/labels.h5"));
     QVERIFY(entries[0].modified > 1'500'000'000);
     QCOMPARE(entries[1].probe.truth, std::string("disparity of all views"));
-    QCOMPARE(entries[1].probe.labels, std::string("labels of the centre view"));
+    QCOMPARE(entries[1].probe.labels, std::string("labels of the center view"));
     QCOMPARE(entries[2].probe.grid, (GridShape{2, 4}));
   }
 
@@ -131,6 +131,17 @@ class CollectionTest : public QObject {
     }
 
     QCOMPARE(summary(), QStringList({"lines:image_grid", "render:image_grid"}));
+  }
+
+  void ownPictures_areNoLightField() {
+    write_archive("scene");
+    for (const char* name : {"disparity", "error", "confidence", "view", "labels"}) {
+      io::write_picture(made("pictures") / (std::string(name) + ".png"),
+                        bytes_of(scene_).view({0, 0}));
+    }
+    write_grid("grid");
+
+    QCOMPARE(summary(), (QStringList{"grid:image_grid", "scene:archive"}));
   }
 
   void picturesBesideScenes_areNoLightField() {

@@ -60,7 +60,7 @@ void write_film(const fs::path& path, const ViewStack<std::uint8_t>& views) {
   film.commit();
 }
 
-/// A page for each channel of a view, as ImageJ stores colours of more than 8 bits, or all views in
+/// A page for each channel of a view, as ImageJ stores colors of more than 8 bits, or all views in
 /// a channel first.
 void write_channel_pages(const fs::path& path, const ViewStack<std::uint8_t>& views,
                          bool is_channel_first, int channels = 3) {

@@ -177,7 +177,7 @@ class MosaicTest : public QObject {
   }
 
   void options_decideWhereThePictureDoesNot() {
-    // All the same colour: nothing repeats.
+    // All the same color: nothing repeats.
     io::write_png(path("flat_eslf.png"), Image<std::uint8_t>(72, 144, 3, 40).view());
 
     QVERIFY_THROWS_EXCEPTION(io::Undecided, (void)open("flat_eslf.png"));

@@ -19,7 +19,7 @@ namespace {
 constexpr int kPictures = 5;
 constexpr int kHeight = 31, kWidth = 45;  // odd: 4:2:0 needs even sizes
 
-/// Its own colour in each picture, and another on the right.
+/// Its own color in each picture, and another on the right.
 Image<std::uint8_t> picture_number(int i) {
   Image<std::uint8_t> picture(kHeight, kWidth, 4, 255);
   for (int y = 0; y < kHeight; ++y) {

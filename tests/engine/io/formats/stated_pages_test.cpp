@@ -26,9 +26,9 @@ class StatedPagesTest : public QObject {
     QTest::newRow("OME") << ome.arg("XYCZT") << 135 << 3 << 1 << "9x5";
     QTest::newRow("OME, channels between") << ome.arg("XYZCT") << 135 << 3 << 5 << "9x5";
     QTest::newRow("OME, channels last") << ome.arg("XYTZC") << 135 << 3 << 45 << "5x9";
-    QTest::newRow("OME, coloured pages") << ome.arg("XYCZT") << 45 << 1 << 1 << "9x5";
+    QTest::newRow("OME, colored pages") << ome.arg("XYCZT") << 45 << 1 << 1 << "9x5";
     QTest::newRow("tifffile") << R"({"shape": [9, 5, 48, 64]})" << 45 << 1 << 1 << "9x5";
-    QTest::newRow("tifffile, coloured")
+    QTest::newRow("tifffile, colored")
         << R"({"shape": [9, 5, 48, 64, 3]})" << 45 << 1 << 1 << "9x5";
     QTest::newRow("tifffile, channels last")
         << R"({"shape": [9, 5, 3, 48, 64]})" << 135 << 3 << 1 << "9x5";

@@ -22,7 +22,7 @@ class AxesByMotionTest : public QObject {
   Q_OBJECT
 
  private:
-  /// Colours of one texture: the waves of plane_scene lie elsewhere in each channel, as if moved.
+  /// Colors of one texture: the waves of plane_scene lie elsewhere in each channel, as if moved.
   static ViewStack<std::uint8_t> coloured_views(GridShape grid) {
     const ViewStack<std::uint8_t> grey = layered_views({.grid = grid});
     ViewStack<std::uint8_t> three(grey.grid(), grey.height(), grey.width(), 3);

@@ -104,7 +104,7 @@ class DarkViewsTest : public QObject {
 
     QCOMPARE(scene.light_field->grid(), (GridShape{kept, kept}));
     QCOMPARE(first_stored(scene), first * side + first);
-    // The centre stays the centre.
+    // The center stays the center.
     const ViewIndex center = grid.center();
     QCOMPARE(scene.truth->labels.view(scene.light_field->center()).at(0, 0),
              center.v * side + center.u);
@@ -242,7 +242,7 @@ class DarkViewsTest : public QObject {
   void scribblesOfACroppedScene_keepTheirPlaces() {
     const QTemporaryDir folder;
     const std::filesystem::path file = std::filesystem::path(folder.path().toStdString()) / "lf.h5";
-    Scene scene = plane_scene();  // 5×5, painted in the centre
+    Scene scene = plane_scene();  // 5×5, painted in the center
     const Image<std::int32_t> painted = scene.scribbles.views.front().labels;
     scene.scribbles.views.insert(scene.scribbles.views.begin(), {ViewIndex{0, 0}, painted});
     io::write_archive(file, scene, Progress(1));

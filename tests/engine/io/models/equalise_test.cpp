@@ -12,7 +12,7 @@ using namespace episcope::test;
 
 namespace {
 
-// A textured plane whose views have the gain 1 − 0.04·u + 0.02·v about the centre view.
+// A textured plane whose views have the gain 1 − 0.04·u + 0.02·v about the center view.
 ViewStack<std::uint8_t> uneven_views(const Scene& scene) {
   ViewStack<std::uint8_t> views = bytes_of(scene).clone();
   for (int i = 0; i < views.grid().count(); ++i) {

@@ -8,8 +8,8 @@
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
-#include <QTemporaryDir>
 #include <fmt/format.h>
+#include <QTemporaryDir>
 #include <opencv2/imgcodecs.hpp>
 
 #include <fstream>
@@ -109,7 +109,7 @@ void ImageAccountTest::benchmarkFolder_isAccountedFor() {
   const QString text = account(io::open_scene(path("scene"), {}, Progress(1)));
 
   QVERIFY2(text.startsWith(
-               "9 views, 1 parameter files, 9 disparity maps, 1 label maps of the centre view") &&
+               "9 views, 1 parameter files, 9 disparity maps, 1 label maps of the center view") &&
                text.endsWith("1 license.txt"),
            qPrintable(text));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/padding.h"
 #include "engine/core/error.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/models/external_result.h"
-#include "engine/io/models/padding.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>
@@ -31,7 +31,7 @@ DisparityField padded(int top, int left, float around) {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-/// 40×48 px without two neighbours alike within a frame.
+/// 40×48 px without two neighbors alike within a frame.
 DisparityField ramp_in_frame(int frame, float value) {
   DisparityField field;
   field.disparity = ViewStack<float>({1, 1}, 40, 48);

@@ -10,9 +10,11 @@
 
 #include <QTemporaryDir>
 
+#include <hdf5.h>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <numeric>
 
 namespace episcope::in_result_test {
 
@@ -75,6 +77,42 @@ class ResultTest : public QObject {
     }
     out.close();
     target.commit();
+  }
+  /// A dataset, with an attribute that states the order of its axes: "x,y,u,v" itself, or [x][y]
+  /// in the way of this attribute.
+  void write_stated(const std::string& name, const QString& statement, const io::Hdf5Shape& shape,
+                    const std::vector<float>& values) const {
+    io::AtomicFile target(path("stated.h5"));
+    io::Hdf5Output out(target);
+    if (name.starts_with("estimate/")) out.add_group("estimate");
+    const bool is_list = statement.contains(',');
+    out.add_dataset<float>(name, shape,
+                           is_list               ? statement.toStdString()
+                           : statement == "axes" ? "x,y"
+                                                 : "",
+                           "");
+    out.write(name, {io::Hdf5Shape(shape.size(), 0), shape}, values.data());
+    if (statement == "MATLAB_class") out.set_ascii(name, "MATLAB_class", "single");
+    out.close();
+    if (statement == "DIMENSION_LABELS") label_dimensions(target.temporary(), name);
+    target.commit();
+  }
+  static void label_dimensions(const std::filesystem::path& file, const std::string& name) {
+    const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t dataset = H5Dopen2(id, name.c_str(), H5P_DEFAULT);
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, H5T_VARIABLE);
+    const hsize_t count = 2;
+    const hid_t space = H5Screate_simple(1, &count, nullptr);
+    const hid_t attribute =
+        H5Acreate2(dataset, "DIMENSION_LABELS", type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const char* const labels[] = {"columns", "rows"};
+    QVERIFY(H5Awrite(attribute, type, labels) >= 0);
+    H5Aclose(attribute);
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Dclose(dataset);
+    H5Fclose(id);
   }
 
  private slots:
@@ -205,6 +243,45 @@ class ResultTest : public QObject {
 
     QCOMPARE(io::read_result(path("all.h5"), kGrid).field.disparity.grid(), kGrid);
     QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_result(path("other.h5"), kGrid));
+  }
+
+  /// Rows and columns are exchanged in the file, which says so.
+  void statedAxes_areHonored_data() {
+    QTest::addColumn<QString>("statement");
+    QTest::addColumn<bool>("is_exchanged");
+    QTest::newRow("none") << "" << false;
+    QTest::newRow("axes") << "axes" << true;
+    QTest::newRow("MATLAB") << "MATLAB_class" << true;
+    QTest::newRow("labels of dimensions") << "DIMENSION_LABELS" << true;
+  }
+  void statedAxes_areHonored() {
+    QFETCH(QString, statement);
+    QFETCH(bool, is_exchanged);
+    const std::vector<float> stored{0, 1, 2, 3, 4, 5};
+    for (const bool is_own : {false, true}) {
+      const std::string name = is_own ? "estimate/disparity" : "map";
+      write_stated(name, statement, {2, 3}, stored);
+      const Estimate read = io::read_result(path("stated.h5"), kGrid);
+
+      const auto map = read.field.disparity.view(kGrid.center());
+      QCOMPARE(io::is_result_file(path("stated.h5")), is_own);
+      QCOMPARE(map.height, is_exchanged ? 3 : 2);
+      QCOMPARE(is_exchanged ? map.at(2, 1) : map.at(1, 2), 5.0F);
+      QCOMPARE(is_exchanged ? map.at(0, 1) : map.at(1, 0), 3.0F);
+    }
+  }
+
+  void statedAxesOfAllViews_areHonored() {
+    std::vector<float> stored(2 * 3 * 5 * 3);
+    std::iota(stored.begin(), stored.end(), 0.0F);
+    for (const std::string name : {"map", "estimate/disparity"}) {
+      write_stated(name, "x,y,u,v", {2, 3, 5, 3}, stored);
+      const Estimate read = io::read_result(path("stated.h5"), kGrid);
+
+      QCOMPARE(read.field.disparity.grid(), kGrid);
+      QCOMPARE(read.field.disparity.height(), 3);
+      QCOMPARE(read.field.disparity.view({1, 4}).at(2, 0), 2.0F * 15 + 4 * 3 + 1);
+    }
   }
 
   void badResults_areRefused_data() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/scribble_file.h"
 #include "engine/core/error.h"
 #include "engine/io/formats/write_scene.h"
-#include "engine/io/models/scribble_file.h"
 #include "engine/io/open.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -314,39 +314,6 @@ class ScribbleFileTest : public QObject {
     io::write_scribbles(path("labels.h5"), moved.scribbles, moved, Progress());
 
     compare(io::read_scribbles(path("labels.h5"), scene, Progress()), before);
-  }
-
-  void pictures_comeBack() {
-    const std::filesystem::path folder = folder_->path().toStdString();
-    Scribbles scribbles = some_scribbles();
-    scribbles.views.push_back(painted_view({4, 4}, {1, 2}, 700));
-
-    const auto files = io::write_scribble_pictures(folder, scribbles);
-
-    QCOMPARE(files.size(), std::size_t{6});
-    Scribbles read = io::read_scribble_pictures(folder, {5, 5}, kHeight, kWidth);
-    read.labels = scribbles.labels;  // pictures hold no names
-    compare(read, scribbles);
-    QVERIFY_THROWS_EXCEPTION(IoError,
-                             (void)io::read_scribble_pictures(folder, {2, 5}, kHeight, kWidth));
-    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_scribble_pictures(folder, {5, 5}, kHeight, 3));
-    QVERIFY_THROWS_EXCEPTION(
-        IoError, (void)io::read_scribble_pictures(folder / "none", {5, 5}, kHeight, kWidth));
-  }
-
-  void onePicture_isOfTheCentreViewUnlessItsNameSaysAnother() {
-    const std::filesystem::path folder = folder_->path().toStdString();
-    Scribbles scribbles;
-    scribbles.views.push_back(painted_view({4, 3}, {1, 2}, 7));
-    const auto file = io::write_scribble_pictures(folder, scribbles).front();
-    const auto renamed = folder / "strokes.png";
-    std::filesystem::copy_file(file, renamed);
-
-    QVERIFY(io::holds_scribble_pictures(folder) && io::holds_scribble_pictures(renamed));
-    QVERIFY(!io::holds_scribble_pictures("") && !io::holds_scribble_pictures("labels.h5"));
-    compare(io::read_scribble_pictures(file, {5, 5}, kHeight, kWidth), scribbles);
-    scribbles.views.front().view = {2, 2};
-    compare(io::read_scribble_pictures(renamed, {5, 5}, kHeight, kWidth), scribbles);
   }
 };
 

@@ -96,7 +96,7 @@ void PixelFeaturesTest::place_isCarriedAlongTheRay() {
   const PixelFeatures features =
       compute_pixel_features(lf, {0, 2}, {map.view(), {}}, {}, Progress());
 
-  // View (0, 2) is one up and one to the right of the centre: x + d, y − d, over the width.
+  // View (0, 2) is one up and one to the right of the center: x + d, y − d, over the width.
   const int column = layer_of({}, "column in the center view");
   QVERIFY(std::abs(features.view().at(5, column, 10) - (10 + kDisparity) / kWidth) < 1e-5F);
   QVERIFY(std::abs(features.view().at(5, column + 1, 10) - (5 - kDisparity) / kWidth) < 1e-5F);

@@ -54,7 +54,7 @@ void LineSmoothingTest::lines_doNotDriftFromTheSlope() {
       const double exact = 24 - 0.37 * (k + 1);
       QVERIFY2(std::fabs(at - exact) <= 1, qPrintable(QString("%1 %2").arg(at).arg(exact)));
     }
-    QCOMPARE(at, 22);  // 23 in the third view, where the line runs through a pixel centre
+    QCOMPARE(at, 22);  // 23 in the third view, where the line runs through a pixel center
   }
 }
 

@@ -13,7 +13,7 @@
 namespace episcope::test {
 
 inline constexpr GridShape kGrid{5, 5};
-// Weak ones: regularisers are tested, not edges.
+// Weak ones: regularizers are tested, not edges.
 inline constexpr EdgeParameters kEdges{.image = 10, .texture = 1};
 
 inline Scene render(const std::string& id, int size = 96) {

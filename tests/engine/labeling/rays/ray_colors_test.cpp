@@ -15,7 +15,7 @@ namespace {
 constexpr int kHeight = 9, kWidth = 43;
 constexpr int kLast = kHeight * kWidth - 1;
 
-// Similar colours everywhere.
+// Similar colors everywhere.
 LightField light_field(int channels) {
   ViewStack<std::uint8_t> samples({1, 2}, kHeight, kWidth, channels);
   std::mt19937 random(3);

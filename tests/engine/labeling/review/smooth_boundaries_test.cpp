@@ -22,7 +22,7 @@ Image<std::int32_t> ragged() {
   return labels;
 }
 
-// Pixels of vertical neighbours with different labels.
+// Pixels of vertical neighbors with different labels.
 int raggedness(const Image<std::int32_t>& labels) {
   int count = 0;
   for (int y = 1; y < labels.height(); ++y) {

@@ -142,7 +142,7 @@ class IncompleteGridTest : public QObject {
 
     const Scene scene = folder_->open();
 
-    // Rows 2 … 5 of all but the last column: the centre of the part is another view.
+    // Rows 2 … 5 of all but the last column: the center of the part is another view.
     QCOMPARE(scene.light_field->grid(), (GridShape{4, 4}));
     QVERIFY(has_views_from(scene, {1, 0}));
     QCOMPARE(scene.truth->field.disparity.first(), (ViewIndex{1, 2}));

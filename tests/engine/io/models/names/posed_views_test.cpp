@@ -2,7 +2,6 @@
 #include "engine/core/error.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
-#include "engine/io/models/pose_grid.h"
 #include "engine/io/models/poses.h"
 #include "tests/engine/io/models/sidecar_maps/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"

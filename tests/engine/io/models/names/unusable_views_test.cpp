@@ -54,7 +54,7 @@ class UnusableViewsTest : public QObject {
   void viewOfAnotherSize_isLeftOut_data() {
     QTest::addColumn<QString>("name");
     QTest::newRow("a corner") << "5_5.png";
-    QTest::newRow("the centre, which others are compared with") << "3_3.png";
+    QTest::newRow("the center, which others are compared with") << "3_3.png";
   }
   void viewOfAnotherSize_isLeftOut() {
     QFETCH(QString, name);

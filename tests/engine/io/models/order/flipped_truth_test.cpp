@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/models/order/flipped_truth.h"
+#include "engine/io/models/order/order_check.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
@@ -21,7 +21,7 @@ class FlippedTruthTest : public QObject {
     options.slope_y = -0.02;
     return plane_scene(options);
   }
-  /// Of the centre view.
+  /// Of the center view.
   static DisparityField truth_of(const Scene& scene) {
     const ViewIndex center = scene.light_field->grid().center();
     const auto from = scene.truth->field.disparity.view(center);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/order/sign_check.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/order/line_matches.h"
-#include "engine/io/models/order/sign_check.h"
 #include "tests/engine/io/models/order/layered_scene.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
@@ -125,7 +125,7 @@ class SignCheckTest : public QObject {
     QTest::newRow("as stored") << false;
     QTest::newRow("reversed") << true;
   }
-  /// Of an even grid the view at the centre is not in the middle: views of one side are darker.
+  /// Of an even grid the view at the center is not in the middle: views of one side are darker.
   void vignettedViews_doNotMislead() {
     QFETCH(bool, reversed);
     const GridShape grid{8, 8};
@@ -218,7 +218,7 @@ class SignCheckTest : public QObject {
 
     QVERIFY(scene.convention.reversed_u && scene.convention.reversed_v);
     QVERIFY2(scene.convention.sign.empty(), told(scene).c_str());
-    QVERIFY2(told(scene).find("check favours") != std::string::npos, told(scene).c_str());
+    QVERIFY2(told(scene).find("check favors") != std::string::npos, told(scene).c_str());
   }
 
   void swappedAxes_areSwappedBack_data() {

@@ -37,7 +37,7 @@ LayeredScene::LayeredScene(GridShape grid, int height, int width)
     const ViewIndex view = grid.view_at(i);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        // (x, y) shows the point that the centre view has at (x + d·du, y + d·dv).
+        // (x, y) shows the point that the center view has at (x + d·du, y + d·dv).
         const auto in_center = [&](double d) {
           return std::pair(x + d * (view.u - center.u), y + d * (view.v - center.v));
         };

@@ -30,7 +30,7 @@ class MapSizeTest : public QObject {
     }
     return map;
   }
-  /// Share of the pixels of the centre view that are right.
+  /// Share of the pixels of the center view that are right.
   double right(const Scene& scene) const {
     if (scene.truth->field.empty()) return 0;
     const DisparityView found = scene.truth->field.view({1, 1});

@@ -6,8 +6,8 @@
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
-#include <QTemporaryDir>
 #include <fmt/format.h>
+#include <QTemporaryDir>
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ Scene plane_behind_square() {
 
 }  // namespace
 
-/// Maps of the centre view whose numbers nothing explains but the views.
+/// Maps of the center view whose numbers nothing explains but the views.
 class UnknownUnitTest : public QObject {
   Q_OBJECT
 
@@ -102,7 +102,7 @@ class UnknownUnitTest : public QObject {
         path(name), {static_cast<std::size_t>(map.height), static_cast<std::size_t>(map.width)},
         values);
   }
-  /// Of the centre view, where both know the disparity; infinite if there is none.
+  /// Of the center view, where both know the disparity; infinite if there is none.
   double error(const Scene& scene) const {
     if (!scene.truth->has_disparity()) return std::numeric_limits<double>::infinity();
     const DisparityView found = scene.truth->field.view(scene.light_field->grid().center());

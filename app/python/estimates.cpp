@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/python/estimates.h"
+
+#include "app/python/job.h"
+#include "app/session/command_line.h"
+#include "app/session/judge.h"
+#include "app/session/result_files.h"
+#include "app/session/run_estimator.h"
+#include "engine/core/error.h"
+#include "engine/disparity/registry.h"
+#include "engine/io/base/json.h"
+#include "engine/io/models/external_result.h"
+
+#include <pybind11/stl.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <utility>
+
+namespace episcope::python {
+
+RunOptions run_options(const std::string& device, int threads) {
+  return run_schema().parse({{"device", device}, {"threads", threads}});
+}
+
+namespace {
+
+std::optional<ViewSelection> selection_from(const py::object& views) {
+  if (views.is_none()) return std::nullopt;
+  return value_named<ViewSelection>(py::cast<std::string>(py::str(views)));
+}
+
+FoundEstimate estimate_scene(const OpenedScene& opened, const std::string& method,
+                             const py::object& views, const std::string& device, int threads,
+                             const py::object& progress, const py::kwargs& parameters) {
+  const Estimator& estimator = find_estimator(method);
+  const ParameterSet values = parameters_from(parameters, estimator.parameters);
+  RunOptions options = run_options(device, threads);
+  options.views = views_to_estimate(estimator, selection_from(views));
+  require_device(options.device, estimator.info);
+  FinishedEstimate finished = result_of_job(progress, threads, [&](const Progress& job) {
+    return run_estimator(*opened.scene, estimator, values, options, job);
+  });
+  return {std::move(finished.estimate), opened};
+}
+
+py::object disparity_of(FoundEstimate& found) {
+  if (!found.disparity) found.disparity = disparity_array(found.estimate->field, found.estimate);
+  return found.disparity;
+}
+
+py::object confidence_of(const FoundEstimate& found) {
+  const EstimatePtr& estimate = found.estimate;
+  if (estimate->confidence.empty()) return py::none();
+  return array_of(estimate->confidence, estimate, Channels::No);
+}
+
+py::object single_view_of(const FoundEstimate& found) {
+  const ViewStack<float>& maps = found.estimate->field.disparity;
+  return maps.grid().count() == 1 ? py::object(view_tuple(maps.first())) : py::object(py::none());
+}
+
+/// Refuses to replace what is no result, such as the light field itself.
+void require_replaceable(const std::filesystem::path& path, MapForm form) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored) || form == MapForm::PointCloud) return;
+  if (names_result(path.string())) return;
+  throw IoError(path, "exists and is not a result; choose another name or remove it first");
+}
+
+void save_estimate(const FoundEstimate& found, const py::object& given_path,
+                   const py::object& view) {
+  const std::filesystem::path path = path_from(given_path);
+  const auto form = map_form_of(path);
+  if (!form) {
+    throw InvalidInput(path.string() +
+                       ": the name tells no form of a result; let it end in .h5, .pfm, .tif, "
+                       ".npy or .ply");
+  }
+  require_replaceable(path, *form);
+  const LightField& lf = found.of.light_field();
+  const Estimate& estimate = *found.estimate;
+  const ViewIndex first = estimate.field.disparity.first();
+  const ViewIndex own = estimate.contains(lf.center()) ? lf.center() : first;
+  const ViewIndex at = view_from(view, lf.grid()).value_or(own);
+  if (*form != MapForm::Result && !estimate.contains(at)) {
+    throw InvalidInput("view " + view_text(at) + " was not estimated, only " + view_text(first));
+  }
+  run_job(py::none(), 0, [&](const Progress& job) {
+    if (*form == MapForm::Result) return save_result(path, estimate, found.of.input, job);
+    if (*form != MapForm::PointCloud) return save_map(path, estimate.field.view(at));
+    save_point_cloud(path, lf, at, estimate.field.view(at));
+  });
+}
+
+/// What is judged: a result, the name of its file, or an array of maps.
+EstimatePtr judged_estimate(const py::object& map, const LightField& lf) {
+  if (py::isinstance<FoundEstimate>(map)) return py::cast<const FoundEstimate&>(map).estimate;
+  if (py::isinstance<py::str>(map) || py::hasattr(map, "__fspath__")) {
+    return std::make_shared<const Estimate>(read_result_of(lf, path_from(map)));
+  }
+  DisparityField field;
+  field.disparity = maps_from(numbers_from<float>(map, "the maps"), lf.grid(), "the maps");
+  return std::make_shared<const Estimate>(result_from_maps(lf, std::move(field), "array"));
+}
+
+py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Protocol protocol,
+                   bool has_all_views) {
+  py::dict scores;
+  scores["protocol"] = protocol_name(protocol);
+  scores["method"] = estimate.method;
+  for (const auto& [key, value] : evaluation.metrics) scores[py::str(key)] = value;
+  if (estimate.seconds > 0) {
+    scores["seconds"] = estimate.seconds;
+    if (protocol == Protocol::Vmv2013) scores["runtime_class"] = runtime_class(estimate.seconds);
+  }
+  scores["all_views"] = has_all_views;
+  std::vector<std::string> notes = evaluation.notes;
+  if (estimate.version.empty()) {  // of another program: how it was read
+    notes.insert(notes.begin(), estimate.notes.begin(), estimate.notes.end());
+  }
+  if (!notes.empty()) scores["notes"] = notes;
+  return scores;
+}
+
+py::dict score_scene(const py::object& map, const OpenedScene& opened, EvaluationOptions options,
+                     const py::object& view) {
+  const LightField& lf = opened.light_field();
+  const EstimatePtr estimate = judged_estimate(map, lf);
+  const ViewIndex at = view_from(view, lf.grid()).value_or(judged_view(*opened.scene));
+  const Evaluation evaluation = result_of_job(py::none(), 0, [&](const Progress& job) {
+    options.progress = job;
+    return judge(*estimate, *opened.scene, options, at);
+  });
+  const bool has_all_views = estimate->field.disparity.grid() == lf.grid();
+  py::dict scores = scores_of(*estimate, evaluation, options.protocol, has_all_views);
+  scores["truth"] = opened.input;
+  scores["view"] = view_tuple(at);
+  return scores;
+}
+
+DisparityField field_from(const py::object& map, GridShape grid, const std::string& what) {
+  DisparityField field;
+  field.disparity = maps_from(numbers_from<float>(map, what), grid, what);
+  io::mark_invalid(field);
+  return field;
+}
+
+/// The views that maps cover; 1×1 also for what are no maps.
+GridShape grid_of_maps(const py::object& maps) {
+  const auto shape = py::module_::import("numpy").attr("shape")(maps);
+  if (py::len(shape) != 4) return {1, 1};
+  const auto lengths = py::cast<std::vector<int>>(shape);
+  return {lengths[0], lengths[1]};
+}
+
+/// Against an array: pixel by pixel, with nothing known of the light field.
+py::dict score_array(const py::object& judged, const py::object& truth,
+                     const EvaluationOptions& options) {
+  const py::object map = py::isinstance<FoundEstimate>(judged) ? judged.attr("disparity") : judged;
+  const GridShape of_truth = grid_of_maps(truth);
+  const GridShape grid = of_truth.count() > 1 ? of_truth : grid_of_maps(map);
+  const DisparityField known = field_from(truth, grid, "the truth");
+  Estimate estimate;
+  estimate.field = field_from(map, grid, "the maps");
+  estimate.method = "array";
+  const ViewIndex center = grid.center();
+  const Evaluation evaluation =
+      evaluate(estimate.field.view(center), known.view(center), {}, options);
+  return scores_of(estimate, evaluation, options.protocol, estimate.field.disparity.grid() == grid);
+}
+
+InvalidEstimates invalid_named(const std::string& name) {
+  if (name == "bad") return InvalidEstimates::Bad;
+  if (name == "compatible") return InvalidEstimates::Compatible;
+  throw InvalidInput(no_such_name("value of invalid", name, {"bad", "compatible"}));
+}
+
+py::dict score(const py::object& map, const py::object& truth, const std::string& protocol,
+               const std::string& invalid, const py::object& view) {
+  const EvaluationOptions options{parse_protocol(protocol), invalid_named(invalid), {}};
+  if (!py::isinstance<OpenedScene>(truth)) {
+    if (view.is_none()) return score_array(map, truth, options);
+    throw InvalidInput(
+        "view chooses a view of a light field; of arrays, give the maps of the view");
+  }
+  return score_scene(map, py::cast<const OpenedScene&>(truth), options, view);
+}
+
+void add_result(py::module_& module) {
+  py::class_<FoundEstimate>(module, "Result", "A disparity estimate of a light field.")
+      .def_property_readonly(
+          "disparity", disparity_of,
+          R"(float32, px per view step, positive nearer than the plane of zero disparity; NaN
+where it is not known. [v, u, y, x], or [y, x] if one view was estimated. Read-only.)")
+      .def_property_readonly(
+          "confidence", confidence_of,
+          R"(float32 in [0, 1], of the shape of the disparity; None if there is none.)")
+      .def_property_readonly(
+          "foreground",
+          [](const FoundEstimate& found) {
+            return disparity_array(found.estimate->layered.foreground, found.estimate);
+          },
+          "Disparity of the surface, of methods for two layers; else None.")
+      .def_property_readonly(
+          "background",
+          [](const FoundEstimate& found) {
+            return disparity_array(found.estimate->layered.background, found.estimate);
+          },
+          "Disparity of what is seen through it; else None.")
+      .def_property_readonly("view", single_view_of, "(v, u) if one view was estimated; else None.")
+      .def_property_readonly("method",
+                             [](const FoundEstimate& found) { return found.estimate->method; })
+      .def_property_readonly(
+          "range", [](const FoundEstimate& found) { return interval_tuple(found.estimate->range); },
+          "(min, max) of the disparity that was searched, px per view step.")
+      .def_property_readonly(
+          "parameters",
+          [](const FoundEstimate& found) {
+            return object_from(io::parameters_json(found.estimate->parameters));
+          },
+          "Every parameter with the value used.")
+      .def_property_readonly(
+          "seconds", [](const FoundEstimate& found) { return found.estimate->seconds; },
+          "Wall-clock time.")
+      .def_property_readonly(
+          "notes", [](const FoundEstimate& found) { return found.estimate->notes; },
+          "What one should know of this run, a sentence each.")
+      .def("save", save_estimate, py::arg("path"), py::kw_only(), py::arg("view") = py::none(),
+           R"(save(path, *, view=None)
+--
+
+Writes the result as its name says: .h5 (all that is known), or one view as .pfm, .tif, .npy or .ply
+(points). view: (v, u), by default the center. A result of that name is replaced, nothing else.)")
+      .def("__repr__", [](const FoundEstimate& found) {
+        return "<episcope.Result of " + found.estimate->method + " for " +
+               found.of.light_field().info().name + ">";
+      });
+}
+
+}  // namespace
+
+void add_estimates(py::module_& module) {
+  add_result(module);
+  module.def("estimate", estimate_scene, py::arg("light_field"), py::arg("method"), py::kw_only(),
+             py::arg("views") = py::none(), py::arg("device") = "auto", py::arg("threads") = 0,
+             py::arg("progress") = py::none(),
+             R"(estimate(light_field, method, *, views=None, device='auto', threads=0,
+         progress=None, **parameters)
+--
+
+Estimates disparity: the numbers of 'episcope-cli estimate', bit for bit.
+
+method: an id of methods(). views: 'all' or 'center'; by default all, if the method can. device:
+'auto', 'cpu' or 'cuda'. threads: at most so many; 0 = as many as there are. progress: called as
+progress(fraction, step); what it raises ends the estimate, as Ctrl+C does. parameters: those of the
+method, such as range=(-2, 2); lambda_ for lambda.
+Raises InvalidInput for a bad parameter, Unavailable for an unknown method or a missing device.)");
+  module.def("score", score, py::arg("map"), py::arg("truth"), py::kw_only(),
+             py::arg("protocol") = "vmv2013", py::arg("invalid") = "bad",
+             py::arg("view") = py::none(),
+             R"(score(map, truth, *, protocol='vmv2013', invalid='bad', view=None)
+--
+
+Compares disparity with the truth; a dict with the keys of 'episcope-cli evaluate --json', such as
+mse_100 and density.
+
+map: a Result, the path of a result, or an array in px per view step, [y, x] of the center view or
+[v, u, y, x] of all, NaN where there is no value. truth: a LightField, or an array, [y, x] or
+[v, u, y, x]. protocol: 'vmv2013' or 'benchmark2016'. invalid: how missing values count, 'bad' or
+'compatible'. view: (v, u), by default the center.
+Raises InvalidInput where sizes differ or there is no truth.)");
+  module.def(
+      "methods",
+      [] {
+        nlohmann::ordered_json list = nlohmann::ordered_json::array();
+        for (const Estimator& method : registered_estimators()) list.push_back(method_json(method));
+        return object_from(list);
+      },
+      R"(methods()
+--
+
+Every method with its parameters, a list of dicts: id, name, summary, reference, all_views,
+parameters (key, help, unit, default, min, max, choices).)");
+}
+
+}  // namespace episcope::python

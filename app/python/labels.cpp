@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/python/labels.h"
+
+#include "app/python/estimates.h"
+#include "app/python/job.h"
+#include "app/python/light_fields.h"
+#include "app/session/label_review.h"
+#include "app/session/labeling_inputs.h"
+#include "app/session/result_files.h"
+#include "app/session/segmentation_files.h"
+#include "engine/core/error.h"
+#include "engine/io/models/segmentation_file.h"
+#include "engine/labeling/labeler.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace episcope::python {
+namespace {
+
+struct ScoredLabels {
+  Segmentation segmentation;
+  LabelingScores scores;
+};
+
+/// Labels of all views as Python sees them.
+struct FoundLabels : ScoredLabels {
+  OpenedScene of;
+};
+
+bool is_painted(const ViewScribbles& scribbles) {
+  return std::ranges::any_of(scribbles.labels, [](std::int32_t id) { return id != 0; });
+}
+
+void add_view(const ImageView<const std::int32_t>& labels, ViewIndex view, Scribbles& scribbles) {
+  ViewScribbles added{view, Image<std::int32_t>(labels.height, labels.width)};
+  std::copy_n(labels.data, labels.size(), added.labels.data());
+  if (is_painted(added)) scribbles.views.push_back(std::move(added));
+}
+
+/// A map for each view that was painted.
+Scribbles scribbles_of_views(const py::dict& painted, GridShape grid) {
+  const std::string what = "the scribbles";
+  Scribbles scribbles;
+  for (const auto& [key, map] : painted) {
+    const auto view = view_from(py::reinterpret_borrow<py::object>(key), grid);
+    if (!view) throw InvalidInput("scribbles are named by their views, (v, u), not by None");
+    const auto labels = maps_from(
+        numbers_from<std::int32_t>(py::reinterpret_borrow<py::object>(map), what), {1, 1}, what);
+    add_view(labels.view(labels.first()), *view, scribbles);
+  }
+  std::ranges::sort(scribbles.views, {},
+                    [](const ViewScribbles& one) { return std::pair(one.view.v, one.view.u); });
+  return scribbles;
+}
+
+Scribbles scribbles_from(const py::object& painted, const Scene& scene) {
+  if (painted.is_none()) {
+    if (!scene.scribbles.empty()) return scene.scribbles;
+    throw InvalidInput(scene.light_field->info().name +
+                       " has no scribbles next to it; give an array of them");
+  }
+  const GridShape grid = scene.light_field->grid();
+  if (py::isinstance<py::dict>(painted)) return scribbles_of_views(painted, grid);
+  const auto labels =
+      maps_from(numbers_from<std::int32_t>(painted, "the scribbles"), grid, "the scribbles");
+  Scribbles scribbles;
+  for (int i = 0; i < labels.grid().count(); ++i) {
+    add_view(labels.view(labels.view_at(i)), labels.view_at(i), scribbles);
+  }
+  return scribbles;
+}
+
+LabelingDisparity disparity_for(const Scene& scene, const LabelerParameters& parameters,
+                                const EstimatePtr& given, Device device, const Progress& progress) {
+  if (!given) return find_labeling_disparity(scene, parameters, {}, progress, device);
+  if (parameters.features == FeatureSet::ImageTruth) {
+    throw InvalidInput(
+        "features image+truth uses the ground truth, so disparity would have no effect");
+  }
+  check_fits(*given, *scene.light_field, "the disparity");
+  return episcope::disparity_of(given, given->method);
+}
+
+/// Touches nothing of Python, since it runs without the lock of the interpreter.
+ScoredLabels label_scene(const Scene& scene, const Scribbles& scribbles,
+                         const LabelerParameters& parameters, const EstimatePtr& given,
+                         Device device, const Progress& progress) {
+  const LabelingDisparity disparity =
+      disparity_for(scene, parameters, given, device, progress.part(0, 0.2));
+  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
+                  disparity.confidence());
+  labeler.compute_on(device);
+  ScoredLabels found;
+  found.segmentation.labeling = std::make_shared<const Labeling>(labeler.label(
+      scribbles, parameters, {{0, 0}, scene.light_field->grid()}, progress.part(0.2, 0.95)));
+  found.segmentation.labels = scribbles.labels;
+  found.segmentation.parameters = labeler_schema().values(parameters);
+  found.segmentation.reading = scene.light_field->info().reading;
+  found.scores = judge_labeling(found.segmentation.labeling->labels, scene.light_field->center(),
+                                scene.truth->labels, *scene.truth, disparity.field.get(),
+                                progress.part(0.95, 1));
+  return found;
+}
+
+FoundLabels label(const OpenedScene& opened, const py::object& painted, const py::object& disparity,
+                  const std::string& device, int threads, const py::object& progress,
+                  const py::kwargs& given) {
+  const auto schema = labeler_schema();
+  const LabelerParameters parameters = schema.parse(parameters_from(given, schema.descriptions()));
+  const Scribbles scribbles = scribbles_from(painted, *opened.scene);
+  const EstimatePtr estimate =
+      disparity.is_none() ? nullptr : py::cast<const FoundEstimate&>(disparity).estimate;
+  const Device on = run_options(device, threads).device;
+  ScoredLabels labels = result_of_job(progress, threads, [&](const Progress& job) {
+    return label_scene(*opened.scene, scribbles, parameters, estimate, on, job);
+  });
+  return {std::move(labels), opened};
+}
+
+void save_labels(const FoundLabels& found, const py::object& given_path, bool probabilities) {
+  const std::filesystem::path path = path_from(given_path);
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !io::is_segmentation_file(path)) {
+    throw IoError(path,
+                  "exists and is not a file of labels; choose another name or remove it first");
+  }
+  const auto stored = probabilities ? StoredProbabilities::All : StoredProbabilities::None;
+  run_job(py::none(), 0, [&](const Progress& job) {
+    write_segmentation(path, found.segmentation, found.of.input, stored, job);
+  });
+}
+
+std::vector<std::string> notes_of(const FoundLabels& found) {
+  const std::string& note = found.segmentation.labeling->note;
+  return note.empty() ? std::vector<std::string>{} : std::vector{note};
+}
+
+py::dict label_scores(const FoundLabels& found) {
+  py::dict scores;
+  for (const auto& [key, share] : labeling_metrics(found.scores)) scores[py::str(key)] = share;
+  return scores;
+}
+
+}  // namespace
+
+void add_labels(py::module_& module) {
+  py::class_<FoundLabels>(module, "Labeling", "Labels of all views of a light field.")
+      .def_property_readonly(
+          "labels",
+          [](const FoundLabels& found) {
+            const LabelingPtr& labeling = found.segmentation.labeling;
+            return array_of(labeling->labels, labeling, Channels::No);
+          },
+          "int32 [v, u, y, x]: the label of each pixel, one of ids. Read-only.")
+      .def_property_readonly(
+          "ids",
+          [](const FoundLabels& found) { return found.segmentation.labeling->probabilities.ids; },
+          "The labels that were painted, ascending.")
+      .def_property_readonly("scores", label_scores,
+                             R"(Shares in [0, 1] by the keys of 'episcope-cli label --json', such as
+accuracy_all_views; without true labels only consistency along the rays.)")
+      .def_property_readonly("notes", notes_of, "A sentence each.")
+      .def("save", save_labels, py::arg("path"), py::kw_only(), py::arg("probabilities") = false,
+           R"(save(path, *, probabilities=False)
+--
+
+Writes an HDF5 file of labels; with probabilities, four bytes more for each ray and label. A file of
+labels of that name is replaced, nothing else.)");
+  module.def("label", label, py::arg("light_field"), py::arg("scribbles") = py::none(),
+             py::kw_only(), py::arg("disparity") = py::none(), py::arg("device") = "auto",
+             py::arg("threads") = 0, py::arg("progress") = py::none(),
+             R"(label(light_field, scribbles=None, *, disparity=None, device='auto', threads=0,
+      progress=None, **parameters)
+--
+
+Labels every pixel of all views from a few painted ones.
+
+scribbles: whole numbers, 0 = unpainted, [y, x] of the center view, [v, u, y, x] of all, or a dict
+of [y, x] by (v, u); None: those that lie beside the light field. At least two labels must be
+painted.
+disparity: a Result of all views; by default it is estimated. parameters: those of 'episcope-cli
+label --help', such as features='image'. progress: called as progress(fraction, step).
+Raises InvalidInput for scribbles that do not fit.)");
+}
+
+}  // namespace episcope::python

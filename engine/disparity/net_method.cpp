@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/net_method.h"
+
+#include "engine/core/error.h"
+#include "engine/core/hash.h"
+#include "engine/disparity/carried_run.h"
+#include "engine/disparity/disparity_range.h"
+#include "engine/disparity/net_evidence.h"
+#include "engine/disparity/net_weights.h"
+#include "engine/disparity/propagate_planes.h"
+#include "engine/disparity/weights_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostRounds = 4;
+constexpr double kShortestRange = 0.2;  // px
+// Work of the parts of the network, GFLOP for 512² px (resources/training/README.md).
+constexpr double kVolumeWork = 717.0 / 40;  // A label,
+constexpr double kRoundWork = 117;
+constexpr double kRefinementWork = 120;
+
+struct ReadWeights {
+  NetWeights weights;
+  std::uint64_t hash = 0;
+};
+
+ReadWeights read_weights(const fs::path& path) {
+  const NamedArrays arrays = read_named_arrays(path);
+  try {
+    return {NetWeights(arrays), arrays.hash};
+  } catch (const InvalidInput& error) {
+    throw IoError(path, error.what());
+  }
+}
+
+// The weights of the last file.
+class KeptWeights {
+ public:
+  std::shared_ptr<const ReadWeights> of(const fs::path& path) {
+    std::error_code failure;
+    const fs::file_time_type written = fs::last_write_time(path, failure);
+    const std::lock_guard lock(mutex_);
+    if (!weights_ || failure || path != path_ || written != written_) {
+      weights_ = std::make_shared<const ReadWeights>(read_weights(path));
+      path_ = path;
+      written_ = written;
+    }
+    return weights_;
+  }
+
+ private:
+  std::mutex mutex_;
+  fs::path path_;
+  fs::file_time_type written_;
+  std::shared_ptr<const ReadWeights> weights_;
+};
+
+std::shared_ptr<const ReadWeights> weights_of(const NetMethodParameters& parameters) {
+  static KeptWeights kept;
+  return kept.of(parameters.weights.empty() ? installed_weights(kNetWeights)
+                                            : fs::absolute(parameters.weights));
+}
+
+Interval wide_enough(Interval range) {
+  const double missing = std::max(kShortestRange - range.length(), 0.0) / 2;
+  return {range.min - missing, range.max + missing};
+}
+
+Estimate estimate_of(ViewIndex view, Interval range, const NetMaps& maps) {
+  Estimate estimate;
+  estimate.range = range;
+  const auto stack_of = [&](const Image<float>& map) {
+    ViewStack<float> stack({1, 1}, map.height(), map.width(), 1, view);
+    std::copy(map.begin(), map.end(), stack.data());
+    return stack;
+  };
+  estimate.field.disparity = stack_of(maps.disparity);
+  estimate.confidence = stack_of(maps.confidence);
+  return estimate;
+}
+
+Image<float> image_of(ImageView<const float> view) {
+  Image<float> image(view.height, view.width);
+  std::copy_n(view.data, image.size(), image.data());
+  return image;
+}
+
+class NetMethod final : public CarriedMethod {
+ public:
+  // Reads the weights, finds the range.
+  NetMethod(const LightField& light_field, const NetMethodParameters& parameters,
+            const Progress& progress)
+      : lf_(light_field),
+        parameters_(parameters),
+        weights_(weights_of(parameters)),
+        range_(wide_enough(search_range(light_field, parameters.range, progress))) {}
+
+  [[nodiscard]] ViewIndex first_view() const override {
+    return parameters_.view.value_or(lf_.center());
+  }
+  [[nodiscard]] Interval range() const override { return range_; }
+  [[nodiscard]] const LightField& compared() const override { return lf_; }
+
+  [[nodiscard]] Estimate estimate_first(const Progress& progress) override {
+    const ViewIndex view = first_view();
+    Estimate estimate = estimate_of(
+        view, range_, estimate_net(lf_, view, weights_->weights, view_parameters(), progress));
+    if (!parameters_.weights.empty()) {
+      estimate.notes.push_back(
+          fmt::format("weights of {}, hash {}", parameters_.weights, hash_digits(weights_->hash)));
+    }
+    return estimate;
+  }
+  [[nodiscard]] Estimate estimate_next(ViewIndex view, const std::vector<Estimate>& maps,
+                                       const Progress& progress) override {
+    const PropagatedMaps carried = propagate_to_views(maps, {view, {1, 1}}, progress.part(0, 0.01));
+    return estimate_of(view, range_,
+                       polish_by_net(lf_, view, image_of(carried.disparity.view(view)),
+                                     weights_->weights, view_parameters(), progress.part(0.01, 1)));
+  }
+
+  [[nodiscard]] double share_of_next() const override {
+    return (kRoundWork + kRefinementWork) / (kVolumeWork * net_label_count(range_) +
+                                             kRoundWork * parameters_.rounds + kRefinementWork);
+  }
+
+  // Maps, and the rows of views that evidence is taken from; tensors are large arrays.
+  [[nodiscard]] double bytes_of_view() const override {
+    constexpr double kOfPixel = 160, kOfSample = 32;
+    constexpr int kRowsAround = 2 * kNetBand;
+    const GridShape grid = lf_.grid();
+    const double farthest = std::max(std::abs(range_.min), std::abs(range_.max)) + 1;
+    const double rows = std::min(kRowsAround + farthest * std::max(grid.v, 1), 1.0 * lf_.height());
+    const double views = std::min(grid.count(), kNetSectors * kNetSectorViews + 1);
+    return lf_.width() * (kOfPixel * lf_.height() + kOfSample * rows * views);
+  }
+
+ private:
+  [[nodiscard]] NetParameters view_parameters() const {
+    return {range_, parameters_.silhouettes, parameters_.rounds};
+  }
+
+  const LightField& lf_;
+  NetMethodParameters parameters_;
+  std::shared_ptr<const ReadWeights> weights_;
+  Interval range_;
+};
+
+BlockwiseRun net_in_blocks(const LightField& lf, const NetMethodParameters& parameters,
+                           ViewSelection views, const Progress& progress) {
+  return carried_in_blocks(lf, std::make_unique<NetMethod>(lf, parameters, progress), views,
+                           progress.threads());
+}
+
+}  // namespace
+
+Names<Silhouettes> names_of(Silhouettes) {
+  return {{Silhouettes::Mode, "mode"}, {Silhouettes::Mean, "mean"}};
+}
+
+Schema<NetMethodParameters> net_schema() {
+  using P = NetMethodParameters;
+  return Schema<P>()
+      .choice("silhouettes", &P::silhouettes,
+              {"Silhouettes",
+               "Where a pixel shows two surfaces: mode, the more probable one; mean, the mean of "
+               "both by their shares, which has the smaller squared error"})
+      .integer("rounds", &P::rounds,
+               {"Rounds", "Rounds in which each pixel chooses among the disparities around it"},
+               {1, kMostRounds})
+      .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
+      .view(
+          "view", &P::view,
+          {"View", "Row and column of the view to estimate, or to begin with; auto = center view"})
+      .text("weights", &P::weights,
+            {"Weights", "File of the network's weights; by default those of the program"})
+      .search("rounds", {1, 2});
+}
+
+Estimate estimate_by_net(const LightField& lf, const NetMethodParameters& parameters,
+                         ViewSelection views, const Progress& progress) {
+  NetMethod method(lf, parameters, progress.part(0, 0.02));
+  return run_carried(method, views, progress.part(0.02, 1));
+}
+
+Estimator net_estimator() {
+  return make_estimator<NetMethodParameters>(
+      {.id = "net",
+       .name = "NET",
+       .summary = "A network chooses and refines disparities by the evidence of all views",
+       .reference = "Own; trained on procedural light fields alone: resources/training/README.md",
+       .all_views = true,
+       .weights = kNetWeights},
+      net_schema(), estimate_by_net, net_in_blocks);
+}
+
+}  // namespace episcope

@@ -1,0 +1,470 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/map_reading.h"
+
+#include "engine/core/error.h"
+#include "engine/core/numbers.h"
+#include "engine/io/models/order/warp_check.h"
+#include "engine/io/models/sidecar_maps/disparity_units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+/// Shares of the error as read, and of the error of a map that says nothing, below which another
+/// reading explains a map far better.
+constexpr double kFarBetterByTruth = 0.5;
+constexpr double kFarBetterByViews = 0.6;
+/// A reading that changes more must beat one that changes less by this.
+constexpr double kClearlyBetter = 0.9;
+/// Of the pixels that could be compared, those that must be.
+constexpr double kLeastCompared = 0.5;
+/// How much better the views must fit the map as it is to speak against another reading.
+constexpr double kContradicts = 1.1;
+
+constexpr double kLargestScale = 1e5;
+constexpr int kWidestBorder = 1 << 12;
+constexpr double kMostPoints = 10000;
+constexpr int kRowStride = 4;  ///< Of the rows that are warped.
+
+/// Integers that stand for fractions of a pixel: decimal, and fixed-point numbers of matchers.
+constexpr double kMapScales[] = {0.1,       0.01,      0.001,       1.0 / 16, 1.0 / 64,
+                                 1.0 / 255, 1.0 / 256, 1.0 / 65535, 10,       100};
+/// Depth in m, mm or cm where the camera has another of these units.
+constexpr double kDepthScales[] = {1, 0.001, 1000, 0.01, 100};
+
+/// Size of a view, and the camera that depth belongs to.
+struct MapTarget {
+  int height = 0;
+  int width = 0;
+  CameraGrid camera{};
+};
+
+/// The value of a map at a pixel of the view by a reading; NaN if it has none there.
+float value_by(const DisparityView& map, const MapReading& reading, const MapTarget& target, int y,
+               int x) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const int border = reading.border_px;
+  if (y < border || x < border || y >= target.height - border || x >= target.width - border) {
+    return kNone;
+  }
+  int row = y - border;
+  int column = x - border;
+  const int height = reading.is_transposed ? map.disparity.width : map.disparity.height;
+  const int width = reading.is_transposed ? map.disparity.height : map.disparity.width;
+  if (reading.flip == MapFlip::Y || reading.flip == MapFlip::Both) row = height - 1 - row;
+  if (reading.flip == MapFlip::X || reading.flip == MapFlip::Both) column = width - 1 - column;
+  if (reading.is_transposed) std::swap(row, column);
+  const bool is_inside =
+      row >= 0 && column >= 0 && row < map.disparity.height && column < map.disparity.width;
+  if (!is_inside || !map.is_valid(row, column)) return kNone;
+  const double value = reading.scale * map.disparity.at(row, column);
+  if (reading.values == MapValues::Disparity) return static_cast<float>(value);
+  return value > 0 ? static_cast<float>(target.camera.disparity_from_depth(value)) : kNone;
+}
+
+DisparityField read_maps_so(const DisparityField& field, const MapReading& reading,
+                            const MapTarget& target) {
+  const ViewStack<float>& maps = field.disparity;
+  DisparityField read{
+      ViewStack<float>(maps.grid(), target.height, target.width, 1, maps.first()),
+      ViewStack<std::uint8_t>(maps.grid(), target.height, target.width, 1, maps.first())};
+  for (int i = 0; i < maps.grid().count(); ++i) {
+    const ViewIndex view = maps.view_at(i);
+    const DisparityView map = field.view(view);
+    for (int y = 0; y < target.height; ++y) {
+      for (int x = 0; x < target.width; ++x) {
+        const float value = value_by(map, reading, target, y, x);
+        read.valid.view(view).at(y, x) = std::isfinite(value) ? 1 : 0;
+        read.disparity.view(view).at(y, x) = std::isfinite(value) ? value : 0;
+      }
+    }
+  }
+  return read;
+}
+
+}  // namespace
+
+Names<MapFlip> names_of(MapFlip) {
+  return {{MapFlip::None, "none", "as stored"},
+          {MapFlip::X, "x", "columns from right to left"},
+          {MapFlip::Y, "y", "rows from bottom to top"},
+          {MapFlip::Both, "both", "both reversed"}};
+}
+
+Names<MapValues> names_of(MapValues) {
+  return {{MapValues::Disparity, "disparity", "px per view step"},
+          {MapValues::Depth, "depth", "in units of the camera of the light field"}};
+}
+
+Schema<MapReading> map_schema() {
+  using R = MapReading;
+  Schema<R> schema;
+  schema
+      .toggle("map-transpose", &R::is_transposed,
+              {"Exchange axes of maps",
+               "Exchange rows and columns of the maps of a RESULT, beyond what its file states"})
+      .choice("map-flip", &R::flip,
+              {"Flip maps", "Axes along which the pixels of the maps run the other way"})
+      .real("map-scale", &R::scale,
+            {"Scale of maps",
+             "Factor that turns the values of the maps into px per view step: 0.01 for integers of "
+             "hundredths, -1 for maps of the opposite sign"},
+            {-kLargestScale, kLargestScale})
+      .choice("map-values", &R::values,
+              {"Values of maps",
+               "What the values of the maps are; depth needs the camera of the light field"})
+      .integer("map-border", &R::border_px,
+               {"Border of maps",
+                "Pixels that the maps lack at each side of the views: their first pixel belongs "
+                "that far from the upper left corner",
+                "px"},
+               {0, kWidestBorder});
+  return schema;
+}
+
+ParameterSet given_options(const MapReading& reading) {
+  const Schema<MapReading> schema = map_schema();
+  ParameterSet given;
+  for (auto& [key, value] : schema.values(reading)) {
+    if (!(value == schema.description(key).default_value)) given.emplace_back(key, value);
+  }
+  return given;
+}
+
+std::string reading_text(const MapReading& reading) {
+  std::vector<std::string> parts;
+  if (reading.is_transposed) parts.emplace_back("rows and columns exchanged");
+  if (reading.flip == MapFlip::Y) parts.emplace_back("rows from bottom to top");
+  if (reading.flip == MapFlip::X) parts.emplace_back("columns from right to left");
+  if (reading.flip == MapFlip::Both) parts.emplace_back("rows and columns reversed");
+  if (reading.values == MapValues::Depth) parts.emplace_back("values taken as depth");
+  if (reading.scale == -1) parts.emplace_back("values negated");
+  if (std::abs(reading.scale) != 1) {
+    parts.push_back(fmt::format("values times {:.6g}", reading.scale));
+  }
+  if (reading.border_px > 0) {
+    parts.push_back(fmt::format("a border of {} px around the map", reading.border_px));
+  }
+  return fmt::format("{}", fmt::join(parts, " and "));
+}
+
+namespace {
+
+/// Throws InvalidInput for what an estimate cannot be read by.
+void require_possible(const MapReading& reading, const LightField* light_field,
+                      const Estimate& estimate) {
+  if (reading.scale == 0 || !std::isfinite(reading.scale)) {
+    throw InvalidInput("a map times 0 says nothing; give another --map-scale");
+  }
+  if (!estimate.layered.foreground.empty()) {
+    throw InvalidInput(
+        "a result in two layers is read as its file states; leave out the options that begin with "
+        "--map-");
+  }
+  if (!light_field && (reading.border_px > 0 || reading.values == MapValues::Depth)) {
+    throw InvalidInput(
+        "--map-border and --map-values depth need size and camera of the light field; name it with "
+        "--truth INPUT");
+  }
+  if (reading.values == MapValues::Depth && !light_field->info().camera.is_known()) {
+    throw InvalidInput("the camera of " + light_field->info().name +
+                       " is not known, so depth cannot become disparity; convert the map to px per "
+                       "view step");
+  }
+}
+
+}  // namespace
+
+void apply_reading(const MapReading& reading, const LightField* light_field, Estimate& estimate) {
+  if (reading == MapReading{}) return;
+  require_possible(reading, light_field, estimate);
+  const ViewStack<float>& maps = estimate.field.disparity;
+  MapTarget target{reading.is_transposed ? maps.width() : maps.height(),
+                   reading.is_transposed ? maps.height() : maps.width()};
+  if (light_field) target.camera = light_field->info().camera;
+  if (reading.border_px > 0) {
+    target.height = light_field->height();
+    target.width = light_field->width();
+  }
+  if (!estimate.confidence.empty()) {
+    MapReading places = reading;
+    places.scale = 1;
+    places.values = MapValues::Disparity;
+    estimate.confidence =
+        read_maps_so({std::move(estimate.confidence), {}}, places, target).disparity;
+  }
+  estimate.field = read_maps_so(estimate.field, reading, target);
+  estimate.border_px = reading.border_px;
+}
+
+namespace {
+
+std::vector<MapReading> turned_readings(bool is_square) {
+  std::vector<MapReading> readings;
+  for (const bool is_transposed : {false, true}) {
+    if (is_transposed && !is_square) continue;
+    for (const MapFlip flip : {MapFlip::None, MapFlip::Y, MapFlip::X, MapFlip::Both}) {
+      readings.push_back({.is_transposed = is_transposed, .flip = flip});
+    }
+  }
+  return readings;
+}
+
+/// Meanings of the values of a map, the one as read first.
+std::vector<MapReading> valued_readings(const LightField& light_field) {
+  std::vector<double> factors{1};
+  for (const MapUnit& unit : common_units(light_field.grid(), light_field.width())) {
+    if (unit.factor != 1) factors.insert(factors.end(), {unit.factor, 1 / unit.factor});
+  }
+  factors.insert(factors.end(), std::begin(kMapScales), std::end(kMapScales));
+  std::vector<MapReading> readings;
+  for (const double sign : {1.0, -1.0}) {
+    for (const double factor : factors) readings.push_back({.scale = sign * factor});
+  }
+  if (!light_field.info().camera.is_known()) return readings;
+  for (const double factor : kDepthScales) {
+    readings.push_back({.scale = factor, .values = MapValues::Depth});
+  }
+  return readings;
+}
+
+MapReading joined_reading(MapReading turned, const MapReading& valued) {
+  turned.scale = valued.scale;
+  turned.values = valued.values;
+  return turned;
+}
+
+/// Pixels that a map in the upper left corner lacks at each side of the view: half of the rows
+/// below, and of as many columns on the right, that have no value or one value only. 0 if there are
+/// no such rows and columns.
+int corner_border(const DisparityView& map) {
+  const int height = map.disparity.height, width = map.disparity.width;
+  const auto is_bare = [&](int y, int x) {
+    return !map.is_valid(y, x) || map.disparity.at(y, x) == map.disparity.at(height - 1, width - 1);
+  };
+  const int widest = std::min(height, width) / 4;
+  int rows = 0, columns = 0;
+  const auto is_bare_row = [&](int y) {
+    int x = 0;
+    while (x < width && is_bare(y, x)) ++x;
+    return x == width;
+  };
+  const auto is_bare_column = [&](int x) {
+    int y = 0;
+    while (y < height && is_bare(y, x)) ++y;
+    return y == height;
+  };
+  while (rows <= widest && is_bare_row(height - 1 - rows)) ++rows;
+  while (columns <= widest && is_bare_column(width - 1 - columns)) ++columns;
+  return rows == columns && rows % 2 == 0 && rows <= widest ? rows / 2 : 0;
+}
+
+/// What may be meant, the readings that change least first; the map as read is not among them.
+std::vector<MapReading> possible_readings(const DisparityView& map, const LightField& light_field,
+                                          bool has_truth) {
+  const bool is_square = light_field.height() == light_field.width();
+  const std::vector<MapReading> turned = turned_readings(is_square);
+  const std::vector<MapReading> valued = valued_readings(light_field);
+  std::vector<MapReading> readings(turned.begin() + 1, turned.end());
+  readings.insert(readings.end(), valued.begin() + 1, valued.end());
+  if (const int border = corner_border(map)) readings.push_back({.border_px = border});
+  for (std::size_t i = 1; i < turned.size(); ++i) {
+    for (std::size_t k = 1; k < valued.size(); ++k) {
+      const bool is_tried = has_truth || valued[k] == MapReading{.scale = -1};
+      if (is_tried) readings.push_back(joined_reading(turned[i], valued[k]));
+    }
+  }
+  return readings;
+}
+
+/// The truth at some pixels.
+class TruthPoints {
+ public:
+  explicit TruthPoints(const DisparityView& truth) {
+    const ImageView<const float>& values = truth.disparity;
+    const double area = static_cast<double>(values.height) * values.width;
+    const int stride = std::max(1, static_cast<int>(std::sqrt(area / kMostPoints)));
+    std::vector<float> all;
+    for (int y = 0; y < values.height; y += stride) {
+      for (int x = 0; x < values.width; x += stride) {
+        if (!truth.is_valid(y, x)) continue;
+        points_.push_back({y, x, values.at(y, x)});
+        all.push_back(values.at(y, x));
+      }
+    }
+    if (all.empty()) return;
+    const float middle = quantile(all, 0.5);
+    for (const Point& point : points_) constant_error_ += std::abs(point.disparity - middle);
+    constant_error_ /= static_cast<double>(points_.size());
+  }
+
+  /// Mean absolute error of the map of one value that fits best.
+  [[nodiscard]] double constant_error() const { return constant_error_; }
+
+  /// Mean absolute error by a reading; infinite if the map has values at few of the pixels.
+  [[nodiscard]] double error(const DisparityView& map, const MapReading& reading,
+                             const MapTarget& target) const {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const Point& point : points_) {
+      const float value = value_by(map, reading, target, point.y, point.x);
+      if (!std::isfinite(value)) continue;
+      sum += std::abs(value - point.disparity);
+      ++count;
+    }
+    const bool is_enough = count > 0 && static_cast<double>(count) >=
+                                            kLeastCompared * static_cast<double>(points_.size());
+    return is_enough ? sum / static_cast<double>(count) : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  struct Point {
+    int y = 0;
+    int x = 0;
+    float disparity = 0;
+  };
+  std::vector<Point> points_;
+  double constant_error_ = 0;
+};
+
+/// The next views of a view, warped by maps in the stored order of views.
+class WarpedViews {
+ public:
+  WarpedViews(const MapEvidence& evidence, const MapTarget& target)
+      : evidence_(evidence), target_(target) {
+    DisparityField still{ViewStack<float>({1, 1}, target.height, target.width),
+                         ViewStack<std::uint8_t>({1, 1}, target.height, target.width)};
+    std::fill_n(still.disparity.data(), still.disparity.size(), 0.0F);
+    std::fill_n(still.valid.data(), still.valid.size(), std::uint8_t{1});
+    pixels_ = errors_of(still).pixels;
+  }
+
+  struct Errors {
+    double warped = 0;  ///< Mean, in grey levels,
+    double unwarped = 0;
+    double pixels = 0;
+
+    [[nodiscard]] double share() const { return unwarped > 0 ? warped / unwarped : 1; }
+  };
+
+  /// None if the map moves most pixels out of the views.
+  [[nodiscard]] std::optional<Errors> errors(const DisparityView& map,
+                                             const MapReading& reading) const {
+    DisparityField read{ViewStack<float>({1, 1}, target_.height, target_.width),
+                        ViewStack<std::uint8_t>({1, 1}, target_.height, target_.width)};
+    for (int y = 0; y < target_.height; ++y) {
+      for (int x = 0; x < target_.width; ++x) {
+        const float value = value_by(map, reading, target_, y, x);
+        read.valid.view({}).at(y, x) = std::isfinite(value) ? 1 : 0;
+        read.disparity.view({}).at(y, x) = std::isfinite(value) ? value : 0;
+      }
+    }
+    const Errors errors = errors_of(read);
+    if (errors.pixels == 0 || errors.pixels < kLeastCompared * pixels_) return std::nullopt;
+    return errors;
+  }
+
+ private:
+  [[nodiscard]] Errors errors_of(DisparityField& map) const {
+    for (int y = 0; y < target_.height; ++y) {
+      if (y % kRowStride != 0)
+        std::fill_n(map.valid.view({}).row(y), target_.width, std::uint8_t{0});
+    }
+    const WarpErrors found =
+        warp_errors(evidence_.light_field.samples(), evidence_.view, map.view({}));
+    const auto u = static_cast<double>(found.u.pixels), v = static_cast<double>(found.v.pixels);
+    if (u + v == 0) return {};
+    return {(found.u.forward * u + found.v.forward * v) / (u + v),
+            (found.u.unwarped * u + found.v.unwarped * v) / (u + v), u + v};
+  }
+
+  const MapEvidence& evidence_;
+  const MapTarget& target_;
+  double pixels_ = 0;  ///< Of a map that moves nothing.
+};
+
+/// The reading of the least error by `error_of`, if it is below `limit`.
+template <class ErrorOf>
+std::optional<MapReading> least_reading(const std::vector<MapReading>& readings, double limit,
+                                        ErrorOf error_of) {
+  double least = limit / kClearlyBetter;
+  std::optional<MapReading> best;
+  for (const MapReading& reading : readings) {
+    const double error = error_of(reading);
+    if (!(error < kClearlyBetter * least)) continue;
+    least = error;
+    best = reading;
+  }
+  return best;
+}
+
+std::optional<MapReading> found_by_truth(const DisparityView& map, const MapEvidence& evidence,
+                                         const MapTarget& target) {
+  const TruthPoints truth(evidence.truth);
+  const auto error_of = [&](const MapReading& reading) {
+    return truth.error(map, reading, target);
+  };
+  const double limit = kFarBetterByTruth * std::min(error_of({}), truth.constant_error());
+  return least_reading(possible_readings(map, evidence.light_field, true), limit, error_of);
+}
+
+std::optional<MapReading> found_by_views(const DisparityView& map, const MapEvidence& evidence,
+                                         const MapTarget& target) {
+  const WarpedViews views(evidence, target);
+  const auto share_of = [&](const MapReading& reading) {
+    const auto errors = views.errors(map, reading);
+    return errors ? errors->share() : 1.0;
+  };
+  const double limit = kFarBetterByViews * std::min(share_of({}), 1.0);
+  return least_reading(possible_readings(map, evidence.light_field, false), limit, share_of);
+}
+
+std::optional<double> mse_100(const DisparityView& map, const MapReading& reading,
+                              const DisparityView& truth, const MapTarget& target) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (int y = 0; y < truth.disparity.height; ++y) {
+    for (int x = 0; x < truth.disparity.width; ++x) {
+      if (!truth.is_valid(y, x)) continue;
+      const double error = value_by(map, reading, target, y, x) - truth.disparity.at(y, x);
+      if (!std::isfinite(error)) continue;
+      sum += error * error;
+      ++count;
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return 100 * sum / static_cast<double>(count);
+}
+
+}  // namespace
+
+bool BetterReading::is_contradicted() const {
+  return as_read.grey_levels &&
+         (!better.grey_levels || *better.grey_levels > kContradicts * *as_read.grey_levels);
+}
+
+std::optional<BetterReading> find_better_reading(const DisparityView& map,
+                                                 const MapEvidence& evidence) {
+  const LightField& light_field = evidence.light_field;
+  const MapTarget target{light_field.height(), light_field.width(), light_field.info().camera};
+  const bool has_truth = !evidence.truth.disparity.empty();
+  const auto found =
+      has_truth ? found_by_truth(map, evidence, target) : found_by_views(map, evidence, target);
+  if (!found) return std::nullopt;
+  const WarpedViews views(evidence, target);
+  const auto errors_of = [&](const MapReading& reading) {
+    MapErrors errors;
+    if (has_truth) errors.mse_100 = mse_100(map, reading, evidence.truth, target);
+    if (const auto warped = views.errors(map, reading)) errors.grey_levels = warped->warped;
+    return errors;
+  };
+  return BetterReading{*found, errors_of({}), errors_of(*found)};
+}
+
+}  // namespace episcope::io

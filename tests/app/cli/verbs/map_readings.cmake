@@ -1,0 +1,89 @@
+# Maps of other programs in another order, sign or unit: what their files state is honored, the rest
+# is told with both numbers and the option that applies it, and nothing else is changed.
+include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
+
+# write_map(out form)
+function(write_map out form)
+  execute_process(COMMAND "${WRITE_MAP}" truth.pfm "${out}" "${form}" disparity
+                  WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE code)
+  if(NOT code EQUAL 0)
+    fail_case("${out} could not be made: ${code}")
+  endif()
+endfunction()
+
+expect(synthesize 0 ARGS synthesize objects -o lf.h5 --views 3x3 --size 64x64)
+expect("the truth as PFM" 0 ARGS convert lf.h5 truth.pfm)
+write_map(axes.h5 "x,y")
+write_map(matlab.mat matlab)
+write_map(reversed.h5 reversed)
+write_map(hundredths.npy hundredths)
+expect("transposed" 0 ARGS convert truth.pfm transposed.npy --map-transpose)
+expect("negated" 0 ARGS convert truth.pfm negated.pfm --map-scale -1)
+expect("upside down" 0 ARGS convert truth.pfm flipped.tif --map-flip y)
+
+# Stated: right at once, and not a word.
+foreach(file axes.h5 matlab.mat)
+  expect("evaluate ${file}" 0 ARGS evaluate ${file} --truth lf.h5 --json)
+  json_near("${out}" 0 0.0001 results 0 mse_100)
+  json_absent("${out}" results 0 better_reading)
+endforeach()
+
+# Not stated: judged as it is, with a word on how it would fit.
+foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
+            "negated.pfm;--map-scale=-1" "hundredths.npy;--map-scale=0.01"
+            "flipped.tif;--map-flip=y")
+  list(GET row 0 file)
+  list(GET row 1 option)
+  expect("evaluate ${file}" 0 ERR "${file}: the map fits the truth far better with .*MSE×100 [0-9.e-]+ instead of [0-9.e+]+.*; if it is stored so, add ${option}\n"
+         ARGS evaluate ${file} --truth lf.h5 --json)
+  json_near("${out}" 1 100000000 results 0 mse_100)
+  json_near("${out}" 0 0.01 results 0 better_reading mse_100)
+  json_near("${out}" 1 100000000 results 0 better_reading mse_100_as_read)
+  json_is("${out}" "${option}" results 0 better_reading options)
+  expect("evaluate ${file} as told" 0 ARGS evaluate ${file} --truth lf.h5 --json ${option})
+  json_near("${out}" 0 0.01 results 0 mse_100)
+  json_absent("${out}" results 0 better_reading)
+  expect("show ${file}" 0 ERR "add ${option}\n" ARGS show ${file} --truth lf.h5 -o ${file}.png)
+  expect("show ${file} as told" 0 ARGS show ${file} --truth lf.h5 -o told_${file}.png ${option})
+endforeach()
+
+# A submission says so in its tables.
+file(MAKE_DIRECTORY "${WORK}/theirs" "${WORK}/objects")
+file(COPY_FILE "${WORK}/negated.pfm" "${WORK}/theirs/objects.pfm")
+file(COPY_FILE "${WORK}/lf.h5" "${WORK}/objects/lf.h5")
+set(benchmark benchmark objects --methods epi_l --views center --submission theirs -o tables --json)
+expect("benchmark a submission" 0 ERR "objects.pfm: the map fits the truth far better"
+       ARGS ${benchmark})
+if(NOT out MATCHES "objects.pfm: the map fits the truth far better with values negated")
+  fail_case("the benchmark does not tell of a negated map:\n${out}")
+endif()
+expect("benchmark it as told" 0 ARGS ${benchmark} --map-scale -1)
+if(out MATCHES "far better")
+  fail_case("the benchmark tells of a map that is right:\n${out}")
+endif()
+
+# Oblong views leave no doubt.
+file(MAKE_DIRECTORY "${WORK}/wide")
+expect("oblong views" 0 ARGS synthesize objects -o wide/lf.h5 --views 3x3 --size 64x48)
+expect("their truth" 0 ARGS convert wide wide.pfm)
+expect("on its side" 0 ARGS convert wide.pfm tall.npy --map-transpose)
+expect("evaluate it" 1 ERR "rows and columns are exchanged; add --map-transpose"
+       ARGS evaluate tall.npy --truth wide)
+expect("evaluate it as told" 0 ARGS evaluate tall.npy --truth wide --map-transpose --json)
+json_near("${out}" 0 0.0001 results 0 mse_100)
+
+expect("options without a map" 2 ERR "--map-flip is for the maps of a RESULT"
+       ARGS show lf.h5 -o v.png --map-flip x)
+expect("options without a submission" 2 ERR "has no effect without --submission"
+       ARGS benchmark lf.h5 -o t --methods epi_l --map-flip x)
+
+# A result that took the place of truth stays a result.
+expect("a result as truth" 0 ARGS convert axes.h5 estimated.h5 --truth lf.h5)
+expect("info of it" 0 OUT "not ground truth: estimated by axes from lf.h5\n"
+       ARGS info estimated.h5)
+expect("info of it as JSON" 0 ARGS info estimated.h5 --json)
+json_is("${out}" axes truth_estimated method)
+expect("evaluate against it" 0 ERR "no ground truth: it was estimated by axes from lf.h5"
+       ARGS evaluate truth.pfm --truth estimated.h5)
+expect("a form that cannot say so" 0 ERR "read as ground truth" ARGS convert axes.h5 folder/
+       --truth lf.h5)

@@ -1,0 +1,31 @@
+# The learned method: its weights are named, others can be given, and what holds none is refused.
+include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
+run_cli(synthesize edge -o lf.h5 --views 3x3 --size 40x48 -q)
+
+expect("its weights" 0 OUT "^net .*version 1 of 2026-[0-9-]+, SHA-256 [0-9a-f]+, /.*net.npz\n.*--weights"
+       ARGS methods net)
+run_cli(methods net --json)
+json_is("${out}" 1 methods 0 weights version)
+string(JSON weights GET "${out}" methods 0 weights file)
+expect("two methods" 0 OUT "^epi_l .*\nnet " ARGS methods epi_l net)
+expect("no such method" 2 ERR "no method 'nett'.*'net'" ARGS methods nett)
+
+expect("of all views" 0 OUT "net of all views" ARGS estimate net lf.h5 -o all.h5 -q)
+expect("of one view" 0 OUT "net of view 0,2" ARGS estimate net lf.h5 -o one.h5 --views center --view 0,2 -q)
+expect("mean" 0 OUT "net of the center view" ARGS estimate net lf.h5 -o mean.h5 --views center --silhouettes mean
+       --rounds 1 --range -1,1.5 -q)
+
+# The same weights from a file that is named, from anywhere.
+file(COPY_FILE "${weights}" "${WORK}/mine.npz")
+expect("own weights" 0 ERR "weights of mine.npz, hash [0-9a-f]+" ARGS estimate net lf.h5 -o mine.h5
+       --weights mine.npz)
+
+file(WRITE "${WORK}/text.npz" "No weights.\n")
+execute_process(COMMAND head -c 100000 mine.npz WORKING_DIRECTORY "${WORK}" OUTPUT_FILE "${WORK}/cut.npz")
+expect("missing" 1 ERR "nowhere.npz: no file of weights" ARGS estimate net lf.h5 -o x.h5 --weights nowhere.npz)
+expect("no archive" 1 ERR "text.npz: .*choose a file of weights" ARGS estimate net lf.h5 -o x.h5 --weights text.npz)
+expect("truncated" 1 ERR "cut.npz: .*copy it again" ARGS estimate net lf.h5 -o x.h5 --weights cut.npz)
+expect("another archive" 1 ERR "lf.h5: .*choose a file of weights" ARGS estimate net lf.h5 -o x.h5 --weights lf.h5)
+if(EXISTS "${WORK}/x.h5")
+  fail_case("a failed run left x.h5")
+endif()

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+import numpy
+import pytest
+
+import episcope
+
+
+@pytest.fixture(scope="module")
+def strokes(scene):
+    """[y, x]: a few true labels of the center view."""
+    painted = numpy.zeros((64, 64), numpy.int32)
+    painted[::9, ::2] = scene.labels[2, 2, ::9, ::2]
+    return painted
+
+
+@pytest.fixture(scope="module")
+def labeling(scene, strokes):
+    return episcope.label(scene, strokes, features="image", trees=16)
+
+
+def test_every_pixel_has_a_painted_label(scene, strokes, labeling):
+    assert labeling.labels.shape == scene.labels.shape
+    assert labeling.ids == sorted(set(strokes.flat) - {0})
+    assert set(numpy.unique(labeling.labels)) <= set(labeling.ids)
+
+
+def test_scores_compare_with_the_true_labels(scene, labeling):
+    assert labeling.scores["accuracy_all_views"] == pytest.approx((labeling.labels == scene.labels).mean())
+
+
+def test_strokes_may_be_named_by_their_view(scene, strokes, labeling):
+    same = episcope.label(scene, {(2, 2): strokes}, features="image", trees=16)
+    assert numpy.array_equal(same.labels, labeling.labels)
+    all_views = numpy.zeros(scene.labels.shape, numpy.uint8)
+    all_views[2, 2] = strokes
+    same = episcope.label(scene, all_views, features="image", trees=16)
+    assert numpy.array_equal(same.labels, labeling.labels)
+
+
+def test_disparity_may_be_given(scene, strokes):
+    given = episcope.estimate(scene, "epi_c")
+    one = episcope.label(scene, strokes, disparity=given, trees=16)
+    # epi_c is what estimates it by default.
+    assert numpy.array_equal(one.labels, episcope.label(scene, strokes, trees=16).labels)
+
+
+def test_scores_are_those_of_the_command_line(tmp_path, cli):
+    """The demo has strokes of its own."""
+    demo = episcope.demo("demo?size=64&grid=3")
+    labeling = episcope.label(demo, features="image", trees=16)
+    answer = cli(
+        "label", "demo:demo?size=64&grid=3", "-o", "cli.h5", "--features", "image", "--trees", "16", "--json", "--quiet"
+    )
+    for key, share in labeling.scores.items():
+        assert answer[key] == share, key
+
+
+def test_labels_are_saved_and_replace_nothing_else(labeling, tmp_path):
+    for _ in range(2):
+        labeling.save(tmp_path / "labels.h5")
+    (tmp_path / "other.h5").write_text("mine")
+    with pytest.raises(episcope.IoError, match="not a file of labels"):
+        labeling.save(tmp_path / "other.h5")

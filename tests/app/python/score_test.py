@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+import numpy
+import pytest
+
+import episcope
+from conftest import SCENE
+
+# Not of the file, or of the moment.
+OTHER = {"file", "seconds", "runtime_class", "method"}
+
+
+def of_command_line(cli, file, *options):
+    answer = cli("evaluate", file, "--truth", "demo:" + SCENE, "--json", "--quiet", *options)
+    scores = {**answer["results"][0], "protocol": answer["protocol"], "truth": answer["truth"]}
+    return {key: value for key, value in scores.items() if key not in OTHER}
+
+
+def of_python(scores):
+    return {key: value for key, value in scores.items() if key not in OTHER | {"view"}}
+
+
+@pytest.fixture(scope="module")
+def result(scene):
+    return episcope.estimate(scene, "epi_l")
+
+
+@pytest.mark.parametrize("protocol", ["vmv2013", "benchmark2016"])
+def test_scores_of_a_result_are_those_of_the_command_line(scene, result, protocol, tmp_path, cli):
+    result.save(tmp_path / "r.h5")
+    expected = of_command_line(cli, "r.h5", "--protocol", protocol)
+    scores = episcope.score(result, scene, protocol=protocol)
+    assert of_python(scores) == expected
+    assert scores["view"] == (2, 2)
+    assert of_python(episcope.score(tmp_path / "r.h5", scene, protocol=protocol)) == expected
+
+
+@pytest.mark.parametrize("invalid", ["bad", "compatible"])
+def test_scores_of_an_array_are_those_of_its_file(scene, result, invalid, tmp_path, cli):
+    map = result.disparity[2, 2].copy()
+    map[:3] = numpy.nan
+    map[30:34, 20:44] = numpy.nan
+    numpy.save(tmp_path / "mine.npy", map)
+    expected = of_command_line(cli, "mine.npy", "--invalid", invalid)
+    assert of_python(episcope.score(map, scene, invalid=invalid)) == expected
+
+
+def test_array_of_all_views_is_judged_in_the_center(scene, result):
+    whole = episcope.score(result.disparity, scene)
+    assert whole["mse_100"] == episcope.score(result, scene)["mse_100"]
+    assert whole["all_views"]
+
+
+def test_another_view_can_be_judged(scene, result):
+    scores = episcope.score(result, scene, view=(0, 4))
+    error = (scene.truth - result.disparity)[0, 4]
+    # The mean of squares is summed in another order.
+    assert scores["mse_100"] == pytest.approx(100 * numpy.nanmean(error.astype(float) ** 2), rel=1e-5)
+
+
+def test_truth_may_be_an_array(scene, result):
+    expected = episcope.score(result, scene)["mse_100"]
+    assert episcope.score(result, scene.truth)["mse_100"] == expected
+    assert episcope.score(result.disparity[2, 2], scene.truth[2, 2])["mse_100"] == expected
+    assert episcope.score(result, scene.truth[2, 2])["mse_100"] == expected
+    assert episcope.score(result.disparity[2, 2], scene.truth)["mse_100"] == expected
+    with pytest.raises(episcope.InvalidInput, match="of arrays, give the maps of the view"):
+        episcope.score(result, scene.truth, view=(0, 0))
+
+
+def test_truth_has_no_error(scene):
+    assert episcope.score(scene.truth, scene)["mse_100"] == 0

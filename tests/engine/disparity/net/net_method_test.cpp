@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/net_method.h"
+
+#include "engine/core/error.h"
+#include "tests/engine/disparity/light_fields.h"
+#include "tests/engine/disparity/net/net_vectors.h"
+#include "tests/test_main.h"
+
+#include <QFile>
+#include <QTemporaryDir>
+
+#include <cmath>
+#include <stop_token>
+
+namespace episcope::in_net_method_test {
+
+using namespace episcope::test;
+
+namespace {
+
+const Scene& scene() {
+  static const Scene rendered = render("edge", 48, 56, {5, 5});
+  return rendered;
+}
+
+Estimate estimated(const NetMethodParameters& parameters,
+                   ViewSelection views = ViewSelection::Center,
+                   const Progress& progress = Progress()) {
+  return estimate_by_net(*scene().light_field, parameters, views, progress);
+}
+
+// The sentence that a run with this file of weights gives; empty if it runs.
+std::string failure_with(const QString& file) {
+  try {
+    (void)estimated({.weights = file.toStdString()});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+class NetMethodTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void centerView_isThatOfTheNetwork();
+  void anyView_isEstimated();
+  void silhouettes_areChosen();
+  void givenWeights_areUsedAndNamed();
+  void badWeights_areRefusedInASentence();
+  void changedWeights_areReadAgain();
+  void narrowRange_isWidened();
+  void allViews_areClose();
+  void finish_givesAllViews();
+  void threads_changeNothing();
+};
+
+void NetMethodTest::centerView_isThatOfTheNetwork() {
+  const LightField& lf = *scene().light_field;
+
+  const Estimate estimate = estimated({.range = Interval{-1, 1.5}});
+  const NetMaps maps =
+      estimate_net(lf, lf.center(), released_weights(), {.range = {-1, 1.5}}, Progress());
+
+  const ViewIndex view = lf.center();
+  QCOMPARE(largest_difference(estimate.field.disparity.view(view), maps.disparity.view()), 0.0);
+  QCOMPARE(largest_difference(estimate.confidence.view(view), maps.confidence.view()), 0.0);
+  QCOMPARE(estimate.range, (Interval{-1, 1.5}));
+}
+
+void NetMethodTest::anyView_isEstimated() {
+  const Estimate estimate = estimated({.view = ViewIndex{1, 4}});
+
+  const Errors off =
+      errors(estimate.field.disparity.view({1, 4}), scene().truth->field.view(ViewIndex{1, 4}), 5);
+  QVERIFY2(off.mse_100 < 0.5, qPrintable(QString::number(off.mse_100)));
+}
+
+void NetMethodTest::silhouettes_areChosen() {
+  const Estimate mode = estimated({});
+  const Estimate mean = estimated({.silhouettes = Silhouettes::Mean});
+
+  QVERIFY(!same_bytes(mode.field.disparity, mean.field.disparity));
+  QVERIFY(same_bytes(mode.confidence, mean.confidence));
+}
+
+void NetMethodTest::givenWeights_areUsedAndNamed() {
+  const Estimate own = estimated({});
+  const Estimate given = estimated({.weights = released_weights_path()});
+
+  QVERIFY(same_bytes(own.field.disparity, given.field.disparity));
+  QVERIFY(own.notes.empty());
+  QCOMPARE(given.notes.size(), 1U);
+  QVERIFY(QString::fromStdString(given.notes[0]).contains("net.npz, hash "));
+}
+
+void NetMethodTest::badWeights_areRefusedInASentence() {
+  const QTemporaryDir folder;
+  const QString path = folder.filePath("w.npz");
+  QVERIFY(failure_with(path).starts_with(path.toStdString()));
+
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  file.write("PK is no archive");
+  file.close();
+
+  QVERIFY(failure_with(path).starts_with(path.toStdString()));
+}
+
+void NetMethodTest::changedWeights_areReadAgain() {
+  const QTemporaryDir folder;
+  const QString path = folder.filePath("w.npz");
+  QVERIFY(QFile::copy(QString::fromStdString(released_weights_path()), path));
+  QCOMPARE(failure_with(path), std::string());
+
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::ReadWrite) && file.resize(1000));
+  file.close();
+
+  QVERIFY(!failure_with(path).empty());
+}
+
+void NetMethodTest::narrowRange_isWidened() {
+  const Estimate estimate = estimated({.range = Interval{0.5, 0.5}});
+
+  QVERIFY(std::abs(estimate.range.min - 0.4) < 1e-9 && std::abs(estimate.range.max - 0.6) < 1e-9);
+  QVERIFY(all_finite(estimate.field.disparity));
+}
+
+void NetMethodTest::allViews_areClose() {
+  const Estimate all = estimated({}, ViewSelection::All);
+  const Estimate center = estimated({});
+
+  const GridShape grid = scene().light_field->grid();
+  QVERIFY(all.field.disparity.grid() == grid);
+  double error = 0;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i);
+    error += errors(all.field.disparity.view(view), scene().truth->field.view(view), 5).mse_100;
+  }
+  QVERIFY2(error / grid.count() < 0.3, qPrintable(QString::number(error / grid.count())));
+  const ViewIndex view = grid.center();
+  QCOMPARE(largest_difference(all.field.disparity.view(view), center.field.disparity.view(view)),
+           0.0);
+}
+
+void NetMethodTest::finish_givesAllViews() {
+  std::stop_source finish;
+  finish.request_stop();
+
+  const Estimate all = estimated({}, ViewSelection::All, Progress({}, finish.get_token(), {}));
+
+  QCOMPARE(all.field.disparity.grid().count(), 25);
+  QVERIFY(QString::fromStdString(all.notes.back()).contains("from 1 of them"));
+}
+
+void NetMethodTest::threads_changeNothing() {
+  const Estimate one = estimated({}, ViewSelection::All, Progress(1));
+  const Estimate three = estimated({}, ViewSelection::All, Progress(3));
+
+  QVERIFY(same_bytes(one.field.disparity, three.field.disparity));
+  QVERIFY(same_bytes(one.confidence, three.confidence));
+}
+
+}  // namespace episcope::in_net_method_test
+
+EPISCOPE_TEST(net_method_test, NetMethodTest)
+#include "net_method_test.moc"

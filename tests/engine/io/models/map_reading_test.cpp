@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/map_reading.h"
+#include "engine/core/error.h"
+#include "tests/engine/io/synthetic_scene.h"
+#include "tests/test_main.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace episcope::in_map_reading_test {
+
+using namespace episcope::test;
+using io::MapFlip;
+using io::MapReading;
+using io::MapValues;
+
+constexpr int kSide = 64;
+constexpr int kBorder = 6;
+
+/// Maps that a person wrote or read in another way than they were meant.
+class MapReadingTest : public QObject {
+  Q_OBJECT
+
+ private:
+  Scene scene_ = plane_scene({.width = kSide, .slope_x = 0.03, .slope_y = -0.02});
+
+  [[nodiscard]] ViewIndex center() const { return scene_.light_field->center(); }
+  [[nodiscard]] DisparityView truth() const { return scene_.truth->field.view(center()); }
+
+  /// The map of the center view with `value_at(y, x)`.
+  [[nodiscard]] Estimate map_of(const std::function<double(int y, int x)>& value_at) const {
+    Estimate estimate;
+    estimate.field.disparity = ViewStack<float>({1, 1}, kSide, kSide, 1, center());
+    const auto map = estimate.field.disparity.view(center());
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) map.at(y, x) = static_cast<float>(value_at(y, x));
+    }
+    return estimate;
+  }
+  /// The truth with errors that an estimate has, as it is before it is spoilt.
+  [[nodiscard]] double good(int y, int x) const {
+    return truth().disparity.at(y, x) + 0.02 * ((7 * x + 3 * y) % 5 - 2);
+  }
+
+  /// What a person did to a good map by mistake, so that `reading` is right.
+  [[nodiscard]] Estimate spoilt(const MapReading& reading) const {
+    const CameraGrid& camera = scene_.light_field->info().camera;
+    return map_of([&](int y, int x) {
+      int row = reading.is_transposed ? x : y;
+      int column = reading.is_transposed ? y : x;
+      if (reading.flip == MapFlip::Y || reading.flip == MapFlip::Both) row = kSide - 1 - row;
+      if (reading.flip == MapFlip::X || reading.flip == MapFlip::Both) column = kSide - 1 - column;
+      row += reading.border_px;
+      column += reading.border_px;
+      if (std::max(row, column) >= kSide - reading.border_px) return 0.0;
+      const double d = good(row, column);
+      return (reading.values == MapValues::Depth ? camera.depth_from_disparity(d) : d) /
+             reading.scale;
+    });
+  }
+
+  [[nodiscard]] std::optional<io::BetterReading> better(const Estimate& estimate,
+                                                        bool has_truth) const {
+    io::MapEvidence evidence{*scene_.light_field, center()};
+    if (has_truth) evidence.truth = truth();
+    return io::find_better_reading(estimate.field.view(center()), evidence);
+  }
+
+  [[nodiscard]] double error_of(const Estimate& estimate) const {
+    double largest = 0;
+    const DisparityView map = estimate.field.view(center());
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        if (!map.is_valid(y, x)) continue;
+        const double error = map.disparity.at(y, x) - truth().disparity.at(y, x);
+        largest = std::max(largest, std::abs(error));
+      }
+    }
+    return largest;
+  }
+
+  static void add_mistakes(bool has_truth) {
+    QTest::addColumn<MapReading>("mistake");
+    QTest::newRow("transposed") << MapReading{.is_transposed = true};
+    QTest::newRow("upside down") << MapReading{.flip = MapFlip::Y};
+    QTest::newRow("mirrored") << MapReading{.flip = MapFlip::X};
+    QTest::newRow("upside down and mirrored") << MapReading{.flip = MapFlip::Both};
+    QTest::newRow("turned by 90°") << MapReading{.is_transposed = true, .flip = MapFlip::Y};
+    QTest::newRow("negated") << MapReading{.scale = -1};
+    QTest::newRow("hundredths") << MapReading{.scale = 0.01};
+    QTest::newRow("sixteenths") << MapReading{.scale = 1.0 / 16};
+    QTest::newRow("widths of the image") << MapReading{.scale = kSide};
+    QTest::newRow("depth") << MapReading{.values = MapValues::Depth};
+    QTest::newRow("transposed and negated") << MapReading{.is_transposed = true, .scale = -1};
+    QTest::newRow("without a border") << MapReading{.border_px = kBorder};
+    if (!has_truth) return;
+    QTest::newRow("depth in thousandths") << MapReading{.scale = 0.001, .values = MapValues::Depth};
+    QTest::newRow("transposed hundredths") << MapReading{.is_transposed = true, .scale = 0.01};
+    QTest::newRow("mirrored depth") << MapReading{.flip = MapFlip::X, .values = MapValues::Depth};
+  }
+
+ private slots:
+  void mistakes_areSeenByTheTruth_data() { add_mistakes(true); }
+  void mistakes_areSeenByTheTruth() {
+    QFETCH(MapReading, mistake);
+    Estimate estimate = spoilt(mistake);
+
+    const auto found = better(estimate, true);
+
+    QVERIFY(found.has_value());
+    QCOMPARE(QString::fromStdString(io::reading_text(found->reading)),
+             QString::fromStdString(io::reading_text(mistake)));
+    QVERIFY(*found->better.mse_100 < 0.1);
+    QVERIFY(*found->as_read.mse_100 > 4 * *found->better.mse_100);  // half of the errors
+    QVERIFY(!found->is_contradicted());
+    io::apply_reading(found->reading, scene_.light_field.get(), estimate);
+    QVERIFY(error_of(estimate) < 0.05);
+    QCOMPARE(estimate.border_px, mistake.border_px);
+    QVERIFY(!better(estimate, true));
+  }
+
+  void mistakes_areSeenByTheViewsAlone_data() { add_mistakes(false); }
+  void mistakes_areSeenByTheViewsAlone() {
+    QFETCH(MapReading, mistake);
+
+    const auto found = better(spoilt(mistake), false);
+
+    QVERIFY(found.has_value());
+    QCOMPARE(QString::fromStdString(io::reading_text(found->reading)),
+             QString::fromStdString(io::reading_text(mistake)));
+    QVERIFY(!found->better.mse_100.has_value() && found->better.grey_levels.has_value());
+  }
+
+  void honestMaps_areLeftAlone_data() {
+    QTest::addColumn<int>("kind");
+    QTest::newRow("good") << 0;
+    QTest::newRow("constant") << 1;
+    QTest::newRow("noisy") << 2;
+    QTest::newRow("too flat") << 3;
+    QTest::newRow("too near") << 4;
+  }
+  void honestMaps_areLeftAlone() {
+    QFETCH(int, kind);
+    const Estimate estimate = map_of([&](int y, int x) {
+      if (kind == 0) return good(y, x);
+      if (kind == 1) return 0.3;
+      if (kind == 2) return good(y, x) + 0.8 * ((13 * x + 29 * y) % 11 - 5) / 5.0;
+      if (kind == 3) return 0.3 + 0.7 * (good(y, x) - 0.3);
+      return good(y, x) + 0.15;
+    });
+
+    QVERIFY(!better(estimate, true));
+    QVERIFY(!better(estimate, false));
+  }
+
+  /// Where truth and views do not agree, the truth may be the one that is wrong.
+  void views_speakAgainstAWrongTruth() {
+    const Estimate right = spoilt({});
+    Estimate turned = spoilt({.is_transposed = true});
+
+    const auto found = io::find_better_reading(
+        right.field.view(center()), {*scene_.light_field, center(), turned.field.view(center())});
+
+    QVERIFY(found.has_value());
+    QVERIFY(found->reading.is_transposed);
+    QVERIFY(found->is_contradicted());
+  }
+
+  void oblongMaps_changeTheirSides() {
+    Estimate estimate;
+    estimate.field.disparity = ViewStack<float>({1, 1}, 3, 2, 1, {2, 2});
+    std::iota(estimate.field.disparity.data(), estimate.field.disparity.data() + 6, 0.0F);
+    estimate.confidence = estimate.field.disparity.clone();
+
+    io::apply_reading({.is_transposed = true, .scale = 10}, nullptr, estimate);
+
+    QCOMPARE(estimate.field.disparity.height(), 2);
+    QCOMPARE(estimate.field.disparity.view({2, 2}).at(1, 2), 50.0F);
+    QCOMPARE(estimate.confidence.view({2, 2}).at(1, 2), 5.0F);
+  }
+
+  void impossibleReadings_areRefused() {
+    Estimate estimate = spoilt({});
+
+    for (const MapReading& reading :
+         {MapReading{.scale = 0}, MapReading{.values = MapValues::Depth},
+          MapReading{.border_px = 1}}) {
+      QVERIFY_THROWS_EXCEPTION(InvalidInput, io::apply_reading(reading, nullptr, estimate));
+    }
+  }
+
+  void givenOptions_areReadBack() {
+    const MapReading reading{true, MapFlip::X, -0.01, MapValues::Depth, 3};
+
+    QVERIFY(io::given_options(MapReading{}).empty());
+    QVERIFY(io::map_schema().parse(io::given_options(reading)) == reading);
+  }
+};
+
+}  // namespace episcope::in_map_reading_test
+
+EPISCOPE_TEST(map_reading_test, MapReadingTest)
+#include "map_reading_test.moc"
