@@ -85,7 +85,8 @@ class RangesTest : public QObject {
     for (const char* name :
          {"fronto", "slant", "edge", "bars", "objects", "demo", "dots?seed=1", "random?seed=1",
           "random?seed=5", "random?seed=1&kind=occlusion", "random?seed=1&kind=dark",
-          "random?seed=3&kind=plain"}) {
+          "random?seed=3&kind=plain", "random?seed=1&kind=faint", "random?seed=3&kind=faint",
+          "random?seed=5&kind=faint"}) {
       QTest::newRow(name) << name;
     }
   }
