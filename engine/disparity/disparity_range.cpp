@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/disparity_range.h"
 
-#include "engine/core/image.h"
 #include "engine/core/parallel.h"
 #include "engine/core/volume.h"
 #include "engine/disparity/matching_cost.h"
@@ -11,10 +10,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,17 +23,114 @@
 namespace episcope {
 namespace {
 
-// Coherence above which an orientation counts. Noise lowers coherence long before it spoils
-// orientations, and what is spoiled is not confirmed.
-constexpr float kCoherent = 0.5F;
-// Cells side by side that make an end of the range, and those of them left out at either end.
+// Coherence above which an orientation counts: the first that enough pixels reach. Noise lowers
+// coherence long before it spoils orientations: at 10/255, those above 0.6 still end within 0.3 px
+// of the true range. A higher start would exclude regions that are seen less well than others.
+constexpr std::array<float, 3> kCoherent{0.8F, 0.7F, 0.6F};
+// Share of the pixels that are enough.
+constexpr double kEnoughOrientations = 0.2;
+// Cells side by side that make an end of the range.
 constexpr int kRun = 4;
-constexpr int kLeftOut = 1;
-// Rows of the center view looked at; blocks of columns of EPIs that cross them, and how many of
-// these stand side by side.
-constexpr int kRows = 64;
+// Horizontal EPIs looked at; blocks of vertical ones, and how many of them stand side by side.
+constexpr int kLines = 96;
 constexpr int kBlocks = 12;
-constexpr int kSupportColumns = 16;
+constexpr int kRangeColumns = 16;
+
+using Cells = std::vector<double>;
+
+// Of the pixels looked at, those that reach each coherence but not the one before it.
+struct Findings {
+  std::array<Cells, kCoherent.size()> histograms;
+  double pixels = 0;
+
+  explicit Findings(double limit) {
+    histograms.fill(
+        Cells(static_cast<std::size_t>(2 * limit / OrientationHistogram::kCell) + 1, 0.0));
+  }
+  void add(const Findings& other) {
+    pixels += other.pixels;
+    for (std::size_t level = 0; level < histograms.size(); ++level) {
+      add_cells(other.histograms[level], histograms[level]);
+    }
+  }
+  static void add_cells(const Cells& from, Cells& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
+  }
+};
+
+void add_run(const float* disparity, const float* coherence, int count, double limit,
+             Findings& findings) {
+  findings.pixels += count;
+  for (int i = 0; i < count; ++i) {
+    const auto level = std::find_if(kCoherent.begin(), kCoherent.end(),
+                                    [&](float least) { return coherence[i] >= least; });
+    if (level == kCoherent.end()) continue;
+    Cells& cells = findings.histograms[level - kCoherent.begin()];
+    const int cell = static_cast<int>((disparity[i] + limit) / OrientationHistogram::kCell);
+    cells[std::clamp<int>(cell, 0, static_cast<int>(cells.size()) - 1)] += 1;
+  }
+}
+
+double total(const Cells& cells) {
+  return std::accumulate(cells.begin(), cells.end(), 0.0);
+}
+
+// The disparities of the most coherent pixels, as many as are enough.
+Cells most_coherent(const Findings& findings) {
+  Cells sum = findings.histograms.front();
+  for (std::size_t level = 1; level < findings.histograms.size(); ++level) {
+    if (total(sum) >= kEnoughOrientations * findings.pixels) break;
+    Findings::add_cells(findings.histograms[level], sum);
+  }
+  return sum;
+}
+
+// Tensors of one EPI alone: neighbors would cost as much again.
+TensorScales coarse_scales() {
+  TensorScales scales;
+  scales.across = 0;
+  return scales;
+}
+
+std::vector<Findings> collect(const LightField& lf, StructureTensor::Direction direction,
+                              double limit, const Progress& progress) {
+  const bool horizontal = direction == StructureTensor::Direction::Horizontal;
+  const ViewIndex center = lf.center();
+  const TensorSearch search = cover_range({-limit, limit}, 2);
+  const TensorExtent largest = StructureTensor::largest_task(lf, direction, coarse_scales());
+  const int extent = horizontal ? lf.height() : lf.width();
+  const int thickness = horizontal ? 1 : std::min({kRangeColumns, largest.width, lf.width()});
+  const int count = std::min((extent + thickness - 1) / thickness, horizontal ? kLines : kBlocks);
+  // The first and the last lie at the borders: what lies there may be nearest or farthest of all.
+  const auto place = [&](int i) { return count > 1 ? i * (extent - thickness) / (count - 1) : 0; };
+  std::vector<Findings> findings(count, Findings(limit));
+  parallel_for_workers(count, progress, [&] {
+    return [&, tensor = StructureTensor(lf, direction, coarse_scales(), search)](int i) mutable {
+      const auto add = [&](int, PixelIndex, int run, const float* disparity,
+                           const float* coherence) {
+        add_run(disparity, coherence, run, limit, findings[i]);
+      };
+      TensorTask task;
+      task.camera_line = horizontal ? center.v : center.u;
+      task.first_view = horizontal ? center.u : center.v;
+      task.last_view = task.first_view + 1;
+      if (horizontal) {
+        task.begin = {place(i), 0};
+        task.height = 1;
+        task.width = lf.width();
+        tensor.estimate(task, add);
+        return;
+      }
+      task.width = thickness;
+      for (int y = 0; y < lf.height(); y += largest.height) {
+        task.begin = {y, place(i)};
+        task.height = std::min(largest.height, lf.height() - y);
+        tensor.estimate(task, add);
+      }
+    };
+  });
+  return findings;
+}
 
 // How many cells lie before the first run of kRun that holds enough; all if none does.
 template <class Iterator>
@@ -48,116 +146,30 @@ int cells_to_skip(Iterator begin, Iterator end, double enough) {
 
 }  // namespace
 
-DisparityHistogram::DisparityHistogram(double limit)
-    : limit_(limit), cells_(static_cast<std::size_t>(2 * limit / kCell) + 1) {}
-
-void DisparityHistogram::add(double disparity) {
-  const int cell = static_cast<int>((disparity + limit_) / kCell);
-  cells_[std::clamp<int>(cell, 0, static_cast<int>(cells_.size()) - 1)] += 1;
-  total_ += 1;
+OrientationHistogram::OrientationHistogram(const LightField& lf, double limit,
+                                           const Progress& progress)
+    : limit_(limit) {
+  Findings findings(limit);
+  const auto add = [&findings](const std::vector<Findings>& parts) {
+    for (const Findings& part : parts) findings.add(part);
+  };
+  if (lf.grid().u > 1) {
+    add(collect(lf, StructureTensor::Direction::Horizontal, limit, progress.part(0, 0.5)));
+  }
+  if (lf.grid().v > 1) {
+    add(collect(lf, StructureTensor::Direction::Vertical, limit, progress.part(0.5, 1)));
+  }
+  cells_ = most_coherent(findings);
+  total_ = episcope::total(cells_);
 }
 
-std::optional<Interval> DisparityHistogram::ends(double tail) const {
-  const double enough = std::max(tail * total_, 1.0);
-  const int size = static_cast<int>(cells_.size());
+std::optional<Interval> OrientationHistogram::ends(double tail) const {
+  const double enough = tail * total_;
   const int before = cells_to_skip(cells_.begin(), cells_.end(), enough);
-  if (before == size) return {};
+  if (before == size()) return {};
   const int behind = cells_to_skip(cells_.rbegin(), cells_.rend(), enough);
-  const double first = (before + kLeftOut) * kCell - limit_;
-  const double last = (size - behind - kLeftOut) * kCell - limit_;
-  return Interval{first, std::min(limit_, last)};
+  return Interval{before * kCell - limit_, std::min(limit_, limit_ + kCell - behind * kCell)};
 }
-
-namespace {
-
-// Tensors of one EPI alone: neighbors would cost as much again.
-TensorScales coarse_scales() {
-  TensorScales scales;
-  scales.across = 0;
-  return scales;
-}
-
-// Rows from the first to the last: what lies at the borders may be nearest or farthest of all.
-std::vector<int> rows_looked_at(int height) {
-  std::vector<int> rows(std::min(kRows, height));
-  const int last = static_cast<int>(rows.size()) - 1;
-  for (int i = 0; i <= last; ++i) rows[i] = last > 0 ? i * (height - 1) / last : 0;
-  return rows;
-}
-
-// What the EPIs of one direction show of some rows of the center view, `[row][x]`; coherence 0
-// where none is looked at.
-struct Orientations {
-  Image<float> disparity;
-  Image<float> coherence;
-
-  Orientations(int rows, int width) : disparity(rows, width), coherence(rows, width) {}
-  void set(int row, int x, int count, const float* from_disparity, const float* from_coherence) {
-    std::copy_n(from_disparity, count, disparity.row(row) + x);
-    std::copy_n(from_coherence, count, coherence.row(row) + x);
-  }
-};
-
-Orientations look_along_rows(const LightField& lf, const std::vector<int>& rows, double limit,
-                             const Progress& progress) {
-  const int count = static_cast<int>(rows.size());
-  const TensorSearch search = cover_range({-limit, limit}, 2);
-  Orientations seen(count, lf.width());
-  parallel_for_workers(count, progress, [&] {
-    return [&, tensor = StructureTensor(lf, StructureTensor::Direction::Horizontal, coarse_scales(),
-                                        search)](int i) mutable {
-      const ViewIndex center = lf.center();
-      tensor.estimate(
-          {center.v, {rows[i], 0}, 1, lf.width(), center.u, center.u + 1},
-          [&](int, PixelIndex begin, int run, const float* disparity, const float* coherence) {
-            seen.set(i, begin.x, run, disparity, coherence);
-          });
-    };
-  });
-  return seen;
-}
-
-Orientations look_along_columns(const LightField& lf, const std::vector<int>& rows, double limit,
-                                const Progress& progress) {
-  constexpr auto direction = StructureTensor::Direction::Vertical;
-  const TensorSearch search = cover_range({-limit, limit}, 2);
-  const TensorExtent largest = StructureTensor::largest_task(lf, direction, coarse_scales());
-  const int columns = std::min({kSupportColumns, largest.width, lf.width()});
-  const int blocks = std::min((lf.width() + columns - 1) / columns, kBlocks);
-  std::vector<int> row_at(lf.height(), -1);
-  for (std::size_t i = 0; i < rows.size(); ++i) row_at[rows[i]] = static_cast<int>(i);
-  Orientations seen(static_cast<int>(rows.size()), lf.width());
-  parallel_for_workers(blocks, progress, [&] {
-    return [&, tensor = StructureTensor(lf, direction, coarse_scales(), search)](int i) mutable {
-      const ViewIndex center = lf.center();
-      TensorTask task{center.u, {0, 0}, 0, columns, center.v, center.v + 1};
-      if (blocks > 1) task.begin.x = i * (lf.width() - columns) / (blocks - 1);
-      for (int& y = task.begin.y; y < lf.height(); y += largest.height) {
-        task.height = std::min(largest.height, lf.height() - y);
-        tensor.estimate(task, [&](int, PixelIndex begin, int run, const float* disparity,
-                                  const float* coherence) {
-          const int row = row_at[begin.y];
-          if (row >= 0) seen.set(row, begin.x, run, disparity, coherence);
-        });
-      }
-    };
-  });
-  return seen;
-}
-
-// Calls `take(row, x, disparity)` for every pixel and direction that is coherent.
-template <class Take>
-void for_each_coherent(const std::vector<Orientations>& directions, const Take& take) {
-  for (const Orientations& seen : directions) {
-    for (int row = 0; row < seen.coherence.height(); ++row) {
-      for (int x = 0; x < seen.coherence.width(); ++x) {
-        if (seen.coherence.at(row, x) >= kCoherent) take(row, x, seen.disparity.at(row, x));
-      }
-    }
-  }
-}
-
-}  // namespace
 
 namespace {
 
@@ -219,8 +231,7 @@ LightField smaller_views(const LightField& lf, int factor, const Progress& progr
 
 namespace {
 
-// Labels at which pixels are matched, px per view step.
-constexpr double kLabelStep = 0.25;
+constexpr int kRows = 64;
 // Pixels matched together: 3×3.
 constexpr int kSupportRadius = 1;
 // Beyond it a view does not show the point.
@@ -229,7 +240,7 @@ constexpr double kSupportCap = 0.3;
 constexpr float kApart = 0.75F;
 // The best label costs at most this fraction of the next, and less by this, in samples of [0, 1].
 constexpr float kRatio = 0.8F;
-constexpr float kContrast = 0.002F;
+constexpr float kContrast = 0.004F;
 
 // Costs of one row, `[label][x]`, averaged over the rows and columns around it.
 class WindowCosts {
@@ -269,22 +280,21 @@ class WindowCosts {
   int height_;
 };
 
-// Into `matches` the disparity that each pixel of a row distinctly matches: its best label, moved
-// by the parabola through the costs beside it.
-void find_distinct(const Image<float>& costs, const std::vector<float>& labels,
-                   const LightField& lf, int y, float* matches) {
-  const int width = costs.width(), last = costs.height() - 1;
+// Adds the pixels of a row to the labels that they distinctly match.
+void count_distinct(const Image<float>& costs, const std::vector<float>& labels,
+                    const LightField& lf, int y, double* counts) {
+  const int width = costs.width();
   std::vector<int> best(width);
   std::vector<float> least(costs.row(0), costs.row(0) + width);
   std::vector<float> next(width, std::numeric_limits<float>::infinity());
-  for (int l = 1; l <= last; ++l) {
+  for (int l = 1; l < costs.height(); ++l) {
     const float* const cost = costs.row(l);
     for (int x = 0; x < width; ++x) {
       if (cost[x] < least[x]) best[x] = l;
       least[x] = std::min(least[x], cost[x]);
     }
   }
-  for (int l = 0; l <= last; ++l) {
+  for (int l = 0; l < costs.height(); ++l) {
     const float* const cost = costs.row(l);
     for (int x = 0; x < width; ++x) {
       const bool competes = std::fabs(labels[l] - labels[best[x]]) >= kApart;
@@ -293,86 +303,77 @@ void find_distinct(const Image<float>& costs, const std::vector<float>& labels,
   }
   for (int x = 0; x < width; ++x) {
     const bool is_distinct = least[x] <= kRatio * next[x] && next[x] - least[x] >= kContrast;
-    matches[x] = std::numeric_limits<float>::quiet_NaN();
-    if (!is_distinct || best[x] == 0 || best[x] == last) continue;
-    if (!lf.is_valid(lf.center(), y, x)) continue;
-    const float before = costs.at(best[x] - 1, x), after = costs.at(best[x] + 1, x);
-    const float bend = before - 2 * least[x] + after;
-    const float offset = bend > 0 ? 0.5F * (before - after) / bend : 0;
-    matches[x] = labels[best[x]] + offset * (labels[1] - labels[0]);
+    if (is_distinct && lf.is_valid(lf.center(), y, x)) counts[best[x]] += 1;
   }
 }
 
 }  // namespace
 
-Image<float> distinct_matches(const LightField& lf, const std::vector<int>& rows, Interval range,
-                              const Progress& progress) {
-  const int steps = static_cast<int>(std::ceil(range.length() / kLabelStep));
-  const std::vector<float> labels = equidistant_labels(range, std::max(steps, 2) + 1);
-  const int count = static_cast<int>(rows.size());
-  Image<float> matches(count, lf.width());
-  parallel_for_workers(count, progress, [&] {
+std::vector<double> label_support(const LightField& lf, const std::vector<float>& labels,
+                                  const Progress& progress) {
+  const int count = static_cast<int>(labels.size());
+  const int rows = std::min(kRows, lf.height());
+  std::vector<double> counts(static_cast<std::size_t>(rows) * count);
+  parallel_for_workers(rows, progress, [&] {
     return [&, costs = WindowCosts(lf, labels)](int i) mutable {
-      find_distinct(costs.compute(rows[i], progress), labels, lf, rows[i], matches.row(i));
+      const int y = rows > 1 ? i * (lf.height() - 1) / (rows - 1) : 0;
+      count_distinct(costs.compute(y, progress), labels, lf, y,
+                     counts.data() + static_cast<std::size_t>(i) * count);
     };
   });
-  return matches;
+  std::vector<double> shares(count);
+  for (std::size_t i = 0; i < counts.size(); ++i) shares[i % count] += counts[i];
+  const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= std::max(total, 1.0);
+  return shares;
 }
 
 namespace {
 
-// The range begins and ends where this share of the confirmed pixels lies close together.
-constexpr double kTail = 0.002;
+// The range begins and ends where this share of the coherent pixels lies close together.
+constexpr double kOrientationTail = 0.002;
 // The same of smaller views, whose noise is smaller and whose ends are less exact.
 constexpr double kSmallTail = 0.006;
-// How far beyond the orientations seen pixels are matched.
+// Labels at which pixels are matched, and how far they go beyond the orientations seen.
+constexpr double kLabelStep = 0.25;
 constexpr double kBeyond = 1.5;
-// An orientation is confirmed where its pixel distinctly matches a disparity within this, px.
-constexpr float kNear = 0.2F;
-// Pixels below which nothing is said.
-constexpr double kLeastPixels = 50;
+// Orientations count where this share of the distinctly matching pixels does so within `kNear`.
+constexpr double kSupport = 0.002;
+constexpr double kNear = 0.65;
 // What is taken off the ends that smaller views give, pixels of theirs.
-constexpr double kInexact = 0.075;
+constexpr double kInexact = 0.15;
 // No range found reaches farther, px per view step.
 constexpr double kMaxDisparity = 16;
 
-// The disparities of pixels that match distinctly where an orientation of theirs is: not aliases of
-// repeated patterns and of noise. None if no pixel matches distinctly: all is one repeated pattern,
-// of which nothing tells which orientation is true.
-std::optional<DisparityHistogram> confirmed(const LightField& lf, const std::vector<int>& rows,
-                                            const std::vector<Orientations>& directions,
-                                            double limit, Interval seen, const Progress& progress) {
+// Leaves out orientations that hardly any pixel confirms by matching: aliases of repeated patterns
+// and of noise.
+void clear_unsupported(const LightField& lf, Interval seen, OrientationHistogram& histogram,
+                       const Progress& progress) {
   const Interval range{seen.min - kBeyond, seen.max + kBeyond};
-  const Image<float> matches = distinct_matches(lf, rows, range, progress);
-  if (std::ranges::all_of(matches, [](float match) { return std::isnan(match); })) return {};
-  DisparityHistogram histogram(limit);
-  for_each_coherent(directions, [&](int row, int x, float disparity) {
-    const float match = matches.at(row, x);
-    if (std::fabs(disparity - match) <= kNear) histogram.add(match);
-  });
-  return histogram;
+  const int count = static_cast<int>(std::ceil(range.length() / kLabelStep)) + 1;
+  const std::vector<float> labels = equidistant_labels(range, count);
+  const std::vector<double> support = label_support(lf, labels, progress);
+  // All is one repeated pattern: nothing tells which of its orientations are true.
+  if (std::ranges::all_of(support, [](double share) { return share == 0; })) return;
+  for (int cell = 0; cell < histogram.size(); ++cell) {
+    double sum = 0;
+    for (int l = 0; l < count; ++l) {
+      if (std::fabs(labels[l] - histogram.middle(cell)) <= kNear) sum += support[l];
+    }
+    if (sum < kSupport) histogram.clear(cell);
+  }
 }
 
-// None if hardly anything is seen or confirmed.
+// None if hardly anything is seen or nothing of it is confirmed.
 std::optional<Interval> confirmed_range(const LightField& lf, double limit, double tail,
                                         const Progress& progress) {
-  const std::vector<int> rows = rows_looked_at(lf.height());
-  std::vector<Orientations> directions;
-  if (lf.grid().u > 1) {
-    directions.push_back(look_along_rows(lf, rows, limit, progress.part(0, 0.4)));
-  }
-  if (lf.grid().v > 1) {
-    directions.push_back(look_along_columns(lf, rows, limit, progress.part(0.4, 0.8)));
-  }
-  DisparityHistogram all(limit);
-  for_each_coherent(directions, [&](int, int, float d) { all.add(d); });
-  const std::optional<Interval> seen = all.ends(tail);
-  if (!seen || all.total() < kLeastPixels) return {};
-  const std::optional<DisparityHistogram> kept =
-      confirmed(lf, rows, directions, limit, *seen, progress.part(0.8, 1));
-  if (!kept) return seen;
-  if (kept->total() < kLeastPixels) return {};
-  return kept->ends(tail);
+  OrientationHistogram histogram(lf, limit, progress.part(0, 0.8));
+  constexpr double least = 100;
+  if (histogram.total() < least) return {};
+  const std::optional<Interval> seen = histogram.ends(tail);
+  if (!seen) return {};
+  clear_unsupported(lf, *seen, histogram, progress.part(0.8, 1));
+  return histogram.ends(tail);
 }
 
 // Smaller views show what noise and blur hide, but their ends are less exact.
@@ -438,7 +439,8 @@ std::string limited_range_note(const LightField& lf, Interval range) {
 
 Interval find_disparity_range(const LightField& lf, const Progress& progress) {
   const double limit = farthest_found(lf);
-  std::optional<Interval> found = confirmed_range(lf, limit, kTail, progress.part(0, 0.6));
+  std::optional<Interval> found =
+      confirmed_range(lf, limit, kOrientationTail, progress.part(0, 0.6));
   for (const int factor : {2, 4}) {
     const Progress part = factor == 2 ? progress.part(0.6, 0.85) : progress.part(0.85, 1);
     const std::optional<Interval> coarse = range_of_smaller_views(lf, factor, limit, part);

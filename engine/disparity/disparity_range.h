@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/parameter.h"
 #include "engine/core/progress.h"
@@ -12,21 +11,28 @@
 
 namespace episcope {
 
-/// How often each disparity is seen.
-class DisparityHistogram {
+/// How often each disparity is seen in the center view, by the structure tensor on some rows and
+/// columns of its EPIs, sheared in whole pixels. Of the pixels, those count whose orientation is
+/// coherent; under noise fewer pixels are, and the threshold is lowered.
+class OrientationHistogram {
  public:
   /// Width of a cell, px per view step.
   static constexpr double kCell = 0.05;
 
-  /// Of disparities of ±`limit`; what lies beyond counts as there.
-  explicit DisparityHistogram(double limit);
+  /// Looks at disparities of ±`limit`. Throws InvalidInput as StructureTensor, Cancelled.
+  OrientationHistogram(const LightField& light_field, double limit, const Progress& progress);
 
-  void add(double disparity);
+  /// Pixels counted, before any cell was cleared.
   [[nodiscard]] double total() const { return total_; }
+  [[nodiscard]] int size() const { return static_cast<int>(cells_.size()); }
+  /// The disparity in the middle of a cell.
+  [[nodiscard]] double middle(int cell) const { return (cell + 0.5) * kCell - limit_; }
+  void clear(int cell) { cells_[cell] = 0; }
 
-  /// From the first to the last 0.2 px that hold `tail` of all, less 0.05 px. What noise alone
-  /// gives is spread thinly over all disparities; what is seen lies close together, and counts even
-  /// where few see it. None if nothing was added.
+  /// From the first to the last 0.2 px that hold `tail` of all pixels. Orientations that noise
+  /// alone gives are spread thinly over all disparities; what is seen lies close together, and
+  /// counts even where few of its pixels are coherent. Half of the 0.2 px is the margin. None if
+  /// too few cells are left.
   [[nodiscard]] std::optional<Interval> ends(double tail) const;
 
  private:
@@ -46,14 +52,15 @@ enum class ReducedViews { CrossHair, All };
                                        const Progress& progress,
                                        ReducedViews reduced = ReducedViews::CrossHair);
 
-/// The disparity in `range`, px per view step, that pixels of some rows of the center view
-/// distinctly match, `[row][x]`: where 3×3 px match the views of the center's row and column much
-/// better than 0.75 px or more away. NaN where there is none: a repeated pattern suits several
-/// disparities, and what noise alone suits is not much better than the next. Throws Cancelled,
+/// Where pixels of the center view distinctly match: of those on some rows that match the views of
+/// its row and column, 3×3 px at a time, at one label (disparity, px per view step) much better
+/// than at any label 0.75 px or more away, the share that does so at each label, in [0, 1]. They
+/// add up to 1, or to 0 if no pixel matches so. A repeated pattern suits several labels, and what
+/// noise alone suits is not much better than the next: neither counts. Throws Cancelled,
 /// InvalidInput for a single view.
-[[nodiscard]] Image<float> distinct_matches(const LightField& light_field,
-                                            const std::vector<int>& rows, Interval range,
-                                            const Progress& progress);
+[[nodiscard]] std::vector<double> label_support(const LightField& light_field,
+                                                const std::vector<float>& labels,
+                                                const Progress& progress);
 
 /// Where a range to search comes from.
 enum class RangeSource { Given, Promised, Found };
@@ -81,13 +88,13 @@ inline constexpr const char* kRangeHelp =
 [[nodiscard]] Interval search_range(const LightField& light_field, const IntervalOrAuto& wanted,
                                     const Progress& progress);
 
-/// Estimates the range by a coarse, robust pass over 64 rows of the center view. A pixel tells a
-/// disparity if two estimates of it agree: the orientation of one of its EPIs, by the structure
-/// tensor, sheared in whole pixels over ±16 px or a sixth of the image, and what it distinctly
-/// matches in the views of both directions (distinct_matches). The range is the span between the
-/// first and the last disparities that hold a small fraction of these pixels (DisparityHistogram).
-/// The same at half and a quarter of the size (smaller_views), which shows what noise or blur hide,
-/// may widen the range. A light field without texture gives [−1, 1]. Throws Cancelled.
+/// Estimates the range by a coarse, robust pass: the structure tensor on some rows and columns of
+/// the center view's EPIs, sheared in whole pixels over ±16 px or a sixth of the image
+/// (OrientationHistogram), and the span between the first and the last disparities that hold a
+/// small fraction of the coherent pixels and that some pixels confirm by matching distinctly
+/// (label_support). The same at half and a quarter of the size (smaller_views), which shows
+/// what noise or blur hide, may widen the range. A light field without texture gives [−1, 1].
+/// Throws Cancelled.
 [[nodiscard]] Interval find_disparity_range(const LightField& light_field,
                                             const Progress& progress);
 
