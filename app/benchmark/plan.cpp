@@ -292,7 +292,7 @@ constexpr std::array kCosts{
     MethodCost{"st_av_g", 550, 550},    MethodCost{"st_ch_l", 150, 150},
     MethodCost{"st_ch_s", 160, 160},    MethodCost{"st_ch_g", 230, 230},
     MethodCost{"kz02", 2200, 2200},     MethodCost{"epi_two_layer", 1550, 170},
-    MethodCost{"plane_pm", 5700, 2300},
+    MethodCost{"plane_pm", 5700, 2300}, MethodCost{"net", 1900, 900},
 };
 
 constexpr MethodCost kLabeling{"", 5000, 5000};
