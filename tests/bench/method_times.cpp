@@ -48,8 +48,13 @@ int main(int count, char** arguments) {
   const LightFieldPtr scene = scenes::render_builtin("demo", options, Progress()).light_field;
   double first = 0;
   for (int i = 2; i < count; ++i) {
+    const Estimator* const method = known_estimator(arguments[i]);
+    if (method == nullptr) {
+      std::fprintf(stderr, "there is no method %s\n", arguments[i]);
+      return 2;
+    }
     bench::reset_peak_memory();
-    const double seconds = least_time(find_estimator(arguments[i]), *scene);
+    const double seconds = least_time(*method, *scene);
     if (i == 2) first = seconds;
     std::printf("%-12s %6.2f s of processor time, ratio %.2f, %zu MB at most\n", arguments[i],
                 seconds, seconds / first, bench::peak_memory() / 1000000);

@@ -274,61 +274,69 @@ std::optional<double> Hdf5Input::number(const std::string& object, const std::st
   return spelled ? parse_number(*spelled) : std::nullopt;
 }
 
+namespace {
+
+/// An attribute with its type and how many values it has: none if there is no such attribute.
+struct OpenedAttribute {
+  explicit OpenedAttribute(hid_t opened)
+      : id(opened, H5Aclose),
+        type(id.ok() ? H5Aget_type(id) : H5I_INVALID_HID, H5Tclose),
+        space(id.ok() ? H5Aget_space(id) : H5I_INVALID_HID, H5Sclose),
+        count(space.ok() ? H5Sget_simple_extent_npoints(space) : 0) {}
+
+  [[nodiscard]] double bytes() const {
+    return static_cast<double>(count) * static_cast<double>(H5Tget_size(type));
+  }
+
+  Hdf5Handle id;
+  Hdf5Handle type;
+  Hdf5Handle space;
+  hssize_t count;
+};
+
+}  // namespace
+
 std::vector<double> Hdf5Input::numbers(const std::string& object, const std::string& name) const {
   const Hdf5Lock session;
-  const Hdf5Handle attribute(open_attribute(object, name), H5Aclose);
-  if (!attribute.ok()) return {};
-  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
-  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
-  const hssize_t count = H5Sget_simple_extent_npoints(space);
-  const H5T_class_t kind = H5Tget_class(type);
-  if (count < 1 || (kind != H5T_INTEGER && kind != H5T_FLOAT)) return {};
-  if (!fits_file(path_, static_cast<double>(count) * static_cast<double>(H5Tget_size(type)))) {
-    return {};
-  }
-  std::vector<double> values(static_cast<std::size_t>(count));
-  if (H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()) < 0) return {};
+  const OpenedAttribute attribute(open_attribute(object, name));
+  if (attribute.count < 1) return {};
+  const H5T_class_t kind = H5Tget_class(attribute.type);
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT) return {};
+  if (!fits_file(path_, attribute.bytes())) return {};
+  std::vector<double> values(static_cast<std::size_t>(attribute.count));
+  if (H5Aread(attribute.id, H5T_NATIVE_DOUBLE, values.data()) < 0) return {};
   return values;
 }
 
 std::optional<std::string> Hdf5Input::text(const std::string& object,
                                            const std::string& name) const {
   const Hdf5Lock session;
-  const Hdf5Handle attribute(open_attribute(object, name), H5Aclose);
-  if (!attribute.ok()) return {};
-  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
-  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
-  if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return {};
-  if (H5Tis_variable_str(type) > 0) {
+  const OpenedAttribute attribute(open_attribute(object, name));
+  if (attribute.count != 1 || H5Tget_class(attribute.type) != H5T_STRING) return {};
+  if (H5Tis_variable_str(attribute.type) > 0) {
     char* value = nullptr;
-    if (H5Aread(attribute, type, &value) < 0 || value == nullptr) return {};
+    if (H5Aread(attribute.id, attribute.type, &value) < 0 || value == nullptr) return {};
     std::string copy(value);
     H5free_memory(value);
     return copy;
   }
-  if (!fits_file(path_, static_cast<double>(H5Tget_size(type)))) return {};
-  std::string value(H5Tget_size(type), '\0');
-  if (H5Aread(attribute, type, value.data()) < 0) return {};
+  if (!fits_file(path_, attribute.bytes())) return {};
+  std::string value(H5Tget_size(attribute.type), '\0');
+  if (H5Aread(attribute.id, attribute.type, value.data()) < 0) return {};
   return value.substr(0, value.find('\0'));
 }
 
 std::vector<std::string> Hdf5Input::texts(const std::string& object,
                                           const std::string& name) const {
   const Hdf5Lock session;
-  const Hdf5Handle attribute(open_attribute(object, name), H5Aclose);
-  if (!attribute.ok()) return {};
-  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
-  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
-  const hssize_t count = H5Sget_simple_extent_npoints(space);
-  if (count < 1 || H5Tis_variable_str(type) <= 0) return {};
-  if (!fits_file(path_, static_cast<double>(count) * static_cast<double>(H5Tget_size(type)))) {
-    return {};
-  }
-  std::vector<char*> stored(static_cast<std::size_t>(count), nullptr);
-  if (H5Aread(attribute, type, stored.data()) < 0) return {};
+  const OpenedAttribute attribute(open_attribute(object, name));
+  if (attribute.count < 1 || H5Tis_variable_str(attribute.type) <= 0) return {};
+  if (!fits_file(path_, attribute.bytes())) return {};
+  std::vector<char*> stored(static_cast<std::size_t>(attribute.count), nullptr);
+  if (H5Aread(attribute.id, attribute.type, stored.data()) < 0) return {};
   std::vector<std::string> texts;
   for (const char* text : stored) texts.emplace_back(text ? text : "");
-  H5Dvlen_reclaim(type, space, H5P_DEFAULT, stored.data());
+  H5Dvlen_reclaim(attribute.type, attribute.space, H5P_DEFAULT, stored.data());
   return texts;
 }
 
