@@ -187,11 +187,6 @@ bool is_same_value(const ParameterValue& a, const ParameterValue& b) {
   return to_text(a) == to_text(b);
 }
 
-const ParameterValue* find_value(const ParameterSet& set, const std::string& key) {
-  const auto found = std::ranges::find(set, key, &ParameterSet::value_type::first);
-  return found == set.end() ? nullptr : &found->second;
-}
-
 /// "--inner_scale 0.7, --range auto": values of `stored` that `wanted` does not have.
 std::vector<std::string> other_values(const std::vector<ParameterDescription>& descriptions,
                                       const ParameterSet& stored, const ParameterSet& wanted) {

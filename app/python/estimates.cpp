@@ -7,6 +7,7 @@
 #include "app/session/result_files.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/external_result.h"
@@ -14,6 +15,7 @@
 #include <pybind11/stl.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -170,15 +172,19 @@ py::dict score_array(const py::object& judged, const py::object& truth,
   return scores_of(estimate, evaluation, options.protocol, estimate.field.disparity.grid() == grid);
 }
 
-InvalidEstimates invalid_named(const std::string& name) {
-  if (name == "bad") return InvalidEstimates::Bad;
-  if (name == "compatible") return InvalidEstimates::Compatible;
-  throw InvalidInput(no_such_name("value of invalid", name, {"bad", "compatible"}));
+/// Throws InvalidInput that says what there is.
+template <NamedEnum E>
+E choice_named(const std::string& argument, const std::string& name) {
+  const std::vector<std::string> names = all_names<E>();
+  if (std::ranges::count(names, name) > 0) return value_named<E>(name);
+  throw InvalidInput(argument + " is '" + name + "'; use " + joined(names, " or "));
 }
 
 py::dict score(const py::object& map, const py::object& truth, const std::string& protocol,
                const std::string& invalid, const py::object& view) {
-  const EvaluationOptions options{parse_protocol(protocol), invalid_named(invalid), {}};
+  const EvaluationOptions options{choice_named<Protocol>("protocol", protocol),
+                                  choice_named<InvalidEstimates>("invalid", invalid),
+                                  {}};
   if (!py::isinstance<OpenedScene>(truth)) {
     if (view.is_none()) return score_array(map, truth, options);
     throw InvalidInput(

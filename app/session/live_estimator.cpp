@@ -223,18 +223,8 @@ const ParameterDescription* find_parameter(const Estimator& estimator, const std
 
 ParameterValue value_of(const Estimator& estimator, const ParameterSet& values,
                         const std::string& key) {
-  const auto found = std::ranges::find(values, key, &ParameterSet::value_type::first);
-  if (found != values.end()) return found->second;
+  if (const ParameterValue* given = find_value(values, key)) return *given;
   return find_parameter(estimator, key)->default_value;
-}
-
-void set_value(ParameterSet& values, const std::string& key, ParameterValue value) {
-  const auto found = std::ranges::find(values, key, &ParameterSet::value_type::first);
-  if (found != values.end()) {
-    found->second = std::move(value);
-  } else {
-    values.emplace_back(key, std::move(value));
-  }
 }
 
 /// A run that was made definite: for which view, in which range, of which pixels.

@@ -73,14 +73,7 @@ double seconds_of(const Sweep& sweep) {
 
 ParameterSet values_at(const ParameterSet& values, const ParameterSet& point) {
   ParameterSet changed = values;
-  for (const auto& [key, value] : point) {
-    const auto found = std::ranges::find(changed, key, &ParameterSet::value_type::first);
-    if (found == changed.end()) {
-      changed.emplace_back(key, value);
-    } else {
-      found->second = value;
-    }
-  }
+  for (const auto& [key, value] : point) set_value(changed, key, value);
   return changed;
 }
 
@@ -94,8 +87,7 @@ std::vector<ParameterSet> sweep_points(const std::vector<ParameterDescription>& 
     if (known == descriptions.end()) throw InvalidInput("there is no parameter " + each.key);
     grid.push_back(*known);
     grid.back().searched = each.values;
-    const auto present = std::ranges::find(base, each.key, &ParameterSet::value_type::first);
-    if (present != base.end()) grid.back().default_value = present->second;
+    if (const auto* present = find_value(base, each.key)) grid.back().default_value = *present;
     count *= each.values.size();
   }
   if (count > kMaxSearchPoints) {
@@ -226,13 +218,8 @@ std::optional<double> find_any(const Metrics& metrics, const std::string& key) {
   return std::nullopt;
 }
 
-const ParameterValue* value_at(const ParameterSet& point, const std::string& key) {
-  const auto found = std::ranges::find(point, key, &ParameterSet::value_type::first);
-  return found == point.end() ? nullptr : &found->second;
-}
-
 bool is_tried(const ParameterSet& point, const SweptParameter& swept) {
-  const ParameterValue* value = value_at(point, swept.key);
+  const ParameterValue* value = find_value(point, swept.key);
   return value && std::ranges::count(swept.values, *value) > 0;
 }
 
@@ -243,10 +230,10 @@ SweepLine line_of(const std::vector<SweepPoint>& points, const std::vector<Swept
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ParameterSet& point = points[i].point;
     if (!std::ranges::all_of(swept, [&](const auto& each) { return is_tried(point, each); }) ||
-        (second && *value_at(point, swept[1].key) != *second)) {
+        (second && *find_value(point, swept[1].key) != *second)) {
       continue;
     }
-    line.places.push_back({number_of(*value_at(point, swept[0].key)), i});
+    line.places.push_back({number_of(*find_value(point, swept[0].key)), i});
   }
   std::ranges::sort(line.places, {}, &SweepLine::Place::x);
   return line;

@@ -213,6 +213,20 @@ void check_parameter(const ParameterDescription& description, const ParameterVal
   std::visit(Checker{description}, value);
 }
 
+const ParameterValue* find_value(const ParameterSet& set, const std::string& key) {
+  const auto found = std::ranges::find(set, key, &ParameterSet::value_type::first);
+  return found == set.end() ? nullptr : &found->second;
+}
+
+void set_value(ParameterSet& set, const std::string& key, ParameterValue value) {
+  const auto found = std::ranges::find(set, key, &ParameterSet::value_type::first);
+  if (found == set.end()) {
+    set.emplace_back(key, std::move(value));
+  } else {
+    found->second = std::move(value);
+  }
+}
+
 std::string nearest_name(const std::string& name, const std::vector<std::string>& names) {
   const auto distance = [&name](const std::string& other) {
     std::vector<std::size_t> row(other.size() + 1);

@@ -93,6 +93,11 @@ struct ParameterDescription {
 /// Throws InvalidInput if the value has another type than the default or lies outside the domain.
 void check_parameter(const ParameterDescription& description, const ParameterValue& value);
 
+/// The value of a key; null if the set has none.
+[[nodiscard]] const ParameterValue* find_value(const ParameterSet& set, const std::string& key);
+/// Replaces the value of a key, or adds it at the end.
+void set_value(ParameterSet& set, const std::string& key, ParameterValue value);
+
 /// The name in `names` nearest to `name` by edit distance, for "did you mean"; empty if none is
 /// close.
 [[nodiscard]] std::string nearest_name(const std::string& name,
@@ -112,8 +117,7 @@ struct Reading {
 
   /// Null if the option was not set.
   [[nodiscard]] const ParameterValue* find(const std::string& key) const {
-    const auto found = std::ranges::find(options, key, &ParameterSet::value_type::first);
-    return found == options.end() ? nullptr : &found->second;
+    return find_value(options, key);
   }
 
   /// Key of the focus plane that was baked in (shear.h), px per view step.

@@ -229,6 +229,15 @@ class Schema {
     return set;
   }
 
+  /// Those that are not the defaults.
+  [[nodiscard]] ParameterSet changed_values(const P& parameters) const {
+    ParameterSet set = values(parameters);
+    std::erase_if(set, [this](const auto& each) {
+      return each.second == description(each.first).default_value;
+    });
+    return set;
+  }
+
  private:
   template <class>
   friend class Schema;

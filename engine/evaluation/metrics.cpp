@@ -239,11 +239,13 @@ const char* protocol_name(Protocol protocol) {
   return protocol == Protocol::Vmv2013 ? "vmv2013" : "benchmark2016";
 }
 
-Protocol parse_protocol(const std::string& name) {
-  for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
-    if (name == protocol_name(protocol)) return protocol;
-  }
-  throw InvalidInput("there is no protocol '" + name + "'; use vmv2013 or benchmark2016");
+Names<Protocol> names_of(Protocol) {
+  return {{Protocol::Vmv2013, protocol_name(Protocol::Vmv2013)},
+          {Protocol::Benchmark2016, protocol_name(Protocol::Benchmark2016)}};
+}
+
+Names<InvalidEstimates> names_of(InvalidEstimates) {
+  return {{InvalidEstimates::Bad, "bad"}, {InvalidEstimates::Compatible, "compatible"}};
 }
 
 std::optional<double> find_metric(const Metrics& metrics, const std::string& key) {

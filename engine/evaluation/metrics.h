@@ -6,6 +6,7 @@
 #include "engine/core/estimate.h"
 #include "engine/core/ground_truth.h"
 #include "engine/core/progress.h"
+#include "engine/core/schema.h"
 
 #include <map>
 #include <optional>
@@ -22,8 +23,7 @@ enum class Protocol {
 };
 
 [[nodiscard]] const char* protocol_name(Protocol protocol);  ///< "vmv2013", "benchmark2016".
-/// Throws InvalidInput naming both.
-[[nodiscard]] Protocol parse_protocol(const std::string& name);
+[[nodiscard]] Names<Protocol> names_of(Protocol);
 
 /// How evaluated pixels count where the estimate has no value.
 enum class InvalidEstimates {
@@ -33,6 +33,7 @@ enum class InvalidEstimates {
   /// As in the official 2016 tool: good in BadPix, fattening and thinning, ignored in all others.
   Compatible,
 };
+[[nodiscard]] Names<InvalidEstimates> names_of(InvalidEstimates);
 
 struct EvaluationOptions {
   Protocol protocol = Protocol::Vmv2013;

@@ -48,14 +48,6 @@ struct Row {
   std::string error_map{};  ///< The picture that was written; empty = none.
 };
 
-OptionValue<Protocol> protocol_value() {
-  Names<Protocol> names;
-  for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
-    names.push_back({protocol, protocol_name(protocol)});
-  }
-  return choice_of(names);
-}
-
 /// The 2013 paper ranks run times in classes.
 bool has_runtime_classes(const EvaluateRequest& request) {
   return request.protocol == Protocol::Vmv2013;
@@ -71,11 +63,9 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
       "folders");
   parser.required_option("--truth", request.truth, text_value("INPUT"),
                          "The light field with its ground truth");
-  parser.option("--protocol", request.protocol, protocol_value(),
+  parser.option("--protocol", request.protocol, choice_of<Protocol>(),
                 "Metrics of the 2013 paper or of the 2016 benchmark");
-  parser.option("--invalid", request.invalid,
-                choice_of<InvalidEstimates>(
-                    {{InvalidEstimates::Bad, "bad"}, {InvalidEstimates::Compatible, "compatible"}}),
+  parser.option("--invalid", request.invalid, choice_of<InvalidEstimates>(),
                 "Missing values (NaN): bad counts them as the farthest true disparity and as bad "
                 "pixels; compatible as good pixels that means leave out, as the 2016 tool does "
                 "(default bad)");

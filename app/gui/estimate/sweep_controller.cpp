@@ -35,8 +35,9 @@ std::vector<ParameterDescription> descriptions_of(const RunRequest& request) {
 
 // Proposes values around the form's value.
 ParameterDescription at_present(ParameterDescription description, const ParameterSet& values) {
-  const auto present = std::ranges::find(values, description.key, &ParameterSet::value_type::first);
-  if (present != values.end()) description.default_value = present->second;
+  if (const auto* present = find_value(values, description.key)) {
+    description.default_value = *present;
+  }
   return description;
 }
 

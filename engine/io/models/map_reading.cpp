@@ -129,12 +129,7 @@ Schema<MapReading> map_schema() {
 }
 
 ParameterSet given_options(const MapReading& reading) {
-  const Schema<MapReading> schema = map_schema();
-  ParameterSet given;
-  for (auto& [key, value] : schema.values(reading)) {
-    if (!(value == schema.description(key).default_value)) given.emplace_back(key, value);
-  }
-  return given;
+  return map_schema().changed_values(reading);
 }
 
 std::string reading_text(const MapReading& reading) {

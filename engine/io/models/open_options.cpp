@@ -98,13 +98,7 @@ Schema<OpenOptions> open_schema() {
 }
 
 ParameterSet given_options(const OpenOptions& options) {
-  const Schema<OpenOptions> schema = open_schema();
-  ParameterSet given;
-  for (auto& [key, value] : schema.values(options)) {
-    const auto& description = schema.description(key);
-    if (!(value == description.default_value)) given.emplace_back(key, std::move(value));
-  }
-  return given;
+  return open_schema().changed_values(options);
 }
 
 namespace {
