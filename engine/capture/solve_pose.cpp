@@ -68,17 +68,28 @@ RigidPose rigid(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translat
   return pose;
 }
 
+/// A copy; OpenCV decomposes it, since Eigen's templates take long to compile.
+cv::Mat to_cv(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
+  cv::Mat copy(static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols()), CV_64F);
+  for (int i = 0; i < copy.rows; ++i) {
+    for (int j = 0; j < copy.cols; ++j) copy.at<double>(i, j) = matrix(i, j);
+  }
+  return copy;
+}
+
 /// The nearest rotation.
 Eigen::Matrix3d orthogonal(const Eigen::Matrix3d& matrix) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-  return svd.matrixU() * turn * svd.matrixV().transpose();
+  const cv::SVD svd(to_cv(matrix));
+  const Matrix3 u = Eigen::Map<const Matrix3>(svd.u.ptr<double>());
+  const Matrix3 vt = Eigen::Map<const Matrix3>(svd.vt.ptr<double>());
+  const Eigen::Vector3d turn(1, 1, (u * vt).determinant());
+  return u * turn.asDiagonal() * vt;
 }
 
 Eigen::VectorXd null_vector(const Eigen::MatrixXd& matrix) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeFullV);
-  return svd.matrixV().col(matrix.cols() - 1);
+  cv::Mat solution;
+  cv::SVD::solveZ(to_cv(matrix), solution);
+  return Eigen::Map<const Eigen::VectorXd>(solution.ptr<double>(), matrix.cols());
 }
 
 /// From H = [r1 r2 t] of the points in the axes of their plane.
@@ -469,8 +480,8 @@ MinimizedPose minimize_reprojection(std::span<const PointPair> pairs, const Rigi
     if (is_tiny) break;
   }
   result.pose = rigid(pose);
-  const Matrix6 inverse = normal.matrix.completeOrthogonalDecomposition().pseudoInverse();
-  Eigen::Map<Matrix6>(result.unit_covariance.data()) = inverse;
+  cv::Mat inverse(6, 6, CV_64F, result.unit_covariance.data());
+  cv::invert(to_cv(normal.matrix), inverse, cv::DECOMP_SVD);
   return result;
 }
 
