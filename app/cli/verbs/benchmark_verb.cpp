@@ -175,8 +175,9 @@ void declare_what(Arguments& parser, BenchmarkRequest& request) {
   parser.flag("--search", request.has_search,
               "Also search for the best parameters, of each scene and of all scenes together");
   parser.list_option("--submission", request.submissions, "DIR...",
-                     "Folders with maps from other programs, named after the scenes: .pfm, .npy, "
-                     ".tif or .h5; without --methods they are judged alone");
+                     "Folders with maps from other programs, named after the scenes: result files, "
+                     ".h5, .mat, .npy, .npz, .pfm, .tif or .csv; without --methods they are judged "
+                     "alone");
   ParameterDescription views = run_schema().description("views");
   views.help = "Views to estimate for the tables; all if the method can";
   ParameterDescription device = run_schema().description("device");

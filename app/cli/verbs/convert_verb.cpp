@@ -20,15 +20,19 @@ struct ConvertRequest {
   std::string input;
   std::string output;
   std::string truth;
-  std::string form;  ///< Id of a writer; empty = told by the output.
+  std::string form;  ///< Id of a writer, or kMap; empty = told by the output.
+  std::optional<ViewSelection> views;
   Overwrite overwrite = Overwrite::No;
   ParameterOptions map;
   JobOptions job;
   ReadOptions read;
 };
 
-std::vector<std::string> writer_ids() {
-  std::vector<std::string> ids;
+/// Maps alone, where forms hold light fields as well.
+constexpr const char* kMap = "map";
+
+std::vector<std::string> form_names() {
+  std::vector<std::string> ids{kMap};
   for (const io::Writer& writer : io::writers()) ids.emplace_back(writer.id);
   return ids;
 }
@@ -38,8 +42,9 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
       "convert",
       {"Converts a light field or a result to another form, chosen by the suffix of OUT or by\n"
        "--to. Light fields: .h5 (archive form), .npy, .npz, .mat (LFToolbox), .png (lenslets,\n"
-       "ESLF) or a folder (benchmark form). Disparity of the center view: .pfm, .tiff, .ply,\n"
-       "and .npy for a RESULT; an INPUT gives its truth. Views, truth, labels, masks and\n"
+       "ESLF) or a folder (benchmark form). Disparity of the center view: .pfm, .tiff, .csv,\n"
+       ".ply, .npy for a RESULT, and .npz and .mat with --to map; an INPUT gives its truth. All\n"
+       "views of it with --views all: .npy, .npz, .mat. Views, truth, labels, masks and\n"
        "camera are kept where the form can hold them; notes name what it cannot hold. Labels\n"
        "of the archive form are in OUT_labels.h5, or in labels.h5 beside lf.h5.\n"
        "A RESULT takes the place of the truth of its light field; .h5 says so. Light fields\n"
@@ -49,8 +54,11 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
        "  episcope-cli convert demo.h5 demo.ply"});
   parser.positional("INPUT", request.input, "A light field or a result");
   parser.positional("OUT", request.output, "File or folder to write");
-  parser.option("--to", request.form, one_of(writer_ids()),
-                "Form of the light field; by default chosen by the suffix of OUT");
+  parser.option("--to", request.form, one_of(form_names()),
+                "Form of the light field, or map for its disparity alone; by default chosen by the "
+                "suffix of OUT");
+  parser.option("--views", request.views, choice_of<ViewSelection>(),
+                "Views of a map: all that there are, or center (default center)");
   parser.option("--truth", request.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one named in its file");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
@@ -67,6 +75,13 @@ struct Target {
   [[nodiscard]] bool needs_scene() const { return writer || map == MapForm::PointCloud; }
 };
 
+Target map_target(const ConvertRequest& request) {
+  const auto form = map_form_of(request.output);
+  if (form && form != MapForm::Result) return {nullptr, *form};
+  throw UsageError("--to map writes .pfm, .tiff, .csv, .npy, .npz, .mat or .ply, but the output is " +
+                   request.output + "; name it so");
+}
+
 Target named_target(const ConvertRequest& request) {
   const io::Writer& writer = *io::writer_named(request.form);
   if (writer.writes_folder() || writer.has_suffix_of(request.output)) return {&writer};
@@ -75,6 +90,7 @@ Target named_target(const ConvertRequest& request) {
 }
 
 Target target_of(const ConvertRequest& request) {
+  if (request.form == kMap) return map_target(request);
   if (!request.form.empty()) return named_target(request);
   const std::string& output = request.output;
   const std::string suffix = suffix_of(output);
@@ -87,7 +103,7 @@ Target target_of(const ConvertRequest& request) {
   if (map == MapForm::Npy && is_result) return {nullptr, *map};
   if (const io::Writer* writer = io::writer_of(output)) return {writer};
   if (map) return {nullptr, *map};
-  std::vector<std::string> known{".pfm", ".ply", ".tiff", "a folder"};
+  std::vector<std::string> known{".pfm", ".ply", ".tiff", ".csv", "a folder"};
   for (const io::Writer& writer : io::writers()) {
     if (!writer.writes_folder()) known.emplace_back(writer.suffixes.front());
   }
@@ -162,7 +178,9 @@ Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
 
 void write_map(const ConvertSubject& subject, const ConvertRequest& request, MapForm form) {
   const DisparityView map = map_of(subject, request.input);
+  const bool has_all = request.views == ViewSelection::All;
   write_output(request.output, request.overwrite, [&](const std::filesystem::path& path) {
+    if (has_all) return save_maps(path, subject.field());
     if (form != MapForm::PointCloud) return save_map(path, map);
     const LightField& light_field = *subject.scene->light_field;
     save_point_cloud(path, light_field, light_field.center(), map);
@@ -198,6 +216,14 @@ void note_forgotten_options(const ConvertSubject& subject, const ConvertRequest&
 }
 
 void check_output(const ConvertRequest& request, const Target& target) {
+  if (request.views && target.writer) {
+    throw UsageError("convert: --views has no effect on a light field, which keeps all; leave it out, "
+                     "or add --to map");
+  }
+  if (request.views == ViewSelection::All && !holds_all_views(target.map)) {
+    throw UsageError(request.output +
+                     " holds the map of one view; leave out --views, or name it OUT.npy");
+  }
   const bool is_folder = target.writer && target.writer->writes_folder();
   if (!is_folder) check_output_file(request.output);
   protect_input(request.output, request.input);

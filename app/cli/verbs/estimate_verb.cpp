@@ -65,7 +65,8 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
       "estimate",
       {"Estimates disparity and writes a result file. METHOD is an id listed by\n"
        "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its parameters.\n"
-       "OUT.npy, OUT.pfm and OUT.tiff hold the map of one view. Several light fields, or those in\n"
+       "OUT.npy, OUT.npz, OUT.mat, OUT.pfm, OUT.tiff and OUT.csv hold the map of the center view,\n"
+       "the first three of all with --views all. Several light fields, or those in\n"
        "a folder, get a result file each in the folder DIR, named after light field and method\n"
        "(cotton_epi_l.h5); one that fails does not stop the others. A result of another method,\n"
        "other parameters or another light field is replaced only with --overwrite.",
@@ -75,8 +76,8 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
   parser.positional("METHOD", request.method, "Id of the estimator, in any case");
   parser.positionals("INPUT", request.inputs, "The light field, or several");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5|DIR"),
-                         "Result file to write, or a map: .npy, .pfm, .tiff; for several light "
-                         "fields, a folder");
+                         "Result file to write, or a map: .npy, .npz, .mat, .pfm, .tiff, .csv; for "
+                         "several light fields, a folder");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace a result of another method, other parameters or another light field");
   parser.flag("--frames", request.frames, Frames::All,
@@ -115,23 +116,25 @@ bool parse(const VerbArguments& arguments, EstimateArguments& request) {
   return parse_as(named, arguments, request);
 }
 
-/// The form of an output that is a map of one view; empty for a result file and for a folder.
+/// The form of an output that holds maps alone; empty for a result file and for a folder.
 std::optional<MapForm> map_form(const std::string& output) {
   const auto form = map_form_of(output);
-  const bool is_map = form == MapForm::Npy || form == MapForm::Pfm || form == MapForm::Tiff;
+  const bool is_map = form && form != MapForm::Result && form != MapForm::PointCloud;
   return is_map ? form : std::nullopt;
 }
 
 ViewSelection selected_views(const EstimateArguments& request) {
   std::optional<ViewSelection> wanted;
   if (request.job.run.is_given("views")) wanted = request.job.run_options().views;
-  const bool is_map = map_form(request.output).has_value();
-  if (!request.is_submission && !is_map) return views_to_estimate(*request.estimator, wanted);
+  const auto form = map_form(request.output);
+  if (!request.is_submission && !form) return views_to_estimate(*request.estimator, wanted);
   if (wanted.value_or(ViewSelection::Center) == ViewSelection::Center) return ViewSelection::Center;
-  throw UsageError(request.is_submission
-                       ? "a submission holds center views; leave out --views"
-                       : request.output +
-                             " holds the map of one view; leave out --views, or name it OUT.h5");
+  if (request.is_submission) {
+    throw UsageError("a submission holds center views; leave out --views");
+  }
+  if (holds_all_views(*form)) return views_to_estimate(*request.estimator, wanted);
+  throw UsageError(request.output +
+                   " holds the map of one view; leave out --views, or name it OUT.h5 or OUT.npy");
 }
 
 /// For JSON "all", "center" or row and column of the only view; in words for people.
@@ -293,7 +296,7 @@ class Runner {
     if (request_.is_submission) {
       submit(task, *estimate, center);
     } else if (map_form(task.output)) {
-      save_map(task.output, estimate->field.view(estimate->field.disparity.first()));
+      save_maps(task.output, estimate->field);
     } else {
       save_result(task.output, *estimate, task.input, progress.part(0.85, 1));
     }

@@ -59,8 +59,8 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
                                 "benchmark2016 --error-map error.png"});
   parser.positionals(
       "RESULT", request.files,
-      "Result files, HDF5 or .mat (v7.3) files with one map, .npy, PFM, TIFF, submission "
-      "folders");
+      std::string("Result files, maps of other programs (") + io::kMapForms +
+          "), or folders of them; also submissions of 2016");
   parser.required_option("--truth", request.truth, text_value("INPUT"),
                          "The light field with its ground truth");
   parser.option("--protocol", request.protocol, choice_of<Protocol>(),
