@@ -292,7 +292,7 @@ void convert_collection(ConvertRequest request, Job& job) {
 bool is_many(const ConvertRequest& request, const Progress& progress) {
   const bool may_be_folder = suffix_of(request.output).empty() || request.output.ends_with('/') ||
                              std::filesystem::is_directory(request.output);
-  return may_be_folder && request.truth.empty() && !names_result(request.input) &&
+  return may_be_folder && request.form != kMap && request.truth.empty() && !names_result(request.input) &&
          is_collection(request.input, request.read, progress);
 }
 

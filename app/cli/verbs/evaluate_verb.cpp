@@ -9,6 +9,7 @@
 #include "engine/core/text.h"
 #include "engine/core/text_table.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/models/external_result.h"
 #include "engine/io/models/result_file.h"
 
 #include <nlohmann/json.hpp>

@@ -89,7 +89,7 @@ foreach(suffix npy pfm tiff)
   expect("estimate it when asked" 0 ARGS estimate epi_l a -o map.${suffix} --overwrite)
 endforeach()
 expect("evaluate them" 0 OUT "map.npy.*map.pfm" ARGS evaluate map.npy map.pfm map.tiff --truth a)
-expect("all views in a map" 2 ERR "one view; leave out --views" ARGS estimate epi_l a -o all.npy
+expect("all views in a map" 2 ERR "one view; leave out --views" ARGS estimate epi_l a -o all.pfm
        --views all)
 
 # What is written is printed; labels bear the name of their light field.
