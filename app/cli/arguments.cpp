@@ -390,6 +390,15 @@ OptionValue<ViewIndex> view_value() {
           }};
 }
 
+OptionValue<std::vector<std::string>> words_value(const std::string& name) {
+  return {name, [](const std::string& option, const std::string& text) {
+            std::vector<std::string> words = CLI::detail::split(text, ',');
+            std::erase(words, "");
+            if (words.empty()) refuse(option, text, "names, separated by commas");
+            return words;
+          }};
+}
+
 OptionValue<Extent> extent_value(const std::string& name, int max) {
   return {name, [max](const std::string& option, const std::string& text) {
             auto extent = pair_in<int>(text, "x");

@@ -35,6 +35,8 @@ struct OptionValue {
 [[nodiscard]] OptionValue<Interval> interval_value();
 /// "V,U".
 [[nodiscard]] OptionValue<ViewIndex> view_value();
+/// Words between commas, at least one.
+[[nodiscard]] OptionValue<std::vector<std::string>> words_value(const std::string& name);
 
 /// "AxB" with both in [1, max].
 struct Extent {

@@ -101,6 +101,13 @@ Scene load_input_of(const NamedReading& result, const std::string& input,
       options.needs_truth, progress);
 }
 
+ViewIndex view_of(const LightField& light_field, ViewIndex view) {
+  if (light_field.grid().contains(view)) return view;
+  throw InvalidInput(fmt::format(
+      "{} has {}×{} views, but view {} was asked for; views are counted from 0",
+      light_field.info().name, light_field.grid().v, light_field.grid().u, view_text(view)));
+}
+
 void note_other_source(const Estimate& estimate, const LightField& light_field, Job& job) {
   if (!is_of_other_samples(estimate, light_field)) return;
   const Reading& own = estimate.reading;

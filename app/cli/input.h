@@ -63,6 +63,9 @@ struct NamedReading {
 [[nodiscard]] Scene load_input_of(const NamedReading& result, const std::string& input,
                                   const ReadOptions& options, const Progress& progress);
 
+/// The view itself. Throws InvalidInput if the light field has no such view.
+[[nodiscard]] ViewIndex view_of(const LightField& light_field, ViewIndex view);
+
 /// Notes if the estimate was made from samples of another light field, and which reading options
 /// may explain it.
 void note_other_source(const Estimate& estimate, const LightField& light_field, Job& job);

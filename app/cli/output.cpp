@@ -71,6 +71,18 @@ void print_json(const Json& json) {
   std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
+void print_answer(Json answer, const std::vector<std::string>& notes,
+                  const std::vector<std::string>& written) {
+  if (!answer.contains("results")) answer["results"] = Json::array({answer});
+  Json& told = answer["notes"];
+  if (told.is_null()) told = Json::array();
+  for (const std::string& note : notes) {
+    if (std::ranges::find(told, Json(note)) == told.end()) told.push_back(note);
+  }
+  if (!answer.contains("written")) answer["written"] = written;
+  print_json(answer);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -340,6 +352,11 @@ void write_output(const fs::path& path, Overwrite overwrite,
   throw IoError(path,
                 "exists and holds something else; choose another name, or replace it with "
                 "--overwrite");
+}
+
+std::vector<std::string> files_written(const fs::path& output, const fs::path& labels) {
+  if (labels.empty() || labels == output) return {output.string()};
+  return {output.string(), labels.string()};
 }
 
 void print_labels_written(const fs::path& labels, const fs::path& output) {

@@ -23,8 +23,14 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json view_json(ViewIndex view);
 /// "2026-11-27T22:43:23Z" of seconds since 1970.
 [[nodiscard]] std::string time_text(std::int64_t seconds);
-/// The one JSON object of an answer, on standard output.
+/// One JSON object on standard output.
 void print_json(const Json& json);
+/// The JSON answer of a verb, on standard output: its own keys and in any case `results`, a list;
+/// `notes`, the sentences of the answer's own key and `notes` (Job::notes), each once; `written`,
+/// files and folders. An answer that has no `results` is the only one itself, and is in the list,
+/// too. Its own `written` counts more than the parameter.
+void print_answer(Json answer, const std::vector<std::string>& notes = {},
+                  const std::vector<std::string>& written = {});
 
 /// Whether a file that is there may be replaced.
 enum class Overwrite { No, Yes };
@@ -60,6 +66,10 @@ void check_labeling_output(const std::filesystem::path& path, const IntendedRun&
 /// forms that do not tell what they were made by.
 void write_output(const std::filesystem::path& path, Overwrite overwrite,
                   const std::function<void(const std::filesystem::path&)>& write);
+
+/// A light field and its file of labels, unless that is empty or the light field itself.
+[[nodiscard]] std::vector<std::string> files_written(const std::filesystem::path& output,
+                                                     const std::filesystem::path& labels);
 
 /// Prints the line of a file of labels that was written beside the light field `output`; nothing if
 /// it is empty or `output` itself.

@@ -24,6 +24,7 @@ struct ShownMap {
   std::string minus;  ///< For a difference: the result that is subtracted.
   std::optional<ViewIndex> view;  ///< The center, or the middle of those there are.
   int label = 1;                  ///< Whose probability.
+  double bad_threshold_px = kBadPixelThreshold_px;  ///< Of bad pixels.
   bool needs_light_field = false;
 };
 

@@ -11,7 +11,11 @@
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/write.h"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 
 namespace episcope::cli {
 namespace {
@@ -23,6 +27,7 @@ struct ConvertRequest {
   std::string form;  ///< Id of a writer, or kMap; empty = told by the output.
   std::optional<ViewSelection> views;
   Overwrite overwrite = Overwrite::No;
+  bool is_json = false;
   ParameterOptions map;
   JobOptions job;
   ReadOptions read;
@@ -63,6 +68,7 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
                 "Light field of a RESULT; by default the one named in its file");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace an existing light field, or a map with other values");
+  parser.flag("--json", request.is_json, "Print one JSON object instead of a line for each file");
   declare_map_options(parser, request.map);
   return parse_reading(parser, arguments, request.job, request.read);
 }
@@ -231,7 +237,8 @@ void check_output(const ConvertRequest& request, const Target& target) {
   if (target.writer && !is_folder) check_light_field_output(request.output, request.overwrite);
 }
 
-void convert_one(const ConvertRequest& request, Job& job, const Progress& progress) {
+/// Returns what was converted, for JSON.
+[[nodiscard]] Json convert_one(const ConvertRequest& request, Job& job, const Progress& progress) {
   const Target target = target_of(request);
   check_output(request, target);
   ConvertSubject subject = load_subject(request, target, progress.part(0, 0.5));
@@ -242,8 +249,14 @@ void convert_one(const ConvertRequest& request, Job& job, const Progress& progre
   progress.check();
   const std::filesystem::path labels = write(subject, request, target, job, progress.part(0.5, 1));
   job.finish();
-  std::cout << request.output << ": written\n";
-  print_labels_written(labels, request.output);
+  if (!request.is_json) {
+    std::cout << request.output << ": written\n";
+    print_labels_written(labels, request.output);
+  }
+  return Json::object({{"input", request.input},
+                       {"output", request.output},
+                       {"form", target.writer ? target.writer->id : kMap},
+                       {"written", files_written(request.output, labels)}});
 }
 
 /// Where a light field of a collection goes: a folder, or a file; files of the archive have a
@@ -268,6 +281,8 @@ void convert_collection(ConvertRequest request, Job& job) {
   const std::vector<SceneInput> scenes =
       scene_inputs({request.input}, request.read, Frames::One, job.progress().part(0, 0));
   Failures failures;
+  Json results = Json::array();
+  std::vector<std::string> written;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const double share = 1 / static_cast<double>(scenes.size());
     const double begin = static_cast<double>(i) * share;
@@ -275,16 +290,22 @@ void convert_collection(ConvertRequest request, Job& job) {
     one.input = scenes[i].input;
     try {
       one.output = place_in(request, scenes[i].name);
-      convert_one(one, job, job.progress().part(begin, begin + share).titled(scenes[i].name));
+      results.push_back(
+          convert_one(one, job, job.progress().part(begin, begin + share).titled(scenes[i].name)));
+      std::ranges::copy(results.back()["written"], std::back_inserter(written));
     } catch (const std::filesystem::filesystem_error& error) {
       throw IoError(request.output, "this folder cannot be made (" + error.code().message() +
                                         "); choose another one");
     } catch (const Error& error) {
       failures.add(error.what());
       job.note(error.what());
+      results.push_back(Json::object({{"input", one.input}, {"error", error.what()}}));
     }
   }
   job.finish();
+  if (request.is_json) {
+    print_answer(Json::object({{"results", std::move(results)}}), job.notes(), written);
+  }
   failures.require_none(scenes.size());
 }
 
@@ -303,7 +324,8 @@ void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   if (!parse(arguments, request)) return;
   Job job(std::move(stop), request.job);
   if (is_many(request, job.progress())) return convert_collection(request, job);
-  convert_one(request, job, job.progress());
+  Json answer = convert_one(request, job, job.progress());
+  if (request.is_json) print_answer(std::move(answer), job.notes());
 }
 
 }  // namespace episcope::cli

@@ -334,7 +334,7 @@ void estimate_one(const EstimateArguments& request, Runner& runner) {
   const Answer answer = runner.run(task, runner.job().progress());
   runner.job().finish();
   if (request.is_json) {
-    print_json(answer_json(answer));
+    print_answer(answer_json(answer), runner.job().notes());
   } else {
     print_line(answer);
   }
@@ -390,7 +390,15 @@ void estimate_many(const EstimateArguments& request, const std::vector<SceneInpu
   }
   runner.job().finish();
   if (request.is_submission) check_submitted(request, runner, failures);
-  if (request.is_json) print_json(Json::object({{"results", std::move(results)}}));
+  if (request.is_json) {
+    std::vector<std::string> written;
+    for (const Json& result : results) {
+      if (result.contains("written")) {
+        std::ranges::copy(result["written"], std::back_inserter(written));
+      }
+    }
+    print_answer(Json::object({{"results", std::move(results)}}), runner.job().notes(), written);
+  }
   failures.require_none(scenes.size());
 }
 

@@ -341,7 +341,7 @@ void describe_result(const std::string& file, bool is_json) {
     json["layers"] = estimate.layered.foreground.empty() ? 1 : 2;
     add_made_by(json, made, file);
     json["notes"] = estimate.notes;
-    return print_json(json);
+    return print_answer(std::move(json));
   }
   print_line("result", is_own ? "of " + estimate.method : "a map of another program");
   const std::string views = is_own ? views_text(maps.grid(), maps.first())
@@ -377,7 +377,7 @@ void describe_labels(const std::string& file, bool is_json) {
     }
     json["probabilities"] = labels.has_probabilities();
     add_made_by(json, made, file);
-    return print_json(json);
+    return print_answer(std::move(json));
   }
   print_line("labels", joined(labels.infos(), ", ", [](const LabelInfo& info) {
                return std::to_string(info.id) + " " + info.name;
@@ -419,7 +419,7 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
     return load_input(input, read, job.progress());
   }();
   if (is_json) {
-    print_json(scene_json(scene, input));
+    print_answer(scene_json(scene, input), scene.convention.warnings);
   } else {
     print_scene(scene);
   }

@@ -85,7 +85,7 @@ void run_methods(const VerbArguments& arguments, std::stop_token) {
   if (is_json) {
     Json list = Json::array();
     for (const Estimator* each : methods) list.push_back(method_json(*each));
-    return print_json(Json::object({{"methods", list}}));
+    return print_answer(Json::object({{"methods", list}, {"results", list}}));
   }
   if (names.empty()) return print_table(methods);
   for (const Estimator* each : methods) print_method(*each);

@@ -12,9 +12,11 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/formats/movie.h"
 #include "engine/io/models/segmentation_file.h"
+#include "engine/render/legend.h"
 #include "engine/render/shade.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <functional>
 #include <iostream>
@@ -130,7 +132,9 @@ struct ShowRequest {
   ParameterOptions maps;          ///< Of a result.
   int longest_px = 0;             ///< Of a picture; 0 = as large as what it shows.
   std::optional<double> opacity;  ///< Over the view; empty = the map by itself.
+  bool has_legend = false;        ///< Beside a picture.
   Overwrite overwrite = Overwrite::No;
+  bool is_json = false;
   JobOptions job;
   ReadOptions read;
 };
@@ -211,6 +215,11 @@ void complete(ShowRequest& request) {
   }
 }
 
+/// Whether colors stand for numbers that a scale can name.
+bool has_numbers(Quantity quantity) {
+  return render::info_of(quantity).has_scale() && quantity != Quantity::BadPixels;
+}
+
 /// Options that fit other pictures than the one that is asked for.
 std::vector<Arguments::Use> uses_of(const ShowRequest& request) {
   const bool is_epi = request.what.is_epi;
@@ -226,6 +235,8 @@ std::vector<Arguments::Use> uses_of(const ShowRequest& request) {
           {{"--layer"}, has_layers, what},
           {{"--range", "--colormap"}, is_map && render::info_of(quantity).has_scale(), what},
           {{"--over-view"}, is_map, what},
+          {{"--legend"}, is_map && !movie && has_numbers(quantity), movie ? "on a movie" : what},
+          {{"--threshold"}, quantity == Quantity::BadPixels, what + "; say --what bad_pixels"},
           {{"--fit"}, !movie, "on a movie, whose size is --width"},
           {{"--seconds", "--width"}, movie.has_value(), "on a picture"},
           {{"--path"}, movie == MovieKind::Parallax, "unless the movie is a parallax"},
@@ -255,9 +266,12 @@ bool parse(const VerbArguments& arguments, ShowRequest& request) {
                 "Values at the ends of the color map");
   parser.option("--colormap", request.shading.color_map, one_of(render::color_map_names()),
                 "Color map");
-  parser.option(
-      "--fit", request.longest_px, index_value("PIXELS"),
-      "Scale a larger picture down to this many pixels on its longer side (default 0: as it is)");
+  parser.flag("--legend", request.has_legend, "Draw the scale of the colors beside the picture");
+  parser.option("--threshold", request.map.bad_threshold_px, real_value("PX", 0, 1e3),
+                "Error above which --what bad_pixels calls a pixel bad, in px (default 0.07)");
+  parser.option("--fit", request.longest_px, index_value("PIXELS"),
+                "Scale a larger picture down to this many pixels on its longer side, without its "
+                "legend (default 0: as it is)");
   parser.option("--truth", request.map.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one named in its file");
   parser.option(
@@ -271,6 +285,7 @@ bool parse(const VerbArguments& arguments, ShowRequest& request) {
   parser.option("--over-view", request.opacity, real_value("OPACITY", 0, 1),
                 "Overlay the map on the view, with an opacity from 0 to 1");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace another picture");
+  parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_movie_options(parser, request.movie);
   declare_map_options(parser, request.maps);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
@@ -296,19 +311,48 @@ RgbaImage picture_of(const ShowRequest& request, const LoadedMap& loaded, const 
                  overlay_picture(*map, shading), *request.opacity);
 }
 
-/// What was written, for the user.
-std::string write_picture(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
+/// What was drawn: for people, and as keys of JSON.
+struct Drawn {
+  std::string text;
+  Json json;
+};
+
+/// What the colors of a map mean.
+void tell_colors(const ShowRequest& request, const LoadedMap& loaded, Drawn& drawn) {
+  const Quantity quantity = loaded.source.quantity;
+  if (request.what.is_epi || !render::info_of(quantity).has_scale()) return;
+  if (quantity == Quantity::BadPixels) {
+    drawn.text += fmt::format(", bad above {:g} px", request.map.bad_threshold_px);
+    drawn.json["threshold_px"] = request.map.bad_threshold_px;
+    return;
+  }
+  const Interval range = shading_of(quantity, loaded.disparity_range, request.shading).range;
+  const std::string unit = render::info_of(quantity).unit;
+  drawn.text += fmt::format(", colors from {:.4g} to {:.4g}{}", range.min, range.max,
+                            unit.empty() ? "" : " " + unit);
+  drawn.json["range"] = interval_json(range);
+  if (!unit.empty()) drawn.json["unit"] = unit;
+}
+
+Drawn write_picture(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
+  const MapSource& source = loaded.source;
   RgbaImage picture = request.what.is_epi
-                          ? epi_picture(request, *loaded.source.light_field, loaded.source.view)
-                          : picture_of(request, loaded, loaded.source);
+                          ? epi_picture(request, *source.light_field, source.view)
+                          : picture_of(request, loaded, source);
   if (request.longest_px > 0) picture = render::fitted(picture, request.longest_px);
+  if (request.has_legend) {
+    picture = render::with_legend(
+        picture, shading_of(source.quantity, loaded.disparity_range, request.shading),
+        render::info_of(source.quantity).unit);
+  }
   job.progress().check();
   write_output(request.output, request.overwrite,
                [&](const std::filesystem::path& path) { io::write_picture(path, picture.view()); });
-  return fmt::format("{}, {}×{} px", request.what.id, picture.width(), picture.height());
+  return {fmt::format("{}, {}×{} px", request.what.id, picture.width(), picture.height()),
+          Json::object({{"width", picture.width()}, {"height", picture.height()}})};
 }
 
-std::string write_movie_of(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
+Drawn write_movie_of(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
   const Movie movie = movie_of(request.movie, loaded, [&](const MapSource& source) {
     return picture_of(request, loaded, source);
   });
@@ -316,7 +360,9 @@ std::string write_movie_of(const ShowRequest& request, const LoadedMap& loaded, 
     write_movie(path, movie, request.movie.choice.width_px, job.progress());
   });
   const std::string what = request.movie.kind == MovieKind::Flip ? "flip" : request.what.id;
-  return fmt::format("{}, {} pictures in {:.1f} s", what, movie.count, movie.count / movie.rate);
+  const double seconds = movie.count / movie.rate;
+  return {fmt::format("{}, {} pictures in {:.1f} s", what, movie.count, seconds),
+          Json::object({{"pictures", movie.count}, {"seconds", seconds}})};
 }
 
 /// Pictures of a movie go into a folder, which may be there, empty.
@@ -339,10 +385,20 @@ void run_show(const VerbArguments& arguments, std::stop_token stop) {
   Job job(std::move(stop), request.job);
   const LoadedMap loaded = load_map(request.map, request.read, job);
   job.progress().check();
-  const std::string written = request.movie.kind ? write_movie_of(request, loaded, job)
-                                                 : write_picture(request, loaded, job);
+  Drawn drawn = request.movie.kind ? write_movie_of(request, loaded, job)
+                                   : write_picture(request, loaded, job);
+  tell_colors(request, loaded, drawn);
   job.finish();
-  std::cout << request.output << ": " << written << "\n";
+  if (!request.is_json) {
+    std::cout << request.output << ": " << drawn.text << "\n";
+    return;
+  }
+  Json json{{"input", request.map.subject},
+            {"what", request.what.id},
+            {"view", view_json(loaded.source.view)}};
+  json.update(drawn.json);
+  json["output"] = request.output;
+  print_answer(std::move(json), job.notes(), {request.output});
 }
 
 }  // namespace episcope::cli
