@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/replace_file.h"
 #include "engine/core/indices.h"
-#include "engine/core/parameter.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,40 +31,12 @@ void print_json(const Json& json);
 void print_answer(Json answer, const std::vector<std::string>& notes = {},
                   const std::vector<std::string>& written = {});
 
-/// Whether a file that is there may be replaced.
-enum class Overwrite { No, Yes };
-
 /// Refuses an output file that cannot be written, before hours are spent. Throws IoError.
 void check_output_file(const std::filesystem::path& path);
 
 /// Refuses an output that cannot be written or is not named like HDF5. Throws IoError, UsageError
 /// naming the verb.
 void check_hdf5_output(const std::string& verb, const std::filesystem::path& path);
-
-/// What a result or labels are to be made by.
-struct IntendedRun {
-  std::string method;       ///< Id of an estimator; empty for labels.
-  ParameterSet parameters;  ///< Those that are not listed have their default.
-  std::string input;        ///< As typed.
-  ParameterSet reading;     ///< Reading options that are set (io::given_options).
-};
-
-/// Refuses to replace anything but a result file, and one of another method, other parameters,
-/// another light field or another reading of it unless that is asked for. Parameters that the file
-/// does not know count as their default. Throws IoError.
-void check_result_output(const std::filesystem::path& path, const IntendedRun& run,
-                         Overwrite overwrite);
-
-/// Refuses to replace anything but a file of labels that `label` wrote, and one as above. Throws
-/// IoError.
-void check_labeling_output(const std::filesystem::path& path, const IntendedRun& run,
-                           Overwrite overwrite);
-
-/// Writes a file by `write`, to which it passes the path. Unless `overwrite` says otherwise, a file
-/// that is there stays: one of the same bytes as it is, one of others makes this throw IoError. For
-/// forms that do not tell what they were made by.
-void write_output(const std::filesystem::path& path, Overwrite overwrite,
-                  const std::function<void(const std::filesystem::path&)>& write);
 
 /// A light field and its file of labels, unless that is empty or the light field itself.
 [[nodiscard]] std::vector<std::string> files_written(const std::filesystem::path& output,

@@ -3,6 +3,7 @@
 #include "app/cli/input.h"
 #include "app/cli/job.h"
 #include "app/cli/output.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/command_line.h"
 #include "app/session/result_files.h"
@@ -28,6 +29,7 @@ struct ConvertRequest {
   std::optional<ViewSelection> views;
   Overwrite overwrite = Overwrite::No;
   bool is_json = false;
+  bool is_piped = false;  ///< To standard output.
   ParameterOptions map;
   JobOptions job;
   ReadOptions read;
@@ -57,8 +59,10 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
        "episcope-cli convert demo demo_folder/\n"
        "  episcope-cli convert demo views/ --to grid\n"
        "  episcope-cli convert demo.h5 demo.ply"});
-  parser.positional("INPUT", request.input, "A light field or a result");
-  parser.positional("OUT", request.output, "File or folder to write");
+  parser.positional("INPUT", request.input,
+                    "A light field or a result; - is a map on standard input");
+  parser.positional("OUT", request.output,
+                    "File or folder to write; - is standard output as .npy, pfm:- as .pfm");
   parser.option("--to", request.form, one_of(form_names()),
                 "Form of the light field, or map for its disparity alone; by default chosen by the "
                 "suffix of OUT");
@@ -249,7 +253,7 @@ void check_output(const ConvertRequest& request, const Target& target) {
   progress.check();
   const std::filesystem::path labels = write(subject, request, target, job, progress.part(0.5, 1));
   job.finish();
-  if (!request.is_json) {
+  if (!request.is_json && !request.is_piped) {
     std::cout << request.output << ": written\n";
     print_labels_written(labels, request.output);
   }
@@ -322,9 +326,14 @@ bool is_many(const ConvertRequest& request, const Progress& progress) {
 void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   ConvertRequest request;
   if (!parse(arguments, request)) return;
+  const InputStream from(request.input, stop);
+  const OutputStream to(request.output, ".npy");
+  to.require_alone(request.is_json);
+  request.is_piped = to.is_meant();
   Job job(std::move(stop), request.job);
   if (is_many(request, job.progress())) return convert_collection(request, job);
   Json answer = convert_one(request, job, job.progress());
+  if (to.is_meant()) return to.send();
   if (request.is_json) print_answer(std::move(answer), job.notes());
 }
 

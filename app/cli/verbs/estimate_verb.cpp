@@ -4,6 +4,7 @@
 #include "app/cli/job.h"
 #include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/result_files.h"
 #include "app/session/run_estimator.h"
@@ -76,8 +77,8 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
   parser.positional("METHOD", request.method, "Id of the estimator, in any case");
   parser.positionals("INPUT", request.inputs, "The light field, or several");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5|DIR"),
-                         "Result file to write, or a map: .npy, .npz, .mat, .pfm, .tiff, .csv; for "
-                         "several light fields, a folder");
+                         "Result file to write, or a map: .npy, .npz, .mat, .pfm, .tiff, .csv; - is "
+                         "standard output as .npy, pfm:- as .pfm; for several light fields, a folder");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace a result of another method, other parameters or another light field");
   parser.flag("--frames", request.frames, Frames::All,
@@ -328,11 +329,12 @@ class Runner {
   std::vector<io::SubmittedScene> submitted_;
 };
 
-void estimate_one(const EstimateArguments& request, Runner& runner) {
+void estimate_one(const EstimateArguments& request, Runner& runner, const OutputStream& to) {
   const Task task{request.inputs.front(), request.output};
   runner.check(task);
   const Answer answer = runner.run(task, runner.job().progress());
   runner.job().finish();
+  if (to.is_meant()) return to.send();
   if (request.is_json) {
     print_answer(answer_json(answer), runner.job().notes());
   } else {
@@ -420,8 +422,10 @@ bool wants_many(const EstimateArguments& request, const Progress& progress) {
 void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   EstimateArguments request;
   if (!parse(arguments, request)) return;
+  const OutputStream to(request.output, ".npy");
+  to.require_alone(request.is_json);
   Runner runner(request, std::move(stop));
-  if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner);
+  if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner, to);
   const std::vector<SceneInput> scenes = scene_inputs_and_failed(
       request.inputs, request.read, request.frames, runner.job().progress().part(0, 0));
   estimate_many(request, scenes, runner);

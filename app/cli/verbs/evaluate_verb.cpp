@@ -3,6 +3,7 @@
 #include "app/cli/input.h"
 #include "app/cli/judged_files.h"
 #include "app/cli/output.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/known_files.h"
 #include "app/session/picture.h"
@@ -72,7 +73,7 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   parser.positionals(
       "RESULT", request.files,
       std::string("Result files, maps of other programs (") + io::kMapForms +
-          "), or folders of them; also submissions of 2016");
+          "), or folders of them; also submissions of 2016; - is a map on standard input");
   parser.option("--truth", request.truth, text_value("INPUT"),
                 "The light field with its ground truth, or a folder of such; by default the one that "
                 "a result names");
@@ -403,6 +404,9 @@ void check_error_map(const std::filesystem::path& map, const JudgedFile& file) {
 void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
   EvaluateRequest request;
   if (!parse(arguments, request)) return;
+  std::string none;
+  const auto piped = std::ranges::find(request.files, "-");
+  const InputStream input(piped == request.files.end() ? none : *piped, stop);
   Job job(std::move(stop), request.job);
   const std::vector<JudgedFile> files =
       judged_files(request.files, request.truth, request.read, job);
@@ -413,6 +417,7 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
   Judge judge(request, job);
   for (std::size_t i = 0; i < files.size(); ++i) {
     rows.push_back(judge.judge_file(files[i], maps[i]));
+    rows.back().file = input.shown(rows.back().file);
     job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / files.size());
   }
   judge.require_known_keys();

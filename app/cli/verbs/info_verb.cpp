@@ -3,6 +3,7 @@
 #include "app/cli/file_info.h"
 #include "app/cli/input.h"
 #include "app/cli/output.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/parameter.h"
@@ -251,10 +252,11 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
        "  episcope-cli info demo.h5"});
   parser.positional("INPUT", input,
                     "The light field, a result, labels that 'label' wrote, a project (.episcope), a "
-                    "camera (.yml) or a pose (.json)");
+                    "camera (.yml) or a pose (.json); - is a map on standard input");
   parser.flag("--json", is_json, "Print one JSON object instead of lines");
   if (!parse_reading(parser, arguments, job_options, read)) return;
 
+  const InputStream piped(input, stop);
   const bool is_plain = read.options.values().empty();
   if (auto file = describe_file(input, is_plain ? Reads::AsItIs : Reads::AsViews)) {
     if (is_json) return print_answer(std::move(file->json));

@@ -2,6 +2,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/output.h"
 #include "app/cli/shown_map.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/movie.h"
 #include "app/session/picture.h"
@@ -21,6 +22,7 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -122,6 +124,8 @@ enum class Layer { Foreground, Background };
 
 struct ShowRequest {
   std::string output;
+  std::unique_ptr<InputStream> from;  ///< Standard input, if the subject is that.
+  std::unique_ptr<OutputStream> to;   ///< Standard output likewise.
   What what;
   Layer layer = Layer::Foreground;
   ShownMap map;
@@ -195,7 +199,10 @@ bool is_movie(const ShowRequest& request) {
 }
 
 /// What follows from the options.
-void complete(ShowRequest& request) {
+void complete(ShowRequest& request, const std::stop_token& stop) {
+  request.from = std::make_unique<InputStream>(request.map.subject, stop);
+  request.to = std::make_unique<OutputStream>(request.output, ".png");
+  request.to->require_alone(request.is_json);
   while (request.output.size() > 1 && request.output.ends_with('/')) request.output.pop_back();
   if (request.what.id.empty() && (request.row || request.column)) request.what = epi();
   if (request.what.movie) request.movie.kind = request.what.movie;
@@ -243,15 +250,16 @@ std::vector<Arguments::Use> uses_of(const ShowRequest& request) {
           {{"--focus-range"}, movie == MovieKind::Refocus, "unless the movie is a refocus"}};
 }
 
-bool parse(const VerbArguments& arguments, ShowRequest& request) {
+bool parse(const VerbArguments& arguments, const std::stop_token& stop, ShowRequest& request) {
   Arguments parser("show", {"Writes a picture of a light field, a result or labels, as the window "
                             "shows it.",
                             "episcope-cli show demo.h5 -o error.png --what error"});
   parser.positional(
       "INPUT|RESULT", request.map.subject,
-      "A light field, a result, labels, or a project, whose current light field is shown");
+      "A light field, a result, labels, or a project, whose current light field is shown; - is a "
+      "map on standard input");
   parser.required_option("-o,--output", request.output, text_value("OUT.png"),
-                         "Picture to write; a movie as .mp4, .webm or .gif");
+                         "Picture to write; a movie as .mp4, .webm or .gif; - is standard output");
   parser.option("--what", request.what, what_value(),
                 "What to show; by default the view of an INPUT, the disparity of a RESULT, the "
                 "labels of a file of labels");
@@ -289,7 +297,7 @@ bool parse(const VerbArguments& arguments, ShowRequest& request) {
   declare_movie_options(parser, request.movie);
   declare_map_options(parser, request.maps);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
-  complete(request);
+  complete(request, stop);
   parser.check_uses(uses_of(request));
   return true;
 }
@@ -376,7 +384,7 @@ void check_output(const ShowRequest& request) {
 
 void run_show(const VerbArguments& arguments, std::stop_token stop) {
   ShowRequest request;
-  if (!parse(arguments, request)) return;
+  if (!parse(arguments, stop, request)) return;
   check_output(request);
   for (const std::string& input : {request.map.subject, request.map.truth, request.map.minus}) {
     if (!input.empty()) protect_input(request.output, input);
@@ -389,6 +397,7 @@ void run_show(const VerbArguments& arguments, std::stop_token stop) {
                                    : write_picture(request, loaded, job);
   tell_colors(request, loaded, drawn);
   job.finish();
+  if (request.to->is_meant()) return request.to->send();
   if (!request.is_json) {
     std::cout << request.output << ": " << drawn.text << "\n";
     return;
