@@ -133,6 +133,8 @@ class Arguments {
   /// after `parse`.
   void check_uses(const std::vector<Use>& uses) const;
 
+  /// Heading of options that help does not list but names `help reading` for.
+  static constexpr const char* kReading = "Reading";
   /// Options declared from here on stand under this heading in the help.
   void heading(const std::string& text);
 

@@ -20,8 +20,19 @@
 namespace episcope::cli {
 
 void declare_read_options(Arguments& arguments, ReadOptions& options) {
-  arguments.heading("Reading");
+  arguments.heading(Arguments::kReading);
   options.options.declare(arguments, io::open_schema().descriptions());
+}
+
+void print_reading_help() {
+  Arguments parser("VERB",
+                   {"Options of every verb with an INPUT: how a light field is read, where its files "
+                    "do not tell or are to be read otherwise.",
+                    "episcope-cli info pictures/ --pattern 'view_{row}_{col}.png'\n"
+                    "  episcope-cli estimate epi_l lf.mat -o r.h5 --axes vuyxc --flip u"});
+  ReadOptions options;
+  options.options.declare(parser, io::open_schema().descriptions());
+  (void)parser.parse({"--help"});
 }
 
 bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments, JobOptions& job,

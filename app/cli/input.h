@@ -22,6 +22,9 @@ struct ReadOptions {
 
 void declare_read_options(Arguments& arguments, ReadOptions& options);
 
+/// Prints the options of reading, which the help of verbs leaves out.
+void print_reading_help();
+
 /// Declares the options that every verb with an INPUT has, after its own, and parses. Returns and
 /// throws as `Arguments::parse`.
 [[nodiscard]] bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,

@@ -73,7 +73,7 @@ bool is_same_value(const ParameterValue& a, const ParameterValue& b) {
   return to_text(a) == to_text(b);
 }
 
-/// "--inner_scale 0.7, --range auto": values of `stored` that `wanted` does not have.
+/// "--inner-scale 0.7, --range auto": values of `stored` that `wanted` does not have.
 std::vector<std::string> other_values(const std::vector<ParameterDescription>& descriptions,
                                       const ParameterSet& stored, const ParameterSet& wanted) {
   const auto defaults = described_under(descriptions, wanted);
@@ -82,7 +82,7 @@ std::vector<std::string> other_values(const std::vector<ParameterDescription>& d
     const ParameterValue* before = find_value(stored, each.key);
     const ParameterValue* now = find_value(wanted, each.key);
     if (!before || is_same_value(*before, now ? *now : each.default_value)) continue;
-    others.push_back("--" + each.key + " " + to_text(*before));
+    others.push_back("--" + option_name(each.key) + " " + to_text(*before));
   }
   return others;
 }

@@ -35,7 +35,7 @@ void print_method(const Estimator& method) {
     std::cout << "  weights: " << weights_text(method.info.weights) << '\n';
   }
   for (const auto& parameter : method.parameters) {
-    std::cout << "    --" << parameter.key << "  " << parameter.help << " ("
+    std::cout << "    --" << option_name(parameter.key) << "  " << parameter.help << " ("
               << domain_text(parameter) << "; default " << to_text(parameter.default_value)
               << ")\n";
   }

@@ -60,7 +60,7 @@ function(expect_kept file)
 endfunction()
 file(SHA256 "${WORK}/a/r.h5" before_a/r.h5)
 refused("a/r.h5: exists and holds a result of epi_l; .*--overwrite" estimate epi_s a -o a/r.h5)
-refused("a/r.h5: exists and holds a result with --inner_scale .*--overwrite" estimate epi_l a
+refused("a/r.h5: exists and holds a result with --inner-scale .*--overwrite" estimate epi_l a
         -o a/r.h5 --inner_scale 0.9)
 refused("a/r.h5: exists and holds a result of another light field, a; .*--overwrite"
         estimate epi_l b -o a/r.h5)
