@@ -83,7 +83,7 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   parser.option("--metrics", request.metrics, words_value("KEY,..."),
                 "Metrics to tell, in this order, such as mse_100,density; by default all");
   parser.option("--protocol", request.protocol, choice_of<Protocol>(),
-                "Metrics of the 2013 paper or of the 2016 benchmark");
+                "Metrics of the 2013 paper or of the 2016 benchmark (default vmv2013)");
   parser.option("--invalid", request.invalid, choice_of<InvalidEstimates>(),
                 "Missing values (NaN): bad counts them as the farthest true disparity and as bad "
                 "pixels; compatible as good pixels that means leave out, as the 2016 tool does "

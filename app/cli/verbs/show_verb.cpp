@@ -271,9 +271,9 @@ bool parse(const VerbArguments& arguments, const std::stop_token& stop, ShowRequ
                 "Image column of a vertical EPI (then --what is epi)");
   parser.exclude_each_other({"--row", "--column"});
   parser.option("--range", request.shading.range, interval_value(),
-                "Values at the ends of the color map");
+                "Values at the ends of the color map; by default those of what is shown");
   parser.option("--colormap", request.shading.color_map, one_of(render::color_map_names()),
-                "Color map");
+                "Color map; by default that of what is shown");
   parser.flag("--legend", request.has_legend, "Draw the scale of the colors beside the picture");
   parser.option("--threshold", request.map.bad_threshold_px, real_value("PX", 0, 1e3),
                 "Error above which --what bad_pixels calls a pixel bad, in px (default 0.07)");
@@ -285,7 +285,7 @@ bool parse(const VerbArguments& arguments, const std::stop_token& stop, ShowRequ
   parser.option(
       "--layer", request.layer,
       choice_of<Layer>({{Layer::Foreground, "foreground"}, {Layer::Background, "background"}}),
-      "Layer to show where there are two");
+      "Layer to show where there are two (default foreground)");
   parser.option("--label", request.map.label, integer_value("N", 1, kMost),
                 "Label whose probability is shown (default 1)");
   parser.option("--minus", request.map.minus, text_value("RESULT"),
