@@ -46,7 +46,7 @@ class HelpFormatter : public CLI::Formatter {
     const std::string name = make_option_name(option, is_positional) + make_option_opts(option);
     const bool must_be_said = option->get_required() && !is_positional;
     return help_entry(name, make_option_desc(option) + (must_be_said ? " (required)" : ""),
-                 static_cast<int>(get_column_width()), help_columns());
+                      static_cast<int>(get_column_width()), help_columns());
   }
 };
 

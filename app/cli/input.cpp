@@ -8,7 +8,6 @@
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
 #include "engine/io/formats/sequence_reader.h"
-#include "engine/io/models/map_reading.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/result_file.h"
 
@@ -16,12 +15,24 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace episcope::cli {
 
 void declare_read_options(Arguments& arguments, ReadOptions& options) {
   arguments.heading(Arguments::kReading);
   options.options.declare(arguments, io::open_schema().descriptions());
+}
+
+void check_read_options(const ReadOptions& options) {
+  const io::OpenOptions open = io::open_schema().parse(options.options.values());
+  for (const auto& [name, value] : {std::pair{"--grid", &open.grid}, std::pair{"--crop", &open.crop}}) {
+    try {
+      if (!value->empty() && *value != "all") (void)io::parse_grid(*value);
+    } catch (const InvalidInput& error) {
+      throw UsageError(std::string(name) + ": " + error.what());
+    }
+  }
 }
 
 void print_reading_help() {
@@ -39,13 +50,21 @@ bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
                    ReadOptions& read) {
   declare_job_options(parser, job);
   declare_read_options(parser, read);
-  return parser.parse(arguments);
+  if (!parser.parse(arguments)) return false;
+  check_read_options(read);
+  return true;
 }
 
 void declare_map_options(Arguments& arguments, ParameterOptions& options) {
   arguments.heading("Maps of other programs");
   options.declare(arguments, io::map_schema().descriptions());
   arguments.heading("Options");
+}
+
+io::MapReading map_reading(const ParameterOptions& options) {
+  const io::MapReading reading = io::map_schema().parse(options.values());
+  if (reading.scale != 0) return reading;
+  throw UsageError("--map-scale is 0, which makes every value 0; give what one stored unit is in px");
 }
 
 void require_no_map_options(const ParameterOptions& options, const std::string& input) {

@@ -271,7 +271,7 @@ BenchmarkOptions benchmark_options(const BenchmarkRequest& request) {
     method.parameters = with_defaults(std::move(method.parameters), request.profile.values());
   }
   options.submissions.assign(request.submissions.begin(), request.submissions.end());
-  options.map_reading = io::map_schema().parse(request.map.values());
+  options.map_reading = map_reading(request.map);
   options.folder = request.output;
   options.views = request.job.run_options().views;
   options.device = request.job.run_options().device;

@@ -134,7 +134,7 @@ struct ConvertSubject {
 ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
                             const Progress& progress) {
   ConvertSubject subject;
-  const io::MapReading reading = io::map_schema().parse(request.map.values());
+  const io::MapReading reading = map_reading(request.map);
   if (request.truth.empty() && !names_result(request.input)) {
     require_no_map_options(request.map, request.input);
     subject.scene = load_input(request.input, request.read, progress);

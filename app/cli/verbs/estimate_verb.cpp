@@ -100,7 +100,9 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
     parser.heading("Parameters of " + estimator->info.id);
     request.parameters.declare(parser, estimator->parameters);
   }
-  return parser.parse(arguments);
+  if (!parser.parse(arguments)) return false;
+  check_read_options(request.read);
+  return true;
 }
 
 bool parse(const VerbArguments& arguments, EstimateArguments& request) {

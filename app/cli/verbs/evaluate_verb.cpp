@@ -300,7 +300,7 @@ class Judge {
   Judge(const EvaluateRequest& request, Job& job)
       : request_(request),
         options_{request.protocol, request.invalid, {}},
-        reading_(io::map_schema().parse(request.map.values())),
+        reading_(map_reading(request.map)),
         job_(job),
         truth_(request, job.progress().part(0, 0.8)) {}
 

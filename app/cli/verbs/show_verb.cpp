@@ -213,7 +213,7 @@ void complete(ShowRequest& request, const std::stop_token& stop) {
   if (request.map.kind != ShownKind::Result) {
     require_no_map_options(request.maps, request.map.subject);
   }
-  request.map.reading = io::map_schema().parse(request.maps.values());
+  request.map.reading = map_reading(request.maps);
   if (request.movie.kind == MovieKind::Flip) request.map.quantity = Quantity::Difference;
   if (request.what.id.empty()) {
     const bool is_of_labels = request.map.kind == ShownKind::Labels;

@@ -51,6 +51,10 @@ wrong("no kind 'thinn'; did you mean 'thin'" synthesize "random?kind=thinn" -o x
 wrong("no format '.xyz'" convert lf.h5 x.xyz)
 wrong("exclude each other" evaluate r.h5 --truth lf.h5 --json --csv)
 
+wrong("--grid: '3'" info lf.h5 --grid 3)
+wrong("--crop: '3y3'" estimate epi_l lf.h5 -o x.h5 --crop 3y3)
+wrong("--map-scale is 0" show r.h5 -o x.png --map-scale 0)
+
 # Options that do not apply.
 wrong("show: --row has no effect on --what view" show lf.h5 -o x.png --what view --row 3)
 wrong("show: --label has no effect on --what view" show lf.h5 -o x.png --label 2)
