@@ -45,7 +45,7 @@ json_is("${out}" bars scenes 0 name)
 expect("convert" 0 ARGS convert r.h5 r.pfm --json)
 one_shape("${out}" 1 1)
 json_is("${out}" map form)
-expect("convert two" 0 ARGS convert scenes copies --to archive --json)
+expect("convert two" 0 ARGS convert scenes copies --to archive --json -q)
 one_shape("${out}" 2 2)
 
 # The truth of a result is that of its light field, unless that has changed.
@@ -93,28 +93,28 @@ expect("another one in its place" 0 ARGS synthesize edge -o scenes/edge/lf.h5 --
 expect("changed" 1 ERR "does not have the samples that it was estimated from" ARGS evaluate r.h5)
 
 # An error map is a picture like others.
-expect("error map" 0 ARGS evaluate r.pfm --truth scenes/edge --error-map e.png --json)
+expect("error map" 0 ARGS evaluate r.pfm --truth scenes/edge --error-map e.png --json -q)
 one_shape("${out}" 1 1)
-expect("the same again" 0 ARGS evaluate r.pfm --truth scenes/edge --error-map e.png)
+expect("the same again" 0 ARGS evaluate r.pfm --truth scenes/edge --error-map e.png -q)
 expect("another one" 1 ERR "e.png: exists and holds something else; .*--overwrite"
-       ARGS evaluate r.pfm --truth scenes/bars --error-map e.png)
+       ARGS evaluate r.pfm --truth scenes/bars --error-map e.png -q)
 expect("another one when asked" 0
-       ARGS evaluate r.pfm --truth scenes/bars --error-map e.png --overwrite)
+       ARGS evaluate r.pfm --truth scenes/bars --error-map e.png --overwrite -q)
 
 # What show draws.
 expect("show" 0 OUT "^d.png: disparity, 48×48 px, colors from -?[0-9.]+ to -?[0-9.]+ px\n$"
-       ARGS show r.h5 -o d.png --range -1,1.5)
-expect("show as JSON" 0 ARGS show r.h5 -o d.png --range -1,1.5 --json)
+       ARGS show r.h5 -o d.png --range -1,1.5 -q)
+expect("show as JSON" 0 ARGS show r.h5 -o d.png --range -1,1.5 --json -q)
 one_shape("${out}" 1 1)
 json_is("${out}" -1.0 range 0)
 json_is("${out}" px unit)
 json_is("${out}" 48 width)
-expect("with a legend" 0 ARGS show r.h5 -o legend.png --legend --json)
+expect("with a legend" 0 ARGS show r.h5 -o legend.png --legend --json -q)
 json_near("${out}" 70 200 width)
 json_near("${out}" 100 100 height)
 expect("a legend of nothing" 2 ERR "--legend has no effect on --what view" ARGS show scenes/edge -o v.png
        --legend)
-set(bad show r.pfm --truth scenes/bars --what bad_pixels)
+set(bad show r.pfm --truth scenes/bars --what bad_pixels -q)
 expect("bad pixels" 0 OUT "bad above 0.07 px" ARGS ${bad} -o bad.png)
 expect("other bad pixels" 0 OUT "bad above 0.5 px" ARGS ${bad} -o bad5.png --threshold 0.5)
 file(SHA256 "${WORK}/bad.png" first)
@@ -132,7 +132,7 @@ function(piped name command expected)
     fail_case("${name}: ${code}\n${out}\n${err}")
   endif()
 endfunction()
-expect("the map itself" 0 ARGS evaluate r.pfm --truth scenes/bars --csv)
+expect("the map itself" 0 ARGS evaluate r.pfm --truth scenes/bars --csv -q)
 string(REGEX REPLACE ".*\nr.pfm,r,([^,]*),.*" "\\1" number "${out}")
 foreach(form - pfm:- npz:- mat:- csv:- tiff:-)
   piped("through ${form}" "'${CLI}' convert r.pfm ${form} --to map | '${CLI}' evaluate - --truth scenes/bars --csv"
