@@ -195,7 +195,8 @@ struct Arguments::State {
 
   /// Whether there are options that only `help reading` lists.
   [[nodiscard]] bool has_reading() const {
-    return std::ranges::any_of(options, [](const Json& each) { return each["heading"] == kReading; });
+    return std::ranges::any_of(options,
+                               [](const Json& each) { return each["heading"] == kReading; });
   }
 
   [[nodiscard]] std::string help() {

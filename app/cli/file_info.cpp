@@ -122,17 +122,16 @@ FileInfo describe_result(const std::string& file) {
 
   const std::string views = is_own ? views_text(maps.grid(), maps.first())
                                    : fmt::format("{}×{} views", maps.grid().v, maps.grid().u);
-  info.lines = {
-      {"result", is_own ? "of " + estimate.method : "a map of another program"},
-      {"shape", fmt::format("{} of {}×{} px{}{}", views, maps.width(), maps.height(),
-                            estimate.confidence.empty() ? "" : ", with confidence",
-                            estimate.layered.foreground.empty() ? "" : ", two layers")},
-      {"disparity", fmt::format("{}, {:.4g} % of the pixels", range_text(summary.range),
-                                summary.valid_percent)}};
+  info.lines = {{"result", is_own ? "of " + estimate.method : "a map of another program"},
+                {"shape", fmt::format("{} of {}×{} px{}{}", views, maps.width(), maps.height(),
+                                      estimate.confidence.empty() ? "" : ", with confidence",
+                                      estimate.layered.foreground.empty() ? "" : ", two layers")},
+                {"disparity", fmt::format("{}, {:.4g} % of the pixels", range_text(summary.range),
+                                          summary.valid_percent)}};
   if (has_range) info.lines.emplace_back("searched", range_text(estimate.range));
-  add_made_by({estimate.parameters, estimate.seconds, estimate.version, estimate.source,
-               estimate.reading},
-              file, info);
+  add_made_by(
+      {estimate.parameters, estimate.seconds, estimate.version, estimate.source, estimate.reading},
+      file, info);
   json["notes"] = estimate.notes;
   for (const std::string& note : estimate.notes) info.lines.emplace_back("note", note);
   return info;
@@ -178,17 +177,17 @@ void add_project_scene(const ProjectScene& scene, bool is_shown, FileInfo& info)
     return is_there(input) ? "" : ", which is not there";
   };
   const bool has_strokes = !scene.strokes.empty();
-  info.lines.emplace_back(is_shown ? "shown" : "scene",
-                          fmt::format("{}, {}{}{}{}", scene.name, scene.input,
-                                      reading_options_text(scene.reading), gone(scene.input),
-                                      has_strokes ? ", with strokes" : ""));
+  info.lines.emplace_back(
+      is_shown ? "shown" : "scene",
+      fmt::format("{}, {}{}{}{}", scene.name, scene.input, reading_options_text(scene.reading),
+                  gone(scene.input), has_strokes ? ", with strokes" : ""));
   Json results = Json::array();
   for (const ProjectResult& result : scene.results) {
     const std::string file = result.file.string();
     results.push_back(
         Json::object({{"name", result.name}, {"file", file}, {"exists", is_there(file)}}));
-    info.lines.emplace_back(
-        "  result", result.name + ", " + result.file.filename().string() + gone(file));
+    info.lines.emplace_back("  result",
+                            result.name + ", " + result.file.filename().string() + gone(file));
   }
   info.json["scenes"].push_back(Json::object({{"name", scene.name},
                                               {"source", scene.input},
@@ -223,23 +222,22 @@ FileInfo describe_camera(const std::string& file) {
   json["distortion"] = std::vector<double>(camera.distortion.begin(), camera.distortion.end());
   json["rms"] = camera.rms;
   json["date"] = time_text(written_at(file));
-  info.lines = {
-      {"camera", fmt::format("photographs of {}×{} px", camera.width, camera.height)},
-      {"focal", fmt::format("length {:.2f} × {:.2f} px", camera.focal_x, camera.focal_y)},
-      {"center", fmt::format("({:.2f}, {:.2f}) px", camera.center_x, camera.center_y)},
-      {"distortion",
-       joined(camera.distortion, ", ", [](double value) { return fmt::format("{:.4g}", value); }) +
-           " (k1, k2, p1, p2, k3)"},
-      {"error", fmt::format("{:.3f} px", camera.rms)},
-      {"date", time_text(written_at(file))}};
+  info.lines = {{"camera", fmt::format("photographs of {}×{} px", camera.width, camera.height)},
+                {"focal", fmt::format("length {:.2f} × {:.2f} px", camera.focal_x, camera.focal_y)},
+                {"center", fmt::format("({:.2f}, {:.2f}) px", camera.center_x, camera.center_y)},
+                {"distortion", joined(camera.distortion, ", ",
+                                      [](double value) { return fmt::format("{:.4g}", value); }) +
+                                   " (k1, k2, p1, p2, k3)"},
+                {"error", fmt::format("{:.3f} px", camera.rms)},
+                {"date", time_text(written_at(file))}};
   return info;
 }
 
 FileInfo describe_pose(const std::string& file) {
   const capture::PoseStory story = capture::read_pose(file);
   const capture::SolvedPose& solved = story.solved;
-  const auto outliers = std::ranges::count_if(
-      solved.pairs, [](const auto& pair) { return pair.is_outlier; });
+  const auto outliers =
+      std::ranges::count_if(solved.pairs, [](const auto& pair) { return pair.is_outlier; });
   std::error_code ignored;
   const bool has_mesh = fs::exists(story.mesh, ignored);
   FileInfo info{{}, {{"input", file}, {"kind", "pose"}}};

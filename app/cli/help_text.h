@@ -18,6 +18,6 @@ namespace episcope::cli {
 /// An entry of a list: `name` two in, and `text` from column `indent` on, on the next line if the
 /// name is too long.
 [[nodiscard]] std::string help_entry(const std::string& name, const std::string& text, int indent,
-                                int columns);
+                                     int columns);
 
 }  // namespace episcope::cli

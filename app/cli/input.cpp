@@ -26,7 +26,8 @@ void declare_read_options(Arguments& arguments, ReadOptions& options) {
 
 void check_read_options(const ReadOptions& options) {
   const io::OpenOptions open = io::open_schema().parse(options.options.values());
-  for (const auto& [name, value] : {std::pair{"--grid", &open.grid}, std::pair{"--crop", &open.crop}}) {
+  for (const auto& [name, value] :
+       {std::pair{"--grid", &open.grid}, std::pair{"--crop", &open.crop}}) {
     try {
       if (!value->empty() && *value != "all") (void)io::parse_grid(*value);
     } catch (const InvalidInput& error) {
@@ -36,11 +37,11 @@ void check_read_options(const ReadOptions& options) {
 }
 
 void print_reading_help() {
-  Arguments parser("VERB",
-                   {"Options of every verb with an INPUT: how a light field is read, where its files "
-                    "do not tell or are to be read otherwise.",
-                    "episcope-cli info pictures/ --pattern 'view_{row}_{col}.png'\n"
-                    "  episcope-cli estimate epi_l lf.mat -o r.h5 --axes vuyxc --flip u"});
+  Arguments parser(
+      "VERB", {"Options of every verb with an INPUT: how a light field is read, where its files "
+               "do not tell or are to be read otherwise.",
+               "episcope-cli info pictures/ --pattern 'view_{row}_{col}.png'\n"
+               "  episcope-cli estimate epi_l lf.mat -o r.h5 --axes vuyxc --flip u"});
   ReadOptions options;
   options.options.declare(parser, io::open_schema().descriptions());
   (void)parser.parse({"--help"});
@@ -64,7 +65,8 @@ void declare_map_options(Arguments& arguments, ParameterOptions& options) {
 io::MapReading map_reading(const ParameterOptions& options) {
   const io::MapReading reading = io::map_schema().parse(options.values());
   if (reading.scale != 0) return reading;
-  throw UsageError("--map-scale is 0, which makes every value 0; give what one stored unit is in px");
+  throw UsageError(
+      "--map-scale is 0, which makes every value 0; give what one stored unit is in px");
 }
 
 void require_no_map_options(const ParameterOptions& options, const std::string& input) {

@@ -79,7 +79,8 @@ JudgedFile by_own_source(const std::string& result) {
   }
   const std::string input = existing_source(source, result);
   if (!input.empty()) return {result, input, true};
-  throw IoError(result, "its light field, " + source + ", is not there; name it with --truth INPUT");
+  throw IoError(result,
+                "its light field, " + source + ", is not there; name it with --truth INPUT");
 }
 
 /// Whether two inputs are one light field; its folder stands for an lf.h5.
@@ -154,8 +155,9 @@ std::vector<JudgedFile> judged_files(const std::vector<std::string>& results,
   if (is_collection(truth, options, progress)) {
     judged = matched(files, scene_inputs({truth}, options, Frames::One, progress), job);
     if (judged.empty()) {
-      throw IoError(truth, "no light field in this folder has the name of a result; name one that "
-                           "has");
+      throw IoError(truth,
+                    "no light field in this folder has the name of a result; name one that "
+                    "has");
     }
     return judged;
   }

@@ -38,9 +38,8 @@ std::string read_to_end(const std::stop_token& stop) {
 
 const char* suffix_by_begin(std::string_view bytes) {
   constexpr std::pair<std::string_view, const char*> kBegins[] = {
-      {"\x93NUMPY", ".npy"}, {"PK\x03\x04", ".npz"}, {"Pf", ".pfm"},
-      {"PF", ".pfm"},        {"\x89HDF", ".h5"},     {"MATLAB", ".mat"},
-      {"II*", ".tiff"},      {"MM\0*", ".tiff"}};
+      {"\x93NUMPY", ".npy"}, {"PK\x03\x04", ".npz"}, {"Pf", ".pfm"},   {"PF", ".pfm"},
+      {"\x89HDF", ".h5"},    {"MATLAB", ".mat"},     {"II*", ".tiff"}, {"MM\0*", ".tiff"}};
   for (const auto& [begin, suffix] : kBegins) {
     if (bytes.starts_with(begin)) return suffix;
   }

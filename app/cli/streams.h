@@ -25,9 +25,9 @@ class StreamFolder {
 /// Standard input as a file, for what reads files.
 class InputStream {
  public:
-  /// If `name` is "-", reads standard input to its end, and `name` becomes the path of a file of the
-  /// same bytes, "stdin" with the suffix that their beginning tells: .npy, .npz, .pfm, .h5, .mat,
-  /// .tiff, else .csv. Throws IoError; Cancelled once `stop` is requested.
+  /// If `name` is "-", reads standard input to its end, and `name` becomes the path of a file of
+  /// the same bytes, "stdin" with the suffix that their beginning tells: .npy, .npz, .pfm, .h5,
+  /// .mat, .tiff, else .csv. Throws IoError; Cancelled once `stop` is requested.
   InputStream(std::string& name, const std::stop_token& stop);
 
   /// "-" for that file, another path as it is.

@@ -95,10 +95,9 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path, con
   }
   run_job(py::none(), 0, [&](const Progress& job) {
     if (*form == MapForm::Result) {
-      check_result_output(path,
-                          {estimate.method, estimate.parameters, found.of.input,
-                           estimate.reading.options},
-                          overwrite, kByArgument);
+      check_result_output(
+          path, {estimate.method, estimate.parameters, found.of.input, estimate.reading.options},
+          overwrite, kByArgument);
       return save_result(path, estimate, found.of.input, job);
     }
     const auto write = [&](const std::filesystem::path& file) {

@@ -148,11 +148,11 @@ std::string difference_of(const StoredRun& stored, const fs::path& path, const I
   return {};
 }
 
-void refuse_difference(const fs::path& path, const std::string& what,
-                       const std::string& difference, const std::string& how) {
+void refuse_difference(const fs::path& path, const std::string& what, const std::string& difference,
+                       const std::string& how) {
   if (difference.empty()) return;
-  throw IoError(path, "exists and holds " + what + " " + difference +
-                          "; choose another name, or " + how);
+  throw IoError(path,
+                "exists and holds " + what + " " + difference + "; choose another name, or " + how);
 }
 
 }  // namespace

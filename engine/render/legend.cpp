@@ -126,7 +126,8 @@ Image<std::uint8_t> with_legend(const Image<std::uint8_t>& picture, const Shadin
 
   const int top = line / 2, bottom = height - 3 * line;
   for (int y = top; y < bottom; ++y) {
-    const double value = shading.range.max - shading.range.length() * (y - top) / (bottom - 1 - top);
+    const double value =
+        shading.range.max - shading.range.length() * (y - top) / (bottom - 1 - top);
     canvas.fill({y, bar, y + 1, bar + bar_width},
                 shading.map.color(value, shading.range.min, shading.range.max));
   }

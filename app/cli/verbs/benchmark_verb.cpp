@@ -502,7 +502,8 @@ void require_success(const BenchmarkReport& report, const std::string& folder) {
 /// What a benchmark writes into its folder beside pictures and maps (write_report).
 std::vector<std::string> written_tables(const std::string& folder) {
   std::vector<std::string> files;
-  for (const char* name : {"index.html", "results.csv", "results.json", "tables.csv", "tables.tex"}) {
+  for (const char* name :
+       {"index.html", "results.csv", "results.json", "tables.csv", "tables.tex"}) {
     files.push_back((fs::path(folder) / name).string());
   }
   return files;

@@ -88,8 +88,9 @@ struct Target {
 Target map_target(const ConvertRequest& request) {
   const auto form = map_form_of(request.output);
   if (form && form != MapForm::Result) return {nullptr, *form};
-  throw UsageError("--to map writes .pfm, .tiff, .csv, .npy, .npz, .mat or .ply, but the output is " +
-                   request.output + "; name it so");
+  throw UsageError(
+      "--to map writes .pfm, .tiff, .csv, .npy, .npz, .mat or .ply, but the output is " +
+      request.output + "; name it so");
 }
 
 Target named_target(const ConvertRequest& request) {
@@ -227,8 +228,9 @@ void note_forgotten_options(const ConvertSubject& subject, const ConvertRequest&
 
 void check_output(const ConvertRequest& request, const Target& target) {
   if (request.views && target.writer) {
-    throw UsageError("convert: --views has no effect on a light field, which keeps all; leave it out, "
-                     "or add --to map");
+    throw UsageError(
+        "convert: --views has no effect on a light field, which keeps all; leave it out, "
+        "or add --to map");
   }
   if (request.views == ViewSelection::All && !holds_all_views(target.map)) {
     throw UsageError(request.output +
@@ -317,8 +319,8 @@ void convert_collection(ConvertRequest request, Job& job) {
 bool is_many(const ConvertRequest& request, const Progress& progress) {
   const bool may_be_folder = suffix_of(request.output).empty() || request.output.ends_with('/') ||
                              std::filesystem::is_directory(request.output);
-  return may_be_folder && request.form != kMap && request.truth.empty() && !names_result(request.input) &&
-         is_collection(request.input, request.read, progress);
+  return may_be_folder && request.form != kMap && request.truth.empty() &&
+         !names_result(request.input) && is_collection(request.input, request.read, progress);
 }
 
 }  // namespace

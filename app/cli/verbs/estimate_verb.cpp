@@ -76,9 +76,10 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
        "  episcope-cli estimate plane_pm benchmark2016 -o ours --submission"});
   parser.positional("METHOD", request.method, "Id of the estimator, in any case");
   parser.positionals("INPUT", request.inputs, "The light field, or several");
-  parser.required_option("-o,--output", request.output, text_value("OUT.h5|DIR"),
-                         "Result file to write, or a map: .npy, .npz, .mat, .pfm, .tiff, .csv; - is "
-                         "standard output as .npy, pfm:- as .pfm; for several light fields, a folder");
+  parser.required_option(
+      "-o,--output", request.output, text_value("OUT.h5|DIR"),
+      "Result file to write, or a map: .npy, .npz, .mat, .pfm, .tiff, .csv; - is "
+      "standard output as .npy, pfm:- as .pfm; for several light fields, a folder");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace a result of another method, other parameters or another light field");
   parser.flag("--frames", request.frames, Frames::All,

@@ -68,15 +68,17 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
        "cotton_epi_l.h5 or cotton/result.npy belongs to cotton), or without it of the one that a\n"
        "result file was estimated from, if its samples are still the same.",
        "episcope-cli evaluate demo.h5\n"
-       "  episcope-cli evaluate demo.h5 --truth demo --protocol benchmark2016 --error-map error.png\n"
+       "  episcope-cli evaluate demo.h5 --truth demo --protocol benchmark2016 --error-map "
+       "error.png\n"
        "  episcope-cli evaluate results/ --truth scenes/ --metrics mse_100,density --csv"});
   parser.positionals(
       "RESULT", request.files,
       std::string("Result files, maps of other programs (") + io::kMapForms +
           "), or folders of them; also submissions of 2016; - is a map on standard input");
-  parser.option("--truth", request.truth, text_value("INPUT"),
-                "The light field with its ground truth, or a folder of such; by default the one that "
-                "a result names");
+  parser.option(
+      "--truth", request.truth, text_value("INPUT"),
+      "The light field with its ground truth, or a folder of such; by default the one that "
+      "a result names");
   parser.option("--view", request.view, view_value(),
                 "Camera row and column of the view that is judged; by default the center, or the "
                 "first with truth");
@@ -105,8 +107,8 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   return true;
 }
 
-/// OUT.png for one result; OUT-<result>.png for several, numbered where names repeat. Empty paths if
-/// no error map is wanted.
+/// OUT.png for one result; OUT-<result>.png for several, numbered where names repeat. Empty paths
+/// if no error map is wanted.
 std::vector<std::filesystem::path> error_map_paths(const EvaluateRequest& request,
                                                    const std::vector<JudgedFile>& files) {
   const std::filesystem::path path = request.error_map;
@@ -176,8 +178,7 @@ Json results_json(const EvaluateRequest& request, const std::vector<Row>& rows) 
 
 /// Whether rows are of different light fields.
 bool has_several_truths(const std::vector<Row>& rows) {
-  return std::ranges::any_of(rows,
-                             [&](const Row& row) { return row.truth != rows.front().truth; });
+  return std::ranges::any_of(rows, [&](const Row& row) { return row.truth != rows.front().truth; });
 }
 
 /// Keys of all rows, in the order of their first appearance.
@@ -263,9 +264,8 @@ class TruthScene {
 
   /// The scene as this result needs it. Throws as `options_for_result` and `load_input`.
   [[nodiscard]] const Scene& of(const JudgedFile& file) {
-    const io::OpenOptions options =
-        options_for_result(file.result, io::read_reading(file.result), file.truth,
-                           request_.read.options.values());
+    const io::OpenOptions options = options_for_result(file.result, io::read_reading(file.result),
+                                                       file.truth, request_.read.options.values());
     const ParameterSet given = io::given_options(options);
     if (!scene_ || file.truth != input_ || given != given_) {
       scene_.reset();
@@ -380,9 +380,8 @@ class Judge {
     if (path.empty()) return;
     source.quantity = render::Quantity::SignedError;
     const auto picture = map_picture(*make_map(source), shading_of(source.quantity, {}));
-    write_output(path, request_.overwrite, [&](const std::filesystem::path& to) {
-      io::write_picture(to, picture.view());
-    });
+    write_output(path, request_.overwrite,
+                 [&](const std::filesystem::path& to) { io::write_picture(to, picture.view()); });
   }
 
   const EvaluateRequest& request_;

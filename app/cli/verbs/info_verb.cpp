@@ -250,9 +250,10 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
        "window, a camera or a pose: what it holds.",
        "episcope-cli info demo --json\n"
        "  episcope-cli info demo.h5"});
-  parser.positional("INPUT", input,
-                    "The light field, a result, labels that 'label' wrote, a project (.episcope), a "
-                    "camera (.yml) or a pose (.json); - is a map on standard input");
+  parser.positional(
+      "INPUT", input,
+      "The light field, a result, labels that 'label' wrote, a project (.episcope), a "
+      "camera (.yml) or a pose (.json); - is a map on standard input");
   parser.flag("--json", is_json, "Print one JSON object instead of lines");
   if (!parse_reading(parser, arguments, job_options, read)) return;
 

@@ -344,9 +344,8 @@ void tell_colors(const ShowRequest& request, const LoadedMap& loaded, Drawn& dra
 
 Drawn write_picture(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
   const MapSource& source = loaded.source;
-  RgbaImage picture = request.what.is_epi
-                          ? epi_picture(request, *source.light_field, source.view)
-                          : picture_of(request, loaded, source);
+  RgbaImage picture = request.what.is_epi ? epi_picture(request, *source.light_field, source.view)
+                                          : picture_of(request, loaded, source);
   if (request.longest_px > 0) picture = render::fitted(picture, request.longest_px);
   if (request.has_legend) {
     picture = render::with_legend(

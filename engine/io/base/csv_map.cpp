@@ -45,8 +45,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
     cells.push_back(trimmed(line.substr(0, end)));
     if (end == std::string_view::npos) return cells;
     // Several spaces are one.
-    const std::size_t next =
-        separators == kBlanks ? line.find_first_not_of(kBlanks, end) : end + 1;
+    const std::size_t next = separators == kBlanks ? line.find_first_not_of(kBlanks, end) : end + 1;
     line.remove_prefix(next);
   }
 }

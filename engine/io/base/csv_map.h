@@ -12,8 +12,8 @@ namespace episcope::io {
 /// lines and lines that begin with # are skipped. Throws IoError that names the line.
 [[nodiscard]] Image<float> read_csv_map(const std::filesystem::path& path);
 
-/// Writes such a map with commas; numbers read back exactly, NaN and infinite values as nan. Atomic.
-/// Throws IoError.
+/// Writes such a map with commas; numbers read back exactly, NaN and infinite values as nan.
+/// Atomic. Throws IoError.
 void write_csv_map(const std::filesystem::path& path, ImageView<const float> map);
 
 }  // namespace episcope::io

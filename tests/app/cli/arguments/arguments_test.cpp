@@ -60,7 +60,8 @@ class ArgumentsTest : public QObject {
              std::string("one two\nthree\nfour\n  - a\n    list\n  - of\n    two"));
     QCOMPARE(wrapped("Größe größer\n", 12), std::string("Größe größer\n"));
     QCOMPARE(help_entry("-o", "to write", 8, 80), std::string("  -o    to write\n"));
-    QCOMPARE(help_entry("--output", "to write", 4, 9), std::string("  --output\n    to\n    write\n"));
+    QCOMPARE(help_entry("--output", "to write", 4, 9),
+             std::string("  --output\n    to\n    write\n"));
   }
 
   void values_stayWhereNothingIsGiven() {
