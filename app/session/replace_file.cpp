@@ -51,7 +51,7 @@ bool is_sound_labeling(const fs::path& path) {
 
 namespace {
 
-std::optional<double> number_of(const ParameterValue& value) {
+std::optional<double> as_number(const ParameterValue& value) {
   if (const int* number = std::get_if<int>(&value)) return *number;
   if (const double* number = std::get_if<double>(&value)) return *number;
   return std::nullopt;
@@ -62,8 +62,8 @@ bool is_same_value(const ParameterValue& a, const ParameterValue& b) {
   const auto is_same = [](double x, double y) {
     return static_cast<float>(x) == static_cast<float>(y);
   };
-  const auto x = number_of(a);
-  const auto y = number_of(b);
+  const auto x = as_number(a);
+  const auto y = as_number(b);
   if (x && y) return is_same(*x, *y);
   const auto* first = std::get_if<IntervalOrAuto>(&a);
   const auto* second = std::get_if<IntervalOrAuto>(&b);
