@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/about/version_text.h"
 #include "app/cli/arguments.h"
+#include "app/cli/input.h"
 #include "app/cli/job.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/run_estimator.h"
@@ -34,6 +35,8 @@ void run(const std::vector<std::string>& arguments) {
   const std::string& first = arguments.front();
   if (first == "--version") {
     std::cout << version_text("episcope-cli", {});
+  } else if (first == "help" && arguments.size() == 2 && arguments[1] == "reading") {
+    print_reading_help();
   } else if (first == "help" && arguments.size() > 1) {
     run_verb(arguments[1], {"--help"}, {});
   } else if (first == "-h" || first == "--help" || first == "help") {

@@ -67,7 +67,7 @@ void ParameterOptions::declare(Arguments& arguments,
                                const std::vector<ParameterDescription>& parameters) {
   for (const auto& parameter : parameters) {
     keys_.push_back(parameter.key);
-    const std::string name = "--" + parameter.key;
+    const std::string name = "--" + option_name(parameter.key);
     std::optional<ParameterValue>& value = values_[parameter.key];
     if (parameter.is_toggle) {
       arguments.flag(name, value, std::optional<ParameterValue>(true), parameter.help);

@@ -4,6 +4,7 @@
 #include "app/cli/job.h"
 #include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/result_files.h"
 #include "app/session/run_estimator.h"
@@ -65,7 +66,8 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
       "estimate",
       {"Estimates disparity and writes a result file. METHOD is an id listed by\n"
        "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its parameters.\n"
-       "OUT.npy, OUT.pfm and OUT.tiff hold the map of one view. Several light fields, or those in\n"
+       "OUT.npy, OUT.npz, OUT.mat, OUT.pfm, OUT.tiff and OUT.csv hold the map of the center view,\n"
+       "the first three of all with --views all. Several light fields, or those in\n"
        "a folder, get a result file each in the folder DIR, named after light field and method\n"
        "(cotton_epi_l.h5); one that fails does not stop the others. A result of another method,\n"
        "other parameters or another light field is replaced only with --overwrite.",
@@ -74,9 +76,10 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
        "  episcope-cli estimate plane_pm benchmark2016 -o ours --submission"});
   parser.positional("METHOD", request.method, "Id of the estimator, in any case");
   parser.positionals("INPUT", request.inputs, "The light field, or several");
-  parser.required_option("-o,--output", request.output, text_value("OUT.h5|DIR"),
-                         "Result file to write, or a map: .npy, .pfm, .tiff; for several light "
-                         "fields, a folder");
+  parser.required_option(
+      "-o,--output", request.output, text_value("OUT.h5|DIR"),
+      "Result file to write, or a map: .npy, .npz, .mat, .pfm, .tiff, .csv; - is "
+      "standard output as .npy, pfm:- as .pfm; for several light fields, a folder");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace a result of another method, other parameters or another light field");
   parser.flag("--frames", request.frames, Frames::All,
@@ -98,7 +101,9 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
     parser.heading("Parameters of " + estimator->info.id);
     request.parameters.declare(parser, estimator->parameters);
   }
-  return parser.parse(arguments);
+  if (!parser.parse(arguments)) return false;
+  check_read_options(request.read);
+  return true;
 }
 
 bool parse(const VerbArguments& arguments, EstimateArguments& request) {
@@ -115,23 +120,25 @@ bool parse(const VerbArguments& arguments, EstimateArguments& request) {
   return parse_as(named, arguments, request);
 }
 
-/// The form of an output that is a map of one view; empty for a result file and for a folder.
+/// The form of an output that holds maps alone; empty for a result file and for a folder.
 std::optional<MapForm> map_form(const std::string& output) {
   const auto form = map_form_of(output);
-  const bool is_map = form == MapForm::Npy || form == MapForm::Pfm || form == MapForm::Tiff;
+  const bool is_map = form && form != MapForm::Result && form != MapForm::PointCloud;
   return is_map ? form : std::nullopt;
 }
 
 ViewSelection selected_views(const EstimateArguments& request) {
   std::optional<ViewSelection> wanted;
   if (request.job.run.is_given("views")) wanted = request.job.run_options().views;
-  const bool is_map = map_form(request.output).has_value();
-  if (!request.is_submission && !is_map) return views_to_estimate(*request.estimator, wanted);
+  const auto form = map_form(request.output);
+  if (!request.is_submission && !form) return views_to_estimate(*request.estimator, wanted);
   if (wanted.value_or(ViewSelection::Center) == ViewSelection::Center) return ViewSelection::Center;
-  throw UsageError(request.is_submission
-                       ? "a submission holds center views; leave out --views"
-                       : request.output +
-                             " holds the map of one view; leave out --views, or name it OUT.h5");
+  if (request.is_submission) {
+    throw UsageError("a submission holds center views; leave out --views");
+  }
+  if (holds_all_views(*form)) return views_to_estimate(*request.estimator, wanted);
+  throw UsageError(request.output +
+                   " holds the map of one view; leave out --views, or name it OUT.h5 or OUT.npy");
 }
 
 /// For JSON "all", "center" or row and column of the only view; in words for people.
@@ -293,7 +300,7 @@ class Runner {
     if (request_.is_submission) {
       submit(task, *estimate, center);
     } else if (map_form(task.output)) {
-      save_map(task.output, estimate->field.view(estimate->field.disparity.first()));
+      save_maps(task.output, estimate->field);
     } else {
       save_result(task.output, *estimate, task.input, progress.part(0.85, 1));
     }
@@ -325,13 +332,14 @@ class Runner {
   std::vector<io::SubmittedScene> submitted_;
 };
 
-void estimate_one(const EstimateArguments& request, Runner& runner) {
+void estimate_one(const EstimateArguments& request, Runner& runner, const OutputStream& to) {
   const Task task{request.inputs.front(), request.output};
   runner.check(task);
   const Answer answer = runner.run(task, runner.job().progress());
   runner.job().finish();
+  if (to.is_meant()) return to.send();
   if (request.is_json) {
-    print_json(answer_json(answer));
+    print_answer(answer_json(answer), runner.job().notes());
   } else {
     print_line(answer);
   }
@@ -387,7 +395,15 @@ void estimate_many(const EstimateArguments& request, const std::vector<SceneInpu
   }
   runner.job().finish();
   if (request.is_submission) check_submitted(request, runner, failures);
-  if (request.is_json) print_json(Json::object({{"results", std::move(results)}}));
+  if (request.is_json) {
+    std::vector<std::string> written;
+    for (const Json& result : results) {
+      if (result.contains("written")) {
+        std::ranges::copy(result["written"], std::back_inserter(written));
+      }
+    }
+    print_answer(Json::object({{"results", std::move(results)}}), runner.job().notes(), written);
+  }
   failures.require_none(scenes.size());
 }
 
@@ -409,8 +425,10 @@ bool wants_many(const EstimateArguments& request, const Progress& progress) {
 void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   EstimateArguments request;
   if (!parse(arguments, request)) return;
+  const OutputStream to(request.output, ".npy");
+  to.require_alone(request.is_json);
   Runner runner(request, std::move(stop));
-  if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner);
+  if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner, to);
   const std::vector<SceneInput> scenes = scene_inputs_and_failed(
       request.inputs, request.read, request.frames, runner.job().progress().part(0, 0));
   estimate_many(request, scenes, runner);

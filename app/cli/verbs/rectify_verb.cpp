@@ -128,7 +128,7 @@ void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
   if (request.is_json) {
     Json json = answer(rectified, request.output);
     if (!pairs.empty()) json["written"].push_back(request.pairs);
-    return print_json(json);
+    return print_answer(std::move(json), job.notes());
   }
   print(rectified, request.output);
   if (!pairs.empty()) std::cout << request.pairs << ": " << pairs.size() << " pairs\n";

@@ -601,4 +601,23 @@ std::vector<std::string> Hdf5Input::referenced(const std::string& name) const {
   return names;
 }
 
+std::vector<std::string> Hdf5Input::scale_names(const std::string& dataset) const {
+  constexpr hssize_t kMostAxes = 32;
+  const Hdf5Lock session;
+  const OpenedAttribute attribute(open_attribute(dataset, "DIMENSION_LIST"));
+  if (attribute.count < 1 || attribute.count > kMostAxes) return {};
+  const Hdf5Handle of_axis(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose);
+  if (H5Tequal(attribute.type, of_axis) <= 0) return {};
+  std::vector<hvl_t> scales(static_cast<std::size_t>(attribute.count), hvl_t{});
+  if (H5Aread(attribute.id, of_axis, scales.data()) < 0) return {};
+  std::vector<std::string> names;
+  for (const hvl_t& axis : scales) {
+    std::string name;
+    if (axis.len > 0) name = name_of(file_, *static_cast<const hobj_ref_t*>(axis.p));
+    names.push_back(name.substr(name.rfind('/') + 1));
+  }
+  H5Dvlen_reclaim(of_axis, attribute.space, H5P_DEFAULT, scales.data());
+  return names;
+}
+
 }  // namespace episcope::io

@@ -109,6 +109,9 @@ class Hdf5Input {
   /// All elements of an attribute of texts of variable length; empty if there is none.
   [[nodiscard]] std::vector<std::string> texts(const std::string& object,
                                                const std::string& name) const;
+  /// Last names of the dimension scales that are attached to the axes of a dataset, one an axis,
+  /// empty for an axis without. Empty if there are none.
+  [[nodiscard]] std::vector<std::string> scale_names(const std::string& dataset) const;
 
  private:
   friend class Hdf5Output;  // Copies from here.

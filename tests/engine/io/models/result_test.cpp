@@ -95,6 +95,7 @@ class ResultTest : public QObject {
     if (statement == "MATLAB_class") out.set_ascii(name, "MATLAB_class", "single");
     out.close();
     if (statement == "DIMENSION_LABELS") label_dimensions(target.temporary(), name);
+    if (statement == "DIMENSION_LIST") attach_scales(target.temporary(), name);
     target.commit();
   }
   static void label_dimensions(const std::filesystem::path& file, const std::string& name) {
@@ -111,6 +112,33 @@ class ResultTest : public QObject {
     H5Aclose(attribute);
     H5Sclose(space);
     H5Tclose(type);
+    H5Dclose(dataset);
+    H5Fclose(id);
+  }
+  /// As h5py and netCDF attach the scales "x" and "y".
+  static void attach_scales(const std::filesystem::path& file, const std::string& name) {
+    const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t dataset = H5Dopen2(id, name.c_str(), H5P_DEFAULT);
+    hobj_ref_t references[2];
+    hvl_t axes[2];
+    for (const int axis : {0, 1}) {
+      const char* scale = axis == 0 ? "x" : "y";
+      const hsize_t length = 1;
+      const hid_t space = H5Screate_simple(1, &length, nullptr);
+      H5Dclose(H5Dcreate2(id, scale, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+      H5Sclose(space);
+      QVERIFY(H5Rcreate(&references[axis], id, scale, H5R_OBJECT, -1) >= 0);
+      axes[axis] = {1, &references[axis]};
+    }
+    const hsize_t count = 2;
+    const hid_t space = H5Screate_simple(1, &count, nullptr);
+    const hid_t type = H5Tvlen_create(H5T_STD_REF_OBJ);
+    const hid_t attribute =
+        H5Acreate2(dataset, "DIMENSION_LIST", type, space, H5P_DEFAULT, H5P_DEFAULT);
+    QVERIFY(H5Awrite(attribute, type, axes) >= 0);
+    H5Aclose(attribute);
+    H5Tclose(type);
+    H5Sclose(space);
     H5Dclose(dataset);
     H5Fclose(id);
   }
@@ -253,6 +281,7 @@ class ResultTest : public QObject {
     QTest::newRow("axes") << "axes" << true;
     QTest::newRow("MATLAB") << "MATLAB_class" << true;
     QTest::newRow("labels of dimensions") << "DIMENSION_LABELS" << true;
+    QTest::newRow("scales of dimensions") << "DIMENSION_LIST" << true;
   }
   void statedAxes_areHonored() {
     QFETCH(QString, statement);
