@@ -54,6 +54,15 @@ struct Hdf5Block {
 /// Whether the file begins with the signature of HDF5; false also if it cannot be read.
 [[nodiscard]] bool has_hdf5_signature(const std::filesystem::path& path);
 
+/// An axis that datasets share: its places are `first`, `first` + 1, ….
+struct Hdf5Axis {
+  std::string name;  ///< "v".
+  std::string units;
+  std::string meaning;  ///< In words.
+  int first = 0;
+  int count = 0;
+};
+
 class Hdf5OpenFile;
 
 /// An HDF5 file open for reading, without file locks. All inputs of one file share one opening and
@@ -154,12 +163,18 @@ class Hdf5Output {
                        const std::string& units);
   template <class T>
   void write(const std::string& name, const Hdf5Block& block, const T* in);
+  /// Whether it added a dataset of this name.
+  [[nodiscard]] bool has(const std::string& dataset) const { return datasets_.contains(dataset); }
+  /// Names the axes of all datasets added so far, which have these axes and lie in `group`: a
+  /// dataset of the places of each axis, attached as dimension scale, as netCDF has it.
+  void add_axes(const std::string& group, const std::vector<Hdf5Axis>& axes);
 
   void set_number(const std::string& object, const std::string& name, double value);
   void set_integers(const std::string& object, const std::string& name,
                     const std::vector<int>& values);
   void set_numbers(const std::string& object, const std::string& name,
                    const std::vector<double>& values);
+  /// UTF-8 of variable length, which other programs take for a text and not for bytes.
   void set_text(const std::string& object, const std::string& name, const std::string& value);
   /// Writes text as MATLAB does: ASCII of fixed length, without a terminator.
   void set_ascii(const std::string& object, const std::string& name, const std::string& value);

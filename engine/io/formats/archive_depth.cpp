@@ -11,6 +11,7 @@
 #include "engine/io/models/label_list.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/warp_check.h"
+#include "engine/io/models/result_file.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 
 #include <fmt/format.h>
@@ -242,8 +243,7 @@ CameraGrid stored_camera(const Hdf5Input& file) {
   const double from_distance =
       camera.cam_distance ? camera.baseline * camera.focal_length / *camera.cam_distance : 0;
   camera.shift = camera_number(file, "shift").value_or(from_distance);
-  const std::vector<double> pinhole = file.numbers("/", kPinhole);
-  if (pinhole.size() == 3) camera.pinhole = Pinhole{pinhole[0], pinhole[1], pinhole[2]};
+  camera.pinhole = camera_in(file, "/").pinhole;
   const bool is_finite = std::isfinite(camera.baseline) && std::isfinite(camera.focal_length) &&
                          std::isfinite(camera.shift);
   return is_finite ? camera : CameraGrid{};

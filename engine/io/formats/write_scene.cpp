@@ -10,6 +10,7 @@
 #include "engine/io/base/pfm.h"
 #include "engine/io/formats/benchmark_truth.h"
 #include "engine/io/models/label_list.h"
+#include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/models/stored_maps.h"
 
@@ -78,14 +79,8 @@ void write_attributes(Hdf5Output& file, const Scene& scene, const CameraGrid& ca
   file.set_integers(root, "channels", {field.channels()});
   file.set_number(root, "vSampling", camera.baseline / field.width());
   file.set_number(root, "hSampling", camera.baseline / field.width());
-  file.set_number(root, "dH", camera.baseline);
+  write_camera(file, root, camera);
   file.set_number(root, "dV", camera.baseline);
-  file.set_number(root, "focalLength", camera.focal_length);
-  file.set_number(root, "shift", camera.shift);
-  if (camera.cam_distance) file.set_number(root, "camDistance", *camera.cam_distance);
-  if (const auto& pinhole = camera.pinhole) {
-    file.set_numbers(root, kPinhole, {pinhole->focal_px, pinhole->center_x, pinhole->center_y});
-  }
   file.set_text(root, kConvention, kConventionText);
   file.set_text(root, "name", field.info().name);
   if (!field.info().camera.is_known()) {

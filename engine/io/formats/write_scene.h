@@ -40,9 +40,6 @@ inline constexpr const char* kConventionText =
 /// Attribute of the root: x and y of the camera of each view, row by row; and their unit.
 inline constexpr const char* kPositions = "camera_positions";
 inline constexpr const char* kPositionUnit = "camera_position_unit";
-/// Attribute of the root: the pinhole of the center view: focal length, x and y of its center in
-/// px.
-inline constexpr const char* kPinhole = "pinhole";
 /// Attributes of GT_DEPTH that is no truth but a result: the method, its parameters (a JSON
 /// object), the light field it was estimated from, and the version of Episcope.
 inline constexpr const char* kEstimatedBy = "estimated_by";
