@@ -22,6 +22,8 @@ struct ConvertRequest {
   std::string truth;
   std::string form;  ///< Id of a writer; empty = told by the output.
   Overwrite overwrite = Overwrite::No;
+  io::MapValues values = io::MapValues::Disparity;
+  bool has_disparity = false;  ///< Whether an archive gets disparity beside depth.
   ParameterOptions map;
   JobOptions job;
   ReadOptions read;
@@ -55,6 +57,11 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
                 "Light field of a RESULT; by default the one named in its file");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace an existing light field, or a map with other values");
+  parser.option("--values", request.values, choice_of<io::MapValues>(),
+                "What a map holds: disparity, or depth by the camera of the RESULT or of its light "
+                "field");
+  parser.flag("--gt-disparity", request.has_disparity, true,
+              "Write GT_DISPARITY beside GT_DEPTH of the archive form");
   declare_map_options(parser, request.map);
   return parse_reading(parser, arguments, request.job, request.read);
 }
@@ -119,7 +126,9 @@ ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
     const std::string source = existing_source(subject.estimate->source, request.input);
     protect_input(request.output, source);
     subject.source = source;
-    if (target.needs_scene() && !source.empty()) {
+    const bool needs_camera =
+        request.values == io::MapValues::Depth && !subject.estimate->camera.is_known();
+    if ((target.needs_scene() || needs_camera) && !source.empty()) {
       subject.scene = load_input_of(reading_of(request.input), source, request.read, progress);
     }
   } else {
@@ -184,8 +193,33 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
   const std::filesystem::path labels =
       is_archive ? io::labels_place(request.output, scene, io::LabelFile::NamedAfter)
                  : std::filesystem::path();
-  target.writer->write(request.output, scene, progress);
+  if (request.has_disparity) {
+    io::write_archive(request.output, scene, progress, {io::LabelFile::NamedAfter, true});
+  } else {
+    target.writer->write(request.output, scene, progress);
+  }
   return labels;
+}
+
+/// Puts depth in the place of disparity, NaN where it is not known. That of a result follows from
+/// the camera that its file has.
+void turn_into_depth(ConvertSubject& subject, const std::string& name) {
+  if (subject.field().empty()) return;
+  CameraGrid camera = subject.scene ? subject.scene->light_field->info().camera : CameraGrid{};
+  if (!camera.is_known() && subject.estimate) camera = subject.estimate->camera;
+  if (!camera.is_known()) {
+    throw InvalidInput(name +
+                       ": depth does not follow from disparity, since the camera is not known; "
+                       "name a light field that has one with --truth INPUT");
+  }
+  if (!subject.estimate) {
+    const DisparityField& truth = subject.field();
+    subject.estimate.emplace().field = {truth.disparity.clone(), truth.valid.clone()};
+  }
+  ViewStack<float>& values = subject.estimate->field.disparity;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values.data()[i] = static_cast<float>(camera.depth_from_disparity(values.data()[i]));
+  }
 }
 
 /// Maps in image formats forget what a result file remembers.
@@ -198,6 +232,16 @@ void note_forgotten_options(const ConvertSubject& subject, const ConvertRequest&
 }
 
 void check_output(const ConvertRequest& request, const Target& target) {
+  const bool is_map = !target.writer && target.map != MapForm::PointCloud;
+  if (request.values == io::MapValues::Depth && !is_map) {
+    throw UsageError("--values depth is for a map (.pfm, .tiff, .npy), but the output is " +
+                     request.output + "; leave it out, or name a map");
+  }
+  const bool is_archive = target.writer && std::string(target.writer->id) == "archive";
+  if (request.has_disparity && !is_archive) {
+    throw UsageError("--gt-disparity is for the archive form, but the output is " + request.output +
+                     "; name it OUT.h5, or leave it out");
+  }
   const bool is_folder = target.writer && target.writer->writes_folder();
   if (!is_folder) check_output_file(request.output);
   protect_input(request.output, request.input);
@@ -213,6 +257,7 @@ void convert_one(const ConvertRequest& request, Job& job, const Progress& progre
     for (const auto& warning : subject.scene->convention.warnings) job.note(warning);
   }
   note_forgotten_options(subject, request, target, job);
+  if (request.values == io::MapValues::Depth) turn_into_depth(subject, request.input);
   progress.check();
   const std::filesystem::path labels = write(subject, request, target, job, progress.part(0.5, 1));
   job.finish();

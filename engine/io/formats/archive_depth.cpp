@@ -26,8 +26,6 @@
 namespace episcope::io {
 namespace {
 
-constexpr const char* kTrueDepth = "GT_DEPTH";
-
 /// Whether the archive, or Episcope, gives a dataset of this name its meaning.
 bool is_of_archive(const std::string& name) {
   constexpr const char* kNames[] = {kTrueLabels, "SCRIBBLES", "LABELS", kValid};
@@ -61,8 +59,13 @@ std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& fil
   const bool has_depth = !parts.truth.field.empty();
   const std::string depth = has_depth ? other_depth(*file, layout.shape) : "";
   std::vector<const ArrayEntry*> others;
+  // What `write_archive` put beside depth.
+  const auto repeats_depth = [&](const std::string& name) {
+    return name.starts_with(kTrueDisparity) &&
+           file->has(kTrueDepth + name.substr(std::string(kTrueDisparity).size()));
+  };
   for (const ArrayEntry& entry : arrays.entries()) {
-    const bool is_read = entry.name == depth ||
+    const bool is_read = repeats_depth(entry.name) || entry.name == depth ||
                          (is_of_archive(entry.name) && (has_depth || entry.name != kTrueDepth));
     if (&entry == &*views || is_read) continue;
     others.push_back(&entry);
