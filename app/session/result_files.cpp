@@ -364,7 +364,7 @@ std::optional<MapForm> map_form_of(const std::filesystem::path& path) {
 
 void save_result(const std::filesystem::path& path, const Estimate& estimate,
                  const std::string& input, const Progress& progress) {
-  io::write_result(path, estimate, progress, source_text(input, path));
+  io::write_result(path, estimate, progress, {.source = source_text(input, path)});
 }
 
 void save_map(const std::filesystem::path& path, const DisparityView& map) {

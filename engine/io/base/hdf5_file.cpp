@@ -452,6 +452,18 @@ void Hdf5Output::add_group(const std::string& name) {
   require(group.ok());
 }
 
+namespace {
+
+/// In chunks of a view, by the least effort: more takes far longer and saves little.
+void deflate_views(hid_t creation, std::vector<hsize_t> extent) {
+  std::fill(extent.begin(), extent.end() - 2, 1);
+  H5Pset_chunk(creation, static_cast<int>(extent.size()), extent.data());
+  H5Pset_shuffle(creation);
+  H5Pset_deflate(creation, 1);
+}
+
+}  // namespace
+
 template <class T>
 void Hdf5Output::create_dataset(const std::string& name, const Hdf5Shape& shape, bool is_reserved) {
   const Hdf5Lock session;
@@ -461,6 +473,8 @@ void Hdf5Output::create_dataset(const std::string& name, const Hdf5Shape& shape,
   const Hdf5Handle creation(creation_of(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
   if (is_reserved) H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
+  const bool is_deflated = storage_ == Hdf5Storage::Deflated && !is_reserved && extent.size() > 1;
+  if (is_deflated) deflate_views(creation, extent);
   const hid_t id =
       H5Dcreate2(file_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation, H5P_DEFAULT);
   require(id >= 0);

@@ -135,8 +135,11 @@ class Hdf5Input {
   mutable std::map<std::string, std::int64_t> datasets_;  ///< Open ones, with their chunk caches.
 };
 
+/// How samples are stored: as one array, or view by view, each shuffled and deflated.
+enum class Hdf5Storage { Plain, Deflated };
+
 /// A new HDF5 file at the temporary place of `file`: `close` it, then commit that. Datasets are
-/// contiguous and uncompressed, since speed matters more than size. All members throw IoError that
+/// contiguous and uncompressed unless told otherwise, since speed matters more than size. All members throw IoError that
 /// names the target of `file`.
 class Hdf5Output {
  public:
@@ -152,6 +155,8 @@ class Hdf5Output {
   /// Copies every object and attribute of the root group as stored, except those in `without`.
   void copy_all(const Hdf5Input& from, const std::vector<std::string>& without);
   void add_group(const std::string& name);
+  /// How datasets that are added from now on are stored; those with less than two axes as one array.
+  void set_storage(Hdf5Storage storage) { storage_ = storage; }
   /// Adds a dataset with its attributes `axes` ("v,u,y,x") and `units`. T as in `Hdf5Input::read`.
   template <class T>
   void add_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
@@ -194,6 +199,7 @@ class Hdf5Output {
   std::filesystem::path path_;
   std::int64_t file_ = -1;
   std::map<std::string, std::int64_t> datasets_;
+  Hdf5Storage storage_ = Hdf5Storage::Plain;
   Hdf5WriteLog log_;
 };
 

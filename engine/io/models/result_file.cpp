@@ -41,18 +41,41 @@ std::vector<std::string> split_lines(const std::string& text) {
   return lines;
 }
 
-void write_layers(Hdf5Output& file, const LayeredDisparity& layered, const Progress& progress) {
-  const auto write = [&](const DisparityField& field, const char* name, const char* valid) {
-    if (field.empty()) return;
-    write_disparity(file, in_group(name), field, progress);
-    if (!field.valid.empty()) write_stack(file, in_group(valid), field.valid, kNoUnit, progress);
-  };
-  write(layered.foreground, "disparity_foreground", "valid_foreground");
-  write(layered.background, "disparity_background", "valid_background");
-  if (!layered.layers.empty()) {
-    write_stack(file, in_group("layers"), layered.layers, "surfaces", progress);
+/// Writes the maps of an estimate.
+class ResultWriter {
+ public:
+  ResultWriter(Hdf5Output& file, Hdf5Storage floats) : file_(file), floats_(floats) {}
+
+  void write(const Estimate& estimate, const Progress& progress) {
+    write_field(estimate.field, "disparity", "valid", progress.part(0, 0.6));
+    if (!estimate.confidence.empty()) {
+      file_.set_storage(floats_);
+      write_stack(file_, in_group("confidence"), estimate.confidence, kNoUnit,
+                  progress.part(0.6, 0.9));
+    }
+    const LayeredDisparity& layered = estimate.layered;
+    const Progress last = progress.part(0.9, 1);
+    write_field(layered.foreground, "disparity_foreground", "valid_foreground", last);
+    write_field(layered.background, "disparity_background", "valid_background", last);
+    if (layered.layers.empty()) return;
+    file_.set_storage(Hdf5Storage::Deflated);
+    write_stack(file_, in_group("layers"), layered.layers, "surfaces", last);
   }
-}
+
+ private:
+  void write_field(const DisparityField& field, const char* name, const char* valid,
+                   const Progress& progress) {
+    if (field.empty()) return;
+    file_.set_storage(floats_);
+    write_disparity(file_, in_group(name), field, progress.part(0, 0.85));
+    if (field.valid.empty()) return;
+    file_.set_storage(Hdf5Storage::Deflated);
+    write_stack(file_, in_group(valid), field.valid, kNoUnit, progress.part(0.85, 1));
+  }
+
+  Hdf5Output& file_;
+  Hdf5Storage floats_;
+};
 
 /// Reads the maps of an own result file, which all have the same views, in the order of axes that
 /// the file states: other programs may have written it again.
@@ -149,24 +172,16 @@ class ResultReader {
 }  // namespace
 
 void write_result(const std::filesystem::path& path, const Estimate& estimate,
-                  const Progress& progress, const std::optional<std::string>& source) {
+                  const Progress& progress, const ResultForm& form) {
   if (estimate.field.empty()) throw InvalidInput("an estimate without disparity cannot be written");
   progress.check();
   AtomicFile target(path, result_bytes(estimate));
   Hdf5Output file(target);
   file.add_group(kResultGroup);
-  write_disparity(file, in_group("disparity"), estimate.field, progress.part(0, 0.5));
-  if (!estimate.field.valid.empty()) {
-    write_stack(file, in_group("valid"), estimate.field.valid, kNoUnit, progress.part(0.5, 0.6));
-  }
-  if (!estimate.confidence.empty()) {
-    write_stack(file, in_group("confidence"), estimate.confidence, kNoUnit,
-                progress.part(0.6, 0.9));
-  }
-  write_layers(file, estimate.layered, progress.part(0.9, 1));
+  ResultWriter(file, form.floats).write(estimate, progress);
   const MapGeometry maps = geometry_of(estimate.field.disparity);
   describe_maps(file, maps);
-  write_provenance(file, estimate, maps, source.value_or(estimate.source));
+  write_provenance(file, estimate, maps, form.source.value_or(estimate.source));
   file.close();
   progress.check();
   target.commit();

@@ -12,15 +12,21 @@
 
 namespace episcope::io {
 
+/// What there is to choose for a result file.
+struct ResultForm {
+  std::optional<std::string> source{};  ///< Replaces the source of the estimate.
+  /// Of disparity and confidence. Masks and `layers` are always deflated, which takes no time.
+  Hdf5Storage floats = Hdf5Storage::Plain;
+};
+
 /// Writes a result file: group `/estimate` with `disparity`, `confidence`, `valid` and, of layered
 /// methods, `disparity_foreground`, `disparity_background`, `layers`; their axes as dimension
 /// scales; provenance, camera and conventions in attributes.
-/// Atomic: a temporary file beside it, flushed, then renamed. `source` replaces the source of the
-/// estimate if given. Confidence is kept as 32-bit float: later passes of some methods read it
+/// Atomic: a temporary file beside it, flushed, then renamed. Confidence is kept as 32-bit float: later passes of some methods read it
 /// again, so fewer bits would change results of block-wise runs. Throws IoError (nothing is left
 /// behind), Cancelled.
 void write_result(const std::filesystem::path& path, const Estimate& estimate,
-                  const Progress& progress, const std::optional<std::string>& source = {});
+                  const Progress& progress, const ResultForm& form = {});
 
 /// Reads a result file, or a result from elsewhere: an HDF5 file with one 2-D or 4-D float dataset,
 /// a PFM, a 32-bit float TIFF, or a folder of the 2016 submission form (`scene` picks the map).

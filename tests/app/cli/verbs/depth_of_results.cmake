@@ -30,6 +30,22 @@ expect("with its light field" 0 ARGS convert map.pfm d.pfm --values depth --trut
 expect("a light field" 2 ERR "--values depth is for a map.*x.h5"
        ARGS convert elsewhere.h5 x.h5 --values depth)
 
+# Compressed on request, with the same content.
+expect(compress 0 ARGS estimate epi_l elsewhere.h5 -o packed.h5 --compress --quiet)
+expect("not compressed" 0 ARGS estimate epi_l elsewhere.h5 -o unpacked.h5 --quiet)
+file(SIZE "${WORK}/unpacked.h5" unpacked)
+file(SIZE "${WORK}/packed.h5" packed)
+if(NOT packed LESS unpacked)
+  fail_case("a compressed result has ${packed} bytes, a plain one ${unpacked}")
+endif()
+execute_process(COMMAND "${SAME_RESULTS}" unpacked.h5 packed.h5 3 3 WORKING_DIRECTORY "${WORK}"
+                RESULT_VARIABLE differs OUTPUT_VARIABLE difference)
+if(differs)
+  fail_case("a compressed result differs: ${difference}")
+endif()
+expect("compress a map" 2 ERR "--compress is for a result file"
+       ARGS estimate epi_l elsewhere.h5 -o x.pfm --compress)
+
 # Disparity beside depth, on request.
 expect("archive" 0 ARGS convert elsewhere.h5 plain.h5)
 expect("with disparity" 0 ARGS convert elsewhere.h5 both.h5 --gt-disparity)

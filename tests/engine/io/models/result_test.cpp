@@ -256,6 +256,27 @@ class ResultTest : public QObject {
     QVERIFY(std::isnan(first));
   }
 
+  /// Masks always are, maps on request; nothing is lost.
+  void compressedResult_holdsTheSame() {
+    Estimate estimate;
+    estimate.field = sample_field(kGrid, {});
+    estimate.confidence = ViewStack<float>(kGrid, kHeight, kWidth);
+    std::fill_n(estimate.confidence.data(), estimate.confidence.size(), 0.25F);
+
+    io::write_result(path("plain.h5"), estimate, Progress(1));
+    io::write_result(path("packed.h5"), estimate, Progress(1),
+                     {.floats = io::Hdf5Storage::Deflated});
+    const Estimate read = io::read_result(path("packed.h5"), kGrid);
+
+    const io::Hdf5Shape view{1, 1, kHeight, kWidth};
+    QVERIFY(io::Hdf5Input(path("plain.h5")).dataset("estimate/valid").chunk == view);
+    QVERIFY(io::Hdf5Input(path("plain.h5")).dataset("estimate/disparity").chunk.empty());
+    QVERIFY(io::Hdf5Input(path("packed.h5")).dataset("estimate/disparity").chunk == view);
+    compare(read.field, estimate.field);
+    QVERIFY(std::equal(read.confidence.data(), read.confidence.data() + read.confidence.size(),
+                       estimate.confidence.data()));
+  }
+
   /// The axes of every map are datasets of their places, as netCDF has them.
   void axes_areDimensionScales() {
     Estimate estimate;
