@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/run_estimator.h"
 
-#include "app/about/version_text.h"
 #include "app/session/result_files.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/error.h"
@@ -31,9 +30,7 @@ std::string range_warning(const LightField& light_field, const Estimate& estimat
   return estimate.method + ": " + note + ".";
 }
 
-// What made it, and that it was finished now.
-void sign(Provenance& estimate) {
-  estimate.commit = kCommit;
+void add_date(Provenance& estimate) {
   estimate.date = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
 }
 
@@ -50,7 +47,7 @@ FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
   auto estimate = std::make_shared<Estimate>(
       estimator.run(light_field, *scene.even, parameters, options, progress));
   estimate->source_hash = light_field.sample_hash();
-  sign(*estimate);
+  add_date(*estimate);
   if (progress.finish_requested() && estimator.info.iterative) {
     estimate->notes.push_back(kTakenEarly);
   }
@@ -166,7 +163,7 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   DraftStore store(draft, lf.info().source);
   FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};
   finished.provenance = run_blocks(lf, run, store, memory, limited.part(0.06, 1));
-  sign(finished.provenance);
+  add_date(finished.provenance);
   draft.commit(finished.provenance, source_text(request.input, request.output));
   return finished;
 }

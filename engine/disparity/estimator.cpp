@@ -158,6 +158,7 @@ void complete_provenance(Provenance& estimate, const std::string& method,
   estimate.method = method;
   estimate.seconds = seconds;
   estimate.version = kVersion;
+  estimate.commit = built_commit();
   estimate.source = light_field.info().source;
   estimate.reading = light_field.info().reading;
   estimate.camera = light_field.info().camera;
