@@ -7,6 +7,7 @@
 #include "app/session/run_estimator.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
+#include "engine/core/version.h"
 #include "engine/io/base/files.h"
 
 #include <exception>
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
   try {
     episcope::io::report_file_size_limit();
     episcope::use_cache_for_scratch();
+    episcope::state_built_commit(episcope::kCommit);
     run({argv + 1, argv + argc});
     if (!std::cout.flush()) throw Error("standard output cannot be written");
     return kSuccess;

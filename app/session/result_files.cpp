@@ -371,7 +371,7 @@ bool holds_all_views(MapForm form) {
 
 void save_result(const std::filesystem::path& path, const Estimate& estimate,
                  const std::string& input, const Progress& progress) {
-  io::write_result(path, estimate, progress, source_text(input, path));
+  io::write_result(path, estimate, progress, {.source = source_text(input, path)});
 }
 
 namespace {

@@ -13,10 +13,12 @@
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_draft.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <ctime>
 #include <utility>
 
 namespace episcope {
@@ -26,6 +28,10 @@ std::string range_warning(const LightField& light_field, const Estimate& estimat
   const std::string note = limited_range_note(light_field, estimate.range);
   if (std::ranges::count(estimate.notes, note) == 0) return {};
   return estimate.method + ": " + note + ".";
+}
+
+void add_date(Provenance& estimate) {
+  estimate.date = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
 }
 
 }  // namespace
@@ -41,6 +47,7 @@ FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
   auto estimate = std::make_shared<Estimate>(
       estimator.run(light_field, *scene.even, parameters, options, progress));
   estimate->source_hash = light_field.sample_hash();
+  add_date(*estimate);
   if (progress.finish_requested() && estimator.info.iterative) {
     estimate->notes.push_back(kTakenEarly);
   }
@@ -156,6 +163,7 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   DraftStore store(draft, lf.info().source);
   FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};
   finished.provenance = run_blocks(lf, run, store, memory, limited.part(0.06, 1));
+  add_date(finished.provenance);
   draft.commit(finished.provenance, source_text(request.input, request.output));
   return finished;
 }

@@ -30,6 +30,8 @@ struct ConvertRequest {
   Overwrite overwrite = Overwrite::No;
   bool is_json = false;
   bool is_piped = false;  ///< To standard output.
+  io::MapValues values = io::MapValues::Disparity;
+  bool has_disparity = false;  ///< Whether an archive gets disparity beside depth.
   ParameterOptions map;
   JobOptions job;
   ReadOptions read;
@@ -73,6 +75,11 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace an existing light field, or a map with other values");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line for each file");
+  parser.option("--values", request.values, choice_of<io::MapValues>(),
+                "What a map holds: disparity, or depth by the camera of the RESULT or of its light "
+                "field");
+  parser.flag("--gt-disparity", request.has_disparity, true,
+              "Write GT_DISPARITY beside GT_DEPTH of the archive form");
   declare_map_options(parser, request.map);
   return parse_reading(parser, arguments, request.job, request.read);
 }
@@ -146,7 +153,9 @@ ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
     const std::string source = existing_source(subject.estimate->source, request.input);
     protect_input(request.output, source);
     subject.source = source;
-    if (target.needs_scene() && !source.empty()) {
+    const bool needs_camera =
+        request.values == io::MapValues::Depth && !subject.estimate->camera.is_known();
+    if ((target.needs_scene() || needs_camera) && !source.empty()) {
       subject.scene = load_input_of(reading_of(request.input), source, request.read, progress);
     }
   } else {
@@ -213,8 +222,33 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
   const std::filesystem::path labels =
       is_archive ? io::labels_place(request.output, scene, io::LabelFile::NamedAfter)
                  : std::filesystem::path();
-  target.writer->write(request.output, scene, progress);
+  if (request.has_disparity) {
+    io::write_archive(request.output, scene, progress, {io::LabelFile::NamedAfter, true});
+  } else {
+    target.writer->write(request.output, scene, progress);
+  }
   return labels;
+}
+
+/// Puts depth in the place of disparity, NaN where it is not known. That of a result follows from
+/// the camera that its file has.
+void turn_into_depth(ConvertSubject& subject, const std::string& name) {
+  if (subject.field().empty()) return;
+  CameraGrid camera = subject.scene ? subject.scene->light_field->info().camera : CameraGrid{};
+  if (!camera.is_known() && subject.estimate) camera = subject.estimate->camera;
+  if (!camera.is_known()) {
+    throw InvalidInput(name +
+                       ": depth does not follow from disparity, since the camera is not known; "
+                       "name a light field that has one with --truth INPUT");
+  }
+  if (!subject.estimate) {
+    const DisparityField& truth = subject.field();
+    subject.estimate.emplace().field = {truth.disparity.clone(), truth.valid.clone()};
+  }
+  ViewStack<float>& values = subject.estimate->field.disparity;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values.data()[i] = static_cast<float>(camera.depth_from_disparity(values.data()[i]));
+  }
 }
 
 /// Maps in image formats forget what a result file remembers.
@@ -236,6 +270,16 @@ void check_output(const ConvertRequest& request, const Target& target) {
     throw UsageError(request.output +
                      " holds the map of one view; leave out --views, or name it OUT.npy");
   }
+  const bool is_map = !target.writer && target.map != MapForm::PointCloud;
+  if (request.values == io::MapValues::Depth && !is_map) {
+    throw UsageError("--values depth is for a map (.pfm, .tiff, .npy), but the output is " +
+                     request.output + "; leave it out, or name a map");
+  }
+  const bool is_archive = target.writer && std::string(target.writer->id) == "archive";
+  if (request.has_disparity && !is_archive) {
+    throw UsageError("--gt-disparity is for the archive form, but the output is " + request.output +
+                     "; name it OUT.h5, or leave it out");
+  }
   const bool is_folder = target.writer && target.writer->writes_folder();
   if (!is_folder) check_output_file(request.output);
   protect_input(request.output, request.input);
@@ -252,6 +296,7 @@ void check_output(const ConvertRequest& request, const Target& target) {
     for (const auto& warning : subject.scene->convention.warnings) job.note(warning);
   }
   note_forgotten_options(subject, request, target, job);
+  if (request.values == io::MapValues::Depth) turn_into_depth(subject, request.input);
   progress.check();
   const std::filesystem::path labels = write(subject, request, target, job, progress.part(0.5, 1));
   job.finish();

@@ -216,13 +216,13 @@ struct Dataset {
 };
 constexpr Dataset kDatasets[] = {
     {DraftMap::Disparity, "disparity", kDisparityUnit},
-    {DraftMap::Confidence, "confidence", ""},
+    {DraftMap::Confidence, "confidence", kNoUnit},
     {DraftMap::Foreground, "disparity_foreground", kDisparityUnit, false, true},
     {DraftMap::Background, "disparity_background", kDisparityUnit, false, true},
     {DraftMap::Layers, "layers", "surfaces", false, true},
-    {DraftMap::Valid, "valid", "", true},
-    {DraftMap::ForegroundValid, "valid_foreground", "", true, true},
-    {DraftMap::BackgroundValid, "valid_background", "", true, true},
+    {DraftMap::Valid, "valid", kNoUnit, true},
+    {DraftMap::ForegroundValid, "valid_foreground", kNoUnit, true, true},
+    {DraftMap::BackgroundValid, "valid_background", kNoUnit, true, true},
 };
 
 bool is_mask(DraftMap map) {
@@ -316,6 +316,7 @@ void DraftFile::create(const std::filesystem::path& path, const DraftShape& shap
       output.reserve_dataset<float>(name, extent, axes, dataset.unit);
     }
   }
+  describe_maps(output, maps);
   output.close();
   {
     const FileDescriptor reserved(file.temporary(), O_RDWR);

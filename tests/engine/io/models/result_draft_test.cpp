@@ -96,6 +96,7 @@ void ResultDraftTest::completedDraft_isTheResultFile() {
   provenance.method = "epi_l";
   provenance.range = {-1.5, 2};
   provenance.notes = {"one", "two"};
+  provenance.camera = {.baseline = 2.5, .focal_length = 4, .shift = 1};
   ResultDraft made = draft();
   made.write(rows(0, 3), block_of(rows(0, 3)), {.done = 3}, false);
   made.write(rows(3, 5), block_of(rows(3, 5)), {.done = 5}, false);
@@ -105,6 +106,11 @@ void ResultDraftTest::completedDraft_isTheResultFile() {
   const Estimate read = io::read_result(path(), kMaps.grid);
   QVERIFY(read.method == "epi_l" && read.source == "lf.h5" && read.notes == provenance.notes);
   QVERIFY(read.range == provenance.range);
+  QCOMPARE(read.camera.depth_from_disparity(1), 5.0);
+  const io::Hdf5Input file(path());
+  QVERIFY(file.has_attribute("estimate/confidence", "DIMENSION_LIST"));
+  QCOMPARE(*file.text("estimate/confidence", "units"), std::string("1"));
+  QVERIFY(file.text("estimate/disparity", "long_name").has_value());
   QCOMPARE(read.field.disparity.view({1, 2}).at(4, 3), value_at({1, 2}, 4, 3));
   QCOMPARE(read.confidence.view({0, 1}).at(2, 0), -value_at({0, 1}, 2, 0));
   QCOMPARE(std::distance(std::filesystem::directory_iterator(path().parent_path()), {}), 1);

@@ -173,6 +173,10 @@ class ResultTest : public QObject {
     estimate.source = "/somewhere/lf.h5";
     estimate.source_hash = 0xFEDCBA9876543210U;
     estimate.notes = {"gap 0.001", "two views unsolved"};
+    estimate.camera = {2.5, 4, 1.25, 8, Pinhole{120, 3.5, 3}};
+    estimate.device = "CPU";
+    estimate.commit = "0123abc";
+    estimate.date = "2026-11-27T22:43:23Z";
 
     io::write_result(path("r.h5"), estimate, Progress(1));
     const Estimate read = io::read_result(path("r.h5"), kGrid);
@@ -189,6 +193,60 @@ class ResultTest : public QObject {
     QCOMPARE(read.source, estimate.source);
     QCOMPARE(read.source_hash, estimate.source_hash);
     QVERIFY(read.notes == estimate.notes);
+    QCOMPARE(read.camera.depth_from_disparity(0.75), 5.0);
+    QCOMPARE(read.camera.cam_distance.value(), 8.0);
+    QCOMPARE(read.camera.pinhole.value().center_x, 3.5);
+    QCOMPARE(read.device, estimate.device);
+    QCOMPARE(read.commit, estimate.commit);
+    QCOMPARE(read.date, estimate.date);
+  }
+
+  /// Former versions wrote texts of fixed length, and no more than this.
+  void fileOfFormerVersion_isRead() {
+    {
+      io::AtomicFile target(path("old.h5"));
+      io::Hdf5Output out(target);
+      out.add_group("estimate");
+      out.add_dataset<float>("estimate/disparity", {kHeight, kWidth}, "y,x", "px per view step");
+      const std::vector<float> values(kHeight * kWidth, 0.5F);
+      out.write("estimate/disparity", {{0, 0}, {kHeight, kWidth}}, values.data());
+      out.set_ascii("estimate", "method", "epi_l");
+      out.set_ascii("estimate", "parameters", R"({"profile":"tuned"})");
+      out.set_ascii("estimate", "source", "lf.h5");
+      out.set_number("estimate", "seconds", 1.25);
+      out.set_integers("estimate", "view", {2, 4});
+      out.close();
+      target.commit();
+    }
+
+    const Estimate read = io::read_result(path("old.h5"), kGrid);
+
+    QCOMPARE(read.method, std::string("epi_l"));
+    QCOMPARE(read.source, std::string("lf.h5"));
+    QCOMPARE(read.parameters.size(), std::size_t{1});
+    QCOMPARE(read.field.disparity.first(), (ViewIndex{2, 4}));
+    QCOMPARE(read.field.disparity.data()[5], 0.5F);
+    QVERIFY(!read.camera.is_known());
+    QVERIFY(read.date.empty() && read.device.empty());
+  }
+
+  void texts_areOfVariableLength() {
+    Estimate estimate;
+    estimate.field = sample_field(kGrid, {});
+    estimate.method = "größer";
+
+    io::write_result(path("r.h5"), estimate, Progress(1));
+
+    const hid_t file = H5Fopen(path("r.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t text = H5Aopen_by_name(file, "estimate", "method", H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t type = H5Aget_type(text);
+    const bool is_variable = H5Tis_variable_str(type) > 0;
+    const H5T_cset_t letters = H5Tget_cset(type);
+    H5Tclose(type);
+    H5Aclose(text);
+    H5Fclose(file);
+    QVERIFY(is_variable);
+    QCOMPARE(letters, H5T_CSET_UTF8);
   }
 
   void layers_areKept() {
@@ -219,8 +277,52 @@ class ResultTest : public QObject {
 
     QCOMPARE(*file.text("estimate/disparity", "axes"), std::string("v,u,y,x"));
     QCOMPARE(*file.text("estimate/disparity", "units"), std::string("px per view step"));
-    QVERIFY(file.text("estimate/valid", "axes").has_value());
+    QCOMPARE(*file.text("estimate/valid", "axes"), std::string("v,u,y,x"));
+    QCOMPARE(*file.text("estimate/valid", "units"), std::string("1"));
+    QVERIFY(file.text("estimate/valid", "long_name").has_value());
+    QVERIFY(file.text("estimate", "sign")->starts_with("positive disparity = nearer"));
     QVERIFY(std::isnan(first));
+  }
+
+  /// Masks always are, maps on request; nothing is lost.
+  void compressedResult_holdsTheSame() {
+    Estimate estimate;
+    estimate.field = sample_field(kGrid, {});
+    estimate.confidence = ViewStack<float>(kGrid, kHeight, kWidth);
+    std::fill_n(estimate.confidence.data(), estimate.confidence.size(), 0.25F);
+
+    io::write_result(path("plain.h5"), estimate, Progress(1));
+    io::write_result(path("packed.h5"), estimate, Progress(1),
+                     {.floats = io::Hdf5Storage::Deflated});
+    const Estimate read = io::read_result(path("packed.h5"), kGrid);
+
+    const io::Hdf5Shape view{1, 1, kHeight, kWidth};
+    QVERIFY(io::Hdf5Input(path("plain.h5")).dataset("estimate/valid").chunk == view);
+    QVERIFY(io::Hdf5Input(path("plain.h5")).dataset("estimate/disparity").chunk.empty());
+    QVERIFY(io::Hdf5Input(path("packed.h5")).dataset("estimate/disparity").chunk == view);
+    compare(read.field, estimate.field);
+    QVERIFY(std::equal(read.confidence.data(), read.confidence.data() + read.confidence.size(),
+                       estimate.confidence.data()));
+  }
+
+  /// The axes of every map are datasets of their places, as netCDF has them.
+  void axes_areDimensionScales() {
+    Estimate estimate;
+    estimate.field = sample_field({2, 2}, {1, 3});
+
+    io::write_result(path("r.h5"), estimate, Progress(1));
+    const io::Hdf5Input file(path("r.h5"));
+
+    for (const char* map : {"estimate/disparity", "estimate/valid"}) {
+      QVERIFY(file.texts(map, "DIMENSION_LABELS") == (std::vector<std::string>{"v", "u", "y", "x"}));
+      QVERIFY(file.has_attribute(map, "DIMENSION_LIST"));
+    }
+    std::int32_t places[2] = {};
+    file.read("estimate/u", {{0}, {2}}, places);
+    QCOMPARE(places[0], 3);
+    QCOMPARE(places[1], 4);
+    QCOMPARE(*file.text("estimate/u", "CLASS"), std::string("DIMENSION_SCALE"));
+    QCOMPARE(file.dataset("estimate/x").shape, io::Hdf5Shape{kWidth});
   }
 
   void foreignMaps_belongToTheCenterView_data() {
