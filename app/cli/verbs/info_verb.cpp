@@ -338,6 +338,7 @@ void describe_result(const std::string& file, bool is_json) {
     json["disparity"] = interval_json(summary.range);
     if (!(estimate.range == Interval{})) json["range"] = interval_json(estimate.range);
     json["confidence"] = !estimate.confidence.empty();
+    json["second"] = !estimate.second.empty();
     json["layers"] = estimate.layered.foreground.empty() ? 1 : 2;
     add_made_by(json, made, file);
     json["notes"] = estimate.notes;
@@ -346,8 +347,9 @@ void describe_result(const std::string& file, bool is_json) {
   print_line("result", is_own ? "of " + estimate.method : "a map of another program");
   const std::string views = is_own ? views_text(maps.grid(), maps.first())
                                    : fmt::format("{}×{} views", maps.grid().v, maps.grid().u);
-  print_line("shape", fmt::format("{} of {}×{} px{}{}", views, maps.width(), maps.height(),
+  print_line("shape", fmt::format("{} of {}×{} px{}{}{}", views, maps.width(), maps.height(),
                                   estimate.confidence.empty() ? "" : ", with confidence",
+                                  estimate.second.empty() ? "" : ", second disparity",
                                   estimate.layered.foreground.empty() ? "" : ", two layers"));
   print_line("disparity", fmt::format("{}, {:.4g} % of the pixels", range_text(summary.range),
                                       summary.valid_percent));

@@ -20,8 +20,8 @@ namespace {
 /// Bytes of all maps, with some room for the structure of the file.
 std::uintmax_t result_bytes(const Estimate& estimate) {
   std::uintmax_t bytes = 1 << 16;
-  for (const DisparityField* field :
-       {&estimate.field, &estimate.layered.foreground, &estimate.layered.background}) {
+  for (const DisparityField* field : {&estimate.field, &estimate.layered.foreground,
+                                      &estimate.layered.background, &estimate.second}) {
     if (!field->empty()) bytes += field->disparity.size() * sizeof(float);
     if (!field->valid.empty()) bytes += field->valid.size();
   }
@@ -66,6 +66,8 @@ class ResultReader {
     estimate.layered.foreground = read_field_if_there("disparity_foreground", "valid_foreground");
     estimate.layered.background = read_field_if_there("disparity_background", "valid_background");
     estimate.layered.layers = read_if_there<std::uint8_t>("layers");
+    estimate.second.disparity = read_if_there<float>("disparity_second");
+    mark_invalid(estimate.second);
     read_provenance(estimate);
     return estimate;
   }
@@ -158,6 +160,9 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
     write_stack(file, in_group("confidence"), estimate.confidence, "", progress.part(0.6, 0.9));
   }
   write_layers(file, estimate.layered, progress.part(0.9, 1));
+  if (!estimate.second.empty()) {
+    write_disparity(file, in_group("disparity_second"), estimate.second, progress.part(1, 1));
+  }
   write_provenance(file, estimate, geometry_of(estimate.field.disparity),
                    source.value_or(estimate.source));
   file.close();

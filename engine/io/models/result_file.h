@@ -13,7 +13,8 @@
 namespace episcope::io {
 
 /// Writes a result file: group `/estimate` with `disparity`, `confidence`, `valid` and, of layered
-/// methods, `disparity_foreground`, `disparity_background`, `layers`; provenance in attributes.
+/// methods, `disparity_foreground`, `disparity_background`, `layers`; `disparity_second`, NaN where
+/// there is none, of methods that find some; provenance in attributes.
 /// Atomic: a temporary file beside it, flushed, then renamed. `source` replaces the source of the
 /// estimate if given. Confidence is kept as 32-bit float: later passes of some methods read it
 /// again, so fewer bits would change results of block-wise runs. Throws IoError (nothing is left
