@@ -144,7 +144,8 @@ class MemoryStore : public BlockStore {
   }
 
   bool has_layers_;
-  StoredField field_, near_, far_;
+  bool has_second_;
+  StoredField field_, near_, far_, second_;
   ViewStack<float> confidence_;
   ViewStack<std::uint8_t> layers_;
   std::vector<ViewStack<float>> kept_;
