@@ -118,13 +118,15 @@ FileInfo describe_result(const std::string& file) {
   json["disparity"] = interval_json(summary.range);
   if (has_range) json["range"] = interval_json(estimate.range);
   json["confidence"] = !estimate.confidence.empty();
+  json["second"] = !estimate.second.empty();
   json["layers"] = estimate.layered.foreground.empty() ? 1 : 2;
 
   const std::string views = is_own ? views_text(maps.grid(), maps.first())
                                    : fmt::format("{}×{} views", maps.grid().v, maps.grid().u);
   info.lines = {{"result", is_own ? "of " + estimate.method : "a map of another program"},
-                {"shape", fmt::format("{} of {}×{} px{}{}", views, maps.width(), maps.height(),
+                {"shape", fmt::format("{} of {}×{} px{}{}{}", views, maps.width(), maps.height(),
                                       estimate.confidence.empty() ? "" : ", with confidence",
+                                      estimate.second.empty() ? "" : ", second disparity",
                                       estimate.layered.foreground.empty() ? "" : ", two layers")},
                 {"disparity", fmt::format("{}, {:.4g} % of the pixels", range_text(summary.range),
                                           summary.valid_percent)}};

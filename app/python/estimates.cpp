@@ -227,6 +227,12 @@ where it is not known. [v, u, y, x], or [y, x] if one view was estimated. Read-o
             return disparity_array(found.estimate->layered.background, found.estimate);
           },
           "Disparity of what is seen through it; else None.")
+      .def_property_readonly(
+          "second",
+          [](const FoundEstimate& found) {
+            return disparity_array(found.estimate->second, found.estimate);
+          },
+          "Another disparity that a pixel may have, of net for one view; NaN where there is none.")
       .def_property_readonly("view", single_view_of, "(v, u) if one view was estimated; else None.")
       .def_property_readonly("method",
                              [](const FoundEstimate& found) { return found.estimate->method; })

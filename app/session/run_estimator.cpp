@@ -158,8 +158,9 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   const BlockMemory memory = without(request.memory, even.bytes());
   require_memory(run, memory);  // before what another run left is replaced
   run.provenance.source_hash = hash;
-  io::ResultDraft draft(request.output, {run.maps, !lf.valid().empty(), run.has_layers, run.kept},
-                        identity_of(estimator, run, hash));
+  const io::DraftShape shape{run.maps, !lf.valid().empty(), run.has_layers, run.has_second,
+                             run.kept};
+  io::ResultDraft draft(request.output, shape, identity_of(estimator, run, hash));
   DraftStore store(draft, lf.info().source);
   FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};
   finished.provenance = run_blocks(lf, run, store, memory, limited.part(0.06, 1));

@@ -37,6 +37,9 @@ struct Estimate : Provenance {
   DisparityField field;
   ViewStack<float> confidence;  ///< In [0, 1], shape of `field.disparity`; empty = unknown.
   LayeredDisparity layered;     ///< Empty unless the method estimates two layers.
+  /// Another disparity that a pixel may have instead, as beside silhouettes; not valid where there
+  /// is none. Empty unless the method finds some.
+  DisparityField second;
 
   [[nodiscard]] const Provenance& provenance() const { return *this; }
   void set_provenance(Provenance provenance) {
@@ -74,6 +77,7 @@ struct BlockMaps {
   DisparityField field;
   ViewStack<float> confidence;
   LayeredDisparity layered{};            ///< Empty unless the method estimates two layers.
+  DisparityField second{};               ///< As in Estimate.
   std::vector<ViewStack<float>> kept{};  ///< For later passes, no part of the result.
 };
 

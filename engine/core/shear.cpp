@@ -384,6 +384,7 @@ Estimate sheared(const Estimate& estimate, const ShearedInto& into, double focus
   result.layered.foreground = field(estimate.layered.foreground);
   result.layered.background = field(estimate.layered.background);
   result.layered.layers = nearest(estimate.layered.layers, shear);
+  result.second = field(estimate.second);
   result.set_provenance(estimate.provenance());
   for (auto& [key, value] : result.parameters) {
     auto* range = std::get_if<IntervalOrAuto>(&value);

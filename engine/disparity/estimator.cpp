@@ -88,6 +88,7 @@ void mark_invalid(const LightField& light_field, Estimate& estimate) {
   mark(light_field, estimate.field);
   mark(light_field, estimate.layered.foreground);
   mark(light_field, estimate.layered.background);
+  mark(light_field, estimate.second);
   clear_invalid_of(light_field, estimate.layered.layers);
   clear_invalid_of(light_field, estimate.confidence);
 }
@@ -96,6 +97,7 @@ void mark_invalid(const LightField& light_field, int first_row, BlockMaps& block
   mark(light_field, block.field, first_row);
   mark(light_field, block.layered.foreground, first_row);
   mark(light_field, block.layered.background, first_row);
+  mark(light_field, block.second, first_row);
   clear_invalid_of(light_field, block.layered.layers, first_row);
   clear_invalid_of(light_field, block.confidence, first_row);
 }

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "engine/core/estimate.h"
-#include "engine/core/view_gain.h"
 #include "engine/core/isa.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
+#include "engine/core/view_gain.h"
 
 #include <cstdint>
 #include <functional>
@@ -91,7 +91,8 @@ struct BlockPass {
 /// Refers to its light field.
 struct BlockwiseRun {
   MapGeometry maps;
-  bool has_layers = false;  ///< Whether blocks have BlockMaps::layered.
+  bool has_layers = false;  ///< Whether blocks have BlockMaps::layered,
+  bool has_second = false;  ///< and BlockMaps::second.
   /// How many maps are kept for later passes. A pass that keeps a block must not read what was kept
   /// of it before: where the program ended, the block is made and kept once more.
   int kept = 0;

@@ -13,6 +13,7 @@ namespace episcope::render {
 enum class Quantity : std::uint8_t {
   View,
   Disparity,
+  Second,      ///< Another disparity that a pixel may have.
   Background,  ///< Disparity of the background seen through a surface.
   Layers,      ///< Number of surfaces, 1 or 2.
   Confidence,

@@ -21,8 +21,8 @@ namespace {
 /// Bytes of all maps, with some room for the structure of the file.
 std::uintmax_t result_bytes(const Estimate& estimate) {
   std::uintmax_t bytes = 1 << 16;
-  for (const DisparityField* field :
-       {&estimate.field, &estimate.layered.foreground, &estimate.layered.background}) {
+  for (const DisparityField* field : {&estimate.field, &estimate.layered.foreground,
+                                      &estimate.layered.background, &estimate.second}) {
     if (!field->empty()) bytes += field->disparity.size() * sizeof(float);
     if (!field->valid.empty()) bytes += field->valid.size();
   }
@@ -55,6 +55,10 @@ class ResultWriter {
     }
     const LayeredDisparity& layered = estimate.layered;
     const Progress last = progress.part(0.9, 1);
+    if (!estimate.second.empty()) {
+      file_.set_storage(floats_);
+      write_disparity(file_, in_group("disparity_second"), estimate.second, last);
+    }
     write_field(layered.foreground, "disparity_foreground", "valid_foreground", last);
     write_field(layered.background, "disparity_background", "valid_background", last);
     if (layered.layers.empty()) return;
@@ -90,6 +94,8 @@ class ResultReader {
     estimate.layered.foreground = read_field_if_there("disparity_foreground", "valid_foreground");
     estimate.layered.background = read_field_if_there("disparity_background", "valid_background");
     estimate.layered.layers = read_if_there<std::uint8_t>("layers");
+    estimate.second.disparity = read_if_there<float>("disparity_second");
+    mark_invalid(estimate.second);
     read_provenance(estimate);
     return estimate;
   }

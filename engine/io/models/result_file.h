@@ -20,8 +20,9 @@ struct ResultForm {
 };
 
 /// Writes a result file: group `/estimate` with `disparity`, `confidence`, `valid` and, of layered
-/// methods, `disparity_foreground`, `disparity_background`, `layers`; their axes as dimension
-/// scales; provenance, camera and conventions in attributes.
+/// methods, `disparity_foreground`, `disparity_background`, `layers`; `disparity_second`, NaN where
+/// there is none, of methods that find some; their axes as dimension scales; provenance, camera and
+/// conventions in attributes.
 /// Atomic: a temporary file beside it, flushed, then renamed. Confidence is kept as 32-bit float: later passes of some methods read it
 /// again, so fewer bits would change results of block-wise runs. Throws IoError (nothing is left
 /// behind), Cancelled.

@@ -80,9 +80,11 @@ class MemoryStore : public BlockStore {
  public:
   explicit MemoryStore(const BlockwiseRun& run)
       : has_layers_(run.has_layers),
+        has_second_(run.has_second),
         field_(run.maps),
         near_(run.maps),
         far_(run.maps),
+        second_(run.maps),
         confidence_(stack_of(run.maps, 0.0F)),
         layers_(stack_of(run.maps, std::uint8_t{0})) {
     for (int i = 0; i < run.kept; ++i) kept_.push_back(stack_of(run.maps, 0.0F));
@@ -117,6 +119,7 @@ class MemoryStore : public BlockStore {
       far_.write(block, maps.layered.background);
       copy(maps.layered.layers, block, 0, layers_, block.first_row);
     }
+    if (has_second_) second_.write(block, maps.second);
     note(after);
   }
 
@@ -126,8 +129,9 @@ class MemoryStore : public BlockStore {
     const bool same_layers =
         !has_layers_ || (near_.equals(layered.foreground) && far_.equals(layered.background) &&
                          std::memcmp(layers_.data(), layered.layers.data(), layers_.size()) == 0);
-    return same_layers && field_.equals(estimate.field) &&
-           same_bytes(confidence_, estimate.confidence);
+    if (has_second_ != !estimate.second.empty()) return false;
+    return same_layers && (!has_second_ || second_.equals(estimate.second)) &&
+           field_.equals(estimate.field) && same_bytes(confidence_, estimate.confidence);
   }
 
  private:
@@ -140,7 +144,8 @@ class MemoryStore : public BlockStore {
   }
 
   bool has_layers_;
-  StoredField field_, near_, far_;
+  bool has_second_;
+  StoredField field_, near_, far_, second_;
   ViewStack<float> confidence_;
   ViewStack<std::uint8_t> layers_;
   std::vector<ViewStack<float>> kept_;

@@ -266,6 +266,20 @@ class ResultTest : public QObject {
     QCOMPARE(read.layered.layers.data()[0], std::uint8_t{2});
   }
 
+  void secondDisparity_isKept() {
+    Estimate estimate;
+    estimate.field = sample_field({1, 1}, kGrid.center());
+    estimate.second = sample_field({1, 1}, kGrid.center());
+    estimate.second.require_mask();
+    estimate.second.valid.data()[7] = 0;
+    estimate.second.disparity.data()[7] = 0;
+
+    io::write_result(path("r.h5"), estimate, Progress(1));
+    const Estimate read = io::read_result(path("r.h5"), kGrid);
+
+    compare(read.second, estimate.second);
+  }
+
   void file_statesAxesUnitsAndInvalidPixels() {
     Estimate estimate;
     estimate.field = sample_field(kGrid, {});
