@@ -157,8 +157,8 @@ struct Selection {
 
 // Log-probability of a disparity, linear between labels.
 __device__ float log_at(const Selection& work, long at, float disparity) {
-  const float place = fminf(fmaxf((disparity - work.first) / work.step, 0),
-                            static_cast<float>(work.labels - 1));
+  const float place =
+      fminf(fmaxf((disparity - work.first) / work.step, 0), static_cast<float>(work.labels - 1));
   const int i = min(static_cast<int>(place), work.labels - 2);
   const float part = place - static_cast<float>(i);
   const long pixels = work.size.pixels();
@@ -366,9 +366,8 @@ class NetRun {
     views_.reduce_hypotheses(hypothesis(0), reduction.data(), inputs, stream_);
     const NetTensor& guide = views_.whole_guide();
     on_pixels("net: hypotheses", write_hypotheses,
-              Selection{size_, hypothesis(0), log_.data(), task_.labels, task_.first,
-                        label_step(), guide.values.data(), guide.shape, inputs.values.data(),
-                        inputs.shape});
+              Selection{size_, hypothesis(0), log_.data(), task_.labels, task_.first, label_step(),
+                        guide.values.data(), guide.shape, inputs.values.data(), inputs.shape});
     const NetTensor logits = run_on(selection, std::move(inputs), progress);
     on_pixels("net: decisions", decide,
               Decision{size_, logits.values.data(), logits.shape, hypothesis(0),
@@ -428,8 +427,8 @@ class NetRun {
   [[nodiscard]] int rows_at_once() const {
     constexpr double kShare = 0.8;
     constexpr int kRows = 1024;
-    const double bytes = volume_.bytes({{kNetEvidence, task_.labels, kRows, size_.width},
-                                        {kNetGuide, 1, kRows, size_.width}});
+    const double bytes = volume_.bytes(
+        {{kNetEvidence, task_.labels, kRows, size_.width}, {kNetGuide, 1, kRows, size_.width}});
     const double rows = kShare * free_bytes() / bytes * kRows;
     if (rows >= size_.height) return size_.height;
     const int band = static_cast<int>(rows) - 2 * kVolumeReach;
@@ -445,13 +444,19 @@ class NetRun {
     progress.check();
     sources.push_back(views_.guide(begin, behind, stream_));
     const NetTensor logits = volume_.run(std::move(sources), stream_, progress);
-    const Modes work{{end - first, size_.width}, logits.shape, logits.values.data(),
-                     first - begin,              first,        log_.data(),
-                     hypothesis(0),              hypothesis(kNetHypotheses - 1),
-                     task_.first,                label_step(), size_.pixels()};
-    launch(stream_, {"net: modes", 8.0 * static_cast<double>(logits.shape.size()), 0}, [&] {
-      find_modes<<<grid_of(work.size), kThreads, 0, stream_.get()>>>(work);
-    });
+    const Modes work{{end - first, size_.width},
+                     logits.shape,
+                     logits.values.data(),
+                     first - begin,
+                     first,
+                     log_.data(),
+                     hypothesis(0),
+                     hypothesis(kNetHypotheses - 1),
+                     task_.first,
+                     label_step(),
+                     size_.pixels()};
+    launch(stream_, {"net: modes", 8.0 * static_cast<double>(logits.shape.size()), 0},
+           [&] { find_modes<<<grid_of(work.size), kThreads, 0, stream_.get()>>>(work); });
   }
 
   // Of the first map and its maxima, minima and medians.

@@ -75,7 +75,8 @@ struct Sample {
   bool is_within;
 };
 
-// As the CPU has it of a disparity that all pixels share: the shift is rounded once for all columns.
+// As the CPU has it of a disparity that all pixels share: the shift is rounded once for all
+// columns.
 __device__ Sample shifted_sample(const NetViewPointers& views, int x, int y, float2 offset,
                                  float d) {
   const float shift = __fmul_rn(-d, offset.x);
@@ -157,8 +158,8 @@ __device__ void find_evidence(const NetViewPointers& views, int x, int y, float 
 #pragma unroll 2
     for (int i = views.sector_begin[sector]; i < views.sector_begin[sector + 1]; ++i) {
       const float2 offset = views.offsets[i];
-      const Sample at = kIsPlane ? shifted_sample(views, x, y, offset, d)
-                                 : mapped_sample(views, x, y, offset, d);
+      const Sample at =
+          kIsPlane ? shifted_sample(views, x, y, offset, d) : mapped_sample(views, x, y, offset, d);
       if (!at.is_within) continue;
       const Distance distance = distance_of(views.pixels + i * pixels, views.down + i * pixels,
                                             views.width, at, reference, reference_down);
@@ -256,9 +257,8 @@ __global__ __launch_bounds__(kColumns* kCount) void reduce_maps(Maps work) {
                                  kNetOffset[4]};
     d = __fadd_rn(d, __fmul_rn(kOffset[number], work.step));
   }
-  find_evidence<false>(work.views, min(x, width - 1), y, d, [&](int channel, float value) {
-    all[number][channel][column] = value;
-  });
+  find_evidence<false>(work.views, min(x, width - 1), y, d,
+                       [&](int channel, float value) { all[number][channel][column] = value; });
   __syncthreads();
   float evidence[kNetEvidence], reduced[kNetReduced];
 #pragma unroll
@@ -280,8 +280,7 @@ void launch_maps(const Maps& work, int views, const DeviceStream& stream) {
   const double samples = static_cast<double>(kCount) * work.shape.plane() * views;
   launch(stream, {"net: evidence at maps", 20 * samples / kCount, 60 * samples}, [&] {
     const dim3 grid(blocks_for(work.shape.width, kColumns), work.shape.height);
-    reduce_maps<kCount, kAreOffsets>
-        <<<grid, dim3(kColumns, kCount), 0, stream.get()>>>(work);
+    reduce_maps<kCount, kAreOffsets><<<grid, dim3(kColumns, kCount), 0, stream.get()>>>(work);
   });
 }
 
@@ -296,8 +295,8 @@ NetViews::NetViews(const NetTask& task, const DeviceStream& stream, const Progre
     sector_begin.push_back(static_cast<int>(views.size()));
     for (const ViewIndex view : task.sectors[k]) {
       views.push_back({view.v, view.u});
-      offsets.push_back({static_cast<float>(view.u - task.view.u),
-                         static_cast<float>(view.v - task.view.v)});
+      offsets.push_back(
+          {static_cast<float>(view.u - task.view.u), static_cast<float>(view.v - task.view.v)});
     }
   }
   sector_begin.push_back(static_cast<int>(views.size()));
@@ -353,8 +352,8 @@ void NetViews::reduce_hypotheses(const float* maps, const float* weights, NetTen
       {pointers_, maps, 0, weights, inputs.values.data(), inputs.shape}, views_, stream);
 }
 
-void NetViews::reduce_offsets(const float* map, float step, const float* weights,
-                              NetTensor& inputs, const DeviceStream& stream) const {
+void NetViews::reduce_offsets(const float* map, float step, const float* weights, NetTensor& inputs,
+                              const DeviceStream& stream) const {
   launch_maps<kNetOffsets, true>(
       {pointers_, map, step, weights, inputs.values.data(), inputs.shape}, views_, stream);
 }

@@ -9,8 +9,8 @@ namespace episcope::cuda {
 
 /// The views that kernels compare, each `[y][x]`: the reference, then sector by sector.
 struct NetViewPointers {
-  const float4* pixels = nullptr;  ///< R, G, B, the difference of grey along x; NaN where invalid.
-  const float* down = nullptr;     ///< The difference along y.
+  const float4* pixels = nullptr;   ///< R, G, B, the difference of grey along x; NaN where invalid.
+  const float* down = nullptr;      ///< The difference along y.
   const float2* offsets = nullptr;  ///< du and dv of each view.
   const int* sector_begin = nullptr;  ///< Sector k from this one to the next one's.
   int height = 0;

@@ -36,8 +36,7 @@ struct Blocking {
   static constexpr int kReach = kKernel / 2 * kDilation;
   static constexpr int kMargin = kReach > 0 ? kQuad : 0;
   static_assert(kReach <= kQuad);
-  static constexpr int kColumns =
-      kWarpColumns * kStride + kMargin + (kStride == 1 ? kMargin : 0);
+  static constexpr int kColumns = kWarpColumns * kStride + kMargin + (kStride == 1 ? kMargin : 0);
   static constexpr int kRows = (kWarpRows * kTiles - 1) * kStride + 1 + 2 * kReach;
   // Rows begin in banks that make reads of a warp free of conflicts, or nearly so.
   static constexpr int kPitch = kColumns + (kColumns % 32 == 8 || kColumns % 32 == 0 ? 4 : 8);
@@ -66,8 +65,8 @@ __device__ void wait_for_stages() {
 
 // Fetches inputs of a chunk at one label, and their weights.
 template <class B>
-__device__ void fetch(const Convolution& work, int x, int y, int z, int chunk,
-                      const float* weights, float* stage) {
+__device__ void fetch(const Convolution& work, int x, int y, int z, int chunk, const float* weights,
+                      float* stage) {
   for (int i = static_cast<int>(threadIdx.x); i < kChunk * B::kRows * (B::kColumns / kQuad);
        i += B::kThreads) {
     const int quad = i % (B::kColumns / kQuad), line = i / (B::kColumns / kQuad);
@@ -187,8 +186,8 @@ __device__ void finish_run(const Convolution& work, int channel, int z, int y, i
 }
 
 template <class B>
-__global__ __launch_bounds__(B::kThreads, B::kThreads > 128 ? 2 : 4) void convolve_tiles(
-    Convolution work) {
+__global__ __launch_bounds__(B::kThreads,
+                             B::kThreads > 128 ? 2 : 4) void convolve_tiles(Convolution work) {
   extern __shared__ float stages[];
   const int columns = (work.to.width + kWarpColumns - 1) / kWarpColumns;
   const int tile_x = static_cast<int>(blockIdx.x) % columns * kWarpColumns;
@@ -249,13 +248,13 @@ int blocks_of_outputs(int outputs) {
 template <class B>
 void launch_tiles(const Convolution& work, const DeviceStream& stream) {
   constexpr int kBytes = 2 * B::kStage * static_cast<int>(sizeof(float));
-  static const bool is_set = (check(cudaFuncSetAttribute(convolve_tiles<B>,
-                                                         cudaFuncAttributeMaxDynamicSharedMemorySize,
-                                                         kBytes)),
-                              true);
+  static const bool is_set =
+      (check(cudaFuncSetAttribute(convolve_tiles<B>, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                  kBytes)),
+       true);
   static_cast<void>(is_set);
-  const unsigned tiles = blocks_for(work.to.width, kWarpColumns) *
-                         blocks_for(work.to.height, kWarpRows * B::kTiles);
+  const unsigned tiles =
+      blocks_for(work.to.width, kWarpColumns) * blocks_for(work.to.height, kWarpRows * B::kTiles);
   const dim3 grid(tiles, blocks_of_outputs(work.to.channels), work.to.depth);
   convolve_tiles<B><<<grid, B::kThreads, kBytes, stream.get()>>>(work);
 }
@@ -431,9 +430,8 @@ void DevicePart::convolve(const Step& step, const std::vector<NetTensor>& tensor
   const NetTensor& input = tensors[step.input];
   const NetConvolution& form = step.form;
   assert(input.shape.channels == form.inputs);
-  Convolution work{values(step.input), out.values.data(),   values(step.before),
-                   values(step.after), step.weights.data(), step.bias.data(),
-                   input.shape,        out.shape};
+  Convolution work{values(step.input),  out.values.data(), values(step.before), values(step.after),
+                   step.weights.data(), step.bias.data(),  input.shape,         out.shape};
   if (step.before >= 0) {
     const TensorShape& before = tensors[step.before].shape;
     work.before_label = before.depth == 1 ? 0 : before.plane();

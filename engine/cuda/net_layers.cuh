@@ -8,8 +8,8 @@
 
 namespace episcope::cuda {
 
-/// Size of a tensor on the device, `[channel][z][y][x]`; rows begin every `pitch` numbers. What lies
-/// behind the columns is not defined.
+/// Size of a tensor on the device, `[channel][z][y][x]`; rows begin every `pitch` numbers. What
+/// lies behind the columns is not defined.
 struct TensorShape {
   int channels = 0;
   int depth = 1;

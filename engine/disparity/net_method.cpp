@@ -118,8 +118,8 @@ Image<float> image_of(ImageView<const float> view) {
 class NetMethod final : public CarriedMethod {
  public:
   // Reads the weights, finds the range.
-  NetMethod(const LightField& light_field, const NetMethodParameters& parameters,
-            Device device, const Progress& progress)
+  NetMethod(const LightField& light_field, const NetMethodParameters& parameters, Device device,
+            const Progress& progress)
       : lf_(light_field),
         parameters_(parameters),
         weights_(weights_of(parameters)),
@@ -135,20 +135,21 @@ class NetMethod final : public CarriedMethod {
   [[nodiscard]] Estimate estimate_first(const Progress& progress) override {
     const ViewIndex view = first_view();
     Estimate estimate = estimate_of(
-        view, range_, estimate_net(lf_, view, weights_->weights(), view_parameters(), progress, device_));
+        view, range_,
+        estimate_net(lf_, view, weights_->weights(), view_parameters(), progress, device_));
     if (!parameters_.weights.empty()) {
-      estimate.notes.push_back(
-          fmt::format("weights of {}, hash {}", parameters_.weights, hash_digits(weights_->hash())));
+      estimate.notes.push_back(fmt::format("weights of {}, hash {}", parameters_.weights,
+                                           hash_digits(weights_->hash())));
     }
     return estimate;
   }
   [[nodiscard]] Estimate estimate_next(ViewIndex view, const std::vector<Estimate>& maps,
                                        const Progress& progress) override {
     const PropagatedMaps carried = propagate_to_views(maps, {view, {1, 1}}, progress.part(0, 0.01));
-    return estimate_of(view, range_,
-                       polish_by_net(lf_, view, image_of(carried.disparity.view(view)),
-                                     weights_->weights(), view_parameters(), progress.part(0.01, 1),
-                                     device_));
+    return estimate_of(
+        view, range_,
+        polish_by_net(lf_, view, image_of(carried.disparity.view(view)), weights_->weights(),
+                      view_parameters(), progress.part(0.01, 1), device_));
   }
 
   [[nodiscard]] double share_of_next() const override {
@@ -181,8 +182,8 @@ class NetMethod final : public CarriedMethod {
 
 BlockwiseRun net_in_blocks(const LightField& lf, const NetMethodParameters& parameters,
                            ViewSelection views, const Progress& progress) {
-  return carried_in_blocks(lf, std::make_unique<NetMethod>(lf, parameters, Device::Cpu, progress), views,
-                           progress.threads());
+  return carried_in_blocks(lf, std::make_unique<NetMethod>(lf, parameters, Device::Cpu, progress),
+                           views, progress.threads());
 }
 
 }  // namespace

@@ -104,8 +104,7 @@ cuda::NetParts net_parts(const NetWeights& weights) {
   NetStream volume, selection;
   constexpr int kLabels = 8;  // Of any number that is a multiple.
   const int evidence = add_unfilled(volume, kNetEvidence, kLabels);
-  static_cast<void>(
-      add_net_volume(volume, weights, evidence, add_unfilled(volume, kNetGuide)));
+  static_cast<void>(add_net_volume(volume, weights, evidence, add_unfilled(volume, kNetGuide)));
   parts.volume = steps_of(volume);
   static_cast<void>(
       add_net_selection(selection, weights, add_unfilled(selection, kNetSelectionInputs)));
@@ -113,8 +112,8 @@ cuda::NetParts net_parts(const NetWeights& weights) {
   parts.selection_reduction = reduction_of(weights, kNetSelection);
   for (int i = 0; i < kNetRefinements; ++i) {
     NetStream refinement;
-    static_cast<void>(add_net_refinement(refinement, weights,
-                                         add_unfilled(refinement, kNetRefinementInputs), i));
+    static_cast<void>(
+        add_net_refinement(refinement, weights, add_unfilled(refinement, kNetRefinementInputs), i));
     parts.refinements[i] = steps_of(refinement);
     parts.refinement_reductions[i] = reduction_of(weights, net_refinement(i));
   }

@@ -3,8 +3,8 @@
 
 namespace episcope {
 
-/// Constants of the network `net` that its forms for the CPU and the device share: kernels and device
-/// code include this, and it includes nothing. What they mean: resources/training/README.md.
+/// Constants of the network `net` that its forms for the CPU and the device share: kernels and
+/// device code include this, and it includes nothing. What they mean: resources/training/README.md.
 
 /// Evidence at a pixel: of each of 8 sectors of views how unlike their colors are, then how unlike
 /// their differences of grey: kNetScale (ln(mean + kNetFloor) + kNetAdd), or kNetNoViews.
@@ -47,8 +47,7 @@ inline constexpr float kNetReach = 1.5F;
 /// Maximum, minimum and median around a pixel, of kNetWindow² px.
 inline constexpr int kNetWindows = 3;
 inline constexpr int kNetWindow = 5;
-inline constexpr int kNetRefinementInputs =
-    kNetOffsets * kNetReduced + kNetWindows + 1 + kNetGuide;
+inline constexpr int kNetRefinementInputs = kNetOffsets * kNetReduced + kNetWindows + 1 + kNetGuide;
 
 /// Hypotheses: maxima and minima around the median are of kNetWideWindow² px; the last median is of
 /// pixels kNetMedianApart px apart.
