@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/cuda/device.cuh"
-#include "engine/cuda/net.h"
 #include "engine/cuda/net_layers.cuh"
+#include "engine/cuda/net_task.h"
 
 namespace episcope::cuda {
 
