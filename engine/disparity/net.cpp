@@ -424,6 +424,15 @@ void require_views(const LightField& light_field, ViewIndex view) {
   if (grid.count() < 2) throw InvalidInput("net compares views, but there is only one");
 }
 
+// What the device is told but for the labels or the map that it begins with.
+cuda::NetTask device_task(const LightField& light_field, ViewIndex view,
+                          const NetParameters& parameters) {
+  return {.light_field = light_field,
+          .view = view,
+          .sectors = net_sectors(light_field, view),
+          .takes_mean = parameters.silhouettes == Silhouettes::Mean};
+}
+
 // The whole, on the device.
 NetMaps run_on_device(const cuda::DeviceNet& net, const cuda::NetTask& task,
                       const Progress& progress) {
@@ -450,16 +459,12 @@ NetMaps estimate_net(const LightField& light_field, ViewIndex view, const NetWei
                     parameters.range.min, parameters.range.max, parameters.rounds));
   }
   if (device != nullptr) {
-    return run_on_device(*device,
-                         {.light_field = light_field,
-                          .view = view,
-                          .sectors = net_sectors(light_field, view),
-                          .labels = net_label_count(parameters.range),
-                          .first = static_cast<float>(parameters.range.min),
-                          .last = static_cast<float>(parameters.range.max),
-                          .rounds = parameters.rounds,
-                          .takes_mean = parameters.silhouettes == Silhouettes::Mean},
-                         progress);
+    cuda::NetTask task = device_task(light_field, view, parameters);
+    task.labels = net_label_count(parameters.range);
+    task.first = static_cast<float>(parameters.range.min);
+    task.last = static_cast<float>(parameters.range.max);
+    task.rounds = parameters.rounds;
+    return run_on_device(*device, task, progress);
   }
   const NetScene scene{light_field, view, weights, net_guide(light_field, view)};
   Beliefs beliefs = run_volume(scene, parameters.range, progress.part(0, 0.65));
@@ -484,13 +489,9 @@ NetMaps polish_by_net(const LightField& light_field, ViewIndex view, const Image
                                    disparity.height(), light_field.width(), light_field.height()));
   }
   if (device != nullptr) {
-    return run_on_device(*device,
-                         {.light_field = light_field,
-                          .view = view,
-                          .sectors = net_sectors(light_field, view),
-                          .takes_mean = parameters.silhouettes == Silhouettes::Mean,
-                          .start = &disparity},
-                         progress);
+    cuda::NetTask task = device_task(light_field, view, parameters);
+    task.start = &disparity;
+    return run_on_device(*device, task, progress);
   }
   const NetScene scene{light_field, view, weights, net_guide(light_field, view)};
   const Hypotheses hypotheses = net_hypotheses(disparity, disparity, progress.part(0, 0));
