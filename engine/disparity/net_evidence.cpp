@@ -159,9 +159,9 @@ Image<float> net_guide(const LightField& light_field, ViewIndex reference) {
     if (y > 0) rows.go_down();
     for (int x = 0; x < guide.width(); ++x) {
       float* const out = &guide.at(y, x);
-      for (int c = 0; c < 3; ++c) out[c] = rows.color(x)[c] - 0.4F;
-      out[3] = 4 * rows.along_x(x);
-      out[4] = 4 * rows.along_y(x);
+      for (int c = 0; c < 3; ++c) out[c] = rows.color(x)[c] - kNetGrey;
+      out[3] = kNetContrast * rows.along_x(x);
+      out[4] = kNetContrast * rows.along_y(x);
     }
   }
   return guide;
