@@ -303,7 +303,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
     const auto stored = is_row ? std::optional(chosen.layout.grid()) : std::nullopt;
     arrange_list(file.path(), options, parts, chosen.reason, progress, stored);
   }
-  settle_disparity(parts.samples, maps, parts.truth.field, parts.info.camera, scene.convention);
+  settle_disparity(parts.samples, maps, parts.truth.field, scene.convention);
   report_form(file, entry, chosen, scene.convention);
   parts.files = std::move(maps.uses);
   parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});

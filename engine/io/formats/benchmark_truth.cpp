@@ -311,7 +311,7 @@ DisparityField read_stored(const fs::path& folder, const SidecarViews& views,
 void drop_unknown(const LightField::Samples& samples, ViewIndex at, DisparityField& field,
                   ConventionReport& report) {
   for (const float value : possible_unknown_values(field.view(at))) {
-    const std::string text = drop_unknown_value(samples, at, {value, value}, field);
+    const std::string text = drop_unknown_value(samples, at, {value, 1}, field);
     if (!text.empty()) report.warnings.push_back("The disparity" + text);
   }
 }

@@ -85,6 +85,8 @@ std::vector<MapUnit> common_units(GridShape grid, int width) {
     units.push_back({2.0 / steps, "px from the center view to the outermost one"});
   }
   units.push_back({static_cast<double>(width), "widths of the image per view step"});
+  units.push_back({1.0 / 100, "hundredths of a px per view step"});
+  units.push_back({1.0 / 256, "px per view step, in fixed point of 1/256"});
   return units;
 }
 

@@ -214,36 +214,18 @@ SidecarDisparity from_disparity(StoredMaps maps, const RankedSets& depths,
   return found;
 }
 
-/// Maps of which no file says what their numbers mean.
-struct UnknownSets {
-  const std::vector<const MapSet*>& sets;
-  std::string name;
-  std::vector<ValueForm> forms;
-  std::string left_out;  ///< Why they are not used if the views do not tell either.
-};
-
-/// Takes the first set whose numbers the views explain, unless there is disparity already; the
-/// others are left out.
-void add_unknown(const UnknownSets& unknown, const SidecarViews& views, const SidecarNotes& notes,
-                 SidecarDisparity& found) {
-  for (const MapSet* set : unknown.sets) {
+/// Leaves out maps of which no file says what their numbers mean: "depth maps, as …". Where there
+/// is no disparity (`is_missed`), a warning says what to do.
+void leave_out_unknown(const std::vector<const MapSet*>& sets, const std::string& what,
+                       bool is_missed, const SidecarNotes& notes) {
+  for (const MapSet* set : sets) {
     if (set->entries.empty()) continue;
-    SetOutcome outcome;
-    DisparityField field;
-    if (found.field.empty()) field = read_value_set(*set, views, outcome, Progress(1));
-    std::optional<FittedMeaning> meaning;
-    if (!field.empty()) {
-      const NamedValues values{field, set->pattern};
-      meaning = infer_unknown_units(views.samples, unknown.forms, values, notes.report);
-    }
-    if (!meaning) {
-      notes.account.leave_out(set->files(), unknown.left_out);
-      continue;
-    }
-    outcome.tell(unknown.name, notes);
-    found.field = std::move(field);
-    found.is_sign_assumed = meaning->is_sign_assumed;
-    if (!views.camera.is_known() || views.is_shift_unknown) found.camera = meaning->camera();
+    notes.account.leave_out(set->files(), what);
+    if (!is_missed) continue;
+    notes.report.warnings.push_back(fmt::format(
+        "{} is not used ({}): save disparity in px per view step as .npy, .pfm or float "
+        ".tif.",
+        set->pattern, what));
   }
 }
 
@@ -252,17 +234,6 @@ ViewStack<float> disparity_of(ViewStack<float> depth, const CameraGrid& camera) 
     return static_cast<float>(camera.disparity_from_depth(value));
   });
   return depth;
-}
-
-/// Whether depth of the center view, by the camera as it is, explains the views; also where there
-/// is none.
-bool camera_explains(const RankedSets& depths, const SidecarViews& views) {
-  const ViewIndex at = views.grid().center();
-  StoredMaps depth = read_one_depth(depths, views, at);
-  if (depth.field.empty()) return true;
-  depth.field.disparity = disparity_of(std::move(depth.field.disparity), views.camera);
-  tidy_valid(depth.field);
-  return explain_views(views.samples, at, depth.field.view(at), 1).is_good();
 }
 
 SidecarDisparity from_depth(const RankedSets& sets, const SidecarViews& views,
@@ -287,8 +258,7 @@ SidecarDisparity read_sidecar_disparity(const std::vector<MapSet>& sets, const S
                                         const SidecarNotes& notes, const Progress& progress) {
   const RankedSets disparities = rank_sets(sets, MapKind::Disparity, can_hold_values);
   const RankedSets depths = rank_sets(sets, MapKind::Depth, can_hold_values);
-  const bool has_camera =
-      views.camera.is_known() && (!views.is_shift_unknown || camera_explains(depths, views));
+  const bool has_camera = views.camera.is_known();
   SidecarDisparity found{{}, views.camera};
   StoredMaps maps =
       read_first(disparities.fit, kind_text(MapKind::Disparity), views, notes, progress);
@@ -298,20 +268,13 @@ SidecarDisparity read_sidecar_disparity(const std::vector<MapSet>& sets, const S
   } else if (has_camera) {
     found = from_depth(depths, views, notes, progress);
   }
-  const std::vector<ValueForm> depth_forms{ValueForm::Inverse, ValueForm::Linear};
+  const bool is_missed = found.field.empty();
   if (!has_disparity && !has_camera) {
-    add_unknown({depths.fit, kind_text(MapKind::Depth), depth_forms,
-                 "depth maps, as no camera parameters are known"},
-                views, notes, found);
+    leave_out_unknown(depths.fit, "depth maps, as no camera parameters are known", is_missed,
+                      notes);
   }
-  add_unknown({disparities.unfit,
-               "pictures of disparity",
-               {ValueForm::Linear},
-               "pictures of disparity, of unknown scale"},
-              views, notes, found);
-  add_unknown(
-      {depths.unfit, "pictures of depth", depth_forms, "pictures of depth, of unknown scale"},
-      views, notes, found);
+  leave_out_unknown(disparities.unfit, "pictures of disparity, of unknown scale", is_missed, notes);
+  leave_out_unknown(depths.unfit, "pictures of depth, of unknown scale", is_missed, notes);
   return found;
 }
 
