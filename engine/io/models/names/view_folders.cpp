@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/models/names/index_fields.h"
 #include "engine/io/models/names/name_parts.h"
 #include "engine/io/models/names/view_names.h"
 #include "engine/io/models/open_options.h"
@@ -199,15 +198,6 @@ bool is_one_of(const std::string& word, const std::array<std::string_view, N>& w
   return std::ranges::find(words, std::string_view(word)) != words.end();
 }
 
-/// By their numbers, or by letters instead; then there are no numbers.
-std::optional<CountedFolder> folders_of_rows(const fs::path& folder) {
-  const std::vector<fs::path> folders = list_folders(folder);
-  if (auto numbered = by_number(folders)) return numbered;
-  const auto lettered = by_letter(folders);
-  if (!lettered) return std::nullopt;
-  return CountedFolder{*lettered, {}, std::string(1, kNumberMark)};
-}
-
 /// Of folders whose names are mere numbers.
 bool are_rather_rows(std::size_t folders, std::size_t images, const OpenOptions& options) {
   if (const auto given = given_grid(options)) {
@@ -227,7 +217,7 @@ std::optional<RowFolders> find_row_folders(const fs::path& folder, const OpenOpt
   if (!fs::is_directory(folder, error) || !options.pattern.empty() || count_images(folder) > 0) {
     return std::nullopt;
   }
-  const auto folders = folders_of_rows(folder);
+  const auto folders = by_number(list_folders(folder));
   if (!folders) return std::nullopt;
   const std::string word = letters_of(folders->skeleton);
   RowFolders found{
@@ -243,8 +233,8 @@ std::optional<RowFolders> find_row_folders(const fs::path& folder, const OpenOpt
     found.rows.push_back(std::move(images->paths));
     found.numbers.push_back(std::move(images->numbers));
   }
-  const bool is_certain = folders->numbers.empty() || !word.empty() ||
-                          are_rather_rows(found.rows.size(), found.rows.front().size(), options);
+  const bool is_certain =
+      !word.empty() || are_rather_rows(found.rows.size(), found.rows.front().size(), options);
   return is_certain ? std::optional(std::move(found)) : std::nullopt;
 }
 

@@ -33,7 +33,7 @@ struct RowFolders {
 
 /// Finds folders inside `folder` that are rows of one light field. Their names differ in one number
 /// and speak of rows or columns (row, r, v, y, col, c, u, x), and images in each are numbered by
-/// one number; or the names are the letters from a on. Folders with mere numbers may also be frames
+/// one number. Folders with mere numbers may also be frames
 /// in time. They are rows if each has as many images as there are folders, if the option `grid`
 /// says so, or if so many images are no square grid. Returns nothing if `folder` holds images
 /// itself.
