@@ -125,14 +125,10 @@ class Replacer {
 
 }  // namespace
 
-float replacement_noise(const PackedViews& views, ViewIndex center,
-                        ImageView<const float> disparity) {
-  return residual_noise(views, center, disparity) + kMinDifference * kMinDifference;
-}
-
-long replace_occluded(const PackedViews& views, float noise, const ViewStack<float>& before,
-                      const ViewStack<float>& confidence, ViewStack<float>& disparity,
-                      const Progress& progress) {
+long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress) {
+  const ViewStack<float> before = disparity.clone();
+  const float noise = residual_noise(views, before) + kMinDifference * kMinDifference;
   std::vector<long> changed(disparity.grid().count());
   parallel_for_workers(disparity.grid().count(), progress, [&] {
     return [&, replacer = Replacer(views, before, confidence, noise)](int i) mutable {
@@ -145,13 +141,6 @@ long replace_occluded(const PackedViews& views, float noise, const ViewStack<flo
     };
   });
   return std::accumulate(changed.begin(), changed.end(), 0L);
-}
-
-long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
-                      const ViewStack<float>& confidence, const Progress& progress) {
-  const ViewStack<float> before = disparity.clone();
-  const float noise = residual_noise(views, before) + kMinDifference * kMinDifference;
-  return replace_occluded(views, noise, before, confidence, disparity, progress);
 }
 
 void replace_occluded(const LightField& lf, ViewStack<float>& disparity,

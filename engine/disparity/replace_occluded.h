@@ -25,15 +25,6 @@ namespace episcope {
 long replace_occluded(const PackedViews& packed_views, ViewStack<float>& disparity,
                       const ViewStack<float>& confidence, const Progress& progress);
 
-/// Noise of the center view that rays are judged by, from its packed views and disparity.
-[[nodiscard]] float replacement_noise(const PackedViews& packed_views, ViewIndex center,
-                                      ImageView<const float> disparity);
-/// Replaces rays in the views of `disparity`, given that noise. Maps and packed views cover four
-/// views around each of them in its row and column.
-long replace_occluded(const PackedViews& packed_views, float noise, const ViewStack<float>& before,
-                      const ViewStack<float>& confidence, ViewStack<float>& disparity,
-                      const Progress& progress);
-
 /// Packs the views first and replaces rays on a device. Throws DeviceFailure, Cancelled.
 void replace_occluded(const LightField& light_field, ViewStack<float>& disparity,
                       const ViewStack<float>& confidence, const Progress& progress, Device device);
