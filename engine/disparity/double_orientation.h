@@ -8,7 +8,6 @@
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/structure_tensor.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>

@@ -6,6 +6,7 @@
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
 #include "engine/io/base/array_preview.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/base/sample_range.h"

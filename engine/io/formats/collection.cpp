@@ -7,6 +7,7 @@
 #include "engine/core/version.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/names/views_folder.h"

@@ -5,6 +5,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/text.h"
 #include "engine/io/base/image_header.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/sample_range.h"
