@@ -2,7 +2,6 @@
 #include "engine/io/base/image_file.h"
 
 #include "engine/core/error.h"
-#include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 
