@@ -527,3 +527,5 @@ std::optional<capture::SnappedPick> PickSnapper::snap(const LightFieldPtr& light
 }
 
 }  // namespace episcope
+
+#include "moc_capture_controller.cpp"

@@ -624,3 +624,5 @@ QString text_of(const Sweep& sweep, SweepPlace place) {
 }
 
 }  // namespace episcope
+
+#include "moc_sweep_controller.cpp"
