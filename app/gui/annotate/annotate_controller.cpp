@@ -2,7 +2,6 @@
 #include "app/gui/annotate/annotate_controller.h"
 
 #include "annotation/brush.h"
-#include "annotation/flood_fill.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/viewer_area.h"

@@ -3,10 +3,9 @@
 
 class QKeyEvent;
 #include "app/gui/shell/workbench.h"
-#include "app/session/capture_output.h"
 #include "app/session/capture_work.h"
+#include "engine/capture/mesh_file.h"
 #include "engine/capture/snap_pick.h"
-#include "engine/capture/triangle_mesh.h"
 #include "engine/core/indices.h"
 #include "engine/core/light_field.h"
 #include "widgets/cloud/cloud_look.h"
