@@ -3,7 +3,7 @@
 
 #include "engine/core/indices.h"
 #include "engine/scenes/draw.h"
-#include "engine/scenes/random_scene.h"
+#include "engine/scenes/random_kind.h"
 #include "engine/scenes/stage.h"
 
 namespace episcope::scenes {

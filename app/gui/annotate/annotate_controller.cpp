@@ -9,8 +9,6 @@
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/panes.h"
 #include "widgets/canvas/canvas_tool.h"
-#include "widgets/canvas/outline_tool.h"
-#include "widgets/canvas/stroke_tool.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/panels/brush_panel.h"
 

@@ -8,7 +8,6 @@
 #include "engine/io/models/order/order_check.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
-#include "engine/io/models/sidecar_maps/infer_units.h"
 
 #include <fmt/format.h>
 

@@ -17,7 +17,6 @@
 #include "engine/io/models/names/name_parts.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/names/view_folders.h"
-#include "engine/io/models/names/views_folder.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/reader.h"

@@ -5,7 +5,6 @@
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
-#include "engine/io/models/sidecar_maps/infer_units.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The brush and the eraser, driven with the mouse on a canvas.
-#include "widgets/canvas/stroke_tool.h"
 #include "tests/window_test_main.h"
+#include "widgets/canvas/canvas_tool.h"
 
 #include "tests/widgets/pictures.h"
 #include "widgets/canvas/canvas_geometry.h"

@@ -25,7 +25,8 @@ struct SidecarViews {
   CameraGrid camera;  ///< As far as it is known.
   MapViews map_views = MapViews::All;
   bool needs_truth = true;
-  IsOwnFile is_own{};  ///< Which files may belong to the views; empty = all.
+  bool is_shift_unknown = false;  ///< Views may be shifted against what `camera` says.
+  IsOwnFile is_own{};             ///< Which files may belong to the views; empty = all.
 
   [[nodiscard]] GridShape grid() const { return files.grid; }
   [[nodiscard]] int height() const;

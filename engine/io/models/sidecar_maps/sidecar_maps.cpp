@@ -6,7 +6,6 @@
 #include "engine/io/base/files.h"
 #include "engine/io/models/array_maps.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
-#include "engine/io/models/sidecar_maps/infer_units.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 #include "engine/io/models/sidecar_maps/map_sets.h"
 #include "engine/io/models/sidecar_maps/sidecar_labels.h"
@@ -236,6 +235,17 @@ ViewStack<float> disparity_of(ViewStack<float> depth, const CameraGrid& camera) 
   return depth;
 }
 
+/// Whether depth of the center view, by the camera as it is, explains the views; also where there
+/// is none.
+bool camera_explains(const RankedSets& depths, const SidecarViews& views) {
+  const ViewIndex at = views.grid().center();
+  StoredMaps depth = read_one_depth(depths, views, at);
+  if (depth.field.empty()) return true;
+  depth.field.disparity = disparity_of(std::move(depth.field.disparity), views.camera);
+  tidy_valid(depth.field);
+  return explain_views(views.samples, at, depth.field.view(at), 1).is_good();
+}
+
 SidecarDisparity from_depth(const RankedSets& sets, const SidecarViews& views,
                             const SidecarNotes& notes, const Progress& progress) {
   StoredMaps maps = read_first(sets.fit, kind_text(MapKind::Depth), views, notes, progress);
@@ -258,7 +268,8 @@ SidecarDisparity read_sidecar_disparity(const std::vector<MapSet>& sets, const S
                                         const SidecarNotes& notes, const Progress& progress) {
   const RankedSets disparities = rank_sets(sets, MapKind::Disparity, can_hold_values);
   const RankedSets depths = rank_sets(sets, MapKind::Depth, can_hold_values);
-  const bool has_camera = views.camera.is_known();
+  const bool has_camera =
+      views.camera.is_known() && (!views.is_shift_unknown || camera_explains(depths, views));
   SidecarDisparity found{{}, views.camera};
   StoredMaps maps =
       read_first(disparities.fit, kind_text(MapKind::Disparity), views, notes, progress);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/io/models/names/name_pattern.h"
-#include "engine/io/models/names/views_folder.h"
+#include "engine/core/error.h"
+#include "engine/io/models/names/view_folders.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>
