@@ -109,12 +109,16 @@ SettledUnit settle_unit(const LightField::Samples& samples, ViewIndex at, const 
                         const std::vector<MapUnit>& units) {
   const Explanation first = explain_views(samples, at, map, units.front().factor);
   SettledUnit best{units.front(), first, first};
-  if (first.error <= kPlainUnit * first.unwarped) return best;
+  // Shifts out of the picture leave nothing to compare.
+  const bool is_compared = first.unwarped > 0;
+  if (is_compared && first.error <= kPlainUnit * first.unwarped) return best;
+  double least =
+      is_compared ? kClearlyBetterUnit * first.error : std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < units.size(); ++i) {
     const Explanation other = explain_views(samples, at, map, units[i].factor);
-    const bool is_better = other.error < kClearlyBetterUnit * first.error && other.is_good() &&
-                           other.error < best.explanation.error;
-    if (is_better) best = {units[i], other, first};
+    if (!other.is_good() || other.error >= least) continue;
+    least = other.error;
+    best = {units[i], other, first};
   }
   return best;
 }
