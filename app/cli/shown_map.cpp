@@ -7,7 +7,7 @@
 #include "app/session/project_file.h"
 #include "app/session/result_files.h"
 #include "app/session/scene_summary.h"
-#include "app/session/segmentation_files.h"
+#include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/segmentation_file.h"

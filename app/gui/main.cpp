@@ -7,7 +7,7 @@
 #include "engine/core/version.h"
 #include "engine/io/base/files.h"
 #include "widgets/cloud/point_cloud_view.h"
-#include "widgets/controls/icon.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QApplication>
 #include <QCommandLineParser>

@@ -61,8 +61,8 @@ ViewSelection views_to_estimate(const Estimator& estimator, std::optional<ViewSe
   const bool can_all = estimator.info.all_views;
   if (!wanted) return can_all ? ViewSelection::All : ViewSelection::Center;
   if (can_all || *wanted == ViewSelection::Center) return *wanted;
-  const bool chooses = std::ranges::count(estimator.parameters, std::string("view"),
-                                          &ParameterDescription::key) > 0;
+  const bool chooses =
+      std::ranges::count(estimator.parameters, std::string("view"), &ParameterDescription::key) > 0;
   throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center" +
                      (chooses ? ", or --view V,U for another" : ""));
 }
@@ -91,9 +91,6 @@ class DraftStore : public BlockStore {
       : draft_(draft), source_(std::move(source)) {}
   [[nodiscard]] BlockProgress progress() const override { return draft_.progress(); }
   [[nodiscard]] BlockMaps read(const MapBlock& block) const override { return draft_.read(block); }
-  [[nodiscard]] ViewStack<float> read_kept(const MapBlock& block, int number) const override {
-    return draft_.read_kept(block, number);
-  }
   void note(const BlockProgress& after) override { draft_.note(after); }
   void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
              bool replaces) override {
@@ -158,8 +155,8 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   const BlockMemory memory = without(request.memory, even.bytes());
   require_memory(run, memory);  // before what another run left is replaced
   run.provenance.source_hash = hash;
-  const io::DraftShape shape{run.maps, !lf.valid().empty(), run.has_layers, run.has_second,
-                             run.kept};
+  const io::DraftShape shape{
+      .maps = run.maps, .has_valid = !lf.valid().empty(), .has_second = run.has_second};
   io::ResultDraft draft(request.output, shape, identity_of(estimator, run, hash));
   DraftStore store(draft, lf.info().source);
   FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};

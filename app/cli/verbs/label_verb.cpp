@@ -6,7 +6,7 @@
 #include "app/cli/verbs/verbs.h"
 #include "app/session/label_review.h"
 #include "app/session/labeling_inputs.h"
-#include "app/session/segmentation_files.h"
+#include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
 #include "engine/core/text.h"

@@ -3,7 +3,7 @@
 #include "app/cli/input.h"
 #include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/capture_output.h"
+#include "app/session/capture_work.h"
 #include "engine/capture/pose_file.h"
 
 #include <fmt/format.h>

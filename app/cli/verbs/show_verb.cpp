@@ -4,7 +4,6 @@
 #include "app/cli/shown_map.h"
 #include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/movie.h"
 #include "app/session/picture.h"
 #include "app/session/result_files.h"
 #include "app/session/scene_summary.h"

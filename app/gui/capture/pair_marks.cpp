@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/pair_marks.h"
 
+#include "engine/capture/mesh_file.h"
 #include "engine/capture/solve_pose.h"
-#include "engine/capture/triangle_mesh.h"
-#include "widgets/cloud/cloud_look.h"
+#include "widgets/cloud/cloud_actor.h"
 
 #include <cmath>
 #include <cstddef>

@@ -73,7 +73,7 @@ std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& fil
   const ArrayLayout axes{views->shape, layout.has_channel_axis ? "vuyxc" : "vuyx"};
   ArrayMaps maps = read_array_maps(arrays, others, {axes, views->order}, wants_labels, progress);
   if (!has_depth && !maps.truth.field.empty()) {
-    settle_disparity(parts.samples, maps, maps.truth.field, parts.camera, parts.report);
+    settle_disparity(parts.samples, maps, maps.truth.field, parts.report);
     parts.truth.field = std::move(maps.truth.field);
     parts.expected.is_truth_sign_assumed = maps.is_sign_assumed;
   } else if (!maps.disparity_name.empty()) {
