@@ -6,13 +6,16 @@
 #include "engine/io/base/image_header.h"
 
 #include <fmt/format.h>
-#include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
+
+#ifdef EPISCOPE_WITH_ARUCO
+#include <opencv2/aruco/charuco.hpp>
+#endif
 
 namespace episcope::capture {
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-extern "C" {}
 #include "engine/io/formats/frames_reader.h"
 
 #include "engine/core/error.h"
@@ -19,10 +18,6 @@ extern "C" {}
 #include "engine/io/models/reader.h"
 
 #include <fmt/format.h>
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/log.h>
-#include <libswscale/swscale.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -37,6 +32,13 @@ extern "C" {}
 #include <string_view>
 #include <utility>
 #include <vector>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/log.h>
+#include <libswscale/swscale.h>
+}
 
 namespace episcope::io {
 

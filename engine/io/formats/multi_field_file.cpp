@@ -177,9 +177,9 @@ std::optional<MultiFieldFile> MultiFieldFile::find(const ArrayFile& file,
   const auto is_stack = [&](const ArrayEntry& entry) {
     const bool is_named =
         options.dataset.empty() ? !has_other_name(entry) : entry.name == options.dataset;
-    const bool is_stated =
-        entry.other_kind.empty() && !entry.is_of_views() && entry.shape.size() == letters + 1;
-    return is_named && (letters > 0 ? is_stated : can_be_stack(entry));
+    const bool is_stated = entry.other_kind.empty() && entry.shape.size() == letters + 1 &&
+                           !grey_layouts(entry).empty();
+    return is_named && (can_be_stack(entry) || is_stated);
   };
   const bool is_one =
       std::ranges::any_of(fields, [](const ArrayEntry* entry) { return !has_other_name(*entry); });
