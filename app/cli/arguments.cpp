@@ -3,6 +3,7 @@
 
 #include "app/cli/help_text.h"
 #include "app/cli/output.h"
+#include "app/session/command_line.h"
 #include "engine/core/parameter.h"
 #include "engine/core/text.h"
 
