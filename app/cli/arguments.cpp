@@ -201,7 +201,7 @@ struct Arguments::State {
   }
 
   [[nodiscard]] std::string help() {
-    app.footer((has_reading() ? kReadingHint : "") + std::string("Example:\n") + indented(example));
+    app.footer((has_reading() ? wrapped(kReadingHint, help_columns()) : std::string()) + std::string("Example:\n") + indented(example));
     return app.help();
   }
 
