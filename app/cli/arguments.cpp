@@ -3,6 +3,7 @@
 
 #include "app/cli/help_text.h"
 #include "app/cli/output.h"
+#include "app/session/command_line.h"
 #include "engine/core/parameter.h"
 #include "engine/core/text.h"
 
@@ -200,7 +201,7 @@ struct Arguments::State {
   }
 
   [[nodiscard]] std::string help() {
-    app.footer((has_reading() ? kReadingHint : "") + std::string("Example:\n") + indented(example));
+    app.footer((has_reading() ? wrapped(kReadingHint, help_columns()) : std::string()) + std::string("Example:\n") + indented(example));
     return app.help();
   }
 

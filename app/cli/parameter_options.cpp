@@ -2,6 +2,7 @@
 #include "app/cli/parameter_options.h"
 
 #include "app/cli/arguments.h"
+#include "app/session/command_line.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 

@@ -104,6 +104,11 @@ ParameterSet changed_parameters(const std::string& method, const ParameterSet& v
   return changed;
 }
 
+std::string option_name(std::string key) {
+  std::ranges::replace(key, '_', '-');
+  return key;
+}
+
 std::string options_text(const ParameterSet& options,
                          const std::vector<ParameterDescription>& descriptions) {
   std::string text;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/replace_file.h"
 
+#include "app/session/command_line.h"
 #include "app/session/load_scene.h"
 #include "app/session/result_files.h"
 #include "engine/core/error.h"

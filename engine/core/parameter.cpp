@@ -182,11 +182,6 @@ std::string presets_text(const ParameterDescription& description) {
   });
 }
 
-std::string option_name(std::string key) {
-  std::ranges::replace(key, '_', '-');
-  return key;
-}
-
 std::string to_text(const ParameterValue& value) {
   struct Writer {
     std::string operator()(bool flag) const { return flag ? "true" : "false"; }

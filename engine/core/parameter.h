@@ -82,9 +82,6 @@ struct ParameterDescription {
 /// empty if nothing.
 [[nodiscard]] std::string presets_text(const ParameterDescription& description);
 
-/// "inner-scale": an option of the command line by its key, which may be "inner_scale".
-[[nodiscard]] std::string option_name(std::string key);
-
 /// Value as a command line writes it: `true`, `3`, `0.25`, `auto`, `found`, `-1.5,2`, `4,4`.
 [[nodiscard]] std::string to_text(const ParameterValue& value);
 

@@ -3,6 +3,7 @@
 
 #include "app/cli/help_text.h"
 #include "app/cli/parameter_options.h"
+#include "app/session/command_line.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/models/open_options.h"

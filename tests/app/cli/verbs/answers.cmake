@@ -25,7 +25,7 @@ foreach(scene edge bars)
   json_is("${out}" scenes/${scene}/lf.h5 output)
   json_is("${out}" scenes/${scene}/lf.h5 written 0)
 endforeach()
-one_shape("${out}" 1 1)
+one_shape("${out}" 1 2)  # with labels.h5
 expect("estimate both" 0 ARGS estimate epi_l scenes -o results --json --views center)
 one_shape("${out}" 2 2)
 expect("estimate one" 0 ARGS estimate epi_l scenes/edge -o r.h5 --json)
@@ -46,7 +46,7 @@ expect("convert" 0 ARGS convert r.h5 r.pfm --json)
 one_shape("${out}" 1 1)
 json_is("${out}" map form)
 expect("convert two" 0 ARGS convert scenes copies --to archive --json -q)
-one_shape("${out}" 2 2)
+one_shape("${out}" 2 4)
 
 # The truth of a result is that of its light field, unless that has changed.
 expect("judged by itself" 0 ERR "r.h5: judged against scenes/edge, which it was estimated from"

@@ -50,5 +50,5 @@ expect("the truth as a table" 0 ARGS convert objects truth.csv)
 expect("judged without error" 0 ARGS evaluate truth.csv --truth objects --json)
 json_near("${out}" 0 0.0001 results 0 mse_100)
 
-expect("a light field is no result" 0 ARGS convert objects lf.npz)
+expect("a light field is no result" 0 ARGS convert objects lf.npz -q)
 expect("judged as one" 1 ERR "lf.npz: holds a light field" ARGS evaluate lf.npz --truth objects)
