@@ -12,7 +12,7 @@ if ! command -v jq >/dev/null; then
   exit 77
 fi
 rm -rf "$work"
-mkdir -p "$work/bin" "$work/files/scene"
+mkdir -p "$work/bin" "$work/prepared/scene"
 ln -s "$cli" "$work/bin/episcope-cli"
 # Stands for a program of the reader's.
 printf '#!/bin/sh\ncat >/dev/null\n' >"$work/bin/other-program"
@@ -20,11 +20,11 @@ chmod +x "$work/bin/other-program"
 PATH="$work/bin:$PATH" XDG_CACHE_HOME="$work/cache"
 export PATH XDG_CACHE_HOME
 
-cd "$work/files"
-episcope-cli synthesize objects -o scene/lf.h5 --views 3x3 --size 64x64 --quiet
-episcope-cli estimate epi_l scene -o result.h5 --views center --quiet
+cd "$work/prepared"
+episcope-cli synthesize objects -o scene/lf.h5 --views 3x3 --size 64x64 --quiet >prepared.log
+episcope-cli estimate epi_l scene -o result.h5 --views center --quiet >>prepared.log
 for name in mine.npy theirs.npy; do
-  episcope-cli convert result.h5 "$name" --quiet
+  episcope-cli convert result.h5 "$name" --quiet >>prepared.log
 done
 
 # commands_of PAGE: one a line.
@@ -40,7 +40,7 @@ commands_of() {
 problems=0
 for page in "$@"; do
   folder=$work/$(basename "$page" .md)
-  cp -r "$work/files" "$folder"
+  cp -r "$work/prepared" "$folder"
   cd "$folder"
   commands_of "$page" >commands
   if ! [ -s commands ]; then

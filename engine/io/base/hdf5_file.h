@@ -142,8 +142,8 @@ class Hdf5Input {
 enum class Hdf5Storage { Plain, Deflated };
 
 /// A new HDF5 file at the temporary place of `file`: `close` it, then commit that. Datasets are
-/// contiguous and uncompressed unless told otherwise, since speed matters more than size. All members throw IoError that
-/// names the target of `file`.
+/// contiguous and uncompressed unless told otherwise, since speed matters more than size. All
+/// members throw IoError that names the target of `file`.
 class Hdf5Output {
  public:
   /// `user_bytes`: room for other contents in front: 0, 512 or a power of two above.
@@ -158,7 +158,7 @@ class Hdf5Output {
   /// Copies every object and attribute of the root group as stored, except those in `without`.
   void copy_all(const Hdf5Input& from, const std::vector<std::string>& without);
   void add_group(const std::string& name);
-  /// How datasets that are added from now on are stored; those with less than two axes as one array.
+  /// How datasets that are added from now on are stored; those of less than two axes are plain.
   void set_storage(Hdf5Storage storage) { storage_ = storage; }
   /// Adds a dataset with its attributes `axes` ("v,u,y,x") and `units`. T as in `Hdf5Input::read`.
   template <class T>

@@ -326,7 +326,8 @@ void write_archive(const std::filesystem::path& path, const Scene& scene, const 
   const GroundTruth& truth = *scene.truth;
   const CameraGrid camera = camera_for(scene);
 
-  AtomicFile target(path, archive_bytes(scene, form.has_disparity) + (is_inside ? label_bytes(scene) : 0));
+  const std::uintmax_t label_room = is_inside ? label_bytes(scene) : 0;
+  AtomicFile target(path, archive_bytes(scene, form.has_disparity) + label_room);
   Hdf5Output file(target);
   write_attributes(file, scene, camera);
   write_light_field(file, *scene.light_field, progress.part(0, 0.6));

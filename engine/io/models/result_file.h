@@ -23,9 +23,9 @@ struct ResultForm {
 /// methods, `disparity_foreground`, `disparity_background`, `layers`; `disparity_second`, NaN where
 /// there is none, of methods that find some; their axes as dimension scales; provenance, camera and
 /// conventions in attributes.
-/// Atomic: a temporary file beside it, flushed, then renamed. Confidence is kept as 32-bit float: later passes of some methods read it
-/// again, so fewer bits would change results of block-wise runs. Throws IoError (nothing is left
-/// behind), Cancelled.
+/// Atomic: a temporary file beside it, flushed, then renamed. Confidence is kept as 32-bit float:
+/// later passes of some methods read it again, so fewer bits would change results of block-wise
+/// runs. Throws IoError (nothing is left behind), Cancelled.
 void write_result(const std::filesystem::path& path, const Estimate& estimate,
                   const Progress& progress, const ResultForm& form = {});
 

@@ -45,7 +45,7 @@ def test_depth_follows_from_the_file_alone(result):
     h5py = pytest.importorskip("h5py")
     camera = episcope.demo(SCENE).camera
     with h5py.File(result / "all.h5") as file:
-        stated = file["estimate"].attrs
+        stated = dict(file["estimate"].attrs)
         depth = stated["dH"] * stated["focalLength"] / (file["estimate/disparity"][1, 1] + stated["shift"])
     assert stated["depth"].startswith("Z = dH * focalLength / (disparity + shift)")
     disparity = episcope.estimate(episcope.demo(SCENE), "epi_two_layer").disparity[1, 1]

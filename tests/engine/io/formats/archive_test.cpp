@@ -58,7 +58,7 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QCOMPARE(*file.text("GT_DISPARITY", "units"), std::string("px per view step"));
     QVERIFY(largest_difference(truth, read.truth->field) < kDepthRounding);
     QVERIFY2(read.convention.warnings.empty(), describe(read.convention).c_str());
-    for (const FileUse& use : read.files) QVERIFY2(use.is_used, use.example.c_str());
+    for (const FileUse& use : read.convention.files) QVERIFY2(use.is_used, use.example.c_str());
     io::write_archive(path("lf.h5"), scene, Progress(1));
     QVERIFY(!io::Hdf5Input(path("lf.h5")).has("GT_DISPARITY"));
   }
