@@ -2,6 +2,7 @@
 #pragma once
 
 #include "widgets/cloud/cloud_actor.h"
+#include "widgets/cloud/cloud_look.h"
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>

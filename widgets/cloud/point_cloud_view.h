@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/render/shade.h"
-#include "widgets/cloud/cloud_actor.h"
+#include "widgets/cloud/cloud_look.h"
 
 #include <QImage>
 #include <QOffscreenSurface>

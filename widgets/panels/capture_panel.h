@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "widgets/cloud/cloud_actor.h"
+#include "widgets/cloud/cloud_look.h"
 
 #include <QPointF>
 #include <QString>

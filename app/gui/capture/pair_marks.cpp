@@ -3,7 +3,7 @@
 
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/solve_pose.h"
-#include "widgets/cloud/cloud_actor.h"
+#include "widgets/cloud/cloud_look.h"
 
 #include <cmath>
 #include <cstddef>

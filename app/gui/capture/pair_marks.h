@@ -4,7 +4,7 @@
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/solve_pose.h"
 #include "widgets/canvas/canvas_geometry.h"
-#include "widgets/cloud/cloud_actor.h"
+#include "widgets/cloud/cloud_look.h"
 #include "widgets/panels/capture_panel.h"
 
 #include <array>
