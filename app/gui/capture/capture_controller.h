@@ -8,7 +8,7 @@ class QKeyEvent;
 #include "engine/capture/snap_pick.h"
 #include "engine/core/indices.h"
 #include "engine/core/light_field.h"
-#include "widgets/cloud/cloud_actor.h"
+#include "widgets/cloud/cloud_look.h"
 
 #include <QObject>
 #include <QString>
