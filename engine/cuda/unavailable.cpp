@@ -7,6 +7,7 @@
 #include "engine/cuda/lifted_solver.h"
 #include "engine/cuda/line_check.h"
 #include "engine/cuda/message_labeling.h"
+#include "engine/cuda/net.h"
 #include "engine/cuda/ordering.h"
 #include "engine/cuda/orientations.h"
 #include "engine/cuda/ray_labels.h"
@@ -214,6 +215,17 @@ LayerOutcome solve_layers(const LightField&, const LayerSmoothing&, const RawLay
 }
 
 RayLabelsAnswer label_rays(const RayLabelsTask&, const Progress&, ViewStack<std::int32_t>&) {
+  fail();
+}
+
+struct DeviceNet::Memory {};
+
+DeviceNet::DeviceNet(const NetParts&, const Progress&) {
+  fail();
+}
+DeviceNet::~DeviceNet() = default;
+
+NetAnswer DeviceNet::run(const NetTask&, const Progress&) const {
   fail();
 }
 

@@ -8,6 +8,7 @@
 #include "engine/disparity/kernels/net_kernel.h"
 #include "engine/disparity/net_evidence.h"
 #include "engine/disparity/net_layers.h"
+#include "engine/disparity/net_parts.h"
 #include "engine/disparity/net_windows.h"
 
 #include <fmt/format.h>
@@ -23,18 +24,7 @@ namespace episcope {
 
 namespace {
 
-// Constants of the network: resources/training/README.md.
 constexpr double kStepOfLabels = 0.1;
-constexpr int kPeak = 2;                 // Labels on either side that a mode is made of,
-constexpr int kModesApart = 3;           // and how far the second mode is at least.
-constexpr float kSameHypothesis = 0.1F;  // Hypotheses so near count as one.
-constexpr float kOther = 0.3F;           // A second hypothesis is so far at least.
-constexpr float kLeastLog = -12;
-constexpr int kReduced = 8;  // Numbers that evidence of one disparity is reduced to.
-constexpr int kOffsets = 5;
-constexpr float kOffset[kOffsets] = {0, -1, -0.5F, 0.5F, 1};  // In steps of a refinement.
-constexpr float kSteps[2] = {0.25F, 0.06F};
-constexpr float kReach = 1.5F;  // Steps that a refinement moves at most.
 
 // A view, its guide and what the network knows by heart.
 struct NetScene {
@@ -77,42 +67,11 @@ Interval range_of(const Image<float>& map) {
   return {*least, *most};
 }
 
-// Layers one after the other.
-int add_chain(NetStream& stream, const NetWeights& weights, int input,
-              std::initializer_list<std::string> names) {
-  for (const std::string& name : names) {
-    input = stream.add_convolution(weights.layer(name), input);
-  }
-  return input;
-}
-
-// A layer of 1×1, then its output twice as large plus another, then a layer of it.
-int add_ascent(NetStream& stream, const NetWeights& weights, int input, int plus,
-               const std::array<std::string, 2>& names) {
-  const int reduced = stream.add_convolution(weights.layer(names[0]), input);
-  const int sum = stream.add_enlarged(reduced, plus);
-  return stream.add_convolution(weights.layer(names[1]), sum);
-}
-
 // Volume.
-
-int add_volume(NetStream& stream, const NetWeights& weights, int evidence, int image) {
-  const std::string v = "volume.";
-  const int map = add_chain(stream, weights, image, {v + "image.0", v + "image.1", v + "image.2"});
-  const int input = stream.add_convolution(weights.layer(v + "input"), evidence, {map, -1});
-  const int x0 = stream.add_convolution(weights.layer(v + "e0"), input, {-1, input});
-  const int x1 = add_chain(stream, weights, x0, {v + "d1", v + "e1"});
-  const int x2 = add_chain(stream, weights, x1, {v + "d2", v + "e2.0", v + "e2.1"});
-  const int x3 = add_chain(stream, weights, x2, {v + "d3", v + "e3.0", v + "e3.1"});
-  const int y2 = add_ascent(stream, weights, x3, x2, {v + "u2", v + "f2"});
-  const int y1 = add_ascent(stream, weights, y2, x1, {v + "u1", v + "f1"});
-  const int y0 = add_ascent(stream, weights, y1, x0, {v + "u0", v + "f0"});
-  return stream.add_convolution(weights.layer(v + "head"), y0);
-}
 
 // The disparity of the labels around one of them, weighted by their probabilities.
 float peak_at(std::span<const float> probabilities, int at, const Labels& labels) {
-  const int begin = std::max(at - kPeak, 0), end = std::min(at + kPeak + 1, labels.count);
+  const int begin = std::max(at - kNetPeak, 0), end = std::min(at + kNetPeak + 1, labels.count);
   float sum = 0, weighted = 0;
   for (int i = begin; i < end; ++i) {
     sum += probabilities[i];
@@ -132,7 +91,7 @@ void find_modes(std::span<float> logits, std::span<float> probabilities, const L
   const int first = static_cast<int>(std::ranges::max_element(logits) - logits.begin());
   int other = -1;
   for (int i = 0; i < labels.count; ++i) {
-    if (std::abs(i - first) > kModesApart && (other < 0 || logits[i] > logits[other])) other = i;
+    if (std::abs(i - first) > kNetModesApart && (other < 0 || logits[i] > logits[other])) other = i;
   }
   own = peak_at(probabilities, first, labels);
   second = peak_at(probabilities, other, labels);
@@ -178,7 +137,7 @@ Beliefs run_volume(const NetScene& scene, Interval range, const Progress& progre
     }
   });
   stream.run(
-      add_volume(stream, scene.weights, volume, image), kNetBand,
+      add_net_volume(stream, scene.weights, volume, image), kNetBand,
       [&](int y, const NetRows& rows) { take_logits(rows, y, beliefs); }, progress);
   return beliefs;
 }
@@ -197,7 +156,7 @@ float log_at(const Beliefs& beliefs, int y, int x, float disparity) {
 // Selection and refinement.
 
 float squash(float disparity) {
-  return std::copysign(0.4F * std::log1p(std::abs(disparity) / 0.05F), disparity);
+  return std::copysign(kNetSquash * std::log1p(std::abs(disparity) / kNetSquashUnit), disparity);
 }
 
 // The two layers of 1×1 that reduce evidence at a pixel, row by row.
@@ -210,12 +169,12 @@ class Reduction {
         inner_(static_cast<std::size_t>(width) * kNetGroup),
         reduced_(inner_.size()) {}
 
-  // kReduced numbers for each pixel into `out`, `step` apart.
+  // kNetReduced numbers for each pixel into `out`, `step` apart.
   void operator()(const float* evidence, float* out, int step) {
     convolve(first_, evidence, inner_.data());
     convolve(second_, inner_.data(), reduced_.data());
     for (int x = 0; x < width_; ++x) {
-      std::copy_n(&reduced_[static_cast<std::size_t>(x) * kNetGroup], kReduced,
+      std::copy_n(&reduced_[static_cast<std::size_t>(x) * kNetGroup], kNetReduced,
                   out + static_cast<long>(x) * step);
     }
   }
@@ -258,14 +217,12 @@ struct EvidenceRows {
 
 using Hypotheses = std::array<Image<float>, kNetHypotheses>;
 
-constexpr int kSelectionInputs = kNetHypotheses * (kReduced + 2) + kNetGuide;
-
 // Inputs of the selection besides the evidence, at one pixel.
 void write_hypotheses(const NetScene& scene, const Hypotheses& hypotheses, const Beliefs* beliefs,
                       int y, int x, float* out) {
   for (int i = 0; i < kNetHypotheses; ++i) {
     const float log = beliefs ? log_at(*beliefs, y, x, hypotheses[i].at(y, x)) : 0;
-    *out++ = std::clamp(log, kLeastLog, 0.0F) / 4;
+    *out++ = std::clamp(log, kNetLeastLog, 0.0F) / kNetLogScale;
   }
   for (int i = 1; i < kNetHypotheses; ++i) {
     *out++ = squash(hypotheses[i].at(y, x) - hypotheses[0].at(y, x));
@@ -274,18 +231,8 @@ void write_hypotheses(const NetScene& scene, const Hypotheses& hypotheses, const
   std::copy_n(&scene.guide.at(y, x), kNetGuide, out);
 }
 
-int add_selection(NetStream& stream, const NetWeights& weights, int input) {
-  const std::string s = "selection.";
-  const int x0 = add_chain(stream, weights, input, {s + "i.0", s + "i.1"});
-  const int x1 = add_chain(stream, weights, x0, {s + "d1.0", s + "d1.1"});
-  const int x2 = add_chain(stream, weights, x1, {s + "d2.0", s + "d2.1", s + "d2.2", s + "d2.3"});
-  const int y1 = add_ascent(stream, weights, x2, x1, {s + "u1", s + "f1"});
-  const int y0 = add_ascent(stream, weights, y1, x0, {s + "u0", s + "f0"});
-  return stream.add_convolution(weights.layer(s + "head"), y0);
-}
-
 float kernel_of(float distance) {
-  return std::exp(-(distance / kSameHypothesis) * (distance / kSameHypothesis));
+  return std::exp(-(distance / kNetSame) * (distance / kNetSame));
 }
 
 // Decides for one pixel by the logits of its hypotheses.
@@ -309,10 +256,10 @@ void decide(const float* logits, const std::array<float, kNetHypotheses>& h, Sel
     const float share = weight[i] * kernel_of(h[i] - h[best]);
     near += share;
     weighted += share * h[i];
-    const bool is_far = !(std::abs(h[i] - h[best]) < kOther);
+    const bool is_far = !(std::abs(h[i] - h[best]) < kNetOther);
     if (is_far && (other < 0 || score[i] > score[other])) other = i;
   }
-  const float mode = weighted / std::max(near, 1e-9F);
+  const float mode = weighted / std::max(near, kNetLeastShare);
   const bool has_other = other >= 0 && score[other] > 0;
   selected.mode.at(y, x) = mode;
   selected.probability.at(y, x) = std::min(score[best], 1.0F);
@@ -345,32 +292,29 @@ Selected run_selection(const NetScene& scene, const Hypotheses& hypotheses, cons
   Selected selected{blank, blank, blank, blank, blank};
   NetEvidence evidence(scene.light_field, scene.view, range_of(hypotheses), NetEvidenceOf::Maps);
   NetStream stream;
-  const int step = whole_groups(kSelectionInputs);
+  const int step = whole_groups(kNetSelectionInputs);
   const int input = stream.add_source(
-      scene.shape(kSelectionInputs),
+      scene.shape(kNetSelectionInputs),
       [&](int y, int, NetRows& rows) {
         float* const out = rows.at(y, 0);
-        Reduction reduce(scene.weights, "selection.", scene.width());
+        Reduction reduce(scene.weights, kNetSelection, scene.width());
         EvidenceRows<kNetHypotheses> all(scene.width());
         for (int i = 0; i < kNetHypotheses; ++i) all.disparities[i].map = hypotheses[i].row(y);
         evidence.compute(y, all.disparities);
         for (int i = 0; i < kNetHypotheses; ++i) {
-          reduce(all.disparities[i].out, out + i * kReduced, step);
+          reduce(all.disparities[i].out, out + i * kNetReduced, step);
         }
         for (int x = 0; x < scene.width(); ++x) {
           write_hypotheses(scene, hypotheses, beliefs, y, x,
-                           out + x * step + kNetHypotheses * kReduced);
+                           out + x * step + kNetHypotheses * kNetReduced);
         }
       },
       [&](int begin, int end, const Progress& part) { evidence.hold(begin, end, part); });
   stream.run(
-      add_selection(stream, scene.weights, input), kNetBand,
+      add_net_selection(stream, scene.weights, input), kNetBand,
       [&](int y, const NetRows& rows) { take_selection(rows, y, hypotheses, selected); }, progress);
   return selected;
 }
-
-constexpr int kWindows = 3;
-constexpr int kRefinementInputs = kOffsets * kReduced + kWindows + 1 + kNetGuide;
 
 struct Refined {
   Image<float> disparity;
@@ -381,36 +325,28 @@ struct Refined {
 struct Unrefined {
   const Image<float>& disparity;
   const Image<float>& probability;
-  std::array<Image<float>, kWindows> windows;
+  std::array<Image<float>, kNetWindows> windows;
 };
 
 // Reduced evidence of a row at offsets from its disparities, the first as it is, others less the
 // first.
 void write_offsets(const NetEvidence& evidence, Reduction& reduce, std::span<const float> row,
                    int y, float step, float* out, int out_step) {
-  EvidenceRows<kOffsets> all(static_cast<int>(row.size()));
-  std::array<std::vector<float>, kOffsets> maps;
-  for (int i = 0; i < kOffsets; ++i) {
-    for (const float disparity : row) maps[i].push_back(disparity + kOffset[i] * step);
+  EvidenceRows<kNetOffsets> all(static_cast<int>(row.size()));
+  std::array<std::vector<float>, kNetOffsets> maps;
+  for (int i = 0; i < kNetOffsets; ++i) {
+    for (const float disparity : row) maps[i].push_back(disparity + kNetOffset[i] * step);
     all.disparities[i].map = maps[i].data();
   }
   evidence.compute(y, all.disparities);
   const float* const first = all.disparities[0].out;
-  for (int i = 0; i < kOffsets; ++i) {
+  for (int i = 0; i < kNetOffsets; ++i) {
     float* const other = all.disparities[i].out;
     for (std::size_t j = 0; i > 0 && j < row.size() * kNetEvidence; ++j) {
-      other[j] = (other[j] - first[j]) * 4;
+      other[j] = (other[j] - first[j]) * kNetOffsetGain;
     }
-    reduce(other, out + i * kReduced, out_step);
+    reduce(other, out + i * kNetReduced, out_step);
   }
-}
-
-int add_refinement(NetStream& stream, const NetWeights& weights, int input, const std::string& r) {
-  const int x0 = add_chain(stream, weights, input, {r + "i.0", r + "i.1"});
-  const int y =
-      add_chain(stream, weights, x0, {r + "d1.0", r + "d1.1", r + "d1.2", r + "d1.3", r + "u0"});
-  return add_chain(stream, weights, stream.add_enlarged(y, x0),
-                   {r + "f0.0", r + "f0.1", r + "head"});
 }
 
 void write_surroundings(const NetScene& scene, const Unrefined& from, int y, int x, float* out) {
@@ -425,7 +361,7 @@ void take_refined(const NetRows& rows, int y, float step, const Image<float>& fr
                   Refined& refined) {
   for (int x = 0; x < from.width(); ++x) {
     const float* const out = rows.at(y, 0) + x * rows.step();
-    refined.disparity.at(y, x) = from.at(y, x) + step * kReach * std::tanh(out[0]);
+    refined.disparity.at(y, x) = from.at(y, x) + step * kNetReach * std::tanh(out[0]);
     refined.confidence.at(y, x) = 1 / (1 + std::exp(-out[1]));
   }
 }
@@ -433,33 +369,33 @@ void take_refined(const NetRows& rows, int y, float step, const Image<float>& fr
 Refined run_refinement(const NetScene& scene, int number, const Image<float>& disparity,
                        const Image<float>& probability, const Progress& progress) {
   progress.step("refinement");
-  const std::string name = "refinement." + std::to_string(number) + ".";
-  const float step = kSteps[number];
+  const std::string name = net_refinement(number);
+  const float step = kNetSteps[number];
   const Unrefined from{disparity,
                        probability,
-                       {window_most(disparity, 5, progress.part(0, 0)),
-                        window_least(disparity, 5, progress.part(0, 0)),
+                       {window_most(disparity, kNetWindow, progress.part(0, 0)),
+                        window_least(disparity, kNetWindow, progress.part(0, 0)),
                         window_median(disparity, 1, progress.part(0, 0))}};
   const Interval range = range_of(disparity);
   NetEvidence evidence(scene.light_field, scene.view, {range.min - step, range.max + step},
                        NetEvidenceOf::Maps);
   Refined refined{disparity, disparity};
   NetStream stream;
-  const int out_step = whole_groups(kRefinementInputs);
+  const int out_step = whole_groups(kNetRefinementInputs);
   const int input = stream.add_source(
-      scene.shape(kRefinementInputs),
+      scene.shape(kNetRefinementInputs),
       [&](int y, int, NetRows& rows) {
         float* const out = rows.at(y, 0);
         Reduction reduce(scene.weights, name, scene.width());
         write_offsets(evidence, reduce, {disparity.row(y), static_cast<std::size_t>(scene.width())},
                       y, step, out, out_step);
         for (int x = 0; x < scene.width(); ++x) {
-          write_surroundings(scene, from, y, x, out + x * out_step + kOffsets * kReduced);
+          write_surroundings(scene, from, y, x, out + x * out_step + kNetOffsets * kNetReduced);
         }
       },
       [&](int begin, int end, const Progress& part) { evidence.hold(begin, end, part); });
   stream.run(
-      add_refinement(stream, scene.weights, input, name), kNetBand,
+      add_net_refinement(stream, scene.weights, input, number), kNetBand,
       [&](int y, const NetRows& rows) { take_refined(rows, y, step, disparity, refined); },
       progress);
   return refined;
@@ -488,6 +424,23 @@ void require_views(const LightField& light_field, ViewIndex view) {
   if (grid.count() < 2) throw InvalidInput("net compares views, but there is only one");
 }
 
+// What the device is told but for the labels or the map that it begins with.
+cuda::NetTask device_task(const LightField& light_field, ViewIndex view,
+                          const NetParameters& parameters) {
+  return {.light_field = light_field,
+          .view = view,
+          .sectors = net_sectors(light_field, view),
+          .takes_mean = parameters.silhouettes == Silhouettes::Mean};
+}
+
+// The whole, on the device.
+NetMaps run_on_device(const cuda::DeviceNet& net, const cuda::NetTask& task,
+                      const Progress& progress) {
+  cuda::NetAnswer answer = net.run(task, progress);
+  return {std::move(answer.disparity), std::move(answer.confidence), std::move(answer.second),
+          std::move(answer.second_probability)};
+}
+
 }  // namespace
 
 int net_label_count(Interval range) {
@@ -496,13 +449,22 @@ int net_label_count(Interval range) {
 }
 
 NetMaps estimate_net(const LightField& light_field, ViewIndex view, const NetWeights& weights,
-                     const NetParameters& parameters, const Progress& progress) {
+                     const NetParameters& parameters, const Progress& progress,
+                     const cuda::DeviceNet* device) {
   require_views(light_field, view);
   if (!(parameters.range.length() > 0) || parameters.rounds < 1) {
     throw InvalidInput(
         fmt::format("net needs a range of disparities and at least one round, but "
                     "was given {} to {} px and {}",
                     parameters.range.min, parameters.range.max, parameters.rounds));
+  }
+  if (device != nullptr) {
+    cuda::NetTask task = device_task(light_field, view, parameters);
+    task.labels = net_label_count(parameters.range);
+    task.first = static_cast<float>(parameters.range.min);
+    task.last = static_cast<float>(parameters.range.max);
+    task.rounds = parameters.rounds;
+    return run_on_device(*device, task, progress);
   }
   const NetScene scene{light_field, view, weights, net_guide(light_field, view)};
   Beliefs beliefs = run_volume(scene, parameters.range, progress.part(0, 0.65));
@@ -520,11 +482,16 @@ NetMaps estimate_net(const LightField& light_field, ViewIndex view, const NetWei
 
 NetMaps polish_by_net(const LightField& light_field, ViewIndex view, const Image<float>& disparity,
                       const NetWeights& weights, const NetParameters& parameters,
-                      const Progress& progress) {
+                      const Progress& progress, const cuda::DeviceNet* device) {
   require_views(light_field, view);
   if (disparity.height() != light_field.height() || disparity.width() != light_field.width()) {
     throw InvalidInput(fmt::format("the map has {}×{} px, but views have {}×{}", disparity.width(),
                                    disparity.height(), light_field.width(), light_field.height()));
+  }
+  if (device != nullptr) {
+    cuda::NetTask task = device_task(light_field, view, parameters);
+    task.start = &disparity;
+    return run_on_device(*device, task, progress);
   }
   const NetScene scene{light_field, view, weights, net_guide(light_field, view)};
   const Hypotheses hypotheses = net_hypotheses(disparity, disparity, progress.part(0, 0));

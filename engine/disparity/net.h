@@ -4,6 +4,7 @@
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/cuda/net.h"
 #include "engine/disparity/net_weights.h"
 
 namespace episcope {
@@ -34,17 +35,20 @@ struct NetMaps {
 /// refine the choice. Views should be of one brightness (EvenViews). Tensors are swept row by
 /// row, so memory grows with the width; log-probabilities take 4 bytes a pixel and label. Throws
 /// InvalidInput for a view outside the grid, a single view, an empty range or no round; Cancelled.
+/// With its weights on a device (net_parts) it is computed there, which may throw DeviceFailure.
 ///
 /// Source: resources/training/README.md, which states every layer; its authors are this project's.
 [[nodiscard]] NetMaps estimate_net(const LightField& light_field, ViewIndex view,
                                    const NetWeights& weights, const NetParameters& parameters,
-                                   const Progress& progress);
+                                   const Progress& progress,
+                                   const cuda::DeviceNet* device = nullptr);
 
 /// Improves a map from elsewhere by selection and refinement alone: one round, no volume, nothing
 /// of `parameters.range`.
 [[nodiscard]] NetMaps polish_by_net(const LightField& light_field, ViewIndex view,
                                     const Image<float>& disparity, const NetWeights& weights,
-                                    const NetParameters& parameters, const Progress& progress);
+                                    const NetParameters& parameters, const Progress& progress,
+                                    const cuda::DeviceNet* device = nullptr);
 
 /// Logits of the labels of the whole volume are computed this many rows at a time.
 inline constexpr int kNetBand = 16;

@@ -117,7 +117,7 @@ Image<float> net_guide(const LightField& light_field, ViewIndex reference) {
     read_colors(light_field, reference, y, colors);
     for (int x = 0; x < width; ++x) {
       const float* const color = &colors[3 * static_cast<std::size_t>(x)];
-      for (int c = 0; c < 3; ++c) guide.at(y, x, c) = color[c] - 0.4F;
+      for (int c = 0; c < 3; ++c) guide.at(y, x, c) = color[c] - kNetGrey;
       grey.at(y, x) = (color[0] + color[1] + color[2]) / 3;
     }
   }
@@ -126,8 +126,8 @@ Image<float> net_guide(const LightField& light_field, ViewIndex reference) {
     const float* const below = grey.row(std::min(y + 1, height - 1));
     for (int x = 0; x < width; ++x) {
       const float along = grey.at(y, std::min(x + 1, width - 1)) - grey.at(y, std::max(x - 1, 0));
-      guide.at(y, x, 3) = 4 * along;
-      guide.at(y, x, 4) = 4 * (below[x] - above[x]);
+      guide.at(y, x, 3) = kNetContrast * along;
+      guide.at(y, x, 4) = kNetContrast * (below[x] - above[x]);
     }
   }
   return guide;

@@ -4,6 +4,7 @@
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/disparity/kernels/net_constants.h"
 #include "engine/disparity/kernels/net_evidence_kernel.h"
 
 #include <array>
@@ -12,14 +13,8 @@
 
 namespace episcope {
 
-/// Numbers of evidence at a pixel: of each of 8 sectors of views how unlike their colors are, then
-/// how unlike their differences of grey.
-inline constexpr int kNetEvidence = 16;
-inline constexpr int kNetSectors = 8;
 /// Most views that are looked at of a sector.
 inline constexpr int kNetSectorViews = 12;
-/// Channels of the guide.
-inline constexpr int kNetGuide = 5;
 
 /// The views of each sector around a reference, at most `most` of each, spread over the distance.
 /// Sector k is in the direction of 45 k degrees, from u to v. Views without a valid pixel are left

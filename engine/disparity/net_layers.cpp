@@ -55,7 +55,7 @@ int NetStream::add_source(NetShape shape, Fill fill, Prepare prepare, int labels
   return static_cast<int>(nodes_.size()) - 1;
 }
 
-int NetStream::add_convolution(const NetLayer& layer, int input, Sums sums) {
+int NetStream::add_convolution(const NetLayer& layer, int input, NetSums sums) {
   const NetLayerForm& form = layer.form;
   Node& source = nodes_[input];
   assert(source.shape.channels == form.inputs);
@@ -74,6 +74,12 @@ int NetStream::add_enlarged(int input, int plus) {
   assert(nodes_[input].shape.channels == nodes_[plus].shape.channels);
   nodes_.push_back({.shape = nodes_[plus].shape, .input = input, .sums = {-1, plus}});
   return static_cast<int>(nodes_.size()) - 1;
+}
+
+std::vector<NetOperation> NetStream::operations() const {
+  std::vector<NetOperation> operations;
+  for (const Node& node : nodes_) operations.push_back({node.layer, node.input, node.sums});
+  return operations;
 }
 
 std::vector<int> NetStream::inputs_of(int node) const {

@@ -45,6 +45,21 @@ class NetRows {
   LargeArray<float> values_;
 };
 
+/// Other nodes that a convolution adds: one before a leaky ReLU, which then follows whatever the
+/// layer says, one at the end; −1 = none. A map is added at every label.
+struct NetSums {
+  int before = -1;
+  int after = -1;
+};
+
+/// What a node of a network is made of: a convolution, if it has a layer, a source, if it has no
+/// input, or its input enlarged.
+struct NetOperation {
+  const NetLayer* layer = nullptr;
+  int input = -1;
+  NetSums sums;
+};
+
 /// A network of convolutions that runs down its tensors row by row: of each tensor no more rows are
 /// kept than later ones need, so memory grows with the width, not with the height. Every number is
 /// computed once, by the same operations whatever the band and the number of threads. Nodes are
@@ -57,21 +72,16 @@ class NetStream {
   using Prepare = std::function<void(int first, int end, const Progress&)>;
   /// Is given each row of the result, on any thread.
   using Take = std::function<void(int y, const NetRows& rows)>;
-  /// Other nodes that a convolution adds: one before a leaky ReLU, which then follows whatever the
-  /// layer says, one at the end; −1 = none. A map is added at every label.
-  struct Sums {
-    int before = -1;
-    int after = -1;
-  };
-
   /// `fill` writes `labels` at once, of which the shape has a multiple.
   [[nodiscard]] int add_source(NetShape shape, Fill fill, Prepare prepare = {}, int labels = 1);
   /// The layer must live as long as this. Precondition: the channels match.
-  [[nodiscard]] int add_convolution(const NetLayer& layer, int input, Sums sums = {-1, -1});
+  [[nodiscard]] int add_convolution(const NetLayer& layer, int input, NetSums sums = {});
   /// Twice as large along rows, columns and labels, linear, cut to the size of `plus`, which is
   /// added.
   [[nodiscard]] int add_enlarged(int input, int plus);
   [[nodiscard]] const NetShape& shape(int node) const { return nodes_[node].shape; }
+  /// Of all nodes.
+  [[nodiscard]] std::vector<NetOperation> operations() const;
 
   /// Computes the tensor `output`, about `band` of its rows at a time. Throws Cancelled.
   void run(int output, int band, const Take& take, const Progress& progress);
@@ -88,7 +98,7 @@ class NetStream {
     int labels = 1;  // That `fill` writes at once.
     const NetLayer* layer = nullptr;
     int input = -1;  // Of a convolution or what is enlarged;
-    Sums sums{};     // `sums.after` is added at the end.
+    NetSums sums{};  // `sums.after` is added at the end.
     int margin = 0;  // Columns of zeros that are read.
     NetRows rows{};
   };

@@ -6,6 +6,7 @@
 #include "engine/disparity/carried_run.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/net_evidence.h"
+#include "engine/disparity/net_parts.h"
 #include "engine/disparity/net_weights.h"
 #include "engine/disparity/propagate_planes.h"
 #include "engine/disparity/weights_file.h"
@@ -33,15 +34,30 @@ constexpr double kVolumeWork = 717.0 / 40;  // A label,
 constexpr double kRoundWork = 117;
 constexpr double kRefinementWork = 120;
 
-struct ReadWeights {
-  NetWeights weights;
-  std::uint64_t hash = 0;
+// The weights of a file, also on the device from when they are first wanted there.
+class ReadWeights {
+ public:
+  explicit ReadWeights(const NamedArrays& arrays) : weights_(arrays), hash_(arrays.hash) {}
+
+  [[nodiscard]] const NetWeights& weights() const { return weights_; }
+  [[nodiscard]] std::uint64_t hash() const { return hash_; }
+  [[nodiscard]] const cuda::DeviceNet& on_device(const Progress& progress) const {
+    const std::lock_guard lock(mutex_);
+    if (!device_) device_ = std::make_unique<cuda::DeviceNet>(net_parts(weights_), progress);
+    return *device_;
+  }
+
+ private:
+  NetWeights weights_;
+  std::uint64_t hash_ = 0;
+  mutable std::mutex mutex_;
+  mutable std::unique_ptr<const cuda::DeviceNet> device_;
 };
 
-ReadWeights read_weights(const fs::path& path) {
+std::shared_ptr<const ReadWeights> read_weights(const fs::path& path) {
   const NamedArrays arrays = read_named_arrays(path);
   try {
-    return {NetWeights(arrays), arrays.hash};
+    return std::make_shared<const ReadWeights>(arrays);
   } catch (const InvalidInput& error) {
     throw IoError(path, error.what());
   }
@@ -55,7 +71,7 @@ class KeptWeights {
     const fs::file_time_type written = fs::last_write_time(path, failure);
     const std::lock_guard lock(mutex_);
     if (!weights_ || failure || path != path_ || written != written_) {
-      weights_ = std::make_shared<const ReadWeights>(read_weights(path));
+      weights_ = read_weights(path);
       path_ = path;
       written_ = written;
     }
@@ -70,7 +86,7 @@ class KeptWeights {
 };
 
 std::shared_ptr<const ReadWeights> weights_of(const NetMethodParameters& parameters) {
-  static KeptWeights kept;
+  static KeptWeights& kept = *new KeptWeights;  // never freed: the driver may be gone by then
   return kept.of(parameters.weights.empty() ? installed_weights(kNetWeights)
                                             : fs::absolute(parameters.weights));
 }
@@ -102,11 +118,12 @@ Image<float> image_of(ImageView<const float> view) {
 class NetMethod final : public CarriedMethod {
  public:
   // Reads the weights, finds the range.
-  NetMethod(const LightField& light_field, const NetMethodParameters& parameters,
+  NetMethod(const LightField& light_field, const NetMethodParameters& parameters, Device device,
             const Progress& progress)
       : lf_(light_field),
         parameters_(parameters),
         weights_(weights_of(parameters)),
+        device_(device == Device::Cuda ? &weights_->on_device(progress.part(0, 0)) : nullptr),
         range_(wide_enough(search_range(light_field, parameters.range, progress))) {}
 
   [[nodiscard]] ViewIndex first_view() const override {
@@ -118,19 +135,21 @@ class NetMethod final : public CarriedMethod {
   [[nodiscard]] Estimate estimate_first(const Progress& progress) override {
     const ViewIndex view = first_view();
     Estimate estimate = estimate_of(
-        view, range_, estimate_net(lf_, view, weights_->weights, view_parameters(), progress));
+        view, range_,
+        estimate_net(lf_, view, weights_->weights(), view_parameters(), progress, device_));
     if (!parameters_.weights.empty()) {
-      estimate.notes.push_back(
-          fmt::format("weights of {}, hash {}", parameters_.weights, hash_digits(weights_->hash)));
+      estimate.notes.push_back(fmt::format("weights of {}, hash {}", parameters_.weights,
+                                           hash_digits(weights_->hash())));
     }
     return estimate;
   }
   [[nodiscard]] Estimate estimate_next(ViewIndex view, const std::vector<Estimate>& maps,
                                        const Progress& progress) override {
     const PropagatedMaps carried = propagate_to_views(maps, {view, {1, 1}}, progress.part(0, 0.01));
-    return estimate_of(view, range_,
-                       polish_by_net(lf_, view, image_of(carried.disparity.view(view)),
-                                     weights_->weights, view_parameters(), progress.part(0.01, 1)));
+    return estimate_of(
+        view, range_,
+        polish_by_net(lf_, view, image_of(carried.disparity.view(view)), weights_->weights(),
+                      view_parameters(), progress.part(0.01, 1), device_));
   }
 
   [[nodiscard]] double share_of_next() const override {
@@ -157,13 +176,14 @@ class NetMethod final : public CarriedMethod {
   const LightField& lf_;
   NetMethodParameters parameters_;
   std::shared_ptr<const ReadWeights> weights_;
+  const cuda::DeviceNet* device_;  // Null: the CPU.
   Interval range_;
 };
 
 BlockwiseRun net_in_blocks(const LightField& lf, const NetMethodParameters& parameters,
                            ViewSelection views, const Progress& progress) {
-  return carried_in_blocks(lf, std::make_unique<NetMethod>(lf, parameters, progress), views,
-                           progress.threads());
+  return carried_in_blocks(lf, std::make_unique<NetMethod>(lf, parameters, Device::Cpu, progress),
+                           views, progress.threads());
 }
 
 }  // namespace
@@ -192,8 +212,8 @@ Schema<NetMethodParameters> net_schema() {
 }
 
 Estimate estimate_by_net(const LightField& lf, const NetMethodParameters& parameters,
-                         ViewSelection views, const Progress& progress) {
-  NetMethod method(lf, parameters, progress.part(0, 0.02));
+                         ViewSelection views, const Progress& progress, Device device) {
+  NetMethod method(lf, parameters, device, progress.part(0, 0.02));
   return run_carried(method, views, progress.part(0.02, 1));
 }
 
@@ -204,6 +224,7 @@ Estimator net_estimator() {
        .summary = "A network chooses and refines disparities by the evidence of all views",
        .reference = "Own; trained on procedural light fields alone: resources/training/README.md",
        .all_views = true,
+       .devices = {Device::Cpu, Device::Cuda},
        .weights = kNetWeights},
       net_schema(), estimate_by_net, net_in_blocks);
 }

@@ -31,10 +31,10 @@ inline constexpr const char* kNetWeights = "net.npz";
 /// carried views, the mean of those that agree. Weights are read once and kept while their file
 /// stays as it is. A range of less than 0.2 px is widened to that. Throws Unavailable without
 /// weights, IoError for a file that holds none, InvalidInput for those of another network and as
-/// estimate_net, Cancelled.
+/// estimate_net, DeviceFailure, Cancelled.
 [[nodiscard]] Estimate estimate_by_net(const LightField& light_field,
                                        const NetMethodParameters& parameters, ViewSelection views,
-                                       const Progress& progress);
+                                       const Progress& progress, Device device = Device::Cpu);
 
 [[nodiscard]] Estimator net_estimator();
 

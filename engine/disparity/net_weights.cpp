@@ -162,7 +162,7 @@ std::vector<double> mixed_taps(const NetLayerForm& form, const float* taps) {
 
 NetLayer make_net_layer(const NetLayerForm& form, const std::vector<float>& weights,
                         const std::vector<float>& bias) {
-  NetLayer layer{.form = form, .weights = {}, .bias = {}};
+  NetLayer layer{.form = form, .weights = {}, .bias = {}, .plain_weights = weights};
   const int rows = form.is_narrow() ? form.outputs : whole_groups(form.outputs) / kNetGroup;
   layer.weights.resize(static_cast<std::size_t>(rows * layer.group_stride() / kNetGroup));
   layer.bias.resize(whole_groups(form.outputs) / kNetGroup);

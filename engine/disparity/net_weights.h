@@ -58,7 +58,8 @@ struct NetLayer {
   /// `[group][mixed z or y][mixed x][y][input][output]`; of narrow layers
   /// `[output][z][y][x][input]`, inputs in whole groups. Zeros fill up.
   std::vector<NetGroup> weights;
-  std::vector<NetGroup> bias;  ///< Zeros if it has none.
+  std::vector<NetGroup> bias;        ///< Zeros if it has none.
+  std::vector<float> plain_weights;  ///< `[output][input](z)[y][x]`, as the device takes them.
 
   [[nodiscard]] const float* weights_data() const { return weights.front().values.data(); }
   [[nodiscard]] const float* bias_data() const { return bias.front().values.data(); }

@@ -9,8 +9,6 @@ namespace episcope {
 
 namespace {
 
-constexpr int kMedianSize = 5;
-
 template <class Better>
 Image<float> window_extreme(const Image<float>& map, int size, const Better& better,
                             const Progress& progress) {
@@ -45,14 +43,14 @@ Image<float> window_least(const Image<float>& map, int size, const Progress& pro
 }
 
 Image<float> window_median(const Image<float>& map, int apart, const Progress& progress) {
-  constexpr int kRadius = kMedianSize / 2;
+  constexpr int kRadius = kNetWindow / 2;
   Image<float> found(map.height(), map.width());
   parallel_for(map.height(), progress, [&](int y) {
-    const float* rows[kMedianSize];
-    for (int i = 0; i < kMedianSize; ++i) {
+    const float* rows[kNetWindow];
+    for (int i = 0; i < kNetWindow; ++i) {
       rows[i] = map.row(std::clamp(y + (i - kRadius) * apart, 0, map.height() - 1));
     }
-    std::array<float, kMedianSize * kMedianSize> window;
+    std::array<float, kNetWindow * kNetWindow> window;
     for (int x = 0; x < map.width(); ++x) {
       int count = 0;
       for (int j = -kRadius; j <= kRadius; ++j) {
@@ -71,12 +69,12 @@ std::array<Image<float>, kNetHypotheses> net_hypotheses(const Image<float>& map,
                                                         const Progress& progress) {
   const Image<float> median = window_median(map, 1, progress.part(0, 0.3));
   return {map,
-          window_most(map, 5, progress.part(0.3, 0.4)),
-          window_least(map, 5, progress.part(0.4, 0.5)),
+          window_most(map, kNetWindow, progress.part(0.3, 0.4)),
+          window_least(map, kNetWindow, progress.part(0.4, 0.5)),
           median,
-          window_most(median, 9, progress.part(0.5, 0.6)),
-          window_least(median, 9, progress.part(0.6, 0.7)),
-          window_median(map, 3, progress.part(0.7, 1)),
+          window_most(median, kNetWideWindow, progress.part(0.5, 0.6)),
+          window_least(median, kNetWideWindow, progress.part(0.6, 0.7)),
+          window_median(map, kNetMedianApart, progress.part(0.7, 1)),
           second};
 }
 

@@ -3,12 +3,11 @@
 
 #include "engine/core/image.h"
 #include "engine/core/progress.h"
+#include "engine/disparity/kernels/net_constants.h"
 
 #include <array>
 
 namespace episcope {
-
-inline constexpr int kNetHypotheses = 8;
 
 /// The largest number (or the smallest) of the size × size pixels around each, of those that exist.
 [[nodiscard]] Image<float> window_most(const Image<float>& map, int size, const Progress& progress);

@@ -79,6 +79,12 @@ std::vector<Case> cases(const std::string& filter) {
     if (info.all_views) {
       cases.push_back({estimator, {}, info.id + ", center view", ViewSelection::Center});
     }
+    if (!info.weights.empty()) {
+      cases.push_back({estimator,
+                       {{"silhouettes", std::string("mean")}, {"rounds", 1}},
+                       info.id + " mean, one round",
+                       ViewSelection::Center});
+    }
     if (!has_profiles(estimator)) continue;
     cases.push_back(
         {estimator, {{kProfileKey, std::string(kPaperProfile)}}, info.id + " " + kPaperProfile});

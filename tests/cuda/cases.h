@@ -25,7 +25,7 @@ enum class Kind {
 [[nodiscard]] Kind kind_of(const Estimator& estimator);
 
 /// Every method that computes on a GPU whose id begins with `filter`, in each of its profiles, and
-/// for the center view alone.
+/// for the center view alone; the learned one also with the mean of both surfaces of a pixel.
 [[nodiscard]] std::vector<Case> cases(const std::string& filter);
 
 /// Names of the built-in scenes compared on: flat, slanted, cluttered, noisy, invalid pixels, grids

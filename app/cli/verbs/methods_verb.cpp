@@ -27,10 +27,14 @@ std::string weights_text(const std::string& name) {
          text_of("sha256") + ", " + text_of("file");
 }
 
+bool has_gpu(const Estimator& method) {
+  return std::ranges::count(method.info.devices, Device::Cuda) > 0;
+}
+
 void print_method(const Estimator& method) {
   std::cout << method.info.id << "  " << method.info.name << ": " << method.info.summary << "\n  "
             << method.info.reference << (method.info.all_views ? "; all views" : "; one view")
-            << '\n';
+            << (has_gpu(method) ? "; CPU, GPU" : "; CPU") << '\n';
   if (!method.info.weights.empty()) {
     std::cout << "  weights: " << weights_text(method.info.weights) << '\n';
   }
@@ -46,11 +50,10 @@ void print_table(const std::vector<const Estimator*>& methods) {
   std::size_t longest = 0;
   for (const Estimator* each : methods) longest = std::max(longest, each->info.id.size());
   for (const Estimator* each : methods) {
-    const bool has_gpu = std::ranges::count(each->info.devices, Device::Cuda) > 0;
     std::cout << fmt::format("{:<{}}  {:<{}}  {}  {}  {}\n", each->info.id, longest,
                              each->info.name, longest,
                              each->info.all_views ? "all views" : "one view ",
-                             has_gpu ? "CPU, GPU" : "CPU     ", each->info.summary);
+                             has_gpu(*each) ? "CPU, GPU" : "CPU     ", each->info.summary);
   }
   std::cout << "\n'episcope-cli methods ID' tells reference and parameters, such as --range.\n";
 }

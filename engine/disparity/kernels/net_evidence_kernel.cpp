@@ -2,13 +2,13 @@
 #include "engine/disparity/kernels/net_evidence_kernel.h"
 
 #include "engine/core/simd.h"
+#include "engine/disparity/kernels/net_constants.h"
 
 // Compiled once for each instruction set: see engine/core/isa.h for what may stand here.
 
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
-constexpr int kSectors = 8;
 // Pixels that are summed for at once, by all disparities.
 constexpr int kPlaneRun = 128;
 constexpr int kMapRun = 32;
@@ -27,10 +27,9 @@ struct Sums {
 };
 
 inline Vec evidence_of(Vec sum, Vec count, float channels) {
-  constexpr float kFloor = 0.003F, kAdd = 4.2F, kScale = 0.8F, kNone = 1.5F;
   const Vec mean = sum / (greatest(count, splat(1)) * channels);
-  const Vec value = (natural_log(mean + kFloor) + kAdd) * kScale;
-  return choose(count > 0.0F, value, splat(kNone));
+  const Vec value = (natural_log(mean + kNetFloor) + kNetAdd) * kNetScale;
+  return choose(count > 0.0F, value, splat(kNetNoViews));
 }
 
 // Evidence of one sector for a run of pixels.
@@ -40,10 +39,10 @@ void finish_sector(Sums& sums, const Run& run, int sector, float* out) {
     store(sums.parts[0] + i, evidence_of(load(sums.parts[0] + i), count, 3));
     store(sums.parts[1] + i, evidence_of(load(sums.parts[1] + i), count, 2));
   }
-  out += static_cast<long>(run.begin) * 2 * kSectors + sector;
-  for (int i = 0; i < run.end - run.begin; ++i, out += 2 * kSectors) {
+  out += static_cast<long>(run.begin) * 2 * kNetSectors + sector;
+  for (int i = 0; i < run.end - run.begin; ++i, out += 2 * kNetSectors) {
     out[0] = sums.parts[0][i];
-    out[kSectors] = sums.parts[1][i];
+    out[kNetSectors] = sums.parts[1][i];
   }
 }
 
@@ -121,7 +120,7 @@ inline void add_plane(const NetEvidenceRow& row, const NetView& view, const Run&
 
 template <bool kHasInvalid>
 void planes_of_run(const NetEvidenceRow& row, const Run& run) {
-  for (int k = 0; k < kSectors; ++k) {
+  for (int k = 0; k < kNetSectors; ++k) {
     Sums sums[kNetAtOnce] = {};
     for (int i = row.sector_begin[k]; i < row.sector_begin[k + 1]; ++i) {
       for (int j = 0; j < row.count; ++j) {
@@ -241,7 +240,7 @@ void add_map(const NetEvidenceRow& row, const Run& run, int sector, const float*
 
 template <bool kHasInvalid>
 void maps_of_run(const NetEvidenceRow& row, const Run& run) {
-  for (int k = 0; k < kSectors; ++k) {
+  for (int k = 0; k < kNetSectors; ++k) {
     for (int j = 0; j < row.count; ++j) {
       alignas(64) float pixels[kMapRun * kNetPixel] = {};
       add_map<kHasInvalid>(row, run, k, row.disparities[j].map, pixels);

@@ -2,6 +2,7 @@
 #include "engine/disparity/kernels/net_kernel.h"
 
 #include "engine/core/simd.h"
+#include "engine/disparity/kernels/net_constants.h"
 
 // Compiled once for each instruction set: see engine/core/isa.h for what may stand here.
 
@@ -10,7 +11,6 @@ namespace {
 
 constexpr int kGroup = 16;
 constexpr int kGroupVecs = kGroup / kLanes;
-constexpr float kLeakySlope = 0.1F;
 constexpr int kWeightsAhead = 24 * kGroup;  // So far weights are fetched before they are used.
 
 // Sums of as many columns as registers hold, for one group of outputs or two.
@@ -32,7 +32,7 @@ struct Whole {
 };
 
 inline Vec leaky(Vec value) {
-  return greatest(value, value * kLeakySlope);
+  return greatest(value, value * kNetLeak);
 }
 
 // The sums of products of kCount inputs, kStep apart, and of groups of outputs.
