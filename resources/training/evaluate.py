@@ -28,6 +28,13 @@ def calibration(kept, all_scenes):
     return [(int((k == i).sum()), float(c[k == i].mean()), float((e[k == i] < .07).mean())) for i in range(10) if (k == i).any()]
 
 
+def between(kept, all_scenes):
+    """The mean where the selection's probability of the mode is below t, else the mode."""
+    for t in (0, .5, .6, .7, .8, .85, .9, .95, .98, 1.01):
+        e = [scenes.errors(np.where(kept[s.name]['p'] < t, kept[s.name]['mean'], kept[s.name]['map']), s.truth) for s in all_scenes]
+        print('between t %.2f: %.3f/%.2f/%.1f/%.1f' % (t, *np.mean(e, 0)))
+
+
 def main():
     torch.backends.cuda.matmul.allow_tf32 = torch.backends.cudnn.allow_tf32 = True
     if sys.argv[1].endswith('.npz'):
@@ -49,6 +56,7 @@ def main():
             for s in found:
                 print(line(s.name, r[s.name], rival.get(s.name)))
             print('calibration:', ' '.join('%d:%.3f->%.3f' % c for c in calibration(kept, found)))
+            between(kept, found)
             worst = sum(r[n]['map'][0] < rival[n][0] for n in rival), len(rival)
             print('better than the rival in MSE on', *worst)
         print(line(text, scenes.means(r), np.mean(list(rival.values()), 0) if rival else None), flush=True)

@@ -116,6 +116,24 @@ def read(path, device='cuda'):
     return network.channels_last(net).eval()
 
 
+def unfold(net, path):
+    """Puts released weights into a network with BatchNorm, which only adds the bias (Trainer.calibrate goes on)."""
+    z = np.load(path)
+    take = lambda name: torch.tensor(z[name].astype(np.float32))
+    with torch.no_grad():
+        for m in net.modules():
+            if isinstance(m, NORM):
+                m.running_mean.zero_(), m.running_var.fill_(1 - m.eps), m.weight.fill_(1), m.bias.zero_()
+        for name in [n[:-7] for n in z.files if n.endswith('.weight')]:
+            m = net.get_submodule(name)
+            folded = isinstance(m, nn.Sequential)
+            c, w = m[0] if folded else m, take(name + '.weight')
+            c.weight.zero_()
+            c.weight[:, :w.shape[1]] = w.to(c.weight.device)
+            if name + '.bias' in z.files:
+                (m[1] if folded else c).bias.copy_(take(name + '.bias'))
+
+
 def vectors(net, path):
     """Inputs and outputs of single layers and of the whole, for the engine's tests."""
     torch.backends.cudnn.allow_tf32 = torch.backends.cuda.matmul.allow_tf32 = False

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // flat_scene SCENE SIZE OUT METHOD THREADS: writes a built-in scene with the centre's truth and a
-// method's map as scenes.py reads it: int32 rows, columns, height, width; uint8 RGB views; float
+// method's map (none: without) as scenes.py reads it: int32 rows, columns, height, width; uint8 RGB views; float
 // truth; float map, NaN where invalid. The method searches the range of the truth ± 0.1 px.
 // Linked against the engine's libraries; README.md has the command.
 #include "engine/disparity/registry.h"
-#include "engine/scenes/request.h"
+#include "engine/scenes/builtin.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,6 +73,7 @@ int main(int count, char** arguments) try {
   put(file, std::vector<std::int32_t>{lf.grid().v, lf.grid().u, lf.height(), lf.width()});
   put_views(file, lf);
   const Interval range = put_map(file, scene.truth->field.view(lf.center()));
+  if (std::string(arguments[4]) == "none") return file ? 0 : 1;
   const ParameterSet values = {{"range", IntervalOrAuto{Interval{range.min - .1, range.max + .1}}}};
   const Estimate estimate =
       find_estimator(arguments[4]).run(lf, values, {.views = ViewSelection::Center}, progress);

@@ -12,7 +12,7 @@ import views
 
 TEXTURE = 256
 LAYERS = 24
-POOL = 60  # scenes whose parameters are drawn together
+POOL = 120  # scenes whose parameters are drawn together
 P = {name: i for i, name in enumerate(
     'A BX BY CX CY SX SY COS SIN BOX AMPLITUDE FREQUENCY PHASE BUMP ROUND PERIOD WAVE WAVE_X WAVE_Y '
     'WAVE_PHASE LIMB POWER TEXTURE TEXTURE_C TEXTURE_S TEXTURE_X TEXTURE_Y RED GREEN BLUE'.split())}
@@ -22,7 +22,7 @@ P.update({name: i for i, name in enumerate(
     'LIGHT_X LIGHT_Y'.split(),
     39)})
 PARAMETERS = 54
-PARTS = ('limb', 'shadow', 'equal', 'flat', 'dark', 'aliased', 'lenslet', 'noise', 'grids', 'wave')
+PARTS = ('limb', 'shadow', 'equal', 'flat', 'dark', 'aliased', 'lenslet', 'noise', 'grids', 'wave', 'big', 'uneven')
 
 
 def draw_textures(count, device):
@@ -111,7 +111,11 @@ class Generator:
         angle = u(B, K, hi=6.28)
         slope = torch.randn(B, K, device=dev) * steep * (1 - .3 * back) + ground
         size = S * 10 ** u(B, K, lo=-1.35, hi=-.2)
-        thin = chance(.34) * (1 - back)
+        # Few large round things before a background with texture, shaded: what rendered scenes are made of.
+        big = chance(.25, B, 1) * self.has('big')
+        size = torch.where(big > 0, S * 10 ** u(B, K, lo=-.8, hi=-.1), size)
+        few = few & ((big == 0) | (torch.rand(B, K, device=dev) < .3))
+        thin = chance(.34) * (1 - back) * (1 - big * chance(.8, B, 1))
         sx = torch.where(thin > 0, 10 ** u(B, K, lo=-.5, hi=.5), size)
         sy = torch.where(thin > 0, size * 2, size * 10 ** u(B, K, lo=-.4, hi=.4))
         reach_of = torch.maximum(sx, sy)
@@ -120,7 +124,9 @@ class Generator:
         box = chance(.5)
         amplitude = u(B, K, hi=.35) * chance(.5)
         bump = chance(.35) * u(B, K, lo=-.12, hi=.9) * (size / S * 3).clamp(max=1) * (1 - back) * (1 - thin)
+        bump = torch.where((big > 0) & (thin + back == 0), u(B, K, lo=.05, hi=1.) * (size / S * 3).clamp(max=1), bump)
         bump = torch.minimum(bump, half * 1.2)
+        box = box * (1 - big * chance(.7))
         round_ = chance(.5) * (1 - box)
         period = torch.where((chance(.25) > 0) & (thin > 0), 2 * sx + 10 ** u(B, K, lo=.4, hi=1.3), 1e6)
         wave = chance(.35) * u(B, K, hi=.12) * half.clamp(max=1) * (1 - thin) * self.has('wave')
@@ -129,7 +135,7 @@ class Generator:
         rot = u(B, K, hi=6.28)
         limb = torch.zeros(B, K, device=dev)
         if self.has('limb'):  # a whole scene is shaded or flat; flat ones are not to suffer
-            limb = u(B, K, hi=.9) * chance(.75) * chance(.5, B, 1) * (1 - back)
+            limb = u(B, K, hi=.9) * chance(.75) * torch.maximum(chance(.45, B, 1), big * chance(.5, B, 1)) * (1 - back)
             limb = torch.where(bump > .1, limb, limb * chance(.6))
         texture = torch.randint(len(self.textures), (B, K), device=dev).float()
         contrast = 10 ** u(B, K, lo=-2.1, hi=-.55)
@@ -141,7 +147,10 @@ class Generator:
             dark = chance(.15, B, 1) * back
             contrast = torch.where(dark > 0, contrast * .1, contrast)
             base = torch.where(dark[..., None] > 0, base * .08, base)
+            shadowy = chance(.08, B, 1)  # a whole scene without light
+            contrast, base = contrast * (1 - .85 * shadowy), base * (1 - .85 * shadowy[..., None])
         scale = 10 ** u(B, K, lo=-.35, hi=.35)
+        scale = torch.where(back * chance(.15, B, 1) > 0, scale * u(B, K, lo=.12, hi=.5), scale)  # out of focus
         tx, ty = u(B, K, hi=512), u(B, K, hi=512)
         mix = torch.eye(3, device=dev) * u(B, K, 1, 1, lo=.4) + .35 * torch.randn(B, K, 3, 3, device=dev)
         mix = torch.where(chance(.4, B, K, 1, 1) > 0, mix.mean((2, 3), keepdim=True) + .1 * mix, mix)
@@ -158,7 +167,7 @@ class Generator:
             shadowed = chance(.35, B, 1)
             L[..., P['SHADOW']] = shadowed * chance(.6) * u(B, K, lo=.15, hi=.8) * (1 - back)
         if self.has('limb'):
-            L[..., P['LAMBERT']] = chance(.5, B, 1) * chance(.8) * u(B, K, lo=.3, hi=.95)
+            L[..., P['LAMBERT']] = torch.maximum(chance(.45, B, 1), big * chance(.5, B, 1)) * chance(.8) * u(B, K, lo=.3, hi=.95)
         L[..., P['RELIEF']] = 10 ** u(B, 1, lo=.7, hi=1.8)
         fall = u(B, 1, hi=6.28)
         tilt = u(B, 1, hi=1.2)
@@ -173,7 +182,7 @@ class Generator:
         L[..., P['SHINE_X']] = torch.minimum(sx, torch.tensor(S * .5, device=dev)) * u(B, K, lo=-.7, hi=.7)
         L[..., P['SHINE_Y']] = torch.minimum(sy, torch.tensor(S * .5, device=dev)) * u(B, K, lo=-.7, hi=.7)
         cx, cy = u(B, K, lo=-.6, hi=.6) * S, u(B, K, lo=-.6, hi=.6) * S
-        gone = (~few).float() * (1 - back) * chance(.5, B, 1)
+        gone = (~few).float() * (1 - back) * torch.maximum(big, chance(.5, B, 1))
         cx = cx + gone * 1e5
         for name, value in dict(
                 A=a, BX=slope * angle.cos(), BY=slope * angle.sin(), CX=cx, CY=cy, SX=sx, SY=sy,
@@ -226,7 +235,7 @@ class Generator:
             moved = off * (1 + lenslet * .02 * torch.randn(B, 1, 1, device=dev) * radius)
             moved = moved + lenslet * .03 * u(B, 1, 1) * torch.randn(B, V, 2, device=dev)
             moved[:, 0] = 0
-            spread = 1 + .5 * u(B, 1) * chance(.3, B, 1) + lenslet[:, :, 0] * (
+            spread = 1 + .5 * u(B, 1) * chance(.45, B, 1) + lenslet[:, :, 0] * (
                 u(B, 1, hi=.8) * radius[..., 0] ** 2 + .1 * u(B, V))
             if self.has('aliased'):
                 spread = spread * (1 - chance(.12, B, 1))
@@ -238,6 +247,9 @@ class Generator:
             shift = (t[None, None, :, None] * moved[:, :, :1, None] + t[None, None, None] * moved[:, :, 1:, None]) / reach.view(B, 1, 1, 1)
             fall = 1 - lenslet[..., None] * (.08 * u(B, 1, 1, 1) * (.5 * r2[0] + shift * radius[..., None]))
             gain = 1 + (.01 * chance(.3, B, 1) + .02 * u(B, 1) * lenslet[:, :, 0]) * torch.randn(B, V, device=dev)
+            if self.has('uneven'):
+                gain = gain * (1 + .06 * u(B, 1) * chance(.15, B, 1) * u(B, V, lo=-1))
+                fall = fall * (1 - .25 * u(B, 1, 1, 1) * chance(.15, B, 1, 1, 1) * r2[0])  # the same in every view
             im = im * (fall * gain[..., None, None])[:, :, None]
             if self.has('noise'):
                 sigma = (u(B, 1, 1, 1, 1) ** 3) * .04 * (1 - chance(.2, B, 1, 1, 1, 1))

@@ -274,18 +274,3 @@ def load(net, state):
         else:
             left.append(name)
     return left
-
-
-def from_prototype(net, path, device):
-    """Takes the volume of an earlier network with the same shapes."""
-    names = {'im': 'image', 'i0': 'input', 'n0': 'norm'}
-    state, own, taken = torch.load(path, map_location=device), net.state_dict(), 0
-    for key, value in state.items():
-        part = key.split('.')
-        if part[0] == 'volume':
-            part[1] = names.get(part[1], part[1])
-            name = '.'.join(part)
-            if name in own and own[name].shape == value.shape:
-                own[name].copy_(value.to(own[name].dtype))
-                taken += 1
-    return taken

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prepares scenes to choose and to report with.
 
-    prepare.py demos FLAT_SCENE scenes.json choosing FOLDER [SIZE] [JOBS]
+    prepare.py demos FLAT_SCENE scenes.json choosing FOLDER [SIZE] [JOBS] [METHOD]
     prepare.py stored COTTON STILL_LIFE FILE.npz
 
-The first writes every built-in scene of a set beside plane_pm's map (flat_scene.cpp), the second
+The first writes every built-in scene of a set beside the map of a method (plane_pm; none: without; flat_scene.cpp), the second
 packs the two stored scenes.
 """
 import json
@@ -16,7 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 
-def demos(tool, sets, name, folder, size='256', jobs='5'):
+def demos(tool, sets, name, folder, size='256', jobs='5', method='plane_pm'):
     with open(sets) as f:
         names = [s for group in json.load(f)[name].values() for s in group if s.startswith('demo:')]
     os.makedirs(folder, exist_ok=True)
@@ -24,7 +24,7 @@ def demos(tool, sets, name, folder, size='256', jobs='5'):
     def one(numbered):
         number, text = numbered
         path = f'{folder}/{number:02d}'
-        subprocess.run([tool, text, size, path + '.part', 'plane_pm', '2'], check=True)
+        subprocess.run([tool, text, size, path + '.part', method, '2'], check=True)
         with open(path + '.txt', 'w') as f:
             f.write(text)
         os.rename(path + '.part', path + '.raw')

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Trains the network in pieces. Each piece goes on where the checkpoint ended.
 
-    train.py --seconds 540 --checkpoint checkpoints [--warm old.pt] [--decay]
+    train.py --seconds 540 --checkpoint checkpoints [--warm net.npz] [--still] [--decay]
 
---decay: the last piece: starts from the averaged weights, holds BatchNorm still and lowers the
-rate to nothing.
+--warm: starts from released weights. --still: holds BatchNorm still. --decay: the last piece: starts
+from the averaged weights, holds BatchNorm still and lowers the rate to nothing.
 """
 import argparse
 import copy
@@ -19,6 +19,7 @@ import torch
 import torch.nn as nn
 import torch.nn.functional as F
 
+import export
 import generator
 import network
 import scenes
@@ -32,7 +33,9 @@ def arguments():
     p.add_argument('--seconds', type=float, required=True)
     p.add_argument('--checkpoint', default='checkpoints')
     p.add_argument('--out', help='where the checkpoint is written (default: where it was read)')
-    p.add_argument('--warm', help='weights of an earlier network with the same volume')
+    p.add_argument('--warm', help='released weights (net.npz) to start from where there is no checkpoint')
+    p.add_argument('--still', action='store_true', help='hold BatchNorm still')
+    p.add_argument('--times', type=float, default=1., help='scenes a batch, relative to SHAPES')
     p.add_argument('--decay', action='store_true')
     p.add_argument('--rate', type=float, default=1.5e-3)
     p.add_argument('--volume-rate', type=float, default=.4, help='of the rate, for the volume')
@@ -52,7 +55,7 @@ def spoil(d):
     dev = d.device
     field = lambda n, c=1: F.interpolate(torch.randn(B, c, n, n, device=dev), (H, W), mode='bicubic', align_corners=True)[:, 0]
     chance = lambda p: (torch.rand(B, 1, 1, device=dev) < p).float()
-    size = int(np.random.choice([3, 5, 5, 7]))
+    size = int(np.random.choice([3, 5, 5, 7, 9, 11]))
     f = field(int(np.random.choice([6, 12, 24])))
     s = torch.where(f > .4, network.highest(d, size), torch.where(f < -.4, network.lowest(d, size), d))
     dx, dy = np.random.randint(-1, 2, 2)
@@ -60,6 +63,12 @@ def spoil(d):
     soft = F.avg_pool2d(s[:, None], 5, 1, 2, count_include_pad=False)[:, 0]
     s = torch.where((chance(.35) > 0) & (field(12) > -.3), soft, s)
     s = s + chance(.7) * .08 * torch.rand(B, 1, 1, device=dev) * field(24) + chance(.4) * .03 * torch.randn_like(s)
+    # Anything at jumps, in some places; grains of anything.
+    low, high = d.flatten(1).min(1).values[:, None, None], d.flatten(1).max(1).values[:, None, None]
+    any_ = low + (high - low) * torch.rand_like(d)
+    jump = network.highest(d, 5) - network.lowest(d, 5) > .3
+    s = torch.where(jump & (field(12) > .5) & (torch.rand_like(d) < .5) & (chance(.5) > 0), any_, s)
+    s = torch.where((torch.rand_like(d) < .03 * torch.rand(B, 1, 1, device=dev)) & (chance(.3) > 0), any_, s)
     patch = field(24)
     other = torch.roll(s, (int(np.random.randint(-20, 21)), int(np.random.randint(-20, 21))), (1, 2))
     return torch.where((patch > 2.) & (chance(.5) > 0), other, s)
@@ -89,7 +98,7 @@ class Trainer:
             print('new:', network.load(self.net, torch.load(path('net.pt'), map_location=dev)))
             self.done = json.load(open(path('state.json')))
         elif a.warm:
-            print('taken from the earlier network:', network.from_prototype(self.net, a.warm, dev))
+            export.unfold(self.net, a.warm)
         self.ema = copy.deepcopy(self.net).eval().requires_grad_(False)
         if os.path.exists(path('ema.pt')):
             network.load(self.ema, torch.load(path('ema.pt'), map_location=dev))
@@ -103,11 +112,34 @@ class Trainer:
         without = [w for w in a.without.split(',') if w]
         self.gen = generator.Generator(self.seed, without=without)
         self.net.train()
-        if a.decay:
-            for m in self.net.modules():
-                if isinstance(m, (nn.BatchNorm2d, nn.BatchNorm3d)):
-                    m.eval()
         self.kept = None
+        if a.warm and not self.done['iteration']:
+            self.calibrate()
+        if a.decay or a.still:
+            for m in self.net.modules():
+                if isinstance(m, export.NORM):
+                    m.eval()
+
+    def calibrate(self, batches=24):
+        """BatchNorm of released weights only adds a bias (export.unfold). It gets the mean and the variance of
+        what it sees in training, and a scale and a shift with which its output stays the same."""
+        seen = {m: [] for m in self.net.modules() if isinstance(m, export.NORM)}
+        hooks = [m.register_forward_pre_hook(lambda m, x: seen[m].append(torch.stack(
+            [(x[0].float() ** k).transpose(0, 1).flatten(1).mean(1) for k in (1, 2)]))) for m in seen]
+        self.net.eval()
+        with torch.no_grad():
+            for _ in range(batches):
+                self.losses(8, 40, False)
+            for m, s in seen.items():
+                mean, square = torch.stack(s).mean(0)
+                m.running_mean.copy_(mean)
+                m.running_var.copy_((square - mean ** 2).clamp_min(0))
+                m.bias.add_(mean)
+                m.weight.copy_((m.running_var + m.eps).sqrt())
+        for h in hooks:
+            h.remove()
+        self.net.train()
+        network.load(self.ema, self.net.state_dict())
 
     def save(self, out):
         os.makedirs(out, exist_ok=True)
@@ -161,7 +193,7 @@ class Trainer:
                 spread = (h.max(1).values - h.min(1).values).clamp(max=3)
                 like = (w * torch.exp(-(h - d[:, None]).abs() / .08)).sum(1)
                 out['select'] = (-torch.log(like + 1e-3) * (.3 + spread + .5 * spread ** 2)).mean()
-                out['mean'] = F.smooth_l1_loss((w * h).sum(1), d, beta=.1, reduction='none').clamp(max=1.5).mean()
+                out['mean'] = F.smooth_l1_loss((w * h).sum(1), d)  # its square up to 1 px: a proper score of the mean
                 with torch.no_grad():
                     mode, p, _, _ = network.decide(h, w)
                     shake = (torch.rand(B, 1, 1, device=d.device) < .4).float() * .05
@@ -188,10 +220,10 @@ class Trainer:
         it = self.done['iteration']
         if self.kept is None:
             self.shape = SHAPES[int(np.random.choice(3, p=(.35, .45, .2)))]
-        D, B = self.shape
+        D, B = self.shape[0], round(self.shape[1] * self.a.times)
         train_volume = it % 4 in ((0, 1, 2, 3), (0, 3), (0,))[self.a.volume_every - 1]
         out = self.losses(B, D, train_volume)
-        loss = out['select'] + 2 * out['mean'] + out['refine1'] + out['refine2'] + .3 * out['certain']
+        loss = out['select'] + 4 * out['mean'] + out['refine1'] + out['refine2'] + .3 * out['certain']
         if train_volume:
             loss = loss + .5 * out['ce'] + .3 * out['peak']
         self.opt.zero_grad(set_to_none=True)

@@ -39,10 +39,12 @@ def rectangle(rows, columns, row, column):
 
 
 def draw_grid(rng):
-    """A random grid: half 9x9 from its centre, else other sizes, corners, lines, crosses, gaps."""
+    """A random grid: nearly half 9x9 from its centre, else other sizes, corners, lines, crosses, gaps."""
     t = rng.random()
-    if t < .5:
+    if t < .47:
         return rectangle(9, 9, 4, 4)
+    if t < .53:
+        return rectangle(9, 9, 8 * int(rng.integers(2)), 8 * int(rng.integers(2)))
     if t < .62:
         return rectangle(9, 9, int(rng.integers(9)), int(rng.integers(9)))
     if t < .70:
