@@ -148,7 +148,9 @@ class BlockRunner {
   BlockProgress state_;
   double seconds_before_;
   Stopwatch watch_;
-  ReadBlock read_{[this](const MapBlock& block) { return store_.read(block); }};
+  ReadBlock read_{
+      [this](const MapBlock& block) { return store_.read(block); },
+      [this](const MapBlock& block, int number) { return store_.read_kept(block, number); }};
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/predict_from_strokes.h"
+#include "engine/labeling/stroke_distance.h"
 #include "tests/test_main.h"
 
 #include <algorithm>
