@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -68,12 +69,10 @@ RigidPose rigid(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translat
   return pose;
 }
 
-/// A copy; OpenCV decomposes it, since Eigen's templates take long to compile.
-cv::Mat to_cv(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
-  cv::Mat copy(static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols()), CV_64F);
-  for (int i = 0; i < copy.rows; ++i) {
-    for (int j = 0; j < copy.cols; ++j) copy.at<double>(i, j) = matrix(i, j);
-  }
+/// OpenCV decomposes matrices, since Eigen's templates take long to compile.
+cv::Mat to_cv(const Eigen::MatrixXd& matrix) {
+  cv::Mat copy;
+  cv::eigen2cv(matrix, copy);
   return copy;
 }
 

@@ -25,7 +25,6 @@ class NetViews {
 
   [[nodiscard]] int height() const { return pointers_.height; }
   [[nodiscard]] int width() const { return pointers_.width; }
-  [[nodiscard]] long pixels() const { return static_cast<long>(height()) * width(); }
 
   /// Evidence of the labels of the task in rows [first, end). Throws DeviceFailure.
   [[nodiscard]] NetTensor evidence(const NetTask& task, int first, int end,
