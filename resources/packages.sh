@@ -12,7 +12,9 @@ WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev qt6-l10n-tools libvt
   libgl1-mesa-dri"
 WAYLAND_PACKAGES="qt6-wayland"
 TEST_PACKAGES="ccache libbenchmark-dev libopencv-contrib-dev mkdocs xvfb xauth
-  pybind11-dev python3-dev python3-numpy python3-pytest"
+  pybind11-dev python3-dev python3-numpy python3-pytest
+  python3-h5py python3-h5netcdf python3-xarray python3-pandas python3-matplotlib
+  hdf5-tools octave jq"
 # What making the manual as web pages takes.
 MANUAL_PACKAGES="mkdocs doxygen"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"

@@ -123,6 +123,7 @@ Estimate center_of(const Estimate& estimate, ViewIndex center) {
   one.layered.foreground = one_view(estimate.layered.foreground, center);
   one.layered.background = one_view(estimate.layered.background, center);
   one.layered.layers = one_view(estimate.layered.layers, center);
+  one.second = one_view(estimate.second, center);
   one.set_provenance(estimate.provenance());
   if (estimate.field.disparity.grid().count() > 1) {
     one.notes.emplace_back("the seconds are those of all views");

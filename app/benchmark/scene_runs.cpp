@@ -4,10 +4,10 @@
 #include "app/benchmark/run_log.h"
 #include "app/benchmark/scene_files.h"
 #include "app/session/judge.h"
-#include "app/session/known_files.h"
 #include "app/session/label_review.h"
 #include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
+#include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/evaluation/benchmark_tables.h"
@@ -76,11 +76,10 @@ std::vector<std::string> SceneRuns::judge_and_write(const EstimatePtr& center,
 void SceneRuns::run_and_judge(const Estimator& method, const Progress& progress,
                               BenchmarkRecord& record) {
   BenchmarkResult& result = record.result;
-  EstimatePtr estimate =
-      run_estimator(open_.scene, method, record.run.parameters,
-                    {.views = record.run.views, .device = record.run.device},
-                    progress.part(0, 0.95))
-          .estimate;
+  EstimatePtr estimate = run_estimator(open_.scene, method, record.run.parameters,
+                                       {.views = record.run.views, .device = record.run.device},
+                                       progress.part(0, 0.95))
+                             .estimate;
   result.seconds = estimate->seconds;
   result.notes = estimate->notes;
   progress.step("evaluating");

@@ -20,9 +20,8 @@ namespace fs = std::filesystem;
 constexpr double kFarthest = 20;  // px per view step, either way
 
 bool is_map(const fs::path& path) {
-  const std::string suffix = suffix_of(path);
-  return suffix == ".pfm" || suffix == ".npy" || suffix == ".h5" || suffix == ".hdf5" ||
-         suffix == ".tif" || suffix == ".tiff";
+  const auto form = map_form_of(path);
+  return form && *form != MapForm::PointCloud;
 }
 
 /// Files below the folder that `accepts` takes, sorted.

@@ -13,8 +13,8 @@ namespace episcope {
 
 /// Results of another program in a folder: a map for each scene, anywhere below it, named after the
 /// scene (`cotton.pfm`, `disp_maps/cotton.h5`) or alone in a folder of that name
-/// (`cotton/result.tif`); upper and lower case do not matter. Maps are PFM, `.npy`, HDF5 with one
-/// map, float TIFF or result files. Seconds come from a result file, else from a text file named
+/// (`cotton/result.tif`); upper and lower case do not matter. Maps are of any form
+/// that `read_result_of` reads. Seconds come from a result file, else from a text file named
 /// after the scene (`runtimes/cotton.txt`, `cotton.txt`) whose first word is a number.
 
 /// The folder's own name.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
 
+#include "app/cli/help_text.h"
 #include "app/cli/output.h"
+#include "app/session/command_line.h"
 #include "engine/core/parameter.h"
 #include "engine/core/text.h"
 
@@ -18,7 +20,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -39,20 +40,19 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// Help whose columns stand below each other where a name has letters of several bytes ("0 … 1").
+/// Help as wide as the terminal, which says which options are required.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
     const std::string name = make_option_name(option, is_positional) + make_option_opts(option);
-    const std::size_t more_bytes = std::ranges::count_if(name, continues_character);
-    const std::size_t column = get_column_width();
-    const bool fits = name.size() - more_bytes < column;
-    std::ostringstream line;
-    CLI::detail::format_help(line, name, make_option_desc(option),
-                             fits ? column + more_bytes : column);
-    return line.str();
+    const bool must_be_said = option->get_required() && !is_positional;
+    return help_entry(name, make_option_desc(option) + (must_be_said ? " (required)" : ""),
+                      static_cast<int>(get_column_width()), help_columns());
   }
 };
+
+constexpr const char* kReadingHint =
+    "How INPUT is read can be stated, too: see 'episcope-cli help reading'.\n";
 
 /// Each line by two spaces.
 std::string indented(const std::string& text) {
@@ -97,8 +97,10 @@ bool asks_for_help(const std::string& argument) {
 
 struct Arguments::State {
   State(const std::string& verb_name, const Text& text)
-      : verb(verb_name), app(text.summary, "episcope-cli " + verb_name), example(text.example) {
-    app.footer("Example:\n" + indented(text.example));
+      : verb(verb_name),
+        summary(text.summary),
+        app(wrapped(text.summary, help_columns()), "episcope-cli " + verb_name),
+        example(text.example) {
     app.formatter(std::make_shared<HelpFormatter>());
     app.set_help_flag("-h,--help", "Print this help and exit");
     takes_value["-h"] = takes_value["--help"] = false;
@@ -113,7 +115,7 @@ struct Arguments::State {
                                     {"choices", text.choices},
                                     {"help", text.help},
                                     {"heading", group}}));
-    return added->group(group);
+    return added->group(group == kReading ? std::string() : group);
   }
 
   void declare_positional(CLI::Option* added, bool has_several, Need need = Need::Required) {
@@ -125,7 +127,7 @@ struct Arguments::State {
 
   [[nodiscard]] Json description() const {
     return Json::object({{"verb", verb},
-                         {"summary", app.get_description()},
+                         {"summary", summary},
                          {"example", example},
                          {"positionals", positionals},
                          {"options", options}});
@@ -169,10 +171,11 @@ struct Arguments::State {
     return result;
   }
 
-  /// An option in the spelling that it is declared with, if it is known in one.
+  /// An option in the spelling that it is declared with, if it is known in one: American, and with
+  /// hyphens where earlier versions had "_".
   [[nodiscard]] std::string known_spelling(const std::string& argument) const {
     const std::string name = name_of(argument);
-    const std::string here = american(name);
+    const std::string here = option_name(american(name));
     const bool is_old = name != here && !takes_value.contains(name) && takes_value.contains(here);
     return is_old ? here + argument.substr(name.size()) : argument;
   }
@@ -191,7 +194,19 @@ struct Arguments::State {
                                       : "did you mean '--" + nearest + "'?"));
   }
 
+  /// Whether there are options that only `help reading` lists.
+  [[nodiscard]] bool has_reading() const {
+    return std::ranges::any_of(options,
+                               [](const Json& each) { return each["heading"] == kReading; });
+  }
+
+  [[nodiscard]] std::string help() {
+    app.footer((has_reading() ? wrapped(kReadingHint, help_columns()) : std::string()) + std::string("Example:\n") + indented(example));
+    return app.help();
+  }
+
   std::string verb;
+  std::string summary;
   CLI::App app;
   std::string example;
   std::string group = "Options";
@@ -282,7 +297,7 @@ bool Arguments::parse(const std::vector<std::string>& arguments) {
   try {
     state_->app.parse(left);
   } catch (const CLI::CallForHelp&) {
-    std::cout << state_->app.help();
+    std::cout << state_->help();
     return false;
   } catch (const CLI::ParseError& error) {
     throw UsageError(state_->verb + ": " + sentence_of(error, state_->app) + "; see episcope-cli " +
@@ -387,6 +402,15 @@ OptionValue<ViewIndex> view_value() {
               refuse(option, text, "camera row and column V,U, both from 0");
             }
             return ViewIndex{place->first, place->second};
+          }};
+}
+
+OptionValue<std::vector<std::string>> words_value(const std::string& name) {
+  return {name, [](const std::string& option, const std::string& text) {
+            std::vector<std::string> words = CLI::detail::split(text, ',');
+            std::erase(words, "");
+            if (words.empty()) refuse(option, text, "names, separated by commas");
+            return words;
           }};
 }
 

@@ -35,6 +35,8 @@ struct OptionValue {
 [[nodiscard]] OptionValue<Interval> interval_value();
 /// "V,U".
 [[nodiscard]] OptionValue<ViewIndex> view_value();
+/// Words between commas, at least one.
+[[nodiscard]] OptionValue<std::vector<std::string>> words_value(const std::string& name);
 
 /// "AxB" with both in [1, max].
 struct Extent {
@@ -131,6 +133,8 @@ class Arguments {
   /// after `parse`.
   void check_uses(const std::vector<Use>& uses) const;
 
+  /// Heading of options that help does not list but names `help reading` for.
+  static constexpr const char* kReading = "Reading";
   /// Options declared from here on stand under this heading in the help.
   void heading(const std::string& text);
 

@@ -8,7 +8,6 @@
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
 #include "engine/io/formats/sequence_reader.h"
-#include "engine/io/models/map_reading.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/result_file.h"
 
@@ -16,25 +15,58 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace episcope::cli {
 
 void declare_read_options(Arguments& arguments, ReadOptions& options) {
-  arguments.heading("Reading");
+  arguments.heading(Arguments::kReading);
   options.options.declare(arguments, io::open_schema().descriptions());
+}
+
+void check_read_options(const ReadOptions& options) {
+  const io::OpenOptions open = io::open_schema().parse(options.options.values());
+  for (const auto& [name, value] :
+       {std::pair{"--grid", &open.grid}, std::pair{"--crop", &open.crop}}) {
+    try {
+      if (!value->empty() && *value != "all") (void)io::parse_grid(*value);
+    } catch (const InvalidInput& error) {
+      throw UsageError(std::string(name) + ": " + error.what());
+    }
+  }
+}
+
+void print_reading_help() {
+  Arguments parser(
+      "VERB", {"Options of every verb with an INPUT: how a light field is read, where its files "
+               "do not tell or are to be read otherwise.",
+               "episcope-cli info pictures/ --pattern 'view_{row}_{col}.png'\n"
+               "  episcope-cli estimate epi_l lf.mat -o r.h5 --axes vuyxc --flip u"});
+  ReadOptions options;
+  options.options.declare(parser, io::open_schema().descriptions());
+  (void)parser.parse({"--help"});
 }
 
 bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments, JobOptions& job,
                    ReadOptions& read) {
   declare_job_options(parser, job);
   declare_read_options(parser, read);
-  return parser.parse(arguments);
+  if (!parser.parse(arguments)) return false;
+  check_read_options(read);
+  return true;
 }
 
 void declare_map_options(Arguments& arguments, ParameterOptions& options) {
   arguments.heading("Maps of other programs");
   options.declare(arguments, io::map_schema().descriptions());
   arguments.heading("Options");
+}
+
+io::MapReading map_reading(const ParameterOptions& options) {
+  const io::MapReading reading = io::map_schema().parse(options.values());
+  if (reading.scale != 0) return reading;
+  throw UsageError(
+      "--map-scale is 0, which makes every value 0; give what one stored unit is in px");
 }
 
 void require_no_map_options(const ParameterOptions& options, const std::string& input) {
@@ -99,6 +131,13 @@ Scene load_input_of(const NamedReading& result, const std::string& input,
   return load_input(
       input, options_for_result(result.file, result.reading, input, options.options.values()),
       options.needs_truth, progress);
+}
+
+ViewIndex view_of(const LightField& light_field, ViewIndex view) {
+  if (light_field.grid().contains(view)) return view;
+  throw InvalidInput(fmt::format(
+      "{} has {}×{} views, but view {} was asked for; views are counted from 0",
+      light_field.info().name, light_field.grid().v, light_field.grid().u, view_text(view)));
 }
 
 void note_other_source(const Estimate& estimate, const LightField& light_field, Job& job) {

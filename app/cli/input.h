@@ -6,6 +6,7 @@
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
+#include "engine/io/models/map_reading.h"
 #include "engine/io/models/open_options.h"
 
 #include <optional>
@@ -22,6 +23,12 @@ struct ReadOptions {
 
 void declare_read_options(Arguments& arguments, ReadOptions& options);
 
+/// Throws UsageError for a value that no light field can be read by, such as a grid of one number.
+void check_read_options(const ReadOptions& options);
+
+/// Prints the options of reading, which the help of verbs leaves out.
+void print_reading_help();
+
 /// Declares the options that every verb with an INPUT has, after its own, and parses. Returns and
 /// throws as `Arguments::parse`.
 [[nodiscard]] bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
@@ -29,6 +36,8 @@ void declare_read_options(Arguments& arguments, ReadOptions& options);
 
 /// Declares how maps of a RESULT are read (io::map_schema), under a heading of their own.
 void declare_map_options(Arguments& arguments, ParameterOptions& options);
+/// Throws UsageError for a value that no map can be read by.
+[[nodiscard]] io::MapReading map_reading(const ParameterOptions& options);
 /// Throws UsageError if such an option is given to what is no RESULT.
 void require_no_map_options(const ParameterOptions& options, const std::string& input);
 
@@ -62,6 +71,9 @@ struct NamedReading {
 /// the file.
 [[nodiscard]] Scene load_input_of(const NamedReading& result, const std::string& input,
                                   const ReadOptions& options, const Progress& progress);
+
+/// The view itself. Throws InvalidInput if the light field has no such view.
+[[nodiscard]] ViewIndex view_of(const LightField& light_field, ViewIndex view);
 
 /// Notes if the estimate was made from samples of another light field, and which reading options
 /// may explain it.

@@ -31,6 +31,7 @@ Job::Job(std::stop_token stop, const JobOptions& options)
           options.run_options().threads) {}
 
 void Job::note(const std::string& sentence) {
+  notes_.push_back(sentence);
   if (is_quiet_) return;
   bar_.wipe();
   std::cerr << "note: " << sentence << '\n';

@@ -11,6 +11,7 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 namespace episcope::cli {
 
@@ -58,8 +59,9 @@ class Job {
   Job(std::stop_token stop, const JobOptions& options);
 
   [[nodiscard]] const Progress& progress() const { return progress_; }
-  /// A sentence for the user on standard error, unless quiet.
+  /// A sentence for the user on standard error, unless quiet; kept for answers in JSON.
   void note(const std::string& sentence);
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   /// To be called before the answer is written.
   void finish() { bar_.wipe(); }
 
@@ -67,6 +69,7 @@ class Job {
   bool is_quiet_;
   ProgressBar bar_;
   Progress progress_;
+  std::vector<std::string> notes_;
 };
 
 /// Largest resident memory of this process so far.

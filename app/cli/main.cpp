@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/about/version_text.h"
 #include "app/cli/arguments.h"
+#include "app/cli/input.h"
 #include "app/cli/job.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/run_estimator.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
+#include "engine/core/version.h"
 #include "engine/io/base/files.h"
 
 #include <exception>
@@ -34,6 +36,8 @@ void run(const std::vector<std::string>& arguments) {
   const std::string& first = arguments.front();
   if (first == "--version") {
     std::cout << version_text("episcope-cli", {});
+  } else if (first == "help" && arguments.size() == 2 && arguments[1] == "reading") {
+    print_reading_help();
   } else if (first == "help" && arguments.size() > 1) {
     run_verb(arguments[1], {"--help"}, {});
   } else if (first == "-h" || first == "--help" || first == "help") {
@@ -55,6 +59,7 @@ int main(int argc, char** argv) {
   try {
     episcope::io::report_file_size_limit();
     episcope::use_cache_for_scratch();
+    episcope::state_built_commit(episcope::kCommit);
     run({argv + 1, argv + argc});
     if (!std::cout.flush()) throw Error("standard output cannot be written");
     return kSuccess;

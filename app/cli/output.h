@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/replace_file.h"
 #include "engine/core/indices.h"
-#include "engine/core/parameter.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,11 +22,14 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json view_json(ViewIndex view);
 /// "2026-11-27T22:43:23Z" of seconds since 1970.
 [[nodiscard]] std::string time_text(std::int64_t seconds);
-/// The one JSON object of an answer, on standard output.
+/// One JSON object on standard output.
 void print_json(const Json& json);
-
-/// Whether a file that is there may be replaced.
-enum class Overwrite { No, Yes };
+/// The JSON answer of a verb, on standard output: its own keys and in any case `results`, a list;
+/// `notes`, the sentences of the answer's own key and `notes` (Job::notes), each once; `written`,
+/// files and folders. An answer that has no `results` is the only one itself, and is in the list,
+/// too. Its own `written` counts more than the parameter.
+void print_answer(Json answer, const std::vector<std::string>& notes = {},
+                  const std::vector<std::string>& written = {});
 
 /// Refuses an output file that cannot be written, before hours are spent. Throws IoError.
 void check_output_file(const std::filesystem::path& path);
@@ -36,30 +38,9 @@ void check_output_file(const std::filesystem::path& path);
 /// naming the verb.
 void check_hdf5_output(const std::string& verb, const std::filesystem::path& path);
 
-/// What a result or labels are to be made by.
-struct IntendedRun {
-  std::string method;       ///< Id of an estimator; empty for labels.
-  ParameterSet parameters;  ///< Those that are not listed have their default.
-  std::string input;        ///< As typed.
-  ParameterSet reading;     ///< Reading options that are set (io::given_options).
-};
-
-/// Refuses to replace anything but a result file, and one of another method, other parameters,
-/// another light field or another reading of it unless that is asked for. Parameters that the file
-/// does not know count as their default. Throws IoError.
-void check_result_output(const std::filesystem::path& path, const IntendedRun& run,
-                         Overwrite overwrite);
-
-/// Refuses to replace anything but a file of labels that `label` wrote, and one as above. Throws
-/// IoError.
-void check_labeling_output(const std::filesystem::path& path, const IntendedRun& run,
-                           Overwrite overwrite);
-
-/// Writes a file by `write`, to which it passes the path. Unless `overwrite` says otherwise, a file
-/// that is there stays: one of the same bytes as it is, one of others makes this throw IoError. For
-/// forms that do not tell what they were made by.
-void write_output(const std::filesystem::path& path, Overwrite overwrite,
-                  const std::function<void(const std::filesystem::path&)>& write);
+/// A light field and its file of labels, unless that is empty or the light field itself.
+[[nodiscard]] std::vector<std::string> files_written(const std::filesystem::path& output,
+                                                     const std::filesystem::path& labels);
 
 /// Prints the line of a file of labels that was written beside the light field `output`; nothing if
 /// it is empty or `output` itself.

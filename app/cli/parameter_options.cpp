@@ -2,6 +2,7 @@
 #include "app/cli/parameter_options.h"
 
 #include "app/cli/arguments.h"
+#include "app/session/command_line.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 
@@ -67,7 +68,7 @@ void ParameterOptions::declare(Arguments& arguments,
                                const std::vector<ParameterDescription>& parameters) {
   for (const auto& parameter : parameters) {
     keys_.push_back(parameter.key);
-    const std::string name = "--" + parameter.key;
+    const std::string name = "--" + option_name(parameter.key);
     std::optional<ParameterValue>& value = values_[parameter.key];
     if (parameter.is_toggle) {
       arguments.flag(name, value, std::optional<ParameterValue>(true), parameter.help);

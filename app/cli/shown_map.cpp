@@ -7,12 +7,10 @@
 #include "app/session/project_file.h"
 #include "app/session/result_files.h"
 #include "app/session/scene_summary.h"
-#include "app/session/segmentation_files.h"
+#include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/segmentation_file.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
@@ -85,14 +83,6 @@ IoError missing_source(const ShownMap& shown, const std::string& named) {
               "; name it with --truth INPUT"};
 }
 
-ViewIndex view_of(const ShownMap& shown, const LightField& light_field) {
-  const ViewIndex view = shown.view.value_or(light_field.center());
-  if (light_field.grid().contains(view)) return view;
-  throw InvalidInput(fmt::format(
-      "{} has {}×{} views, but view {} was asked for; views are counted from 0",
-      light_field.info().name, light_field.grid().v, light_field.grid().u, view_text(view)));
-}
-
 template <class T>
 ViewIndex middle_of(const ViewStack<T>& stack) {
   const ViewIndex middle = stack.grid().center();
@@ -127,7 +117,8 @@ void load_light_field(const ShownMap& shown, const ReadOptions& read, LoadedMap&
   const Progress progress = job.progress().part(0, 0.9);
   Scene scene = names_project(shown.subject) ? load_current(shown.subject, read, progress)
                                              : load_input(shown.subject, read, progress);
-  loaded.source.view = view_of(shown, *scene.light_field);
+  const LightField& light_field = *scene.light_field;
+  loaded.source.view = view_of(light_field, shown.view.value_or(light_field.center()));
   take_scene(shown, std::move(scene), loaded);
 }
 
@@ -208,6 +199,7 @@ LoadedMap load_map(const ShownMap& shown, const ReadOptions& read, Job& job) {
   LoadedMap loaded;
   loaded.source.quantity = shown.quantity;
   loaded.source.label = shown.label;
+  loaded.source.bad_threshold_px = shown.bad_threshold_px;
   if (shown.kind == ShownKind::LightField) load_light_field(shown, read, loaded, job);
   if (shown.kind == ShownKind::Result) load_result(shown, read, loaded, job);
   if (shown.kind == ShownKind::Labels) load_labels(shown, read, loaded, job);

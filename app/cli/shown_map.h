@@ -20,10 +20,11 @@ struct ShownMap {
   ShownKind kind = ShownKind::LightField;
   render::Quantity quantity = render::Quantity::View;
   std::string truth;  ///< Light field of a result or of labels; empty = the one its file names.
-  io::MapReading reading{};  ///< Of a result, beyond what its file states.
-  std::string minus;  ///< For a difference: the result that is subtracted.
+  io::MapReading reading{};       ///< Of a result, beyond what its file states.
+  std::string minus;              ///< For a difference: the result that is subtracted.
   std::optional<ViewIndex> view;  ///< The center, or the middle of those there are.
   int label = 1;                  ///< Whose probability.
+  double bad_threshold_px = kBadPixelThreshold_px;  ///< Of bad pixels.
   bool needs_light_field = false;
 };
 

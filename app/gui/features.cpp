@@ -37,7 +37,7 @@
 #include "app/gui/shell/shortcut_window.h"
 #include "app/gui/shell/workbench.h"
 #include "engine/core/version.h"
-#include "widgets/controls/icon.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/panels/brush_panel.h"
 #include "widgets/panels/compare_bar.h"
 #include "widgets/panels/label_palette.h"

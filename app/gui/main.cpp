@@ -7,7 +7,7 @@
 #include "engine/core/version.h"
 #include "engine/io/base/files.h"
 #include "widgets/cloud/point_cloud_view.h"
-#include "widgets/controls/icon.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QApplication>
 #include <QCommandLineParser>
@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
   QCoreApplication::setApplicationName("episcope");
   QCoreApplication::setOrganizationName("episcope");
   QCoreApplication::setApplicationVersion(episcope::kVersion);
+  episcope::state_built_commit(episcope::kCommit);
   if (!asks_for_text(argc, argv) && !has_display(argc, argv)) {
     std::fputs("episcope: there is no display; episcope-cli does the same work without one\n",
                stderr);

@@ -4,6 +4,7 @@
 #include "app/python/job.h"
 #include "app/session/command_line.h"
 #include "app/session/judge.h"
+#include "app/session/replace_file.h"
 #include "app/session/result_files.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
@@ -70,16 +71,20 @@ void require_replaceable(const std::filesystem::path& path, MapForm form) {
   throw IoError(path, "exists and is not a result; choose another name or remove it first");
 }
 
-void save_estimate(const FoundEstimate& found, const py::object& given_path,
-                   const py::object& view) {
+/// How a file that is there is replaced.
+constexpr const char* kByArgument = "pass overwrite=True";
+
+void save_estimate(const FoundEstimate& found, const py::object& given_path, const py::object& view,
+                   bool is_overwriting) {
   const std::filesystem::path path = path_from(given_path);
   const auto form = map_form_of(path);
   if (!form) {
     throw InvalidInput(path.string() +
-                       ": the name tells no form of a result; let it end in .h5, .pfm, .tif, "
-                       ".npy or .ply");
+                       ": the name tells no form of a result; let it end in .h5, .npy, .npz, "
+                       ".mat, .pfm, .tif, .csv or .ply");
   }
   require_replaceable(path, *form);
+  const Overwrite overwrite = is_overwriting ? Overwrite::Yes : Overwrite::No;
   const LightField& lf = found.of.light_field();
   const Estimate& estimate = *found.estimate;
   const ViewIndex first = estimate.field.disparity.first();
@@ -89,9 +94,17 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path,
     throw InvalidInput("view " + view_text(at) + " was not estimated, only " + view_text(first));
   }
   run_job(py::none(), 0, [&](const Progress& job) {
-    if (*form == MapForm::Result) return save_result(path, estimate, found.of.input, job);
-    if (*form != MapForm::PointCloud) return save_map(path, estimate.field.view(at));
-    save_point_cloud(path, lf, at, estimate.field.view(at));
+    if (*form == MapForm::Result) {
+      check_result_output(
+          path, {estimate.method, estimate.parameters, found.of.input, estimate.reading.options},
+          overwrite, kByArgument);
+      return save_result(path, estimate, found.of.input, job);
+    }
+    const auto write = [&](const std::filesystem::path& file) {
+      if (*form != MapForm::PointCloud) return save_map(file, estimate.field.view(at));
+      save_point_cloud(file, lf, at, estimate.field.view(at));
+    };
+    write_output(path, overwrite, write, kByArgument);
   });
 }
 
@@ -214,6 +227,12 @@ where it is not known. [v, u, y, x], or [y, x] if one view was estimated. Read-o
             return disparity_array(found.estimate->layered.background, found.estimate);
           },
           "Disparity of what is seen through it; else None.")
+      .def_property_readonly(
+          "second",
+          [](const FoundEstimate& found) {
+            return disparity_array(found.estimate->second, found.estimate);
+          },
+          "Another disparity that a pixel may have, of net for one view; NaN where there is none.")
       .def_property_readonly("view", single_view_of, "(v, u) if one view was estimated; else None.")
       .def_property_readonly("method",
                              [](const FoundEstimate& found) { return found.estimate->method; })
@@ -233,11 +252,14 @@ where it is not known. [v, u, y, x], or [y, x] if one view was estimated. Read-o
           "notes", [](const FoundEstimate& found) { return found.estimate->notes; },
           "What one should know of this run, a sentence each.")
       .def("save", save_estimate, py::arg("path"), py::kw_only(), py::arg("view") = py::none(),
-           R"(save(path, *, view=None)
+           py::arg("overwrite") = false,
+           R"(save(path, *, view=None, overwrite=False)
 --
 
-Writes the result as its name says: .h5 (all that is known), or one view as .pfm, .tif, .npy or .ply
-(points). view: (v, u), by default the center. A result of that name is replaced, nothing else.)")
+Writes the result as its name says: .h5 (all that is known), or one view as .npy, .npz, .mat, .pfm,
+.tif, .csv or .ply (points). view: (v, u), by default the center. A file that is there is replaced
+if it is a result of the same method, parameters and light field; another result, or another map,
+only with overwrite=True; what is no result, never.)")
       .def("__repr__", [](const FoundEstimate& found) {
         return "<episcope.Result of " + found.estimate->method + " for " +
                found.of.light_field().info().name + ">";

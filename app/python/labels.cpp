@@ -7,7 +7,7 @@
 #include "app/session/label_review.h"
 #include "app/session/labeling_inputs.h"
 #include "app/session/result_files.h"
-#include "app/session/segmentation_files.h"
+#include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/io/models/segmentation_file.h"
 #include "engine/labeling/labeler.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/about/version_text.h"
 #include "app/python/estimates.h"
 #include "app/python/labels.h"
 #include "app/python/light_fields.h"
@@ -69,6 +70,7 @@ PYBIND11_MODULE(_episcope, module) {
   pybind11::options options;
   options.disable_function_signatures();  // the texts begin with them, as inspect reads them
   use_cache_for_scratch();
+  state_built_commit(kCommit);
   module.attr("__version__") = kVersion;
   python::add_exceptions(module);
   pybind11::register_exception_translator(python::translate);

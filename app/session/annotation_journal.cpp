@@ -2,7 +2,7 @@
 #include "app/session/annotation_journal.h"
 
 #include "annotation/edit_encoding.h"
-#include "app/session/known_files.h"
+#include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "engine/io/base/append_log.h"
 #include "engine/io/base/files.h"

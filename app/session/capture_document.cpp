@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/capture_document.h"
 
-#include "app/session/known_files.h"
+#include "app/session/user_folders.h"
 #include "engine/core/text.h"
 
 #include <algorithm>

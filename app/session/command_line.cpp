@@ -104,6 +104,11 @@ ParameterSet changed_parameters(const std::string& method, const ParameterSet& v
   return changed;
 }
 
+std::string option_name(std::string key) {
+  std::ranges::replace(key, '_', '-');
+  return key;
+}
+
 std::string options_text(const ParameterSet& options,
                          const std::vector<ParameterDescription>& descriptions) {
   std::string text;
@@ -112,8 +117,8 @@ std::string options_text(const ParameterSet& options,
     const bool is_bare =
         found != descriptions.end() && found->is_toggle && value == ParameterValue(true);
     // "=" keeps a value that begins with a minus from being read as an option.
-    text += is_bare ? fmt::format(" --{}", key)
-                    : fmt::format(" --{}={}", key, shell_quoted(to_text(value)));
+    text += " --" + option_name(key);
+    if (!is_bare) text += "=" + shell_quoted(to_text(value));
   }
   return text;
 }

@@ -32,6 +32,9 @@ namespace episcope {
 [[nodiscard]] ParameterSet changed_parameters(const std::string& method,
                                               const ParameterSet& values);
 
+/// "inner-scale": what the option of a parameter is called; "inner_scale" is read as well.
+[[nodiscard]] std::string option_name(std::string key);
+
 /// Options of `episcope-cli`, each led by a space: " --range=-1,2". Toggles among `descriptions`
 /// stand by themselves.
 [[nodiscard]] std::string options_text(const ParameterSet& options,

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/session/load_scene.h"
+#include "engine/capture/calibrate.h"
 #include "engine/capture/demo_folder.h"
-#include "engine/capture/pattern.h"
 
 #include <filesystem>
 #include <optional>

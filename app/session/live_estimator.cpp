@@ -138,6 +138,7 @@ Estimate in_whole_views(const Estimate& estimate, const LivePart& part, int fact
   whole_views.layered.background = pasted(estimate.layered.background, place);
   whole_views.layered.layers =
       pasted<std::uint8_t>(estimate.layered.layers, place, std::uint8_t{1}, std::uint8_t{0});
+  whole_views.second = pasted(estimate.second, place);
   return whole_views;
 }
 

@@ -23,7 +23,7 @@ std::size_t bytes_of(const DisparityField& field) {
 std::size_t byte_size(const Estimate& estimate) {
   const LayeredDisparity& layered = estimate.layered;
   return bytes_of(estimate.field) + bytes_of(estimate.confidence) + bytes_of(layered.foreground) +
-         bytes_of(layered.background) + bytes_of(layered.layers);
+         bytes_of(layered.background) + bytes_of(layered.layers) + bytes_of(estimate.second);
 }
 
 std::size_t byte_size(const OpenScene& scene) {

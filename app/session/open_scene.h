@@ -4,7 +4,7 @@
 #include "app/session/capture_work.h"
 #include "app/session/epi_measurement.h"
 #include "app/session/judge.h"
-#include "app/session/segmentation_files.h"
+#include "app/session/segmentation.h"
 #include "engine/core/indices.h"
 #include "engine/core/scene.h"
 #include "engine/render/quantity.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/project_store.h"
 
-#include "app/session/known_files.h"
 #include "app/session/load_scene.h"
 #include "app/session/project_file.h"
 #include "app/session/result_files.h"
+#include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"

@@ -67,6 +67,11 @@ constexpr ResultMap kResultMaps[] = {
      [](const EstimatePtr& estimate, ViewIndex view) {
        return borrowed_map({estimate->confidence.view(view), {}}, estimate);
      }},
+    {Quantity::Second, "second disparity",
+     [](const Estimate& estimate) { return coverage_of(estimate.second.disparity); },
+     [](const EstimatePtr& estimate, ViewIndex view) {
+       return borrowed_map(estimate->second.view(view), estimate);
+     }},
     {Quantity::Background, "background",
      [](const Estimate& estimate) { return coverage_of(estimate.layered.background.disparity); },
      [](const EstimatePtr& estimate, ViewIndex view) {

@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
+#include "engine/io/base/csv_map.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
@@ -17,6 +18,7 @@
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/formats/frames_reader.h"
 #include "engine/io/formats/mosaic_reader.h"
+#include "engine/io/formats/write_arrays.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/padding.h"
 #include "engine/io/models/result_file.h"
@@ -63,11 +65,7 @@ bool is_foreign_hdf5_result(const fs::path& path) {
 /// The views that a map from elsewhere covers.
 GridShape grid_of_map(const fs::path& path) {
   GridShape grid{1, 1};
-  if (suffix_of(path) == ".npy") {
-    const io::NpyHeader header = io::NpyFile(path).header();
-    if (header.shape.size() != 4) return grid;
-    return {static_cast<int>(header.shape[0]), static_cast<int>(header.shape[1])};
-  }
+  if (suffix_of(path) == ".npy" || io::is_map_archive(path)) return io::grid_of_arrays(path);
   if (!io::has_hdf5_signature(path)) return grid;
   const io::Hdf5Input file(path);
   for (const auto& dataset : file.datasets()) {
@@ -108,7 +106,8 @@ bool names_result(const std::string& path) {
   const std::string suffix = suffix_of(path);
   if (suffix == ".npy") return is_npy_result(path);
   if (suffix == ".tif" || suffix == ".tiff") return is_tiff_map(path);
-  return suffix == ".pfm" || io::is_result_file(path) || is_foreign_hdf5_result(path);
+  return suffix == ".pfm" || suffix == ".csv" || io::is_result_file(path) ||
+         is_foreign_hdf5_result(path) || io::is_map_archive(path);
 }
 
 namespace {
@@ -357,35 +356,61 @@ std::optional<MapForm> map_form_of(const std::filesystem::path& path) {
   if (suffix == ".h5" || suffix == ".hdf5") return MapForm::Result;
   if (suffix == ".pfm") return MapForm::Pfm;
   if (suffix == ".tif" || suffix == ".tiff") return MapForm::Tiff;
+  if (suffix == ".csv") return MapForm::Csv;
   if (suffix == ".npy") return MapForm::Npy;
+  if (suffix == ".npz") return MapForm::Npz;
+  if (suffix == ".mat") return MapForm::Mat;
   if (suffix == ".ply") return MapForm::PointCloud;
   return std::nullopt;
 }
 
-void save_result(const std::filesystem::path& path, const Estimate& estimate,
-                 const std::string& input, const Progress& progress) {
-  io::write_result(path, estimate, progress, source_text(input, path));
+bool holds_all_views(MapForm form) {
+  return form == MapForm::Result || form == MapForm::Npy || form == MapForm::Npz ||
+         form == MapForm::Mat;
 }
 
-void save_map(const std::filesystem::path& path, const DisparityView& map) {
-  Image<float> values(map.disparity.height, map.disparity.width, 1,
-                      std::numeric_limits<float>::quiet_NaN());
-  for (int y = 0; y < values.height(); ++y) {
-    for (int x = 0; x < values.width(); ++x) {
-      if (map.is_valid(y, x)) values.at(y, x) = map.disparity.at(y, x);
-    }
-  }
+void save_result(const std::filesystem::path& path, const Estimate& estimate,
+                 const std::string& input, const Progress& progress) {
+  io::write_result(path, estimate, progress, {.source = source_text(input, path)});
+}
+
+namespace {
+
+/// NaN = invalid.
+void write_stack(const fs::path& path, const ViewStack<float>& maps) {
+  const ImageView<const float> first = maps.view(maps.first());
   switch (map_form_of(path).value_or(MapForm::Tiff)) {
     case MapForm::Pfm:
-      return io::write_pfm(path, values.view());
+      return io::write_pfm(path, first);
+    case MapForm::Csv:
+      return io::write_csv_map(path, first);
     case MapForm::Npy:
-      return io::write_npy<float>(
-          path,
-          {static_cast<std::size_t>(values.height()), static_cast<std::size_t>(values.width())},
-          {values.data(), values.size()});
+      return io::write_npy_maps(path, maps);
+    case MapForm::Npz:
+      return io::write_npz_maps(path, maps);
+    case MapForm::Mat:
+      return io::write_mat_maps(path, maps);
     default:
-      return io::write_tiff(path, values.view());
+      return io::write_tiff(path, first);
   }
+}
+
+}  // namespace
+
+void save_map(const fs::path& path, const DisparityView& map) {
+  ViewStack<float> values({1, 1}, map.disparity.height, map.disparity.width);
+  const ImageView<float> out = values.view({});
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      out.at(y, x) =
+          map.is_valid(y, x) ? map.disparity.at(y, x) : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  write_stack(path, values);
+}
+
+void save_maps(const fs::path& path, const DisparityField& maps) {
+  write_stack(path, io::disparity_with_nan(maps));
 }
 
 void save_point_cloud(const std::filesystem::path& path, const LightField& light_field,

@@ -14,9 +14,10 @@
 
 namespace episcope {
 
-/// Whether a path names a result: a result file, another HDF5 file with maps and no light field, a
-/// PFM, a TIFF. False for built-in scenes and for what does not exist. Throws IoError if it is a
-/// damaged HDF5 file.
+/// Whether a path names a result: a result file; another HDF5 file, an `.npz` or a MATLAB file with
+/// maps and no light field; a PFM, a `.csv`, an `.npy` of one map or named like disparity, a float
+/// TIFF. False for built-in scenes and for what does not exist. Throws IoError if it is a damaged
+/// HDF5 file.
 [[nodiscard]] bool names_result(const std::string& path);
 
 /// Reads a result of this light field, as a user says (`reading`) beyond what its file states.
@@ -93,18 +94,27 @@ enum class MapForm {
   Result,     ///< .h5, .hdf5: all views, confidence, provenance.
   Pfm,        ///< .pfm: one view.
   Tiff,       ///< .tif, .tiff: one view.
-  Npy,        ///< .npy: one view.
+  Csv,        ///< .csv: one view.
+  Npy,        ///< .npy: one view or all.
+  Npz,        ///< .npz: one view or all, as `disparity`.
+  Mat,        ///< .mat: one view or all, as `disparity`; version 7.3.
   PointCloud  ///< .ply: one view, colored.
 };
 /// Empty for another suffix.
 [[nodiscard]] std::optional<MapForm> map_form_of(const std::filesystem::path& path);
+/// Whether the form has a place for the maps of all views.
+[[nodiscard]] bool holds_all_views(MapForm form);
 
 /// Writes a result file; `input` is what opens the light field. Atomic. Throws IoError, Cancelled.
 void save_result(const std::filesystem::path& path, const Estimate& estimate,
                  const std::string& input, const Progress& progress);
 
-/// Writes one map as PFM, TIFF or .npy; invalid pixels become NaN. Atomic. Throws IoError.
+/// Writes one map as its suffix says, else as TIFF; invalid pixels become NaN. Atomic. Throws
+/// IoError.
 void save_map(const std::filesystem::path& path, const DisparityView& map);
+/// Writes the maps of all views there are. Precondition: the form of `path` holds all views, or
+/// there is one.
+void save_maps(const std::filesystem::path& path, const DisparityField& maps);
 
 /// Writes the valid pixels of a view that the light field shows as a colored point cloud. Atomic.
 /// Throws IoError, InvalidInput if no pixel is valid.

@@ -13,10 +13,12 @@
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_draft.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <ctime>
 #include <utility>
 
 namespace episcope {
@@ -26,6 +28,10 @@ std::string range_warning(const LightField& light_field, const Estimate& estimat
   const std::string note = limited_range_note(light_field, estimate.range);
   if (std::ranges::count(estimate.notes, note) == 0) return {};
   return estimate.method + ": " + note + ".";
+}
+
+void add_date(Provenance& estimate) {
+  estimate.date = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
 }
 
 }  // namespace
@@ -41,6 +47,7 @@ FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
   auto estimate = std::make_shared<Estimate>(
       estimator.run(light_field, *scene.even, parameters, options, progress));
   estimate->source_hash = light_field.sample_hash();
+  add_date(*estimate);
   if (progress.finish_requested() && estimator.info.iterative) {
     estimate->notes.push_back(kTakenEarly);
   }
@@ -54,8 +61,8 @@ ViewSelection views_to_estimate(const Estimator& estimator, std::optional<ViewSe
   const bool can_all = estimator.info.all_views;
   if (!wanted) return can_all ? ViewSelection::All : ViewSelection::Center;
   if (can_all || *wanted == ViewSelection::Center) return *wanted;
-  const bool chooses = std::ranges::count(estimator.parameters, std::string("view"),
-                                          &ParameterDescription::key) > 0;
+  const bool chooses =
+      std::ranges::count(estimator.parameters, std::string("view"), &ParameterDescription::key) > 0;
   throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center" +
                      (chooses ? ", or --view V,U for another" : ""));
 }
@@ -84,9 +91,6 @@ class DraftStore : public BlockStore {
       : draft_(draft), source_(std::move(source)) {}
   [[nodiscard]] BlockProgress progress() const override { return draft_.progress(); }
   [[nodiscard]] BlockMaps read(const MapBlock& block) const override { return draft_.read(block); }
-  [[nodiscard]] ViewStack<float> read_kept(const MapBlock& block, int number) const override {
-    return draft_.read_kept(block, number);
-  }
   void note(const BlockProgress& after) override { draft_.note(after); }
   void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
              bool replaces) override {
@@ -151,11 +155,13 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   const BlockMemory memory = without(request.memory, even.bytes());
   require_memory(run, memory);  // before what another run left is replaced
   run.provenance.source_hash = hash;
-  io::ResultDraft draft(request.output, {run.maps, !lf.valid().empty(), run.has_layers, run.kept},
-                        identity_of(estimator, run, hash));
+  const io::DraftShape shape{
+      .maps = run.maps, .has_valid = !lf.valid().empty(), .has_second = run.has_second};
+  io::ResultDraft draft(request.output, shape, identity_of(estimator, run, hash));
   DraftStore store(draft, lf.info().source);
   FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};
   finished.provenance = run_blocks(lf, run, store, memory, limited.part(0.06, 1));
+  add_date(finished.provenance);
   draft.commit(finished.provenance, source_text(request.input, request.output));
   return finished;
 }

@@ -2,7 +2,18 @@
 #include "app/session/segmentation.h"
 
 #include "annotation/exchange.h"
+#include "app/session/result_files.h"
+#include "app/session/user_folders.h"
+#include "engine/core/error.h"
+#include "engine/core/hash.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/formats/companions.h"
+#include "engine/io/models/segmentation_file.h"
 #include "engine/labeling/label_review.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -105,6 +116,156 @@ LabelingPtr label_all_views(const LabelingInput& input, const Progress& progress
   return std::make_shared<const Labeling>(
       labeler.label(scribbles_of(*input.scribbles), possible_parameters(input),
                     {{0, 0}, input.light_field->grid()}, progress));
+}
+
+namespace {
+
+ViewIndex checked_view(const io::SegmentationFile& file, const std::string& name,
+                       std::optional<ViewIndex> asked) {
+  const ViewIndex middle = file.grid().center();
+  const ViewIndex view =
+      asked.value_or(ViewIndex{file.first().v + middle.v, file.first().u + middle.u});
+  if (file.contains(view)) return view;
+  throw InvalidInput(name + " has labels of " + std::to_string(file.grid().v) + "×" +
+                     std::to_string(file.grid().u) + " views from view " + view_text(file.first()) +
+                     " on, but view " + view_text(view) + " was asked for");
+}
+
+}  // namespace
+
+void write_segmentation(const std::filesystem::path& path, const Segmentation& segmentation,
+                        const std::string& input, StoredProbabilities probabilities,
+                        const Progress& progress) {
+  const Labeling& labeling = *segmentation.labeling;
+  io::StoredSegmentation stored;
+  stored.labels = finished_labels(labeling, segmentation.finish, progress.part(0, 0.1));
+  stored.infos = infos_of(labeling.probabilities.ids, segmentation.labels);
+  stored.parameters = segmentation.parameters;
+  stored.source = source_text(input, path);
+  stored.reading = segmentation.reading;
+  stored.seconds = labeling.seconds;
+  io::ViewProbabilities of_view;
+  if (probabilities == StoredProbabilities::All && !labeling.probabilities.empty()) {
+    of_view = [&labeling](ViewIndex view) { return labeling.probabilities.view(view).view(); };
+  }
+  io::write_segmentation(path, stored, of_view, progress.part(0.1, 1));
+}
+
+Segmentation read_segmentation(const std::filesystem::path& path, std::optional<ViewIndex> asked) {
+  const io::SegmentationFile file(path);
+  const ViewIndex view = checked_view(file, path.string(), asked);
+  auto labeling = std::make_shared<Labeling>();
+  const Image<std::int32_t> labels = file.labels(view);
+  labeling->labels = ViewStack<std::int32_t>({1, 1}, labels.height(), labels.width(), 1, view);
+  std::copy(labels.begin(), labels.end(), labeling->labels.data());
+  if (file.has_probabilities()) {
+    LabelProbabilities& probabilities = labeling->probabilities;
+    for (const LabelInfo& info : file.infos()) probabilities.ids.push_back(info.id);
+    probabilities.grid = {1, 1};
+    probabilities.first = view;
+    probabilities.views.push_back(io::bytes_of(file.probabilities(view)));
+  }
+  return {std::move(labeling), file.infos(), {}, file.reading()};
+}
+
+LabelingPtr read_archive_probabilities(const Scene& scene, ViewIndex view) {
+  const auto found = std::ranges::find_if(scene.companions, [](const Companion& companion) {
+    return companion.kind != CompanionKind::EdgeProbabilities;
+  });
+  const std::string& name = scene.light_field->info().name;
+  if (found == scene.companions.end()) {
+    throw InvalidInput(name + " has no file of label probabilities beside it");
+  }
+  const io::ProbabilityFile file(found->path, scene);
+  if (!file.contains(view)) {
+    throw InvalidInput(name + " has no probabilities in view " + view_text(view));
+  }
+  auto labeling = std::make_shared<Labeling>();
+  LabelProbabilities& probabilities = labeling->probabilities;
+  for (int id = 1; id <= file.label_count(); ++id) probabilities.ids.push_back(id);
+  probabilities.grid = {1, 1};
+  probabilities.first = view;
+  probabilities.views.push_back(io::bytes_of(file.view(view)));
+  const Image<std::int32_t> labels =
+      most_probable_labels(probabilities.views.front().view(), probabilities.ids);
+  labeling->labels = ViewStack<std::int32_t>({1, 1}, labels.height(), labels.width(), 1, view);
+  std::copy(labels.begin(), labels.end(), labeling->labels.data());
+  return labeling;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder_of(const LabelInfo& label, const fs::path& folder) {
+  return folder / file_name_of(fmt::format("{:02}_{}", label.id, label.name));
+}
+
+void write_list(const fs::path& folder, const std::vector<LabelInfo>& labels) {
+  std::string text;
+  for (const LabelInfo& label : labels) text += fmt::format("{}\t{}\n", label.id, label.name);
+  io::write_atomically(folder / "labels.txt", text);
+}
+
+}  // namespace
+
+int write_label_masks(const fs::path& folder, const Segmentation& segmentation,
+                      const Progress& progress) {
+  const Labeling& labeling = *segmentation.labeling;
+  const std::vector<LabelInfo> infos = infos_of(labeling.probabilities.ids, segmentation.labels);
+  io::make_folder(folder);
+  for (const LabelInfo& label : infos) io::make_folder(folder_of(label, folder));
+  write_list(folder, infos);
+  const GridShape grid = labeling.labels.grid();
+  int written = 0;
+  for (int i = 0; i < grid.count(); ++i) {
+    progress.report(static_cast<double>(i) / grid.count());
+    const ViewIndex view = grid.view_at(i, labeling.labels.first());
+    const Image<std::int32_t> labels = finished_labels(labeling, segmentation.finish, view);
+    for (const LabelInfo& label : infos) {
+      progress.check();
+      io::write_picture(
+          folder_of(label, folder) / fmt::format("mask_{:02}_{:02}.png", view.v, view.u),
+          label_mask(labels, label.id).view());
+      ++written;
+    }
+  }
+  return written;
+}
+
+std::uint64_t hash_of(const ScribbleLayer& strokes) {
+  Fnv1a hash;
+  for (const ViewIndex view : strokes.painted_views()) {
+    hash.add_word(static_cast<std::uint64_t>(view.v));
+    hash.add_word(static_cast<std::uint64_t>(view.u));
+    const ImageView<const std::uint8_t> image = strokes.view(view);
+    hash.add({reinterpret_cast<const char*>(image.data), image.size()});
+  }
+  return hash.value();
+}
+
+void write_kept_labels(const std::filesystem::path& path, const KeptLabels& labels,
+                       const std::string& input, const Progress& progress) {
+  write_segmentation(path, {labels.labeling, labels.infos, {}, {}, {}}, input,
+                     StoredProbabilities::None, progress);
+}
+
+LabelingPtr read_kept_labels(const std::filesystem::path& path, const Progress& progress) {
+  const io::SegmentationFile file(path);
+  auto labeling = std::make_shared<Labeling>();
+  for (const LabelInfo& info : file.infos()) labeling->probabilities.ids.push_back(info.id);
+  const int count = file.grid().count();
+  for (int i = 0; i < count; ++i) {
+    progress.report(static_cast<double>(i) / count);
+    const ViewIndex view = file.grid().view_at(i, file.first());
+    const Image<std::int32_t> labels = file.labels(view);
+    if (i == 0) {
+      labeling->labels =
+          ViewStack<std::int32_t>(file.grid(), labels.height(), labels.width(), 1, file.first());
+    }
+    std::copy(labels.begin(), labels.end(), labeling->labels.view(view).data);
+  }
+  return labeling;
 }
 
 }  // namespace episcope

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/session.h"
 
-#include "app/session/known_files.h"
 #include "app/session/scene_summary.h"
+#include "app/session/user_folders.h"
 #include "engine/core/text.h"
 #include "engine/disparity/registry.h"
 

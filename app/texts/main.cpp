@@ -2,7 +2,7 @@
 // episcope_texts SOURCES: prints the English texts that the engine holds and the window shows, in a
 // form that Qt's lupdate reads. They come from tables and schemas, and from literal sentences in
 // SOURCES/engine.
-#include "engine/capture/pattern.h"
+#include "engine/capture/calibrate.h"
 #include "engine/capture/rectify.h"
 #include "engine/core/error.h"
 #include "engine/core/scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/capture/pattern.h"
+#include "engine/capture/calibrate.h"
 #include "engine/capture/photograph.h"
 #include "engine/capture/solve_pose.h"
 #include "engine/core/indices.h"

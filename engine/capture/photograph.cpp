@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/photograph.h"
 
-#include "engine/capture/pattern.h"
+#include "engine/capture/calibrate.h"
 #include "engine/capture/pixel_surface.h"
 #include "engine/capture/scan_mesh.h"
 #include "engine/core/parallel.h"

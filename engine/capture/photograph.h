@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/capture/calibrate.h"
 #include "engine/capture/camera.h"
-#include "engine/capture/pattern.h"
 #include "engine/capture/view_surface.h"
 #include "engine/core/image.h"
 #include "engine/core/progress.h"

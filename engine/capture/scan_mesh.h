@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/capture/camera.h"
-#include "engine/capture/triangle_mesh.h"
+#include "engine/capture/mesh_file.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/camera_grid.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/indices.h"
 #include "engine/core/parameter.h"
@@ -25,6 +26,10 @@ struct Provenance {
   Reading reading{};              ///< How that light field was read.
   std::vector<std::string> notes;  ///< What a user should know of this run: gap, unsolved views.
   int border_px = 0;  ///< Pixels at each side of the views that foreign maps lack; not judged.
+  CameraGrid camera{};   ///< Of that light field: depth follows from it; unknown = all 0.
+  std::string device{};  ///< What computed: "CPU" or the name of a GPU; empty = unknown.
+  std::string commit{};  ///< Of Episcope, that was built; empty = unknown.
+  std::string date{};    ///< When it was finished, UTC: "2026-11-27T22:43:23Z"; empty = unknown.
 };
 
 /// A disparity estimate. Covers all views or one.
@@ -32,6 +37,9 @@ struct Estimate : Provenance {
   DisparityField field;
   ViewStack<float> confidence;  ///< In [0, 1], shape of `field.disparity`; empty = unknown.
   LayeredDisparity layered;     ///< Empty unless the method estimates two layers.
+  /// Another disparity that a pixel may have instead, as beside silhouettes; not valid where there
+  /// is none. Empty unless the method finds some.
+  DisparityField second;
 
   [[nodiscard]] const Provenance& provenance() const { return *this; }
   void set_provenance(Provenance provenance) {
@@ -69,6 +77,7 @@ struct BlockMaps {
   DisparityField field;
   ViewStack<float> confidence;
   LayeredDisparity layered{};            ///< Empty unless the method estimates two layers.
+  DisparityField second{};               ///< As in Estimate.
   std::vector<ViewStack<float>> kept{};  ///< For later passes, no part of the result.
 };
 

@@ -214,12 +214,17 @@ Interval moved(const Interval& range, double focus_px) {
   return {range.min - focus_px, range.max - focus_px};
 }
 
+/// The camera whose plane of zero disparity is at this disparity of the former.
+CameraGrid moved(CameraGrid camera, double focus_px) {
+  if (!camera.is_known()) return camera;
+  const double depth = camera.depth_from_disparity(focus_px);
+  camera.shift += focus_px;
+  camera.cam_distance = std::isfinite(depth) ? std::optional<double>(depth) : std::nullopt;
+  return camera;
+}
+
 LightFieldInfo moved(LightFieldInfo info, double focus_px) {
-  if (info.camera.is_known()) {
-    const double depth = info.camera.depth_from_disparity(focus_px);
-    info.camera.shift += focus_px;
-    info.camera.cam_distance = std::isfinite(depth) ? std::optional<double>(depth) : std::nullopt;
-  }
+  info.camera = moved(info.camera, focus_px);
   if (info.disparity_range) info.disparity_range = moved(*info.disparity_range, focus_px);
   info.reading.set_focus(info.reading.focus_px() + focus_px);
   return info;
@@ -379,12 +384,14 @@ Estimate sheared(const Estimate& estimate, const ShearedInto& into, double focus
   result.layered.foreground = field(estimate.layered.foreground);
   result.layered.background = field(estimate.layered.background);
   result.layered.layers = nearest(estimate.layered.layers, shear);
+  result.second = field(estimate.second);
   result.set_provenance(estimate.provenance());
   for (auto& [key, value] : result.parameters) {
     auto* range = std::get_if<IntervalOrAuto>(&value);
     if (key == "range" && range && *range) *range = moved(**range, focus_px);
   }
   if (estimate.range.length() > 0) result.range = moved(estimate.range, focus_px);
+  result.camera = moved(estimate.camera, focus_px);
   result.source_hash = into.sample_hash;
   result.reading.set_focus(estimate.reading.focus_px() + focus_px);
   result.notes.push_back(note_of(focus_px));

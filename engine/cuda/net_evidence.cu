@@ -44,8 +44,14 @@ __global__ void prepare_views(Preparation work) {
     return from.pixel(view.x, view.y, min(max(row, 0), from.height - 1),
                       min(max(column, 0), from.width - 1));
   };
-  const long here = pixel(y, x), left = pixel(y, x - 1), right = pixel(y, x + 1);
-  const long above = pixel(y - 1, x), below = pixel(y + 1, x);
+  const long here = pixel(y, x);
+  // The pixel itself stands for a neighbor that is invalid.
+  const auto neighbor = [&](int row, int column) {
+    const long at = pixel(row, column);
+    return from.valid != nullptr && from.valid[at] == 0 ? here : at;
+  };
+  const long left = neighbor(y, x - 1), right = neighbor(y, x + 1);
+  const long above = neighbor(y - 1, x), below = neighbor(y + 1, x);
   float3 color = color_at(from, here);
   const float along = grey_at(from, right) - grey_at(from, left);
   const float down = grey_at(from, below) - grey_at(from, above);
@@ -54,12 +60,7 @@ __global__ void prepare_views(Preparation work) {
                                     kNetContrast * along, kNetContrast * down};
     for (int c = 0; c < kNetGuide; ++c) work.guide[work.guide_shape.at(c, 0, y, x)] = guide[c];
   }
-  if (from.valid != nullptr) {
-    const bool is_valid = from.valid[here] != 0 && from.valid[left] != 0 &&
-                          from.valid[right] != 0 && from.valid[above] != 0 &&
-                          from.valid[below] != 0;
-    if (!is_valid) color.x = CUDART_NAN_F;
-  }
+  if (from.valid != nullptr && from.valid[here] == 0) color.x = CUDART_NAN_F;
   const long at = (static_cast<long>(blockIdx.z) * from.height + y) * from.width + x;
   work.pixels[at] = {color.x, color.y, color.z, along};
   work.down[at] = down;

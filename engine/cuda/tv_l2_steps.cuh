@@ -234,7 +234,7 @@ struct RenewAndRelax {
 };
 
 /// What happens between iterations, and between levels; as tv_l2_steps.cuh, of
-/// engine/solvers/tv_l2_kernel.cpp and tv_l2_grid.cpp.
+/// engine/solvers/tv_l2_kernel.cpp and tv_l2.cpp.
 
 /// The gradient of u where there are edges, else 0.
 struct TvL2Gradient {

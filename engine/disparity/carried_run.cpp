@@ -71,6 +71,7 @@ class CarriedBlocks {
     is_restored_ = true;
     made.maps.field.disparity = known_.back().field.disparity.clone();
     made.maps.confidence = known_.back().confidence.clone();
+    if (maps_.grid.count() == 1) made.maps.second = std::move(known_.back().second);
     return made;
   }
 

@@ -308,14 +308,6 @@ void DoubleOrientation::estimate(const Task& task, const Sink& sink) {
   state_->estimate(task, sink);
 }
 
-std::size_t DoubleOrientation::byte_size() const {
-  return sizeof(float) * (state_->memory.size() + state_->best.size());
-}
-
-int DoubleOrientation::reach() const {
-  return state_->margin_y;
-}
-
 namespace {
 
 cuda::DoubleTaps device_taps(const Taps& taps) {
@@ -505,19 +497,6 @@ DoubleLayers measure_double_layers(const LightField& lf, const TensorScales& sca
     run_direction(measurement, Direction::Vertical, progress.part(half, 1));
   }
   return layers;
-}
-
-DoubleNeeds double_layers_need(const LightField& lf, const TensorScales& scales,
-                               const DoubleSearch& search) {
-  DoubleNeeds most;
-  for (const Direction direction : {Direction::Horizontal, Direction::Vertical}) {
-    const bool is_horizontal = direction == Direction::Horizontal;
-    if ((is_horizontal ? lf.grid().u : lf.grid().v) < DoubleOrientation::kMinViews) continue;
-    const DoubleOrientation one(lf, direction, scales, search);
-    most.bytes = std::max(most.bytes, one.byte_size());
-    most.reach = std::max(most.reach, one.reach());
-  }
-  return most;
 }
 
 }  // namespace episcope

@@ -8,7 +8,6 @@
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/structure_tensor.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -78,11 +77,6 @@ class DoubleOrientation {
 
   void estimate(const Task& task, const Sink& sink);
 
-  /// Bytes of its memory.
-  [[nodiscard]] std::size_t byte_size() const;
-  /// Rows above and below a tile that it looks at.
-  [[nodiscard]] int reach() const;
-
  private:
   struct State;
   std::unique_ptr<State> state_;
@@ -117,14 +111,5 @@ void require_double_grid(const LightField& light_field);
                                                  const DoubleSearch& search, const MapBlock& block,
                                                  const Progress& progress,
                                                  Device device = Device::Cpu);
-
-/// What measuring takes.
-struct DoubleNeeds {
-  std::size_t bytes = 0;  ///< Of each thread.
-  int reach = 0;          ///< Rows above and below a block that it looks at.
-};
-[[nodiscard]] DoubleNeeds double_layers_need(const LightField& light_field,
-                                             const TensorScales& scales,
-                                             const DoubleSearch& search);
 
 }  // namespace episcope

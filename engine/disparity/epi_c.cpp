@@ -2,11 +2,13 @@
 #include "engine/disparity/epi_c.h"
 
 #include "engine/core/parallel.h"
+#include "engine/cuda/line_check.h"
 #include "engine/cuda/ordering.h"
 #include "engine/disparity/denoise.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/kernels/line_kernel.h"
-#include "engine/disparity/replace_occluded.h"
+#include "engine/disparity/kernels/shared_constants.h"
+#include "engine/disparity/line_check.h"
 #include "engine/solvers/ordering_terms.h"
 #include "engine/solvers/tv_l2.h"
 
@@ -15,13 +17,151 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace episcope {
+
+namespace {
+
+// One view that lines of another reach, by `steps` in its row or column of the grid.
+struct Reached {
+  ImageView<const float> disparity, confidence;
+  bool vertical = false;
+  float steps = 0;
+};
+
+std::vector<Reached> views_reached(const ViewStack<float>& disparity,
+                                   const ViewStack<float>& confidence, ViewIndex from) {
+  std::vector<Reached> reached;
+  for (int k = -kOccludedReach; k <= kOccludedReach; ++k) {
+    if (k == 0) continue;
+    for (const bool vertical : {false, true}) {
+      const ViewIndex view{from.v + (vertical ? k : 0), from.u + (vertical ? 0 : k)};
+      if (!disparity.contains(view)) continue;
+      reached.push_back(
+          {disparity.view(view), confidence.view(view), vertical, static_cast<float>(k)});
+    }
+  }
+  return reached;
+}
+
+// What lies farther than a ray at the ends of its line.
+struct Farther {
+  std::array<float, 4 * kOccludedReach> disparity{};
+  int count = 0;
+
+  float median() {
+    const auto middle = disparity.begin() + count / 2;
+    std::nth_element(disparity.begin(), middle, disparity.begin() + count);
+    return *middle;
+  }
+};
+
+void look_along(const Reached& view, PixelIndex p, float disparity, float confidence,
+                Farther& farther) {
+  const int last = (view.vertical ? view.disparity.height : view.disparity.width) - 1;
+  const float at = static_cast<float>(view.vertical ? p.y : p.x) - disparity * view.steps;
+  if (!(at >= 0 && at <= static_cast<float>(last))) return;
+  const int nearest = static_cast<int>(at + 0.5F);
+  const int y = view.vertical ? nearest : p.y, x = view.vertical ? p.x : nearest;
+  const float met = view.disparity.at(y, x);
+  if (met < disparity - kOccludedFarther && view.confidence.at(y, x) >= confidence) {
+    farther.disparity[farther.count++] = met;
+  }
+}
+
+// Decides rows of one view after the other; one per thread.
+class Replacer {
+ public:
+  Replacer(const PackedViews& views, const ViewStack<float>& disparity,
+           const ViewStack<float>& confidence, float noise)
+      : disparity_(disparity),
+        confidence_(confidence),
+        tolerance_(kOccludedTolerance * noise),
+        residuals_(views),
+        farther_(disparity.width()),
+        residual_(disparity.width()) {}
+
+  void begin(ViewIndex view) {
+    view_ = view;
+    reached_ = views_reached(disparity_, confidence_, view);
+    least_views_ =
+        std::max(kOccludedMinViews, static_cast<int>(reached_.size()) / kOccludedMinShare);
+    residuals_.begin(view);
+  }
+
+  // Returns the number of rays changed.
+  long replace(int y, float* out) {
+    const float* const own = disparity_.view(view_).row(y);
+    if (!find_farther(y)) return 0;
+    std::copy_n(residuals_.row(y, farther_.data()), residual_.size(), residual_.data());
+    const float* const own_residual = residuals_.row(y, own);
+    long changed = 0;
+    for (std::size_t x = 0; x < farther_.size(); ++x) {
+      if (farther_[x] == own[x] || !(residual_[x] <= own_residual[x] + tolerance_)) continue;
+      out[x] = farther_[x];
+      ++changed;
+    }
+    return changed;
+  }
+
+ private:
+  // What each ray of a row could be instead; its own disparity where nothing. Whether there is any.
+  bool find_farther(int y) {
+    const float* const own = disparity_.view(view_).row(y);
+    const float* const confidence = confidence_.view(view_).row(y);
+    bool has_any = false;
+    for (int x = 0; x < disparity_.width(); ++x) {
+      Farther farther;
+      for (const Reached& view : reached_) {
+        look_along(view, {y, x}, own[x], confidence[x], farther);
+      }
+      const bool is_seen_through = farther.count >= least_views_;
+      farther_[x] = is_seen_through ? farther.median() : own[x];
+      has_any = has_any || is_seen_through;
+    }
+    return has_any;
+  }
+
+  const ViewStack<float>&disparity_, &confidence_;
+  float tolerance_;
+  LineResiduals residuals_;
+  std::vector<float> farther_, residual_;
+  std::vector<Reached> reached_;
+  int least_views_ = kOccludedMinViews;
+  ViewIndex view_;
+};
+
+}  // namespace
+
+long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress) {
+  const ViewStack<float> before = disparity.clone();
+  const float noise = residual_noise(views, before) + kMinDifference * kMinDifference;
+  std::vector<long> changed(disparity.grid().count());
+  parallel_for_workers(disparity.grid().count(), progress, [&] {
+    return [&, replacer = Replacer(views, before, confidence, noise)](int i) mutable {
+      const ViewIndex view = disparity.view_at(i);
+      replacer.begin(view);
+      for (int y = 0; y < before.height(); ++y) {
+        if (y % 16 == 0) progress.check();
+        changed[i] += replacer.replace(y, disparity.view(view).row(y));
+      }
+    };
+  });
+  return std::accumulate(changed.begin(), changed.end(), 0L);
+}
+
+void replace_occluded(const LightField& lf, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress, Device device) {
+  if (device == Device::Cuda) return cuda::replace_occluded(lf, disparity, confidence, progress);
+  replace_occluded(pack_views(lf, progress.part(0, 0.25)), disparity, confidence,
+                   progress.part(0.25, 1));
+}
+
 namespace {
 
 // A line violates the ordering where D u is below this, px.
@@ -177,285 +317,6 @@ LineCount count_lines(const ViewStack<float>& disparity, ViewIndex view, Image<f
     }
   }
   return count;
-}
-
-// Maps that are kept.
-constexpr int kObserved = 0, kDenoisedMaps = 1;
-// Facts, of which the first two are those of the check of lines.
-enum Fact { kGapOfViews = 2, kGapOfSweep, kNoise, kBefore, kAfter, kFacts };
-using Facts = std::vector<double>;
-
-// A view more on each side, within the grid.
-ViewRectangle extended_by(const ViewRectangle& views, int above, int beside, GridShape grid) {
-  const ViewIndex first{std::max(views.first.v - above, 0), std::max(views.first.u - beside, 0)};
-  const ViewIndex end{std::min(views.first.v + views.grid.v + above, grid.v),
-                      std::min(views.first.u + views.grid.u + beside, grid.u)};
-  return {first, {end.v - first.v, end.u - first.u}};
-}
-
-void copy_views(const ViewStack<float>& from, const ViewRectangle& views, ViewStack<float>& to) {
-  for (int i = 0; i < views.grid.count(); ++i) {
-    const ViewIndex view = views.grid.view_at(i, views.first);
-    std::copy_n(from.view(view).data, from.view_size(), to.view(view).data);
-  }
-}
-
-class OrderedBlocks {
- public:
-  OrderedBlocks(const LightField& lf, const EpiCParameters& parameters, Interval range, int threads)
-      : lf_(lf), parameters_(parameters), range_(range), threads_(threads) {}
-
-  [[nodiscard]] int sweeps() const { return parameters_.sweeps; }
-  [[nodiscard]] bool replaces() const { return sweeps() > 0 && parameters_.replace_occluded; }
-
-  [[nodiscard]] Facts find_noise(const ReadBlock& read, const Progress& progress) const {
-    Facts facts = line_check_noise(lf_, parameters_.line_check, read(whole(center())), progress);
-    facts.resize(kFacts);
-    return facts;
-  }
-
-  [[nodiscard]] FinishedBlock denoise_views(const MapBlock& block, const ReadBlock& read,
-                                            const Facts& facts, const Progress& progress) const {
-    FinishedBlock made{read(block)};
-    const LineCheck& check = parameters_.line_check;
-    if (check.does_anything()) {
-      const PackedViews packed = pack_around(lf_, block.views, kMaxArmViews, progress.part(0, 0.1));
-      check_lines(packed, check, facts, made.maps, progress.part(0.1, 0.4));
-    }
-    ViewStack<float>& disparity = made.maps.field.disparity;
-    made.maps.kept.push_back(disparity.clone());
-    const double gap = denoise(lf_, parameters_.denoising, {kOrderingLeastWeight}, disparity,
-                               made.maps.confidence, progress.part(0.4, 1));
-    made.maps.kept.push_back(disparity.clone());
-    made.facts = facts;
-    made.facts[kGapOfViews] = std::max(gap, facts[kGapOfViews]);
-    return made;
-  }
-
-  [[nodiscard]] Facts find_replacement_noise(const ReadBlock& read, Facts facts,
-                                             const Progress& progress) const {
-    const PackedViews packed = pack_around(lf_, center(), kMaxArmViews, progress);
-    const ViewStack<float> denoised = read.kept(whole(center()), kDenoisedMaps);
-    facts[kNoise] = replacement_noise(packed, lf_.center(), denoised.view(lf_.center()));
-    return facts;
-  }
-
-  [[nodiscard]] FinishedBlock replace(const MapBlock& block, const ReadBlock& read,
-                                      const Facts& facts, const Progress& progress) const {
-    const ViewRectangle reached = extended_by(block.views, kMaxArmViews, kMaxArmViews, lf_.grid());
-    ViewStack<float> before = views_of(reached), confidence = views_of(reached);
-    for (const ViewRectangle& arms : {extended_by(block.views, 0, kMaxArmViews, lf_.grid()),
-                                      extended_by(block.views, kMaxArmViews, 0, lf_.grid())}) {
-      copy_views(read.kept(whole(arms), kDenoisedMaps), arms, before);
-      copy_views(read(whole(arms)).confidence, arms, confidence);
-    }
-    const PackedViews packed = pack_around(lf_, block.views, kMaxArmViews, progress.part(0, 0.1));
-    FinishedBlock made{read(block)};
-    replace_occluded(packed, static_cast<float>(facts[kNoise]), before, confidence,
-                     made.maps.field.disparity, progress.part(0.1, 1));
-    return made;
-  }
-
-  // Half a sweep; the second half counts the gap of both.
-  [[nodiscard]] FinishedBlock sweep(int half, const MapBlock& block, const ReadBlock& read,
-                                    const Facts& facts, const Progress& progress) const {
-    const ViewRectangle reached = extended_by(block.views, 1, 1, lf_.grid());
-    ViewStack<float> u = read(whole(reached)).field.disparity;
-    FinishedBlock made{read(block)};
-    const ViewStack<float> observed = read.kept(block, kObserved);
-    const double gap = improve({lf_, parameters_, observed, made.maps.confidence, u},
-                               views_of_color(block.views, half % 2), progress);
-    copy_views(u, block.views, made.maps.field.disparity);
-    made.facts = facts;
-    made.facts[kGapOfSweep] = std::max(gap, facts[kGapOfSweep]);
-    return made;
-  }
-
-  [[nodiscard]] Facts count_violations(const ReadBlock& read, Facts facts,
-                                       const Progress& progress) const {
-    LineCount before, after;
-    Image<float> scratch(lf_.height(), lf_.width());
-    for (int i = 0; i < lf_.grid().count(); ++i) {
-      progress.check();
-      const ViewIndex view = lf_.grid().view_at(i);
-      const MapBlock block = whole(extended_by({view, {1, 1}}, 1, 1, lf_.grid()));
-      before += count_lines(read.kept(block, kDenoisedMaps), view, scratch);
-      after += count_lines(read(block).field.disparity, view, scratch);
-    }
-    facts[kBefore] = before.share();
-    facts[kAfter] = after.share();
-    return facts;
-  }
-
-  [[nodiscard]] FinishedBlock finish(const MapBlock& block, const ReadBlock& read,
-                                     const Progress& progress) const {
-    FinishedBlock made{read(block)};
-    clamp_to_range(made.maps.field.disparity, range_, progress);
-    return made;
-  }
-
-  // What a view takes that is denoised, with what is looked at around it.
-  [[nodiscard]] double bytes_of_denoised(int count) const {
-    constexpr double kMaps = 17, kSmoothed = 96, kChecked = 24;
-    return around_bytes(count, 4) +
-           pixels() * (kMaps * count + kChecked + kSmoothed * std::min(count, threads_));
-  }
-  [[nodiscard]] double bytes_of_replaced(int count) const {
-    constexpr double kMaps = 9, kReplaced = 24;
-    return around_bytes(count, 20) + pixels() * (kMaps * count + kReplaced);
-  }
-  [[nodiscard]] double bytes_of_swept(int count) const {
-    constexpr double kAround = 8, kMaps = 13, kSwept = 124;
-    const double looked_at = lf_.is_on_disk() ? sample_bytes() * std::min(count, threads_) : 0;
-    return pixels() *
-               (kAround * 3 * (count + 2) + kMaps * count + kSwept * std::min(count, threads_)) +
-           looked_at;
-  }
-  [[nodiscard]] double bytes_of_finished(int count) const {
-    constexpr double kMaps = 9, kCounted = 9 * 12 + 4;
-    return pixels() * std::max(kMaps * count, kCounted);
-  }
-
- private:
-  [[nodiscard]] ViewRectangle center() const { return {lf_.center(), {1, 1}}; }
-  [[nodiscard]] MapBlock whole(const ViewRectangle& views) const {
-    return {views, 0, lf_.height()};
-  }
-  [[nodiscard]] ViewStack<float> views_of(const ViewRectangle& views) const {
-    return {views.grid, lf_.height(), lf_.width(), 1, views.first};
-  }
-  [[nodiscard]] double pixels() const { return static_cast<double>(lf_.height()) * lf_.width(); }
-  // Of a view.
-  [[nodiscard]] double sample_bytes() const {
-    return static_cast<double>(lf_.byte_size()) / lf_.grid().count();
-  }
-  [[nodiscard]] double around_bytes(int count, double of_pixel) const {
-    return packed_around(count, kMaxArmViews) *
-           (of_pixel * pixels() + (lf_.is_on_disk() ? sample_bytes() : 0));
-  }
-
-  const LightField& lf_;
-  EpiCParameters parameters_;
-  Interval range_;
-  int threads_;
-};
-
-using OrderedBlocksPtr = std::shared_ptr<const OrderedBlocks>;
-
-BlockPass views_pass(std::string step) {
-  BlockPass pass;
-  pass.step = std::move(step);
-  pass.unit = BlockUnit::Views;
-  return pass;
-}
-
-BlockPass denoising(const OrderedBlocksPtr& blocks) {
-  BlockPass pass = views_pass("checking lines and denoising");
-  pass.bytes = [blocks](int count) { return blocks->bytes_of_denoised(count); };
-  pass.prepare = [blocks](const ReadBlock& read, const Facts&, const Progress& progress) {
-    return blocks->find_noise(read, progress);
-  };
-  pass.compute = [blocks](const MapBlock& block, const ReadBlock& read, const Facts& facts,
-                          const Progress& progress) {
-    return blocks->denoise_views(block, read, facts, progress);
-  };
-  return pass;
-}
-
-BlockPass replacing(const OrderedBlocksPtr& blocks) {
-  BlockPass pass = views_pass("replacing rays that other views see through");
-  pass.bytes = [blocks](int count) { return blocks->bytes_of_replaced(count); };
-  pass.prepare = [blocks](const ReadBlock& read, const Facts& facts, const Progress& progress) {
-    return blocks->find_replacement_noise(read, facts, progress);
-  };
-  pass.compute = [blocks](const MapBlock& block, const ReadBlock& read, const Facts& facts,
-                          const Progress& progress) {
-    return blocks->replace(block, read, facts, progress);
-  };
-  return pass;
-}
-
-BlockPass sweeping(const OrderedBlocksPtr& blocks, int half) {
-  BlockPass pass =
-      views_pass(fmt::format("ordering, sweep {} of {}", half / 2 + 1, blocks->sweeps()));
-  pass.bytes = [blocks](int count) { return blocks->bytes_of_swept(count); };
-  if (half % 2 == 0) {
-    pass.prepare = [](const ReadBlock&, Facts facts, const Progress&) {
-      facts[kGapOfSweep] = 0;
-      return facts;
-    };
-  }
-  pass.compute = [blocks, half](const MapBlock& block, const ReadBlock& read, const Facts& facts,
-                                const Progress& progress) {
-    return blocks->sweep(half, block, read, facts, progress);
-  };
-  return pass;
-}
-
-BlockPass finishing(const OrderedBlocksPtr& blocks) {
-  BlockPass pass = views_pass("counting violations of the ordering");
-  pass.bytes = [blocks](int count) { return blocks->bytes_of_finished(count); };
-  pass.prepare = [blocks](const ReadBlock& read, const Facts& facts, const Progress& progress) {
-    return blocks->count_violations(read, facts, progress);
-  };
-  pass.compute = [blocks](const MapBlock& block, const ReadBlock& read, const Facts&,
-                          const Progress& progress) {
-    return blocks->finish(block, read, progress);
-  };
-  return pass;
-}
-
-// One block that needs the maps of all views.
-BlockwiseRun center_in_one(const LightField& lf, const EpiCParameters& parameters, BlockwiseRun run,
-                           int threads) {
-  run.maps = {{1, 1}, lf.center(), lf.height(), lf.width()};
-  BlockPass pass = views_pass("estimating all views for the one in the middle");
-  pass.only = {lf.center()};
-  pass.bytes = [&lf, threads](int) {
-    constexpr double kOfRay = 20, kOfView = 124;
-    const double rays = static_cast<double>(lf.height()) * lf.width() * lf.grid().count();
-    return kOfRay * rays + kOfView * threads * lf.height() * lf.width() +
-           (lf.is_on_disk() ? static_cast<double>(lf.byte_size()) : 0);
-  };
-  pass.compute = [&lf, parameters](const MapBlock&, const ReadBlock&, const Facts&,
-                                   const Progress& progress) {
-    Estimate estimate = estimate_epi_c(lf, parameters, ViewSelection::Center, progress);
-    FinishedBlock made{{std::move(estimate.field), std::move(estimate.confidence)}};
-    made.notes = std::move(estimate.notes);
-    return made;
-  };
-  run.passes = {std::move(pass)};
-  return run;
-}
-
-// EPI_C in blocks: orientations in bands of rows; then views of one row of the grid after the
-// other, whose lines are checked and which are denoised by themselves; then rays that other views
-// see through are replaced, and every half of a sweep is one pass, which needs the views above and
-// below. What was observed and what was denoised before the first sweep are kept. The center view
-// alone needs all others and is one block.
-//
-// Refers to the light field. Takes no result early. Throws as `estimate_epi_c`.
-BlockwiseRun epi_c_in_blocks(const LightField& lf, const EpiCParameters& parameters,
-                             ViewSelection views, const Progress& progress) {
-  BlockwiseRun run = orientations_in_blocks(lf, parameters.tensor, ViewSelection::All, progress);
-  if (views == ViewSelection::Center) {
-    return center_in_one(lf, parameters, std::move(run), progress.threads());
-  }
-  const auto blocks = std::make_shared<const OrderedBlocks>(lf, parameters, run.provenance.range,
-                                                            progress.threads());
-  run.kept = 2;
-  run.passes.push_back(denoising(blocks));
-  if (blocks->replaces()) run.passes.push_back(replacing(blocks));
-  for (int half = 0; half < 2 * blocks->sweeps(); ++half) {
-    run.passes.push_back(sweeping(blocks, half));
-  }
-  run.passes.push_back(finishing(blocks));
-  run.notes = [](const BlockProgress& end) {
-    const Facts& facts = end.facts;
-    const double gap = facts[kGapOfSweep] > 0 ? facts[kGapOfSweep] : facts[kGapOfViews];
-    return std::vector<std::string>{gap_note(gap), ordering_note(facts[kBefore], facts[kAfter])};
-  };
-  return run;
 }
 
 // λ Σ g |∇u| + ½ Σ w (u − f)² of one view.
@@ -670,7 +531,7 @@ Estimator epi_c_estimator() {
        .iterative = true,
        .revision = 6,
        .devices = {Device::Cpu, Device::Cuda}},
-      epi_c_schema(), estimate_epi_c, epi_c_in_blocks);
+      epi_c_schema(), estimate_epi_c);
 }
 
 }  // namespace episcope

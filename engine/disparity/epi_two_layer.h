@@ -63,12 +63,6 @@ struct EpiTwoLayerParameters {
                                               ViewSelection views, const Progress& progress,
                                               Device device = Device::Cpu);
 
-/// What a result notes: in how many of its pixels there are two layers, and the largest relative
-/// duality gap.
-[[nodiscard]] std::vector<std::string> layer_notes(std::size_t doubles, std::size_t pixels,
-                                                   double gap);
-[[nodiscard]] std::size_t count_doubles(const ViewStack<std::uint8_t>& layers);
-
 [[nodiscard]] Estimator epi_two_layer_estimator();
 
 }  // namespace episcope

@@ -88,6 +88,7 @@ void mark_invalid(const LightField& light_field, Estimate& estimate) {
   mark(light_field, estimate.field);
   mark(light_field, estimate.layered.foreground);
   mark(light_field, estimate.layered.background);
+  mark(light_field, estimate.second);
   clear_invalid_of(light_field, estimate.layered.layers);
   clear_invalid_of(light_field, estimate.confidence);
 }
@@ -96,6 +97,7 @@ void mark_invalid(const LightField& light_field, int first_row, BlockMaps& block
   mark(light_field, block.field, first_row);
   mark(light_field, block.layered.foreground, first_row);
   mark(light_field, block.layered.background, first_row);
+  mark(light_field, block.second, first_row);
   clear_invalid_of(light_field, block.layered.layers, first_row);
   clear_invalid_of(light_field, block.confidence, first_row);
 }
@@ -149,15 +151,19 @@ void note_positions(const LightField& light_field, Provenance& estimate) {
       stated.largest_deviation));
 }
 
-// Method, seconds, version and source; and what parameters leave open: a range that was to be
+constexpr const char* kCpu = "CPU";
+
+// Method, seconds, version, source and camera; and what parameters leave open: a range that was to be
 // found, cameras taken for equidistant.
 void complete_provenance(Provenance& estimate, const std::string& method,
                          const LightField& light_field, double seconds) {
   estimate.method = method;
   estimate.seconds = seconds;
   estimate.version = kVersion;
+  estimate.commit = built_commit();
   estimate.source = light_field.info().source;
   estimate.reading = light_field.info().reading;
+  estimate.camera = light_field.info().camera;
   note_range(light_field, estimate);
   note_positions(light_field, estimate);
 }
@@ -165,14 +171,20 @@ void complete_provenance(Provenance& estimate, const std::string& method,
 // Notes where it computed, unless there was no choice.
 Estimate estimate_on_device(Device device, const EstimatorInfo& info,
                             const std::function<Estimate(Device)>& estimate) {
-  if (chosen_device(device, info) == Device::Cpu) return estimate(Device::Cpu);
+  const auto on_cpu = [&] {
+    Estimate result = estimate(Device::Cpu);
+    result.device = kCpu;
+    return result;
+  };
+  if (chosen_device(device, info) == Device::Cpu) return on_cpu();
   try {
     Estimate result = estimate(Device::Cuda);
+    result.device = known_cuda_device().name;
     result.notes.push_back(fmt::format("computed on {}", known_cuda_device().name));
     return result;
   } catch (const DeviceFailure& failure) {
     if (device == Device::Cuda) throw;
-    Estimate result = estimate(Device::Cpu);
+    Estimate result = on_cpu();
     result.notes.push_back(fmt::format("computed on the CPU: {}", failure.what()));
     return result;
   }
@@ -235,6 +247,7 @@ BlockwiseRun Estimator::in_blocks(const LightField& given, EvenViews& even,
   const LightField& light_field = equalized ? equalized->light_field : given;
   BlockwiseRun run = blocks(light_field, values, options.views, limited);
   complete_provenance(run.provenance, info.id, light_field, 0);
+  run.provenance.device = kCpu;
   if (!equalized) return run;
   run.provenance.notes.push_back(equalized->note);
   for (BlockPass& pass : run.passes) pass = forgetting(equalized, std::move(pass));

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "engine/core/estimate.h"
-#include "engine/core/view_gain.h"
 #include "engine/core/isa.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
+#include "engine/core/view_gain.h"
 
 #include <cstdint>
 #include <functional>
@@ -48,12 +48,8 @@ struct RunOptions {
 [[nodiscard]] Schema<RunOptions> run_schema();
 
 /// Reads the state of a block: the maps of the previous pass, as long as this pass has not replaced
-/// them, and one of the kept maps.
-struct ReadBlock {
-  std::function<BlockMaps(const MapBlock&)> maps;
-  std::function<ViewStack<float>(const MapBlock&, int number)> kept;
-  [[nodiscard]] BlockMaps operator()(const MapBlock& block) const { return maps(block); }
-};
+/// them.
+using ReadBlock = std::function<BlockMaps(const MapBlock&)>;
 
 /// Cut of the maps: bands of rows of all views, or single views.
 enum class BlockUnit { Rows, Views };
@@ -91,10 +87,7 @@ struct BlockPass {
 /// Refers to its light field.
 struct BlockwiseRun {
   MapGeometry maps;
-  bool has_layers = false;  ///< Whether blocks have BlockMaps::layered.
-  /// How many maps are kept for later passes. A pass that keeps a block must not read what was kept
-  /// of it before: where the program ended, the block is made and kept once more.
-  int kept = 0;
+  bool has_second = false;  ///< Whether blocks have BlockMaps::second.
   Provenance provenance;  ///< With the range; the notes are completed by `notes`.
   std::vector<BlockPass> passes;
   /// Of the largest finding of the last pass and the facts at the end; may be empty.

@@ -14,6 +14,8 @@ namespace episcope {
 
 namespace {
 
+constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
+
 int sector_of(int dv, int du) {
   constexpr double kEighth = std::numbers::pi / 4;
   const auto turn = static_cast<int>(std::floor((std::atan2(dv, du) + kEighth / 2) / kEighth));
@@ -35,10 +37,11 @@ void read_colors(const LightField& light_field, ViewIndex view, int y, std::vect
     std::fill_n(&out[3 * static_cast<std::size_t>(x)], 3, out[x]);
 }
 
-// A row of a view and its grey.
+// A row of a view, its grey and its mask.
 struct ColorRow {
   std::vector<float> colors;
   std::vector<float> grey;
+  const std::uint8_t* valid = nullptr;  // None: all pixels are.
 
   ColorRow() = default;
   explicit ColorRow(int width)
@@ -48,39 +51,80 @@ struct ColorRow {
     for (std::size_t x = 0; x < grey.size(); ++x) {
       grey[x] = (colors[3 * x] + colors[3 * x + 1] + colors[3 * x + 2]) / 3;
     }
+    const ImageView<const std::uint8_t> mask = light_field.valid_of(view);
+    valid = mask.empty() ? nullptr : mask.row(y);
   }
+  [[nodiscard]] bool is_valid(int x) const { return valid == nullptr || valid[x] != 0; }
+  [[nodiscard]] float grey_or(int x, float other) const { return is_valid(x) ? grey[x] : other; }
 };
 
-// Numbers of the middle one of three rows.
-struct PixelWriter {
-  const ColorRow (&rows)[3];
-  float count;  // What each pixel adds to the number of views.
-
-  void write_pixels(float* out) const {
-    for (int x = 0; x < width(); ++x, out += kNetPixel) {
-      for (int c = 0; c < 3; ++c) out[c] = rows[1].colors[3 * x + c];
-      out[3] = along(x);
-      out[4] = rows[2].grey[x] - rows[0].grey[x];
-      out[5] = count;
-      out[6] = out[7] = 0;
+// Three rows of a view that follow each other, the border repeated. Differences of grey are taken
+// across the middle one; the pixel itself stands for a neighbor that is invalid.
+class ThreeRows {
+ public:
+  // Around row y.
+  ThreeRows(const LightField& light_field, ViewIndex view, int y)
+      : light_field_(light_field), view_(view), y_(y) {
+    for (int i = 0; i < 3; ++i) {
+      rows_[i] = ColorRow(light_field.width());
+      read(y + i - 1, rows_[i]);
     }
   }
-  void write_rows(float* out) const {
-    for (int c = 0; c < 3; ++c, out += width()) {
-      for (int x = 0; x < width(); ++x) out[x] = rows[1].colors[3 * x + c];
-    }
-    for (int x = 0; x < width(); ++x) {
-      out[x] = along(x);
-      out[width() + x] = rows[2].grey[x] - rows[0].grey[x];
-    }
+
+  void go_down() {
+    std::swap(rows_[0], rows_[1]);
+    std::swap(rows_[1], rows_[2]);
+    ++y_;
+    read(y_ + 1, rows_[2]);
+  }
+  [[nodiscard]] int width() const { return light_field_.width(); }
+  [[nodiscard]] bool is_valid(int x) const { return rows_[1].is_valid(x); }
+  [[nodiscard]] const float* color(int x) const {
+    return &rows_[1].colors[3 * static_cast<std::size_t>(x)];
+  }
+  [[nodiscard]] float along_x(int x) const {
+    const ColorRow& row = rows_[1];
+    return row.grey_or(std::min(x + 1, width() - 1), row.grey[x]) -
+           row.grey_or(std::max(x - 1, 0), row.grey[x]);
+  }
+  [[nodiscard]] float along_y(int x) const {
+    const float own = rows_[1].grey[x];
+    return rows_[2].grey_or(x, own) - rows_[0].grey_or(x, own);
   }
 
  private:
-  [[nodiscard]] int width() const { return static_cast<int>(rows[1].grey.size()); }
-  [[nodiscard]] float along(int x) const {
-    return rows[1].grey[std::min(x + 1, width() - 1)] - rows[1].grey[std::max(x - 1, 0)];
+  void read(int y, ColorRow& row) const {
+    row.read(light_field_, view_, std::clamp(y, 0, light_field_.height() - 1));
   }
+
+  const LightField& light_field_;
+  ViewIndex view_;
+  int y_;
+  ColorRow rows_[3];
 };
+
+// `count` is what each pixel adds to the number of views.
+void write_pixels(const ThreeRows& rows, float count, float* out) {
+  for (int x = 0; x < rows.width(); ++x, out += kNetPixel) {
+    std::copy_n(rows.color(x), 3, out);
+    out[3] = rows.along_x(x);
+    out[4] = rows.along_y(x);
+    out[5] = count;
+    out[6] = out[7] = 0;
+    if (!rows.is_valid(x)) std::fill_n(out, kNetPixel, kInvalid);
+  }
+}
+
+// Of an invalid pixel one number tells.
+void write_planes(const ThreeRows& rows, float* out) {
+  const int width = rows.width();
+  for (int x = 0; x < width; ++x) {
+    for (int c = 0; c < 3; ++c) out[c * width + x] = rows.color(x)[c];
+    out[3 * width + x] = rows.along_x(x);
+    out[4 * width + x] = rows.along_y(x);
+    if (!rows.is_valid(x)) out[x] = kInvalid;
+  }
+}
 
 }  // namespace
 
@@ -109,25 +153,15 @@ std::array<std::vector<ViewIndex>, kNetSectors> net_sectors(const LightField& li
 }
 
 Image<float> net_guide(const LightField& light_field, ViewIndex reference) {
-  const int height = light_field.height(), width = light_field.width();
-  Image<float> guide(height, width, kNetGuide);
-  Image<float> grey(height, width);
-  std::vector<float> colors(3 * static_cast<std::size_t>(width));
-  for (int y = 0; y < height; ++y) {
-    read_colors(light_field, reference, y, colors);
-    for (int x = 0; x < width; ++x) {
-      const float* const color = &colors[3 * static_cast<std::size_t>(x)];
-      for (int c = 0; c < 3; ++c) guide.at(y, x, c) = color[c] - kNetGrey;
-      grey.at(y, x) = (color[0] + color[1] + color[2]) / 3;
-    }
-  }
-  for (int y = 0; y < height; ++y) {
-    const float* const above = grey.row(std::max(y - 1, 0));
-    const float* const below = grey.row(std::min(y + 1, height - 1));
-    for (int x = 0; x < width; ++x) {
-      const float along = grey.at(y, std::min(x + 1, width - 1)) - grey.at(y, std::max(x - 1, 0));
-      guide.at(y, x, 3) = kNetContrast * along;
-      guide.at(y, x, 4) = kNetContrast * (below[x] - above[x]);
+  Image<float> guide(light_field.height(), light_field.width(), kNetGuide);
+  ThreeRows rows(light_field, reference, 0);
+  for (int y = 0; y < guide.height(); ++y) {
+    if (y > 0) rows.go_down();
+    for (int x = 0; x < guide.width(); ++x) {
+      float* const out = &guide.at(y, x);
+      for (int c = 0; c < 3; ++c) out[c] = rows.color(x)[c] - kNetGrey;
+      out[3] = kNetContrast * rows.along_x(x);
+      out[4] = kNetContrast * rows.along_y(x);
     }
   }
   return guide;
@@ -178,40 +212,12 @@ void NetEvidence::move_window(Window& window, int first, int end) const {
 }
 
 void NetEvidence::read_rows(Window& window, int first) const {
-  ColorRow rows[3];
-  for (ColorRow& row : rows) row = ColorRow(width());
-  const auto read = [&](int y, ColorRow& row) {
-    row.read(light_field_, window.view, std::clamp(y, 0, height() - 1));
-  };
-  read(first - 1, rows[0]);
-  read(first, rows[1]);
+  const float count = window.view == reference_ ? 0.0F : 1.0F;
+  ThreeRows rows(light_field_, window.view, first);
   for (int y = first; y < window.end; ++y) {
-    read(y + 1, rows[2]);
+    if (y > first) rows.go_down();
     float* const out = window.data() + (y - window.first) * row_pixels() * kNetPixel;
-    const PixelWriter writer{rows, window.view == reference_ ? 0.0F : 1.0F};
-    kind_ == NetEvidenceOf::Planes ? writer.write_rows(out) : writer.write_pixels(out);
-    if (!light_field_.valid().empty()) mark_invalid_pixels(window.view, y, out);
-    std::swap(rows[0], rows[1]);
-    std::swap(rows[1], rows[2]);
-  }
-}
-
-// Differences are taken across a pixel: one beside an invalid pixel has none.
-void NetEvidence::mark_invalid_pixels(ViewIndex view, int y, float* out) const {
-  constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
-  const int above = std::max(y - 1, 0), below = std::min(y + 1, height() - 1);
-  for (int x = 0; x < width(); ++x) {
-    const int left = std::max(x - 1, 0), right = std::min(x + 1, width() - 1);
-    if (light_field_.is_valid(view, y, x) && light_field_.is_valid(view, y, left) &&
-        light_field_.is_valid(view, y, right) && light_field_.is_valid(view, above, x) &&
-        light_field_.is_valid(view, below, x)) {
-      continue;
-    }
-    if (kind_ == NetEvidenceOf::Maps) {
-      std::fill_n(out + static_cast<long>(x) * kNetPixel, kNetPixel, kInvalid);
-    } else {
-      out[x] = kInvalid;
-    }
+    kind_ == NetEvidenceOf::Planes ? write_planes(rows, out) : write_pixels(rows, count, out);
   }
 }
 

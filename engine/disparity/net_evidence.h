@@ -23,7 +23,8 @@ inline constexpr int kNetSectorViews = 12;
     const LightField& light_field, ViewIndex reference, int most = kNetSectorViews);
 
 /// What `net` is told of the reference view: R, G, B − 0.4, 4 (grey(x + 1) − grey(x − 1)), likewise
-/// along y, samples in [0, 1], the border repeated. Invalid pixels are as stored.
+/// along y, samples in [0, 1], the border repeated. The pixel itself stands for an invalid
+/// neighbor; invalid pixels are as stored.
 [[nodiscard]] Image<float> net_guide(const LightField& light_field, ViewIndex reference);
 
 /// What evidence is asked for: disparities that all pixels share, or maps.
@@ -69,7 +70,6 @@ class NetEvidence {
 
   void move_window(Window& window, int first, int end) const;
   void read_rows(Window& window, int first) const;
-  void mark_invalid_pixels(ViewIndex view, int y, float* out) const;
   [[nodiscard]] long row_pixels() const;
 
   const LightField& light_field_;

@@ -106,6 +106,13 @@ Estimate estimate_of(ViewIndex view, Interval range, const NetMaps& maps) {
   };
   estimate.field.disparity = stack_of(maps.disparity);
   estimate.confidence = stack_of(maps.confidence);
+  estimate.second =
+      DisparityField::unknown({1, 1}, maps.second.height(), maps.second.width(), view);
+  for (std::size_t i = 0; i < maps.second.size(); ++i) {
+    if (!(maps.second_probability.data()[i] >= kLeastSecond)) continue;
+    estimate.second.disparity.data()[i] = maps.second.data()[i];
+    estimate.second.valid.data()[i] = 1;
+  }
   return estimate;
 }
 
@@ -182,8 +189,10 @@ class NetMethod final : public CarriedMethod {
 
 BlockwiseRun net_in_blocks(const LightField& lf, const NetMethodParameters& parameters,
                            ViewSelection views, const Progress& progress) {
-  return carried_in_blocks(lf, std::make_unique<NetMethod>(lf, parameters, Device::Cpu, progress),
-                           views, progress.threads());
+  BlockwiseRun run = carried_in_blocks(lf, std::make_unique<NetMethod>(lf, parameters, Device::Cpu, progress),
+                                       views, progress.threads());
+  run.has_second = run.maps.grid.count() == 1;
+  return run;
 }
 
 }  // namespace

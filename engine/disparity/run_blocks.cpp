@@ -148,9 +148,7 @@ class BlockRunner {
   BlockProgress state_;
   double seconds_before_;
   Stopwatch watch_;
-  ReadBlock read_{
-      [this](const MapBlock& block) { return store_.read(block); },
-      [this](const MapBlock& block, int number) { return store_.read_kept(block, number); }};
+  ReadBlock read_{[this](const MapBlock& block) { return store_.read(block); }};
 };
 
 }  // namespace

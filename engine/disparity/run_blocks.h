@@ -14,14 +14,11 @@ class BlockStore {
   virtual ~BlockStore() = default;
   /// Progress of a former program.
   [[nodiscard]] virtual BlockProgress progress() const = 0;
-  /// Without `kept`, of which this reads one.
   [[nodiscard]] virtual BlockMaps read(const MapBlock& block) const = 0;
-  [[nodiscard]] virtual ViewStack<float> read_kept(const MapBlock& block, int number) const = 0;
   /// Records progress alone.
   virtual void note(const BlockProgress& after) = 0;
   /// Keeps a block, then notes the progress; `replaces` if the pass needs what was there to make
-  /// the block again. If the program ends in between, either both or neither is found again, but
-  /// for `maps.kept`, which may be there already.
+  /// the block again. If the program ends in between, either both or neither is found again.
   virtual void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
                      bool replaces) = 0;
 };

@@ -153,7 +153,7 @@ constexpr FormContents kArrays{.floats = FloatsHeld::Exactly,
 constexpr FormContents kPicture{};
 
 void write_named_archive(const fs::path& path, const Scene& scene, const Progress& progress) {
-  write_archive(path, scene, progress, LabelFile::NamedAfter);
+  write_archive(path, scene, progress, {.labels = LabelFile::NamedAfter});
 }
 
 constexpr Writer kWriters[] = {

@@ -23,7 +23,7 @@ namespace episcope {
 /// has the gain.
 class LabelSurfaces {
  public:
-  /// `strokes` as from `propagated_strokes` (stroke_distance.h), `disparity` of the view, without
+  /// `strokes` as from `propagated_strokes` (predict_from_strokes.h), `disparity` of the view, without
   /// holes, and how far it is trusted (`disparity_trust`; empty = everywhere), borrowed. 4·pitch
   /// bytes per pixel. Throws Cancelled.
   LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,

@@ -67,7 +67,7 @@ struct Labeling {
 /// parameters ask for it. With estimated disparity, a surface counts only where it agrees with the
 /// image, and not in gaps of thin objects (predict_from_strokes.h). A forest knows nothing about
 /// what lies between a pixel and a stroke, so votes are also weighted by how near the strokes of
-/// each label are along surfaces, exp(−nearness·excess) (stroke_distance.h).
+/// each label are along surfaces, exp(−nearness·excess) (predict_from_strokes.h).
 ///
 /// Painted pixels keep their labels in the view where they were painted, before smoothing. Unless
 /// disparity is known to be right (it comes without confidence), the middle view is smoothed first;

@@ -4,17 +4,209 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/labeling/device_labeling.h"
-#include "engine/labeling/line_smoothing.h"
+#include "engine/labeling/ray_labeling.h"
+#include "engine/labeling/ray_targets.h"
 #include "engine/labeling/ray_vote.h"
 #include "engine/labeling/solve_views.h"
+#include "engine/solvers/linked_labeling.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
 #include <iterator>
+#include <utility>
+#include <vector>
 
 namespace episcope {
+
+namespace {
+
+using LinesOfView = std::array<RayLines, kLinkKinds>;
+
+// The next view to the right and below.
+constexpr ViewIndex kSteps[kLinkKinds] = {{0, 1}, {1, 0}};
+
+std::vector<LinesOfView> lines_of(const RayLabelingInput& input, const Progress& progress) {
+  const LabelProbabilities& p = *input.probabilities;
+  const RayColors colors = input.light_field == nullptr ? RayColors()
+                                                        : RayColors(*input.light_field, p.grid,
+                                                                    p.first, progress.part(0, 0));
+  const ViewIndex middle{p.first.v + p.grid.v / 2, p.first.u + p.grid.u / 2};
+  std::vector<LinesOfView> lines(p.views.size());
+  parallel_for(p.grid.count(), progress, [&](int i) {
+    const ViewIndex view = p.view_at(i);
+    for (int kind = 0; kind < kLinkKinds; ++kind) {
+      const ViewIndex next{view.v + kSteps[kind].v, view.u + kSteps[kind].u};
+      if (!p.contains(next)) continue;
+      lines[i][kind] = find_ray_lines({*input.disparity, colors, middle}, view, next, progress);
+    }
+  });
+  return lines;
+}
+
+// The problem, and what it borrows.
+struct JointProblem {
+  JointProblem(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+               const Progress& progress)
+      : lines(lines_of(input, progress.part(0, 0.7))),
+        weights(boundary_weights_of(input, progress.part(0.7, 1))) {
+    state(input, parameters);
+  }
+  JointProblem(const JointProblem&) = delete;
+  JointProblem& operator=(const JointProblem&) = delete;
+
+  std::vector<LinesOfView> lines;
+  std::vector<Image<float>> weights;
+  LinkedProblem problem;
+
+ private:
+  void state(const RayLabelingInput& input, const RayLabelingParameters& parameters);
+};
+
+void JointProblem::state(const RayLabelingInput& input, const RayLabelingParameters& parameters) {
+  const LabelProbabilities& p = *input.probabilities;
+  problem.table = cost_table(parameters.floor);
+  problem.smoothness = parameters.smoothness;
+  problem.coherence = parameters.coherence;
+  for (int i = 0; i < p.grid.count(); ++i) {
+    LinkedImage& image = problem.images.emplace_back();
+    image.codes = p.views[i].view();
+    if (!weights[i].empty()) image.g = weights[i];
+    for (int kind = 0; kind < kLinkKinds; ++kind) {
+      const RayLines& of_kind = lines[i][kind];
+      if (of_kind.target.empty()) continue;
+      const int to = i + kSteps[kind].v * p.grid.u + kSteps[kind].u;
+      image.links[kind] = {to, of_kind.target, of_kind.weight};
+    }
+  }
+}
+
+// Layers, not ids.
+RayLabeling solve(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+                  double gap, const Progress& progress) {
+  progress.step("lines");
+  const JointProblem joint(input, parameters, progress.part(0, 0.03));
+  LinkedOptions options;
+  options.gap = gap;
+  options.max_iterations = parameters.max_iterations;
+  RayLabeling result = unlabeled(*input.probabilities);
+  std::vector<ImageView<int>> labels;
+  for (int i = 0; i < input.probabilities->grid.count(); ++i) {
+    labels.push_back(result.labels.view(input.probabilities->view_at(i)));
+  }
+  progress.step("views");
+  const LinkedResult solved =
+      solve_linked_labeling(joint.problem, options, progress.part(0.03, 1), labels);
+  result.energy = solved.energy;
+  result.bound = solved.bound;
+  result.iterations = solved.iterations;
+  return result;
+}
+
+}  // namespace
+
+RayLabeling smooth_lines(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+                         const Progress& progress) {
+  RayLabeling result = solve(input, parameters, parameters.gap_joint, progress);
+  replace_layers_by_ids(input.probabilities->ids, result);
+  return result;
+}
+
+RayLabeling smooth_lines_of_view(const RayLabelingInput& input, ViewIndex view,
+                                 const RayLabelingParameters& parameters,
+                                 const Progress& progress) {
+  const RayLabeling all = solve(input, parameters, parameters.gap, progress);
+  RayLabeling result = unlabeled(*input.probabilities, view);
+  result.energy = all.energy;
+  result.bound = all.bound;
+  result.iterations = all.iterations;
+  const ImageView<const std::int32_t> wanted = all.labels.view(view);
+  std::copy_n(wanted.data, all.labels.view_size(), result.labels.view(view).data);
+  replace_layers_by_ids(input.probabilities->ids, result);
+  return result;
+}
+
+double line_energy(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+                   const ViewStack<std::int32_t>& labels) {
+  const LabelProbabilities& p = *input.probabilities;
+  ViewStack<std::int32_t> layers = labels.clone();
+  std::for_each(layers.data(), layers.data() + layers.size(), [&p](std::int32_t& label) {
+    label = static_cast<std::int32_t>(std::ranges::lower_bound(p.ids, label) - p.ids.begin());
+  });
+  std::vector<ImageView<const int>> views;
+  for (int i = 0; i < p.grid.count(); ++i) {
+    views.push_back(std::as_const(layers).view(p.view_at(i)));
+  }
+  return linked_energy(JointProblem(input, parameters, Progress()).problem, views);
+}
+
+namespace {
+
+// Place in the next view of a ray at `from`, on the line of slope d through the pixel center that
+// is nearest to it in the middle view, `steps` before this one.
+float drawn_on(int from, float d, int steps) {
+  const float center = std::floor(static_cast<float>(from) + d * static_cast<float>(steps) + 0.5F);
+  return std::floor(center - d * static_cast<float>(steps + 1) + 0.5F);
+}
+
+// Two views and the way from one to the other.
+struct Step {
+  DisparityView here, there;
+  bool is_across = false;
+  int from_middle = 0;  // views between the middle column (row) and the first view
+};
+
+// Where the line through a pixel ends in the other view, −1 if it does not get there.
+std::int32_t line_end(const Step& step, int y, int x) {
+  const auto& [here, there, is_across, from_middle] = step;
+  if (!here.is_valid(y, x)) return -1;
+  const int width = here.disparity.width, height = here.disparity.height;
+  const float d = here.disparity.at(y, x);
+  const float at_x = is_across ? drawn_on(x, d, from_middle) : static_cast<float>(x);
+  const float at_y = is_across ? static_cast<float>(y) : drawn_on(y, d, from_middle);
+  // The comparison also drops what is too far off to be an int.
+  if (!(at_x >= 0 && at_y >= 0 && at_x < static_cast<float>(width) &&
+        at_y < static_cast<float>(height))) {
+    return -1;
+  }
+  const PixelIndex end{static_cast<int>(at_y), static_cast<int>(at_x)};
+  if (!there.is_valid(end.y, end.x)) return -1;
+  const bool is_hidden = std::fabs(there.disparity.at(end.y, end.x) - d) > kSamePointTolerance_px;
+  return is_hidden ? -1 : end.y * width + end.x;
+}
+
+}  // namespace
+
+RayLines find_ray_lines(const RayLineSources& sources, ViewIndex view, ViewIndex next,
+                        const Progress& progress) {
+  const bool is_across = next.u != view.u;
+  const Step step{sources.disparity.view(view), sources.disparity.view(next), is_across,
+                  is_across ? view.u - sources.middle.u : view.v - sources.middle.v};
+  const int height = step.here.disparity.height, width = step.here.disparity.width;
+  RayLines lines{Image<std::int32_t>(height, width), Image<std::uint8_t>(height, width)};
+  std::fill(lines.target.begin(), lines.target.end(), -1);
+  std::fill(lines.weight.begin(), lines.weight.end(), std::uint8_t{0});
+  std::vector<bool> is_taken(static_cast<std::size_t>(height) * width);
+  for (int y = 0; y < height; ++y) {
+    progress.check();
+    const RayColors::Pair colors = sources.colors.pair(view, y, next);
+    for (int x = 0; x < width; ++x) {
+      const std::int32_t end = line_end(step, y, x);
+      if (end < 0 || is_taken[end]) continue;
+      const auto weight =
+          static_cast<std::uint8_t>(255 * sources.colors.trust(colors, x, end) + 0.5F);
+      if (weight == 0) continue;
+      lines.target.at(y, x) = end;
+      lines.weight.at(y, x) = weight;
+      is_taken[end] = true;
+    }
+  }
+  return lines;
+}
+
 namespace {
 
 // In the order of lists.

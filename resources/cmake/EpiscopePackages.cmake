@@ -6,7 +6,7 @@ if(EPISCOPE_ESTIMATORS_ONLY)
   find_package(OpenCV QUIET COMPONENTS core imgproc ml)  # for the labeler, if there is one
   return()
 endif()
-find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(HDF5 REQUIRED COMPONENTS C HL)
 find_package(ZLIB REQUIRED)
 find_package(Matio REQUIRED)
 find_package(liblzf REQUIRED CONFIG)

@@ -57,7 +57,10 @@ def up(x, like):
 
 
 def five(image):
-    """H W 3 in [0, 1] -> 5 H W: colour and the differences of grey."""
+    """H W 3 in [0, 1] -> 5 H W: colour and the differences of grey.
+
+    Nothing is masked here; the engine replaces a masked neighbor by the pixel itself.
+    """
     g = image.mean(2)
     gx = np.pad(g, ((0, 0), (1, 1)), 'edge')
     gy = np.pad(g, ((1, 1), (0, 0)), 'edge')

@@ -4,6 +4,7 @@
 #include "engine/disparity/registry.h"
 #include "engine/scenes/builtin.h"
 #include "tests/accuracy/measure.h"
+#include "tests/accuracy/reliability.h"
 #include "tests/test_main.h"
 
 #include <map>
@@ -48,6 +49,7 @@ class LimitsTest : public QObject {
   void errors_stayWithinLimits();
   void denoising_helpsOnEveryScene_data();
   void denoising_helpsOnEveryScene();
+  void confidenceOfNet_isAProbability();
 };
 
 // A random scene of the choosing set: many things of all kinds, noise and a slanted wall.
@@ -60,7 +62,7 @@ static void add_random() {
       {"epi_l", 25, 50.7},     {"epi_s", 6.1, 39.7},   {"epi_g", 6.2, 34.7},
       {"st_av_l", 3.9, 32},    {"st_av_s", 3.4, 34.6}, {"st_av_g", 3.8, 30.1},
       {"st_ch_l", 3.8, 30.7},  {"st_ch_s", 3.4, 31.1}, {"st_ch_g", 3.6, 27.1},
-      {"plane_pm", 2.7, 10.8},
+      {"plane_pm", 2.7, 10.8}, {"net", 2.8, 7.7},
   };
   for (const Limits& each : all) {
     QTest::addRow("%s random", each.method)
@@ -80,7 +82,7 @@ static void add_others() {
       {"st_av_s", 0.07, 2.2, 0.76, 15.9},     {"st_av_g", 0.02, 0.05, 0.76, 20.6},
       {"st_ch_l", 0.008, 0.05, 2.02, 26.9},   {"st_ch_s", 0.008, 0.05, 0.96, 17.9},
       {"st_ch_g", 0.008, 0.05, 1.31, 25.5},   {"kz02", 0.05, 4.1, 1.87, 26.5},
-      {"plane_pm", 0.013, 0.05, 0.77, 10.4},
+      {"plane_pm", 0.013, 0.05, 0.77, 10.4},  {"net", 0.13, 0.2, 0.79, 8.7},
   };
   for (const Limits& each : others) {
     QTest::addRow("%s bars", each.method)
@@ -142,6 +144,24 @@ void LimitsTest::denoising_helpsOnEveryScene() {
   const double local = measured("epi_l", id.toStdString(), 0).mse_100;
   const double denoised = measured("epi_s", id.toStdString(), 0).mse_100;
   QVERIFY2(denoised < local, qPrintable(QString("%1, was %2").arg(denoised).arg(local)));
+}
+
+void LimitsTest::confidenceOfNet_isAProbability() {
+  accuracy::Reliability reliability;
+  for (const auto& [id, noise] :
+       {std::pair("random?seed=1", 0.0), {"bars", 0.0}, {"objects", 5.0}}) {
+    const Scene& known = scene(id, noise);
+    const ViewIndex center = known.light_field->center();
+    const Estimate estimate = find_estimator("net").run(
+        *known.light_field, {}, {.views = ViewSelection::Center}, Progress());
+    reliability.add(estimate.field.view(center), estimate.confidence.view(center),
+                    known.truth->field.view(center));
+  }
+
+  // Points of per cent; 0.9 and 17.7 when measured.
+  QVERIFY2(reliability.mean_error() < 1.3, accuracy::reliability_table("NET", reliability).c_str());
+  QVERIFY2(reliability.largest_error() < 22,
+           accuracy::reliability_table("NET", reliability).c_str());
 }
 
 }  // namespace episcope::in_limits_test

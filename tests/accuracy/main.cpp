@@ -4,6 +4,7 @@
 #include "tests/accuracy/ablation.h"
 #include "tests/accuracy/means.h"
 #include "tests/accuracy/ranges.h"
+#include "tests/accuracy/reliability.h"
 #include "tests/accuracy/scene_sets.h"
 #include "tests/accuracy/variant.h"
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <map>
 
 namespace {
 
@@ -29,6 +31,7 @@ struct Request {
   std::string sets = EPISCOPE_SCENE_SETS;
   bool is_ranges = false;
   bool is_twice = false;
+  bool is_reliability = false;
   int size = 512;
   bool center_only = false;
   int threads = 0;
@@ -53,6 +56,8 @@ void declare(CLI::App& app, Request& request) {
                "Instead, the ranges that are found from the images, beside those of the truth");
   app.add_flag("--twice", request.is_twice,
                "Instead, errors with the true range beside those with twice the range");
+  app.add_flag("--reliability", request.is_reliability,
+               "Instead, of the center view, which share of the pixels with a confidence is right");
   app.add_option("--threads", request.threads, "Number of threads; 0 = one per processor");
   app.add_option("--data", request.data, "Folder that holds the scenes still_life and cotton")
       ->envname("EPISCOPE_SHARED_DATA")
@@ -146,6 +151,26 @@ void print_twice(const Request& request) {
   print("\n" + twice_summary(errors));
 }
 
+void print_reliability(const Request& request) {
+  std::map<std::string, Reliability> of_methods;
+  measure_all(request, [&](const std::string&, const std::string& name, const Scene& scene,
+                           const Variant& variant) {
+    const Estimate estimate =
+        variant.estimator.run(*scene.light_field, variant.values, {.views = ViewSelection::Center},
+                              Progress(request.threads));
+    if (estimate.confidence.empty()) throw InvalidInput("there is no confidence");
+    const ViewIndex center = scene.light_field->center();
+    of_methods[variant.estimator.info.name].add(estimate.field.view(center),
+                                                estimate.confidence.view(center),
+                                                scene.truth->field.view(center));
+    std::fprintf(stderr, "%s, %s: done\n", name.c_str(), variant.estimator.info.name.c_str());
+  });
+  print_head(request, "");
+  for (const auto& [method, reliability] : of_methods) {
+    print(reliability_table(method, reliability) + "\n");
+  }
+}
+
 void print_ranges(const Request& request) {
   std::vector<FoundRange> ranges;
   print_head(request, ranges_head());
@@ -167,6 +192,8 @@ void run(const Request& request) {
     print_ranges(request);
   } else if (request.is_twice) {
     print_twice(request);
+  } else if (request.is_reliability) {
+    print_reliability(request);
   } else {
     print_errors(request);
   }

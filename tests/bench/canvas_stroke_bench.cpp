@@ -10,7 +10,7 @@
 #include "app/gui/shell/commands.h"
 #include "app/session/session.h"
 #include "engine/scenes/builtin.h"
-#include "widgets/canvas/stroke_tool.h"
+#include "widgets/canvas/canvas_tool.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <benchmark/benchmark.h>

@@ -6,11 +6,11 @@
 // labeling have programs of their own (tv_l2_bench, lifted_labeling_bench).
 #include "engine/core/parallel.h"
 #include "engine/disparity/double_orientation.h"
+#include "engine/disparity/epi_c.h"
 #include "engine/disparity/epi_l.h"
 #include "engine/disparity/guided_filter.h"
 #include "engine/disparity/line_check.h"
 #include "engine/disparity/matching_cost.h"
-#include "engine/disparity/replace_occluded.h"
 #include "engine/disparity/structure_tensor.h"
 #include "engine/solvers/ordering_terms.h"
 #include "tests/bench/bench_scene.h"

@@ -3,7 +3,6 @@
 // to ask for every pixel of the view whether the brush covers it. A frame of the screen lasts 16
 // ms.
 #include "annotation/brush.h"
-#include "annotation/flood_fill.h"
 
 #include <benchmark/benchmark.h>
 

@@ -2,7 +2,6 @@
 // TV-L2 of one view against the plain loops that one would write first, and against what the memory
 // can copy. Both run on one thread, as the estimators run one solver on each.
 #include "engine/solvers/tv_l2.h"
-#include "engine/solvers/tv_l2_grid.h"
 
 #include <benchmark/benchmark.h>
 

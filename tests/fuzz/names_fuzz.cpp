@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/formats/sequence_reader.h"
+#include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/names/view_names.h"
-#include "engine/io/models/names/views_folder.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"
 

@@ -16,7 +16,7 @@ expect() {
 }
 expect estimate esti
 expect "epi_l" estimate epi_l
-expect --inner_scale estimate epi_l lf.h5 --inner
+expect --inner-scale estimate epi_l lf.h5 --inner
 expect "" estimate kz02 lf.h5 --inner
 expect "center" estimate epi_l lf.h5 --views ce
 expect "" estimate epi_l lf.h5 -o ./b

@@ -13,6 +13,6 @@ expect() {
 }
 expect estimate "$2" 'episcope-cli esti'
 expect epi_l "$2" 'episcope-cli estimate epi_'
-expect --inner_scale "$2" 'episcope-cli estimate epi_l lf.h5 --inner'
+expect --inner-scale "$2" 'episcope-cli estimate epi_l lf.h5 --inner'
 expect --scribbles "$2" 'episcope-cli label lf.h5 --scr'
 expect center "$2" 'episcope-cli estimate epi_l lf.h5 --views '

@@ -10,4 +10,4 @@ for page in "$2"/man/*.1; do
     exit 1
   fi
 done
-grep -q -- '--inner_scale' "$2/man/episcope-cli-estimate.1.txt"
+grep -q -- '--inner-scale' "$2/man/episcope-cli-estimate.1.txt"

@@ -22,7 +22,7 @@ answer() {
   [[ $shown == *"$2"* ]] || { print "after '$1' there is no '$2': $shown"; exit 1 }
 }
 answer 'episcope-cli esti' 'episcope-cli estimate'
-answer 'episcope-cli estimate epi_l lf.h5 --inner' '--inner_scale'
+answer 'episcope-cli estimate epi_l lf.h5 --inner' '--inner-scale'
 answer 'episcope-cli label lf.h5 --scr' '--scribbles'
 answer 'episcope-cli estimate epi_l lf.h5 --views ce' '--views center'
 SCRIPT

@@ -1,9 +1,121 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/canvas/canvas_tool.h"
 
+#include <QPainter>
+
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace episcope {
+
+namespace {
+
+constexpr qsizetype kFewestCorners = 3;
+constexpr double kHandle = 3;  // radius of the first corner, logical pixels
+
+}  // namespace
+
+void OutlineTool::setColor(const QColor& color) {
+  color_ = color;
+  emit shapeChanged();
+}
+
+void OutlineTool::change(const QPolygonF& corners) {
+  corners_ = corners;
+  if (corners_.isEmpty()) next_.clear();
+  emit shapeChanged();
+  emit cornersChanged();
+}
+
+void OutlineTool::begin(const ToolPress& press) {
+  start_ = {press.at, press.button == Qt::RightButton, press.modifiers.testFlag(Qt::ShiftModifier)};
+  change({press.at});
+}
+
+void OutlineTool::addCorner(QPointF image) {
+  QPolygonF more = corners_;
+  change(more << image);
+}
+
+void OutlineTool::removeCorner() {
+  QPolygonF fewer = corners_;
+  fewer.removeLast();
+  change(fewer);
+}
+
+void OutlineTool::setNext(const QPolygonF& next) {
+  next_ = next;
+  emit shapeChanged();
+}
+
+void OutlineTool::close() {
+  const QPolygonF corners = corners_;
+  change({});
+  if (corners.size() >= kFewestCorners) emit outlined(corners, start_);
+}
+
+bool OutlineTool::cancel() {
+  if (!isDrawing()) return false;
+  change({});
+  return true;
+}
+
+void OutlineTool::paintShape(QPainter& painter, const QTransform& widget_from_image) const {
+  if (!isDrawing()) return;
+  const QPolygonF line = widget_from_image.map(corners_ + next_);
+  const QColor color = start_.erases || !color_.isValid() ? QColor(Qt::white) : color_;
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(kToolShadow, 3.5));
+  painter.drawPolyline(line);
+  painter.setPen(QPen(color, 1.6, start_.erases ? Qt::DashLine : Qt::SolidLine));
+  painter.drawPolyline(line);
+  // What would close it.
+  painter.setPen(QPen(color, 1, Qt::DotLine));
+  painter.drawLine(line.back(), line.front());
+  painter.setPen(QPen(kToolShadow, 1));
+  painter.setBrush(Qt::white);
+  painter.drawEllipse(line.front(), kHandle, kHandle);
+  painter.restore();
+}
+
+void LassoTool::drag(QPointF image) {
+  if (isDrawing() && image != corners().back()) addCorner(image);
+}
+
+bool LassoTool::end() {
+  if (!isDrawing()) return false;
+  close();
+  return true;
+}
+
+void PolygonTool::press(const ToolPress& press) {
+  if (!isDrawing()) {
+    begin(press);
+  } else if (press.is_double) {
+    closeUp();  // its first click has set the last corner
+  } else {
+    addCorner(press.at);
+  }
+}
+
+void PolygonTool::hover(QPointF image) {
+  if (isDrawing()) setNext({image});
+}
+
+bool PolygonTool::closeUp() {
+  if (!isDrawing()) return false;
+  close();
+  return true;
+}
+
+bool PolygonTool::takeBack() {
+  if (!isDrawing()) return false;
+  removeCorner();
+  return true;
+}
 
 void RectangleTool::press(const ToolPress& press) {
   begin_ = end_ = press.at;
@@ -41,6 +153,104 @@ bool RectangleTool::cancel() {
   begin_.reset();
   emit rectangleCancelled();
   return true;
+}
+
+namespace {
+
+constexpr double kMinSize = 1;
+constexpr double kMaxSize = 100;
+constexpr double kSmallRing = 9;  // logical pixels, below which ticks point at the ring
+
+}  // namespace
+
+void StrokeTool::setErasing(bool erases) {
+  if (erases == is_eraser_) return;
+  end();
+  is_eraser_ = erases;
+  emit changed();
+}
+
+void StrokeTool::setBrushSize(double diameter_px) {
+  brush_px_ = std::clamp(diameter_px, kMinSize, kMaxSize);
+  emit changed();
+}
+
+void StrokeTool::setEraserSize(double diameter_px) {
+  eraser_px_ = std::clamp(diameter_px, kMinSize, kMaxSize);
+  emit changed();
+}
+
+void StrokeTool::setColor(const QColor& color) {
+  color_ = color;
+  emit changed();
+}
+
+void StrokeTool::press(const ToolPress& press) {
+  end();
+  erases_by_button_ = press.button == Qt::RightButton;
+  is_stroking_ = true;
+  emit changed();
+  emit strokeStarted({press.at, erases(), press.modifiers.testFlag(Qt::ShiftModifier)});
+}
+
+void StrokeTool::drag(QPointF image) {
+  if (is_stroking_) emit strokeExtended(image);
+}
+
+bool StrokeTool::end() {
+  if (!std::exchange(is_stroking_, false)) return false;
+  erases_by_button_ = false;
+  emit strokeFinished();
+  emit changed();
+  return true;
+}
+
+bool StrokeTool::cancel() {
+  if (!std::exchange(is_stroking_, false)) return false;
+  erases_by_button_ = false;
+  emit strokeCancelled();
+  emit changed();
+  return true;
+}
+
+QRectF StrokeTool::markRect(QPointF center, double scale) const {
+  const double reach = std::max(ringDiameter() * scale / 2, kSmallRing) + 2 * kRingMargin;
+  return {center.x() - reach, center.y() - reach, 2 * reach, 2 * reach};
+}
+
+void StrokeTool::paintMark(QPainter& painter, QPointF center, double scale) const {
+  const double radius = ringDiameter() * scale / 2;
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(kToolShadow, 3));
+  painter.drawEllipse(center, radius, radius);
+  painter.setPen(QPen(Qt::white, 1.2, erases() ? Qt::DashLine : Qt::SolidLine));
+  painter.drawEllipse(center, radius, radius);
+  if (radius < kSmallRing / 2) {
+    paintTicks(painter, center, radius);
+  } else if (!erases() && color_.isValid()) {
+    painter.setPen(QPen(kToolShadow, 1));
+    painter.setBrush(color_);
+    painter.drawEllipse(center, 3, 3);
+  }
+  painter.restore();
+}
+
+// A tiny ring is hard to find: four ticks point at it.
+void StrokeTool::paintTicks(QPainter& painter, QPointF center, double radius) const {
+  for (const QPointF& way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)}) {
+    const QLineF tick(center + way * (radius + 3), center + way * (radius + 3 + kSmallRing));
+    painter.setPen(QPen(kToolShadow, 3));
+    painter.drawLine(tick);
+    painter.setPen(QPen(Qt::white, 1.2));
+    painter.drawLine(tick);
+  }
+}
+
+void FillTool::press(const ToolPress& press) {
+  emit fillRequested(
+      {press.at, press.button == Qt::RightButton, press.modifiers.testFlag(Qt::ShiftModifier)});
 }
 
 }  // namespace episcope

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/canvas/canvas_text.h"
+#include "widgets/canvas/canvas_geometry.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/controls/theme.h"
 
-#include "widgets/controls/icon.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QPainter>
 #include <QStyleOption>

@@ -1,18 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+class QAction;
+class QLabel;
+class QToolButton;
+class QWidget;
+#include "engine/core/label_info.h"
+
+#include <QIcon>
+#include <QIconEngine>
+#include <QPalette>
 #include <QSplitter>
 #include <QString>
 #include <QStyledItemDelegate>
 
 #include <initializer_list>
 
-class QAction;
-class QLabel;
-class QToolButton;
-class QWidget;
-
 namespace episcope {
+
+/// Icon of resources/icons by name ("open", "play", …) in the text color of the current palette,
+/// so that it follows light and dark themes. Null for an unknown name.
+[[nodiscard]] QIcon themed_icon(const QString& name);
+
+/// The program's icon, for its windows.
+[[nodiscard]] QIcon program_icon();
+
+/// An icon painted once for each size. Qt's own engine leaves the background of a pixmap undefined;
+/// here it is transparent.
+class PaintedIconEngine : public QIconEngine {
+ public:
+  QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) final;
+
+ protected:
+  /// Key that distinguishes this picture from all other icons, including colors.
+  [[nodiscard]] virtual QString look(QIcon::Mode mode) const = 0;
+};
+
+/// Side of a swatch, logical pixels.
+inline constexpr int kSwatchSize = 16;
+
+/// A label's color as an icon, unchanged in selected rows.
+[[nodiscard]] QIcon swatch(const Rgb& rgb, const QPalette& palette);
 
 struct ToolButtonText {
   QString name;      ///< Object name.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "widgets/canvas/stroke_tool.h"
+#include "widgets/canvas/canvas_tool.h"
 
 #include <QString>
 #include <QWidget>

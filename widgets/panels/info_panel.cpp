@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/panels/info_panel.h"
 
-#include "widgets/controls/icon.h"
 #include "widgets/controls/labels.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QEvent>
 #include <QGridLayout>

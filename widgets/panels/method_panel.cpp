@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/panels/method_panel.h"
 
-#include "widgets/controls/icon.h"
 #include "widgets/controls/labels.h"
 #include "widgets/controls/parameter_form.h"
 #include "widgets/controls/text.h"

@@ -2,7 +2,6 @@
 #include "widgets/panels/metric_table.h"
 
 #include "engine/core/text_table.h"
-#include "widgets/controls/icon.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/render/region_statistics.h"
+#include "engine/render/quantity.h"
 #include "engine/render/shade.h"
 
 #include <QString>

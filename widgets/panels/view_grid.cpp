@@ -2,7 +2,6 @@
 #include "widgets/panels/view_grid.h"
 
 #include "engine/render/movie.h"
-#include "widgets/controls/icon.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 

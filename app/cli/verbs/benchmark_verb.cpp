@@ -175,8 +175,9 @@ void declare_what(Arguments& parser, BenchmarkRequest& request) {
   parser.flag("--search", request.has_search,
               "Also search for the best parameters, of each scene and of all scenes together");
   parser.list_option("--submission", request.submissions, "DIR...",
-                     "Folders with maps from other programs, named after the scenes: .pfm, .npy, "
-                     ".tif or .h5; without --methods they are judged alone");
+                     "Folders with maps from other programs, named after the scenes: result files, "
+                     ".h5, .mat, .npy, .npz, .pfm, .tif or .csv; without --methods they are judged "
+                     "alone");
   ParameterDescription views = run_schema().description("views");
   views.help = "Views to estimate for the tables; all if the method can";
   ParameterDescription device = run_schema().description("device");
@@ -270,7 +271,7 @@ BenchmarkOptions benchmark_options(const BenchmarkRequest& request) {
     method.parameters = with_defaults(std::move(method.parameters), request.profile.values());
   }
   options.submissions.assign(request.submissions.begin(), request.submissions.end());
-  options.map_reading = io::map_schema().parse(request.map.values());
+  options.map_reading = map_reading(request.map);
   options.folder = request.output;
   options.views = request.job.run_options().views;
   options.device = request.job.run_options().device;
@@ -304,13 +305,14 @@ void check_plan_file(const fs::path& file) {
   }
 }
 
-void print_plan(const BenchmarkPlan& plan, const BenchmarkRequest& request) {
+void print_plan(const BenchmarkPlan& plan, const BenchmarkRequest& request, const Job& job) {
   const std::string file = (fs::path(request.output) / BenchmarkPlan::kFileName).string();
   if (request.is_json) {
-    print_json(Json::object({{"plan", file},
-                             {"tasks", plan.tasks.size()},
-                             {"points", plan.point_count()},
-                             {"seconds", plan.seconds()}}));
+    print_answer(Json::object({{"plan", file},
+                               {"tasks", plan.tasks.size()},
+                               {"points", plan.point_count()},
+                               {"seconds", plan.seconds()}}),
+                 job.notes(), {file, *request.plan_file});
     return;
   }
   std::cout << fmt::format(
@@ -332,10 +334,11 @@ void submit_unfinished(const BenchmarkPlan& plan, const BenchmarkRequest& reques
   if (!tasks.empty()) jobs = submit_tasks(fs::absolute(request.output), tasks, options);
   job.finish();
   if (request.is_json) {
-    print_json(Json::object({{"tasks", plan.tasks.size()},
-                             {"submitted", tasks.size()},
-                             {"jobs", jobs.tasks},
-                             {"tables_job", jobs.tables}}));
+    print_answer(Json::object({{"tasks", plan.tasks.size()},
+                               {"submitted", tasks.size()},
+                               {"jobs", jobs.tasks},
+                               {"tables_job", jobs.tables}}),
+                 job.notes());
   } else if (tasks.empty()) {
     std::cout << fmt::format("nothing to submit: {} of {} tasks are finished, {} are running\n",
                              status.tasks.done, status.tasks.all, status.running.size());
@@ -395,7 +398,7 @@ void plan_benchmark(const VerbArguments& arguments, const BenchmarkRequest& requ
   if (request.slurm.is_wanted) return submit_unfinished(plan, request, job);
   io::write_atomically(*request.plan_file, plan_to_json(plan, options));
   job.finish();
-  print_plan(plan, request);
+  print_plan(plan, request, job);
 }
 
 BenchmarkReport PlannedBenchmark::collect(Job& job) const {
@@ -444,8 +447,10 @@ void run_point(const PlannedBenchmark& planned, const BenchmarkRequest& request,
                             report.failures.front()));
   }
   if (request.is_json) {
-    print_json(Json::object(
-        {{"task", *request.point}, {"points", report.points}, {"computed", report.computed}}));
+    print_answer(
+        Json::object(
+            {{"task", *request.point}, {"points", report.points}, {"computed", report.computed}}),
+        job.notes());
     return;
   }
   std::cout << fmt::format("task {}: {} runs, {} taken from before\n", *request.point,
@@ -462,12 +467,13 @@ void print_status(const PlannedBenchmark& planned, const BenchmarkRequest& reque
                          {"missing", count.missing()}});
   };
   if (request.is_json) {
-    print_json(Json::object({{"tasks", count_json(status.tasks)},
-                             {"points", count_json(status.points)},
-                             {"unfinished", status.unfinished},
-                             {"running", status.running},
-                             {"failures", status.failures},
-                             {"seconds_left", status.seconds_left}}));
+    print_answer(Json::object({{"tasks", count_json(status.tasks)},
+                               {"points", count_json(status.points)},
+                               {"unfinished", status.unfinished},
+                               {"running", status.running},
+                               {"failures", status.failures},
+                               {"seconds_left", status.seconds_left}}),
+                 job.notes());
     return;
   }
   for (const auto& [name, count] :
@@ -493,10 +499,20 @@ void require_success(const BenchmarkReport& report, const std::string& folder) {
   throw Error(first + more + "; the tables of the others are in " + folder);
 }
 
-void print_answer(const BenchmarkRequest& request, const BenchmarkReport& report) {
+/// What a benchmark writes into its folder beside pictures and maps (write_report).
+std::vector<std::string> written_tables(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const char* name :
+       {"index.html", "results.csv", "results.json", "tables.csv", "tables.tex"}) {
+    files.push_back((fs::path(folder) / name).string());
+  }
+  return files;
+}
+
+void print_report(const BenchmarkRequest& request, const BenchmarkReport& report, const Job& job) {
   if (request.is_json) {
-    std::cout << report_to_json(report);
-    return;
+    return print_answer(Json::parse(report_to_json(report)), job.notes(),
+                        written_tables(request.output));
   }
   for (const TitledTable& titled : report_tables(report)) {
     std::cout << titled.title << '\n';
@@ -546,7 +562,7 @@ void answer(const BenchmarkRequest& request, const BenchmarkReport& report, Job&
   note_submissions(report, job);
   job.finish();
   require_success(report, request.output);
-  print_answer(request, report);
+  print_report(request, report, job);
 }
 
 }  // namespace

@@ -100,7 +100,9 @@ void run_calibrate(const VerbArguments& arguments, std::stop_token stop) {
       {request.photographs.begin(), request.photographs.end()}, request.pattern, job.progress());
   capture::write_camera(request.output, calibration.camera);
   job.finish();
-  if (request.is_json) return print_json(answer(calibration, request.output));
+  if (request.is_json) {
+    return print_answer(answer(calibration, request.output), job.notes(), {request.output});
+  }
   print(calibration, request.output);
 }
 

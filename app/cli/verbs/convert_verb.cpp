@@ -3,6 +3,7 @@
 #include "app/cli/input.h"
 #include "app/cli/job.h"
 #include "app/cli/output.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/command_line.h"
 #include "app/session/result_files.h"
@@ -11,7 +12,11 @@
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/write.h"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 
 namespace episcope::cli {
 namespace {
@@ -20,15 +25,23 @@ struct ConvertRequest {
   std::string input;
   std::string output;
   std::string truth;
-  std::string form;  ///< Id of a writer; empty = told by the output.
+  std::string form;  ///< Id of a writer, or kMap; empty = told by the output.
+  std::optional<ViewSelection> views;
   Overwrite overwrite = Overwrite::No;
+  bool is_json = false;
+  bool is_piped = false;  ///< To standard output.
+  io::MapValues values = io::MapValues::Disparity;
+  bool has_disparity = false;  ///< Whether an archive gets disparity beside depth.
   ParameterOptions map;
   JobOptions job;
   ReadOptions read;
 };
 
-std::vector<std::string> writer_ids() {
-  std::vector<std::string> ids;
+/// Maps alone, where forms hold light fields as well.
+constexpr const char* kMap = "map";
+
+std::vector<std::string> form_names() {
+  std::vector<std::string> ids{kMap};
   for (const io::Writer& writer : io::writers()) ids.emplace_back(writer.id);
   return ids;
 }
@@ -38,8 +51,9 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
       "convert",
       {"Converts a light field or a result to another form, chosen by the suffix of OUT or by\n"
        "--to. Light fields: .h5 (archive form), .npy, .npz, .mat (LFToolbox), .png (lenslets,\n"
-       "ESLF) or a folder (benchmark form). Disparity of the center view: .pfm, .tiff, .ply,\n"
-       "and .npy for a RESULT; an INPUT gives its truth. Views, truth, labels, masks and\n"
+       "ESLF) or a folder (benchmark form). Disparity of the center view: .pfm, .tiff, .csv,\n"
+       ".ply, .npy for a RESULT, and .npz and .mat with --to map; an INPUT gives its truth. All\n"
+       "views of it with --views all: .npy, .npz, .mat. Views, truth, labels, masks and\n"
        "camera are kept where the form can hold them; notes name what it cannot hold. Labels\n"
        "of the archive form are in OUT_labels.h5, or in labels.h5 beside lf.h5.\n"
        "A RESULT takes the place of the truth of its light field; .h5 says so. Light fields\n"
@@ -47,14 +61,25 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
        "episcope-cli convert demo demo_folder/\n"
        "  episcope-cli convert demo views/ --to grid\n"
        "  episcope-cli convert demo.h5 demo.ply"});
-  parser.positional("INPUT", request.input, "A light field or a result");
-  parser.positional("OUT", request.output, "File or folder to write");
-  parser.option("--to", request.form, one_of(writer_ids()),
-                "Form of the light field; by default chosen by the suffix of OUT");
+  parser.positional("INPUT", request.input,
+                    "A light field or a result; - is a map on standard input");
+  parser.positional("OUT", request.output,
+                    "File or folder to write; - is standard output as .npy, pfm:- as .pfm");
+  parser.option("--to", request.form, one_of(form_names()),
+                "Form of the light field, or map for its disparity alone; by default chosen by the "
+                "suffix of OUT");
+  parser.option("--views", request.views, choice_of<ViewSelection>(),
+                "Views of a map: all that there are, or center (default center)");
   parser.option("--truth", request.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one named in its file");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace an existing light field, or a map with other values");
+  parser.flag("--json", request.is_json, "Print one JSON object instead of a line for each file");
+  parser.option("--values", request.values, choice_of<io::MapValues>(),
+                "What a map holds: disparity, or depth by the camera of the RESULT or of its light "
+                "field");
+  parser.flag("--gt-disparity", request.has_disparity, true,
+              "Write GT_DISPARITY beside GT_DEPTH of the archive form");
   declare_map_options(parser, request.map);
   return parse_reading(parser, arguments, request.job, request.read);
 }
@@ -67,6 +92,14 @@ struct Target {
   [[nodiscard]] bool needs_scene() const { return writer || map == MapForm::PointCloud; }
 };
 
+Target map_target(const ConvertRequest& request) {
+  const auto form = map_form_of(request.output);
+  if (form && form != MapForm::Result) return {nullptr, *form};
+  throw UsageError(
+      "--to map writes .pfm, .tiff, .csv, .npy, .npz, .mat or .ply, but the output is " +
+      request.output + "; name it so");
+}
+
 Target named_target(const ConvertRequest& request) {
   const io::Writer& writer = *io::writer_named(request.form);
   if (writer.writes_folder() || writer.has_suffix_of(request.output)) return {&writer};
@@ -75,6 +108,7 @@ Target named_target(const ConvertRequest& request) {
 }
 
 Target target_of(const ConvertRequest& request) {
+  if (request.form == kMap) return map_target(request);
   if (!request.form.empty()) return named_target(request);
   const std::string& output = request.output;
   const std::string suffix = suffix_of(output);
@@ -87,7 +121,7 @@ Target target_of(const ConvertRequest& request) {
   if (map == MapForm::Npy && is_result) return {nullptr, *map};
   if (const io::Writer* writer = io::writer_of(output)) return {writer};
   if (map) return {nullptr, *map};
-  std::vector<std::string> known{".pfm", ".ply", ".tiff", "a folder"};
+  std::vector<std::string> known{".pfm", ".ply", ".tiff", ".csv", "a folder"};
   for (const io::Writer& writer : io::writers()) {
     if (!writer.writes_folder()) known.emplace_back(writer.suffixes.front());
   }
@@ -108,7 +142,7 @@ struct ConvertSubject {
 ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
                             const Progress& progress) {
   ConvertSubject subject;
-  const io::MapReading reading = io::map_schema().parse(request.map.values());
+  const io::MapReading reading = map_reading(request.map);
   if (request.truth.empty() && !names_result(request.input)) {
     require_no_map_options(request.map, request.input);
     subject.scene = load_input(request.input, request.read, progress);
@@ -119,7 +153,9 @@ ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
     const std::string source = existing_source(subject.estimate->source, request.input);
     protect_input(request.output, source);
     subject.source = source;
-    if (target.needs_scene() && !source.empty()) {
+    const bool needs_camera =
+        request.values == io::MapValues::Depth && !subject.estimate->camera.is_known();
+    if ((target.needs_scene() || needs_camera) && !source.empty()) {
       subject.scene = load_input_of(reading_of(request.input), source, request.read, progress);
     }
   } else {
@@ -162,7 +198,9 @@ Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
 
 void write_map(const ConvertSubject& subject, const ConvertRequest& request, MapForm form) {
   const DisparityView map = map_of(subject, request.input);
+  const bool has_all = request.views == ViewSelection::All;
   write_output(request.output, request.overwrite, [&](const std::filesystem::path& path) {
+    if (has_all) return save_maps(path, subject.field());
     if (form != MapForm::PointCloud) return save_map(path, map);
     const LightField& light_field = *subject.scene->light_field;
     save_point_cloud(path, light_field, light_field.center(), map);
@@ -184,8 +222,33 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
   const std::filesystem::path labels =
       is_archive ? io::labels_place(request.output, scene, io::LabelFile::NamedAfter)
                  : std::filesystem::path();
-  target.writer->write(request.output, scene, progress);
+  if (request.has_disparity) {
+    io::write_archive(request.output, scene, progress, {io::LabelFile::NamedAfter, true});
+  } else {
+    target.writer->write(request.output, scene, progress);
+  }
   return labels;
+}
+
+/// Puts depth in the place of disparity, NaN where it is not known. That of a result follows from
+/// the camera that its file has.
+void turn_into_depth(ConvertSubject& subject, const std::string& name) {
+  if (subject.field().empty()) return;
+  CameraGrid camera = subject.scene ? subject.scene->light_field->info().camera : CameraGrid{};
+  if (!camera.is_known() && subject.estimate) camera = subject.estimate->camera;
+  if (!camera.is_known()) {
+    throw InvalidInput(name +
+                       ": depth does not follow from disparity, since the camera is not known; "
+                       "name a light field that has one with --truth INPUT");
+  }
+  if (!subject.estimate) {
+    const DisparityField& truth = subject.field();
+    subject.estimate.emplace().field = {truth.disparity.clone(), truth.valid.clone()};
+  }
+  ViewStack<float>& values = subject.estimate->field.disparity;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values.data()[i] = static_cast<float>(camera.depth_from_disparity(values.data()[i]));
+  }
 }
 
 /// Maps in image formats forget what a result file remembers.
@@ -198,6 +261,25 @@ void note_forgotten_options(const ConvertSubject& subject, const ConvertRequest&
 }
 
 void check_output(const ConvertRequest& request, const Target& target) {
+  if (request.views && target.writer) {
+    throw UsageError(
+        "convert: --views has no effect on a light field, which keeps all; leave it out, "
+        "or add --to map");
+  }
+  if (request.views == ViewSelection::All && !holds_all_views(target.map)) {
+    throw UsageError(request.output +
+                     " holds the map of one view; leave out --views, or name it OUT.npy");
+  }
+  const bool is_map = !target.writer && target.map != MapForm::PointCloud;
+  if (request.values == io::MapValues::Depth && !is_map) {
+    throw UsageError("--values depth is for a map (.pfm, .tiff, .npy), but the output is " +
+                     request.output + "; leave it out, or name a map");
+  }
+  const bool is_archive = target.writer && std::string(target.writer->id) == "archive";
+  if (request.has_disparity && !is_archive) {
+    throw UsageError("--gt-disparity is for the archive form, but the output is " + request.output +
+                     "; name it OUT.h5, or leave it out");
+  }
   const bool is_folder = target.writer && target.writer->writes_folder();
   if (!is_folder) check_output_file(request.output);
   protect_input(request.output, request.input);
@@ -205,7 +287,8 @@ void check_output(const ConvertRequest& request, const Target& target) {
   if (target.writer && !is_folder) check_light_field_output(request.output, request.overwrite);
 }
 
-void convert_one(const ConvertRequest& request, Job& job, const Progress& progress) {
+/// Returns what was converted, for JSON.
+[[nodiscard]] Json convert_one(const ConvertRequest& request, Job& job, const Progress& progress) {
   const Target target = target_of(request);
   check_output(request, target);
   ConvertSubject subject = load_subject(request, target, progress.part(0, 0.5));
@@ -213,11 +296,18 @@ void convert_one(const ConvertRequest& request, Job& job, const Progress& progre
     for (const auto& warning : subject.scene->convention.warnings) job.note(warning);
   }
   note_forgotten_options(subject, request, target, job);
+  if (request.values == io::MapValues::Depth) turn_into_depth(subject, request.input);
   progress.check();
   const std::filesystem::path labels = write(subject, request, target, job, progress.part(0.5, 1));
   job.finish();
-  std::cout << request.output << ": written\n";
-  print_labels_written(labels, request.output);
+  if (!request.is_json && !request.is_piped) {
+    std::cout << request.output << ": written\n";
+    print_labels_written(labels, request.output);
+  }
+  return Json::object({{"input", request.input},
+                       {"output", request.output},
+                       {"form", target.writer ? target.writer->id : kMap},
+                       {"written", files_written(request.output, labels)}});
 }
 
 /// Where a light field of a collection goes: a folder, or a file; files of the archive have a
@@ -242,6 +332,8 @@ void convert_collection(ConvertRequest request, Job& job) {
   const std::vector<SceneInput> scenes =
       scene_inputs({request.input}, request.read, Frames::One, job.progress().part(0, 0));
   Failures failures;
+  Json results = Json::array();
+  std::vector<std::string> written;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const double share = 1 / static_cast<double>(scenes.size());
     const double begin = static_cast<double>(i) * share;
@@ -249,16 +341,22 @@ void convert_collection(ConvertRequest request, Job& job) {
     one.input = scenes[i].input;
     try {
       one.output = place_in(request, scenes[i].name);
-      convert_one(one, job, job.progress().part(begin, begin + share).titled(scenes[i].name));
+      results.push_back(
+          convert_one(one, job, job.progress().part(begin, begin + share).titled(scenes[i].name)));
+      std::ranges::copy(results.back()["written"], std::back_inserter(written));
     } catch (const std::filesystem::filesystem_error& error) {
       throw IoError(request.output, "this folder cannot be made (" + error.code().message() +
                                         "); choose another one");
     } catch (const Error& error) {
       failures.add(error.what());
       job.note(error.what());
+      results.push_back(Json::object({{"input", one.input}, {"error", error.what()}}));
     }
   }
   job.finish();
+  if (request.is_json) {
+    print_answer(Json::object({{"results", std::move(results)}}), job.notes(), written);
+  }
   failures.require_none(scenes.size());
 }
 
@@ -266,8 +364,8 @@ void convert_collection(ConvertRequest request, Job& job) {
 bool is_many(const ConvertRequest& request, const Progress& progress) {
   const bool may_be_folder = suffix_of(request.output).empty() || request.output.ends_with('/') ||
                              std::filesystem::is_directory(request.output);
-  return may_be_folder && request.truth.empty() && !names_result(request.input) &&
-         is_collection(request.input, request.read, progress);
+  return may_be_folder && request.form != kMap && request.truth.empty() &&
+         !names_result(request.input) && is_collection(request.input, request.read, progress);
 }
 
 }  // namespace
@@ -275,9 +373,15 @@ bool is_many(const ConvertRequest& request, const Progress& progress) {
 void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   ConvertRequest request;
   if (!parse(arguments, request)) return;
+  const InputStream from(request.input, stop);
+  const OutputStream to(request.output, ".npy");
+  to.require_alone(request.is_json);
+  request.is_piped = to.is_meant();
   Job job(std::move(stop), request.job);
   if (is_many(request, job.progress())) return convert_collection(request, job);
-  convert_one(request, job, job.progress());
+  Json answer = convert_one(request, job, job.progress());
+  if (to.is_meant()) return to.send();
+  if (request.is_json) print_answer(std::move(answer), job.notes());
 }
 
 }  // namespace episcope::cli

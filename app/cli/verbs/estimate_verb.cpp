@@ -4,6 +4,7 @@
 #include "app/cli/job.h"
 #include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/result_files.h"
 #include "app/session/run_estimator.h"
@@ -14,6 +15,7 @@
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/external_result.h"
+#include "engine/io/models/result_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -36,6 +38,7 @@ struct EstimateArguments {
   bool is_submission = false;
   Overwrite overwrite = Overwrite::No;
   bool is_json = false;
+  io::Hdf5Storage floats = io::Hdf5Storage::Plain;  ///< Of a result file.
   std::size_t memory = 0;  ///< 0: two thirds of what is free.
   JobOptions job;
   ReadOptions read;
@@ -65,7 +68,8 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
       "estimate",
       {"Estimates disparity and writes a result file. METHOD is an id listed by\n"
        "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its parameters.\n"
-       "OUT.npy, OUT.pfm and OUT.tiff hold the map of one view. Several light fields, or those in\n"
+       "OUT.npy, OUT.npz, OUT.mat, OUT.pfm, OUT.tiff and OUT.csv hold the map of the center view,\n"
+       "the first three of all with --views all. Several light fields, or those in\n"
        "a folder, get a result file each in the folder DIR, named after light field and method\n"
        "(cotton_epi_l.h5); one that fails does not stop the others. A result of another method,\n"
        "other parameters or another light field is replaced only with --overwrite.",
@@ -74,13 +78,17 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
        "  episcope-cli estimate plane_pm benchmark2016 -o ours --submission"});
   parser.positional("METHOD", request.method, "Id of the estimator, in any case");
   parser.positionals("INPUT", request.inputs, "The light field, or several");
-  parser.required_option("-o,--output", request.output, text_value("OUT.h5|DIR"),
-                         "Result file to write, or a map: .npy, .pfm, .tiff; for several light "
-                         "fields, a folder");
+  parser.required_option(
+      "-o,--output", request.output, text_value("OUT.h5|DIR"),
+      "Result file to write, or a map: .npy, .npz, .mat, .pfm, .tiff, .csv; - is "
+      "standard output as .npy, pfm:- as .pfm; for several light fields, a folder");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace a result of another method, other parameters or another light field");
   parser.flag("--frames", request.frames, Frames::All,
               "Estimate all frames of a sequence, one result file each");
+  parser.flag("--compress", request.floats, io::Hdf5Storage::Deflated,
+              "Compress disparity and confidence of a result file: a third less, written at about "
+              "25 MB a second; masks always are");
   parser.flag("--submission", request.is_submission,
               "Write a submission to the 2016 benchmark: DIR/disp_maps, DIR/runtimes");
   const Schema<RunOptions> run = run_schema();
@@ -98,7 +106,9 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
     parser.heading("Parameters of " + estimator->info.id);
     request.parameters.declare(parser, estimator->parameters);
   }
-  return parser.parse(arguments);
+  if (!parser.parse(arguments)) return false;
+  check_read_options(request.read);
+  return true;
 }
 
 bool parse(const VerbArguments& arguments, EstimateArguments& request) {
@@ -115,23 +125,25 @@ bool parse(const VerbArguments& arguments, EstimateArguments& request) {
   return parse_as(named, arguments, request);
 }
 
-/// The form of an output that is a map of one view; empty for a result file and for a folder.
+/// The form of an output that holds maps alone; empty for a result file and for a folder.
 std::optional<MapForm> map_form(const std::string& output) {
   const auto form = map_form_of(output);
-  const bool is_map = form == MapForm::Npy || form == MapForm::Pfm || form == MapForm::Tiff;
+  const bool is_map = form && form != MapForm::Result && form != MapForm::PointCloud;
   return is_map ? form : std::nullopt;
 }
 
 ViewSelection selected_views(const EstimateArguments& request) {
   std::optional<ViewSelection> wanted;
   if (request.job.run.is_given("views")) wanted = request.job.run_options().views;
-  const bool is_map = map_form(request.output).has_value();
-  if (!request.is_submission && !is_map) return views_to_estimate(*request.estimator, wanted);
+  const auto form = map_form(request.output);
+  if (!request.is_submission && !form) return views_to_estimate(*request.estimator, wanted);
   if (wanted.value_or(ViewSelection::Center) == ViewSelection::Center) return ViewSelection::Center;
-  throw UsageError(request.is_submission
-                       ? "a submission holds center views; leave out --views"
-                       : request.output +
-                             " holds the map of one view; leave out --views, or name it OUT.h5");
+  if (request.is_submission) {
+    throw UsageError("a submission holds center views; leave out --views");
+  }
+  if (holds_all_views(*form)) return views_to_estimate(*request.estimator, wanted);
+  throw UsageError(request.output +
+                   " holds the map of one view; leave out --views, or name it OUT.h5 or OUT.npy");
 }
 
 /// For JSON "all", "center" or row and column of the only view; in words for people.
@@ -238,6 +250,9 @@ class Runner {
     const bool is_file = !request_.is_submission && !map_form(task.output);
     const bool in_blocks =
         is_file && should_run_in_blocks(*scene.light_field, *request_.estimator, options_);
+    if (request_.floats == io::Hdf5Storage::Deflated && in_blocks) {
+      note(task, "a result that is written block by block is not compressed");
+    }
     if (request_.memory > 0 && is_file && !in_blocks) {
       note(task, run.method +
                      " runs at once: what does not fit is put on disk, and an interrupted "
@@ -293,9 +308,10 @@ class Runner {
     if (request_.is_submission) {
       submit(task, *estimate, center);
     } else if (map_form(task.output)) {
-      save_map(task.output, estimate->field.view(estimate->field.disparity.first()));
+      save_maps(task.output, estimate->field);
     } else {
-      save_result(task.output, *estimate, task.input, progress.part(0.85, 1));
+      io::write_result(task.output, *estimate, progress.part(0.85, 1),
+                       {source_text(task.input, task.output), request_.floats});
     }
     return {task.output, estimate->provenance(), geometry_of(estimate->field.disparity), center,
             request_.is_submission ? io::submitted_runtime_file(request_.output, task.name).string()
@@ -325,13 +341,14 @@ class Runner {
   std::vector<io::SubmittedScene> submitted_;
 };
 
-void estimate_one(const EstimateArguments& request, Runner& runner) {
+void estimate_one(const EstimateArguments& request, Runner& runner, const OutputStream& to) {
   const Task task{request.inputs.front(), request.output};
   runner.check(task);
   const Answer answer = runner.run(task, runner.job().progress());
   runner.job().finish();
+  if (to.is_meant()) return to.send();
   if (request.is_json) {
-    print_json(answer_json(answer));
+    print_answer(answer_json(answer), runner.job().notes());
   } else {
     print_line(answer);
   }
@@ -387,7 +404,15 @@ void estimate_many(const EstimateArguments& request, const std::vector<SceneInpu
   }
   runner.job().finish();
   if (request.is_submission) check_submitted(request, runner, failures);
-  if (request.is_json) print_json(Json::object({{"results", std::move(results)}}));
+  if (request.is_json) {
+    std::vector<std::string> written;
+    for (const Json& result : results) {
+      if (result.contains("written")) {
+        std::ranges::copy(result["written"], std::back_inserter(written));
+      }
+    }
+    print_answer(Json::object({{"results", std::move(results)}}), runner.job().notes(), written);
+  }
   failures.require_none(scenes.size());
 }
 
@@ -404,13 +429,22 @@ bool wants_many(const EstimateArguments& request, const Progress& progress) {
                    "; name a folder with -o DIR");
 }
 
+void check_compression(const EstimateArguments& request) {
+  const bool is_asked_for = request.floats == io::Hdf5Storage::Deflated;
+  if (!is_asked_for || (!request.is_submission && !map_form(request.output))) return;
+  throw UsageError("--compress is for a result file; leave it out, or name the output OUT.h5");
+}
+
 }  // namespace
 
 void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   EstimateArguments request;
   if (!parse(arguments, request)) return;
+  const OutputStream to(request.output, ".npy");
+  to.require_alone(request.is_json);
+  check_compression(request);
   Runner runner(request, std::move(stop));
-  if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner);
+  if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner, to);
   const std::vector<SceneInput> scenes = scene_inputs_and_failed(
       request.inputs, request.read, request.frames, runner.job().progress().part(0, 0));
   estimate_many(request, scenes, runner);

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
+#include "app/cli/judged_files.h"
 #include "app/cli/output.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/known_files.h"
 #include "app/session/picture.h"
 #include "app/session/result_files.h"
+#include "app/session/user_folders.h"
 #include "engine/core/text.h"
 #include "engine/core/text_table.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/models/external_result.h"
 #include "engine/io/models/result_file.h"
 
 #include <nlohmann/json.hpp>
@@ -28,7 +31,10 @@ struct EvaluateRequest {
   std::string truth;
   Protocol protocol = Protocol::Vmv2013;
   InvalidEstimates invalid = InvalidEstimates::Bad;
+  std::optional<ViewIndex> view;
+  std::vector<std::string> metrics;  ///< Empty = all.
   std::string error_map;
+  Overwrite overwrite = Overwrite::No;
   Format format = Format::Text;
   ParameterOptions map;
   JobOptions job;
@@ -38,6 +44,7 @@ struct EvaluateRequest {
 /// One judged result.
 struct Row {
   std::string file;
+  std::string truth;
   std::string method;
   double seconds = 0;
   bool has_all_views = false;
@@ -54,17 +61,31 @@ bool has_runtime_classes(const EvaluateRequest& request) {
 }
 
 bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
-  Arguments parser("evaluate", {"Compares results with the ground truth of a light field.",
-                                "episcope-cli evaluate demo.h5 --truth demo --protocol "
-                                "benchmark2016 --error-map error.png"});
+  Arguments parser(
+      "evaluate",
+      {"Compares results with the ground truth of their light fields: of the one that --truth\n"
+       "names, of those in the folder that it names (by what a result says itself, else by name:\n"
+       "cotton_epi_l.h5 or cotton/result.npy belongs to cotton), or without it of the one that a\n"
+       "result file was estimated from, if its samples are still the same.",
+       "episcope-cli evaluate demo.h5\n"
+       "  episcope-cli evaluate demo.h5 --truth demo --protocol benchmark2016 --error-map "
+       "error.png\n"
+       "  episcope-cli evaluate results/ --truth scenes/ --metrics mse_100,density --csv"});
   parser.positionals(
       "RESULT", request.files,
-      "Result files, HDF5 or .mat (v7.3) files with one map, .npy, PFM, TIFF, submission "
-      "folders");
-  parser.required_option("--truth", request.truth, text_value("INPUT"),
-                         "The light field with its ground truth");
+      std::string("Result files, maps of other programs (") + io::kMapForms +
+          "), or folders of them; also submissions of 2016; - is a map on standard input");
+  parser.option(
+      "--truth", request.truth, text_value("INPUT"),
+      "The light field with its ground truth, or a folder of such; by default the one that "
+      "a result names");
+  parser.option("--view", request.view, view_value(),
+                "Camera row and column of the view that is judged; by default the center, or the "
+                "first with truth");
+  parser.option("--metrics", request.metrics, words_value("KEY,..."),
+                "Metrics to tell, in this order, such as mse_100,density; by default all");
   parser.option("--protocol", request.protocol, choice_of<Protocol>(),
-                "Metrics of the 2013 paper or of the 2016 benchmark");
+                "Metrics of the 2013 paper or of the 2016 benchmark (default vmv2013)");
   parser.option("--invalid", request.invalid, choice_of<InvalidEstimates>(),
                 "Missing values (NaN): bad counts them as the farthest true disparity and as bad "
                 "pixels; compatible as good pixels that means leave out, as the 2016 tool does "
@@ -75,25 +96,28 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   parser.exclude_each_other({"--json", "--csv", "--latex"});
   parser.option("--error-map", request.error_map, text_value("OUT.png"),
                 "Write a picture of truth − estimate; OUT-<result>.png of several results");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace another error map");
   declare_map_options(parser, request.map);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   if (!request.error_map.empty() && suffix_of(request.error_map) != ".png") {
     throw UsageError("evaluate writes error maps as PNG, but the output is " + request.error_map +
                      "; name it OUT.png");
   }
+  parser.check_uses({{{"--overwrite"}, !request.error_map.empty(), "without --error-map"}});
   return true;
 }
 
-/// OUT.png for one result; OUT-<result>.png for several, numbered where names repeat. Empty if no
-/// error map is wanted.
-std::vector<std::filesystem::path> error_map_paths(const EvaluateRequest& request) {
+/// OUT.png for one result; OUT-<result>.png for several, numbered where names repeat. Empty paths
+/// if no error map is wanted.
+std::vector<std::filesystem::path> error_map_paths(const EvaluateRequest& request,
+                                                   const std::vector<JudgedFile>& files) {
   const std::filesystem::path path = request.error_map;
-  if (path.empty()) return {};
-  if (request.files.size() == 1) return {path};
+  if (path.empty()) return std::vector<std::filesystem::path>(files.size());
+  if (files.size() == 1) return {path};
   std::vector<std::filesystem::path> paths;
   std::set<std::string> taken;
-  for (const auto& file : request.files) {
-    const std::filesystem::path result = std::filesystem::path(file).lexically_normal();
+  for (const JudgedFile& file : files) {
+    const std::filesystem::path result = std::filesystem::path(file.result).lexically_normal();
     const std::string stem =
         (result.has_filename() ? result.stem() : result.parent_path().stem()).string();
     const std::string name =
@@ -128,7 +152,7 @@ Json better_reading_json(const io::BetterReading& found) {
 Json results_json(const EvaluateRequest& request, const std::vector<Row>& rows) {
   Json json;
   json["protocol"] = protocol_name(request.protocol);
-  json["truth"] = request.truth;
+  json["truth"] = request.truth.empty() ? rows.front().truth : request.truth;
   json["view"] = view_json(rows.front().view);
   json["missing_values"] = missing_rule(request.invalid);
   json["results"] = Json::array();
@@ -136,6 +160,8 @@ Json results_json(const EvaluateRequest& request, const std::vector<Row>& rows) 
     Json result;
     result["file"] = row.file;
     result["method"] = row.method;
+    result["truth"] = row.truth;
+    result["view"] = view_json(row.view);
     for (const auto& [key, value] : row.metrics) result[key] = value;
     if (row.seconds > 0) {
       result["seconds"] = row.seconds;
@@ -148,6 +174,11 @@ Json results_json(const EvaluateRequest& request, const std::vector<Row>& rows) 
     json["results"].push_back(result);
   }
   return json;
+}
+
+/// Whether rows are of different light fields.
+bool has_several_truths(const std::vector<Row>& rows) {
+  return std::ranges::any_of(rows, [&](const Row& row) { return row.truth != rows.front().truth; });
 }
 
 /// Keys of all rows, in the order of their first appearance.
@@ -165,13 +196,16 @@ TextTable results_table(const EvaluateRequest& request, const std::vector<Row>& 
   constexpr int exact_digits = 6;
   const int digits = request.format == Format::Csv ? exact_digits : 3;
   const auto keys = metric_keys(rows);
+  const bool has_truths = has_several_truths(rows);
   TextTable table{{"file", "method"}, {}};
+  if (has_truths) table.header.emplace_back("truth");
   table.header.insert(table.header.end(), keys.begin(), keys.end());
   table.header.emplace_back("seconds");
   const bool has_classes = has_runtime_classes(request);
   if (has_classes) table.header.insert(table.header.end(), {"runtime_class", "all_views"});
   for (const Row& row : rows) {
     std::vector<std::string> cells{row.file, row.method};
+    if (has_truths) cells.push_back(row.truth);
     for (const auto& key : keys) {
       const auto value = find_metric(row.metrics, key);
       cells.push_back(value ? fixed_text(*value, digits) : "");
@@ -186,15 +220,22 @@ TextTable results_table(const EvaluateRequest& request, const std::vector<Row>& 
   return table;
 }
 
-void print_answer(const EvaluateRequest& request, const std::vector<Row>& rows) {
-  if (request.format == Format::Json) return print_json(results_json(request, rows));
+void print_rows(const EvaluateRequest& request, const std::vector<Row>& rows, const Job& job) {
+  if (request.format == Format::Json) {
+    std::vector<std::string> written;
+    for (const Row& row : rows) {
+      if (!row.error_map.empty()) written.push_back(row.error_map);
+    }
+    return print_answer(results_json(request, rows), job.notes(), written);
+  }
   const TextTable table = results_table(request, rows);
   if (request.format == Format::Csv) {
     std::cout << table_to_csv(table);
   } else if (request.format == Format::Latex) {
     std::cout << table_to_latex(table);
   } else {
-    std::cout << protocol_name(request.protocol) << " against " << request.truth << ", view "
+    std::cout << protocol_name(request.protocol) << " against "
+              << (has_several_truths(rows) ? "the truth of each" : rows.front().truth) << ", view "
               << view_text(rows.front().view) << "\nmissing values count as "
               << missing_rule(request.invalid) << "\n\n"
               << table_to_narrow_text(table);
@@ -214,21 +255,22 @@ void tell_error_maps(const EvaluateRequest& request, const std::vector<Row>& row
   }
 }
 
-/// The scene that results are judged against: read again where a result was estimated from other
-/// views of it, at another focus plane.
+/// The scene that results are judged against: read again where a result is of another one, or was
+/// estimated from other views of it, at another focus plane.
 class TruthScene {
  public:
   TruthScene(const EvaluateRequest& request, const Progress& progress)
       : request_(request), progress_(progress) {}
 
   /// The scene as this result needs it. Throws as `options_for_result` and `load_input`.
-  [[nodiscard]] const Scene& for_result(const std::string& file) {
-    const io::OpenOptions options = options_for_result(file, io::read_reading(file), request_.truth,
-                                                       request_.read.options.values());
+  [[nodiscard]] const Scene& of(const JudgedFile& file) {
+    const io::OpenOptions options = options_for_result(file.result, io::read_reading(file.result),
+                                                       file.truth, request_.read.options.values());
     const ParameterSet given = io::given_options(options);
-    if (!scene_ || given != given_) {
+    if (!scene_ || file.truth != input_ || given != given_) {
       scene_.reset();
-      scene_ = load_input(request_.truth, options, true, progress_);
+      scene_ = load_input(file.truth, options, true, progress_);
+      input_ = file.truth;
       given_ = given;
     }
     return *scene_;
@@ -238,56 +280,122 @@ class TruthScene {
   const EvaluateRequest& request_;
   Progress progress_;
   std::optional<Scene> scene_;
+  std::string input_;
   ParameterSet given_;
 };
 
-/// A result, and where its error map goes; empty = nowhere.
-struct JudgedFile {
-  std::string path;
-  std::filesystem::path error_map;
-  io::MapReading reading;
-};
-
-/// Nothing without a path.
-void write_error_map(const std::filesystem::path& path, MapSource source) {
-  if (path.empty()) return;
-  source.quantity = render::Quantity::SignedError;
-  io::write_picture(path, map_picture(*make_map(source), shading_of(source.quantity, {})).view());
+/// Those that are asked for, in that order.
+Metrics chosen(const Metrics& all, const std::vector<std::string>& keys) {
+  if (keys.empty()) return all;
+  Metrics metrics;
+  for (const std::string& key : keys) {
+    if (const auto value = find_metric(all, key)) metrics.emplace_back(key, *value);
+  }
+  return metrics;
 }
 
-/// Judges one result and writes its error map, if a path is given for it.
-Row judge_file(const JudgedFile& result, const Scene& scene, EvaluationOptions options, Job& job) {
-  const std::string& file = result.path;
-  options.progress = job.progress();
-  job.progress().check();
-  job.progress().step("evaluating " + file);
-  const LightField& light_field = *scene.light_field;
-  auto estimate =
-      std::make_shared<const Estimate>(read_result_of(light_field, file, result.reading));
-  EvaluationPtr evaluation;
-  try {
-    evaluation = std::make_shared<const Evaluation>(judge(*estimate, scene, options));
-  } catch (const InvalidInput& error) {
-    throw IoError(file, error.what());
+/// Judges one result after the other.
+class Judge {
+ public:
+  Judge(const EvaluateRequest& request, Job& job)
+      : request_(request),
+        options_{request.protocol, request.invalid, {}},
+        reading_(map_reading(request.map)),
+        job_(job),
+        truth_(request, job.progress().part(0, 0.8)) {}
+
+  /// Judges a result and writes its error map, unless that path is empty. Throws InvalidInput,
+  /// IoError, Cancelled.
+  [[nodiscard]] Row judge_file(const JudgedFile& file, const std::filesystem::path& error_map) {
+    const Scene& scene = truth_.of(file);
+    const LightField& light_field = *scene.light_field;
+    job_.progress().check();
+    job_.progress().step("evaluating " + file.result);
+    const auto estimate =
+        std::make_shared<const Estimate>(read_result_of(light_field, file.result, reading_));
+    const ViewIndex view =
+        request_.view ? view_of(light_field, *request_.view) : judged_view(scene);
+    require_own_samples(file, *estimate, light_field);
+    const EvaluationPtr evaluation = evaluation_of(file, *estimate, scene, view);
+    if (!file.is_own) note_other_source(*estimate, light_field, job_);
+    Row row{.file = file.result,
+            .truth = file.truth,
+            .method = estimate->method,
+            .seconds = estimate->seconds,
+            .has_all_views = estimate->field.disparity.grid() == light_field.grid(),
+            .view = view,
+            .metrics = chosen(evaluation->metrics, request_.metrics),
+            .notes = evaluation->notes,
+            .better = find_better_reading(*estimate, scene),
+            .error_map = error_map.string()};
+    know_keys(evaluation->metrics);
+    if (!io::is_result_file(file.result)) {
+      row.notes.insert(row.notes.begin(), estimate->notes.begin(), estimate->notes.end());
+    }
+    if (row.better) row.notes.push_back(better_reading_text(*row.better));
+    for (const std::string& sentence : row.notes) job_.note(file.result + ": " + sentence);
+    write_error_map(error_map, {.view = view, .estimate = estimate, .evaluation = evaluation});
+    return row;
   }
-  note_other_source(*estimate, light_field, job);
-  std::vector<std::string> notes = evaluation->notes;
-  if (!io::is_result_file(file)) {
-    notes.insert(notes.begin(), estimate->notes.begin(), estimate->notes.end());
+
+  /// Throws UsageError for a key that none of the results has.
+  void require_known_keys() const {
+    for (const std::string& key : request_.metrics) {
+      if (std::ranges::find(keys_, key) == keys_.end()) throw unknown_name("metric", key, keys_);
+    }
   }
-  const auto better = find_better_reading(*estimate, scene);
-  if (better) notes.push_back(better_reading_text(*better));
-  for (const std::string& sentence : notes) job.note(file + ": " + sentence);
-  write_error_map(result.error_map,
-                  {.view = judged_view(scene), .estimate = estimate, .evaluation = evaluation});
-  return {file,
-          estimate->method,
-          estimate->seconds,
-          estimate->field.disparity.grid() == light_field.grid(),
-          judged_view(scene),
-          evaluation->metrics,
-          std::move(notes),
-          better};
+
+ private:
+  /// A result that names its light field itself is of that alone.
+  void require_own_samples(const JudgedFile& file, const Estimate& estimate,
+                           const LightField& light_field) {
+    if (!file.is_own) return;
+    if (estimate.source_hash == 0 || is_of_other_samples(estimate, light_field)) {
+      throw IoError(file.result, "its light field, " + file.truth +
+                                     ", does not have the samples that it was estimated from; name "
+                                     "the one to judge by with --truth INPUT");
+    }
+    job_.note(file.result + ": judged against " + file.truth +
+              ", which it was estimated from; the samples are the same");
+  }
+
+  [[nodiscard]] EvaluationPtr evaluation_of(const JudgedFile& file, const Estimate& estimate,
+                                            const Scene& scene, ViewIndex view) {
+    EvaluationOptions options = options_;
+    options.progress = job_.progress();
+    try {
+      return std::make_shared<const Evaluation>(judge(estimate, scene, options, view));
+    } catch (const InvalidInput& error) {
+      throw IoError(file.result, error.what());
+    }
+  }
+
+  void know_keys(const Metrics& metrics) {
+    for (const auto& [key, value] : metrics) {
+      if (std::ranges::find(keys_, key) == keys_.end()) keys_.push_back(key);
+    }
+  }
+
+  void write_error_map(const std::filesystem::path& path, MapSource source) const {
+    if (path.empty()) return;
+    source.quantity = render::Quantity::SignedError;
+    const auto picture = map_picture(*make_map(source), shading_of(source.quantity, {}));
+    write_output(path, request_.overwrite,
+                 [&](const std::filesystem::path& to) { io::write_picture(to, picture.view()); });
+  }
+
+  const EvaluateRequest& request_;
+  EvaluationOptions options_;
+  io::MapReading reading_;
+  Job& job_;
+  TruthScene truth_;
+  std::vector<std::string> keys_;  ///< Of all metrics so far.
+};
+
+void check_error_map(const std::filesystem::path& map, const JudgedFile& file) {
+  if (map.empty()) return;
+  check_output_file(map);
+  protect_input(map, file.truth);
 }
 
 }  // namespace
@@ -295,27 +403,25 @@ Row judge_file(const JudgedFile& result, const Scene& scene, EvaluationOptions o
 void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
   EvaluateRequest request;
   if (!parse(arguments, request)) return;
-  const EvaluationOptions options{request.protocol, request.invalid, {}};
-  const io::MapReading reading = io::map_schema().parse(request.map.values());
-  check_input(request.truth);
-  const auto maps = error_map_paths(request);
-  for (const auto& map : maps) {
-    check_output_file(map);
-    protect_input(map, request.truth);
-  }
+  std::string none;
+  const auto piped = std::ranges::find(request.files, "-");
+  const InputStream input(piped == request.files.end() ? none : *piped, stop);
+  Job job(std::move(stop), request.job);
+  const std::vector<JudgedFile> files =
+      judged_files(request.files, request.truth, request.read, job);
+  const auto maps = error_map_paths(request, files);
+  for (std::size_t i = 0; i < files.size(); ++i) check_error_map(maps[i], files[i]);
 
   std::vector<Row> rows;
-  Job job(std::move(stop), request.job);
-  TruthScene truth(request, job.progress().part(0, 0.8));
-  for (std::size_t i = 0; i < request.files.size(); ++i) {
-    const std::filesystem::path map = maps.empty() ? std::filesystem::path() : maps[i];
-    const Scene& scene = truth.for_result(request.files[i]);
-    rows.push_back(judge_file({request.files[i], map, reading}, scene, options, job));
-    rows.back().error_map = map.string();
-    job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / request.files.size());
+  Judge judge(request, job);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    rows.push_back(judge.judge_file(files[i], maps[i]));
+    rows.back().file = input.shown(rows.back().file);
+    job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / files.size());
   }
+  judge.require_known_keys();
   job.finish();
-  print_answer(request, rows);
+  print_rows(request, rows, job);
   tell_error_maps(request, rows, job);
 }
 

@@ -5,7 +5,7 @@
 #include "app/cli/verbs/verbs.h"
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/pose_file.h"
-#include "engine/capture/visible_depth.h"
+#include "engine/capture/view_surface.h"
 #include "engine/core/error.h"
 #include "engine/io/formats/write_scene.h"
 
@@ -76,7 +76,7 @@ LightFieldPtr with_step(const LightFieldPtr& field, double step) {
 }
 
 void print(const GroundTruthRequest& request, const Scene& scene,
-           const std::filesystem::path& labels) {
+           const std::filesystem::path& labels, const Job& job) {
   const GroundTruth& truth = *scene.truth;
   std::size_t valid = 0;
   std::size_t seen = 0;
@@ -94,10 +94,8 @@ void print(const GroundTruthRequest& request, const Scene& scene,
     json["valid_percent"] = valid_percent;
     json["mesh_percent"] = seen_percent;
     json["output"] = request.output;
-    json["written"] = labels.empty() || labels == request.output
-                          ? std::vector<std::string>{request.output}
-                          : std::vector<std::string>{request.output, labels.string()};
-    return print_json(json);
+    json["written"] = files_written(request.output, labels);
+    return print_answer(std::move(json), job.notes());
   }
   std::cout << fmt::format(
       "{}: depth of {} views from {} mesh{}; meshes cover {:.1f} % of the "
@@ -125,7 +123,7 @@ void run_ground_truth(const VerbArguments& arguments, std::stop_token stop) {
   const std::filesystem::path labels = io::labels_place(request.output, scene);
   io::write_archive(request.output, scene, job.progress().part(0.9, 1));
   job.finish();
-  print(request, scene, labels);
+  print(request, scene, labels, job);
 }
 
 }  // namespace episcope::cli

@@ -1,29 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
+#include "app/cli/file_info.h"
 #include "app/cli/input.h"
 #include "app/cli/output.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/command_line.h"
-#include "app/session/load_scene.h"
-#include "app/session/result_files.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/parameter.h"
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
-#include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
-#include "engine/io/models/result_file.h"
-#include "engine/io/models/segmentation_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
-#include <cstdint>
-#include <filesystem>
 #include <iostream>
-#include <limits>
 #include <string>
 
 namespace episcope::cli {
@@ -145,10 +137,6 @@ std::string ids_text(const std::vector<int>& ids) {
   return joined(ids, ", ", [](int id) { return std::to_string(id); });
 }
 
-std::string range_text(const Interval& range) {
-  return fmt::format("{:.4g} … {:.4g} px", range.min, range.max);
-}
-
 /// "(how it was checked)" behind what was found.
 std::string checked_text(const std::string& found, const std::string& check) {
   return check.empty() ? found : found + " (" + check + ")";
@@ -248,152 +236,6 @@ void print_scene(const Scene& scene) {
   for (const auto& warning : scene.convention.warnings) print_line("warning", warning);
 }
 
-/// When a file was written last, in seconds since 1970.
-std::int64_t written_at(const std::string& file) {
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(file, error);
-  if (error) return 0;
-  const auto since_1970 = std::chrono::file_clock::to_sys(time).time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::seconds>(since_1970).count();
-}
-
-/// What a file says of the run that made it.
-struct MadeBy {
-  ParameterSet parameters;
-  double seconds = 0;
-  std::string version;
-  std::string source;
-  Reading reading;
-};
-
-void add_made_by(Json& json, const MadeBy& made, const std::string& file) {
-  json["parameters"] = io::parameters_json(made.parameters);
-  if (made.seconds > 0) json["seconds"] = made.seconds;
-  if (!made.version.empty()) json["version"] = made.version;
-  if (!made.source.empty()) {
-    json["source"] = made.source;
-    json["source_exists"] = !existing_source(made.source, file).empty();
-  }
-  if (!made.reading.reader.empty()) {
-    json["reader"] = made.reading.reader;
-    json["reading"] = io::parameters_json(made.reading.options);
-  }
-  json["date"] = time_text(written_at(file));
-}
-
-void print_made_by(const MadeBy& made, const std::string& file) {
-  print_line("parameters", joined(made.parameters, ", ", [](const auto& each) {
-               return each.first + " " + to_text(each.second);
-             }));
-  if (made.seconds > 0) print_line("seconds", fmt::format("{:.4g}", made.seconds));
-  const bool is_there = !existing_source(made.source, file).empty();
-  const std::string gone = made.source.empty() || is_there ? "" : ", which is not there";
-  print_line("source", made.source + reading_options_text(made.reading.options) + gone);
-  print_line("version", made.version.empty() ? "" : "Episcope " + made.version);
-  print_line("date", time_text(written_at(file)));
-}
-
-std::string views_text(GridShape grid, ViewIndex first) {
-  if (grid.count() == 1) return "view " + view_text(first);
-  return fmt::format("{}×{} views", grid.v, grid.u);
-}
-
-/// Range of the valid values, and their share.
-struct MapSummary {
-  Interval range{};
-  double valid_percent = 0;
-};
-
-MapSummary summary_of(const DisparityField& field) {
-  MapSummary summary{
-      {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}};
-  std::size_t valid = 0;
-  const std::size_t size = field.disparity.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    if (!field.valid.empty() && field.valid.data()[i] == 0) continue;
-    const double value = field.disparity.data()[i];
-    summary.range = {std::min(summary.range.min, value), std::max(summary.range.max, value)};
-    ++valid;
-  }
-  if (valid == 0) summary.range = {};
-  summary.valid_percent = 100.0 * static_cast<double>(valid) / static_cast<double>(size);
-  return summary;
-}
-
-void describe_result(const std::string& file, bool is_json) {
-  const Estimate estimate = read_result_alone(file);
-  const auto& maps = estimate.field.disparity;
-  const MapSummary summary = summary_of(estimate.field);
-  const bool is_own = io::is_result_file(file);
-  const MadeBy made{estimate.parameters, estimate.seconds, estimate.version, estimate.source,
-                    estimate.reading};
-  if (is_json) {
-    Json json{{"input", file}, {"kind", "result"}};
-    if (is_own) json["method"] = estimate.method;
-    json["views"] = Json::object({{"v", maps.grid().v}, {"u", maps.grid().u}});
-    if (is_own) json["first_view"] = view_json(maps.first());
-    json["height"] = maps.height();
-    json["width"] = maps.width();
-    json["valid_percent"] = summary.valid_percent;
-    json["disparity"] = interval_json(summary.range);
-    if (!(estimate.range == Interval{})) json["range"] = interval_json(estimate.range);
-    json["confidence"] = !estimate.confidence.empty();
-    json["layers"] = estimate.layered.foreground.empty() ? 1 : 2;
-    add_made_by(json, made, file);
-    json["notes"] = estimate.notes;
-    return print_json(json);
-  }
-  print_line("result", is_own ? "of " + estimate.method : "a map of another program");
-  const std::string views = is_own ? views_text(maps.grid(), maps.first())
-                                   : fmt::format("{}×{} views", maps.grid().v, maps.grid().u);
-  print_line("shape", fmt::format("{} of {}×{} px{}{}", views, maps.width(), maps.height(),
-                                  estimate.confidence.empty() ? "" : ", with confidence",
-                                  estimate.layered.foreground.empty() ? "" : ", two layers"));
-  print_line("disparity", fmt::format("{}, {:.4g} % of the pixels", range_text(summary.range),
-                                      summary.valid_percent));
-  if (!(estimate.range == Interval{})) print_line("searched", range_text(estimate.range));
-  print_made_by(made, file);
-  for (const std::string& note : estimate.notes) print_line("note", note);
-}
-
-void describe_labels(const std::string& file, bool is_json) {
-  const io::SegmentationFile labels(file);
-  const io::Hdf5Input attributes(file);
-  const MadeBy made{io::parameters_from_json(attributes.text("/", "parameters").value_or("")),
-                    attributes.number("/", "seconds").value_or(0),
-                    attributes.text("/", "version").value_or(""), labels.source(),
-                    labels.reading()};
-  const Image<std::int32_t> first = labels.labels(labels.first());
-  if (is_json) {
-    Json json{{"input", file}, {"kind", "labels"}};
-    json["views"] = Json::object({{"v", labels.grid().v}, {"u", labels.grid().u}});
-    json["first_view"] = view_json(labels.first());
-    json["height"] = first.height();
-    json["width"] = first.width();
-    json["labels"] = Json::array();
-    for (const LabelInfo& info : labels.infos()) {
-      json["labels"].push_back(
-          Json::object({{"id", info.id}, {"name", info.name}, {"color", info.color}}));
-    }
-    json["probabilities"] = labels.has_probabilities();
-    add_made_by(json, made, file);
-    return print_json(json);
-  }
-  print_line("labels", joined(labels.infos(), ", ", [](const LabelInfo& info) {
-               return std::to_string(info.id) + " " + info.name;
-             }));
-  print_line("shape", fmt::format("{} of {}×{} px{}", views_text(labels.grid(), labels.first()),
-                                  first.width(), first.height(),
-                                  labels.has_probabilities() ? ", with probabilities" : ""));
-  print_made_by(made, file);
-}
-
-bool names_labels(const std::string& input) {
-  std::error_code ignored;
-  return builtin_scene_id(input).empty() && std::filesystem::is_regular_file(input, ignored) &&
-         io::is_segmentation_file(input);
-}
-
 }  // namespace
 
 void run_info(const VerbArguments& arguments, std::stop_token stop) {
@@ -404,22 +246,30 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
   Arguments parser(
       "info",
       {"Describes a light field: what it contains, how it was read, and how that was checked.\n"
-       "Of a result or of labels: method, parameters, source, version.",
+       "Of a result or of labels: method, parameters, source, version. Of a project of the\n"
+       "window, a camera or a pose: what it holds.",
        "episcope-cli info demo --json\n"
        "  episcope-cli info demo.h5"});
-  parser.positional("INPUT", input, "The light field, a result, or labels that 'label' wrote");
+  parser.positional(
+      "INPUT", input,
+      "The light field, a result, labels that 'label' wrote, a project (.episcope), a "
+      "camera (.yml) or a pose (.json); - is a map on standard input");
   parser.flag("--json", is_json, "Print one JSON object instead of lines");
   if (!parse_reading(parser, arguments, job_options, read)) return;
 
-  const bool is_plain = read.options.values().empty();  // else arrays and pictures are views
-  if (names_labels(input)) return describe_labels(input, is_json);
-  if (is_plain && names_result(input)) return describe_result(input, is_json);
+  const InputStream piped(input, stop);
+  const bool is_plain = read.options.values().empty();
+  if (auto file = describe_file(input, is_plain ? Reads::AsItIs : Reads::AsViews)) {
+    if (is_json) return print_answer(std::move(file->json));
+    for (const auto& [label, text] : file->lines) print_line(label, text);
+    return;
+  }
   const Scene scene = [&] {
     const Job job(std::move(stop), job_options);
     return load_input(input, read, job.progress());
   }();
   if (is_json) {
-    print_json(scene_json(scene, input));
+    print_answer(scene_json(scene, input), scene.convention.warnings);
   } else {
     print_scene(scene);
   }

@@ -6,7 +6,7 @@
 #include "app/cli/verbs/verbs.h"
 #include "app/session/label_review.h"
 #include "app/session/labeling_inputs.h"
-#include "app/session/segmentation_files.h"
+#include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
 #include "engine/core/text.h"
@@ -207,7 +207,7 @@ struct LabelAnswer {
   std::vector<std::string> written;  ///< Files and folders.
 };
 
-void print_json_answer(const LabelRequest& request, const LabelAnswer& answer) {
+void print_json_answer(const LabelRequest& request, const LabelAnswer& answer, const Job& job) {
   const auto& [labeling, scores, seconds, written] = answer;
   Json json;
   json["labels"] = labeling.probabilities.ids.size();
@@ -218,7 +218,7 @@ void print_json_answer(const LabelRequest& request, const LabelAnswer& answer) {
   json["parameters"] = io::parameters_json(labeler_schema().values(request.parameters));
   json["output"] = request.output;
   json["written"] = written;
-  print_json(json);
+  print_answer(std::move(json), job.notes());
 }
 
 void print_text_answer(const LabelRequest& request, const LabelAnswer& answer) {
@@ -292,7 +292,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   answer.scores = judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
                                  *scene.truth, disparity.field.get(), progress.part(1, 1));
   job.finish();
-  request.is_json ? print_json_answer(request, answer) : print_text_answer(request, answer);
+  request.is_json ? print_json_answer(request, answer, job) : print_text_answer(request, answer);
 }
 
 }  // namespace episcope::cli

@@ -167,9 +167,7 @@ void run_list(const VerbArguments& arguments, std::stop_token stop) {
   if (!request.is_json) return print_table(entries);
   Json scenes = Json::array();
   for (const io::CollectionEntry& entry : entries) scenes.push_back(entry_json(entry));
-  Json json;
-  json["scenes"] = std::move(scenes);
-  print_json(json);
+  print_answer(Json::object({{"scenes", scenes}, {"results", scenes}}), job.notes());
 }
 
 }  // namespace episcope::cli

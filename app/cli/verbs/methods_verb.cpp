@@ -39,7 +39,7 @@ void print_method(const Estimator& method) {
     std::cout << "  weights: " << weights_text(method.info.weights) << '\n';
   }
   for (const auto& parameter : method.parameters) {
-    std::cout << "    --" << parameter.key << "  " << parameter.help << " ("
+    std::cout << "    --" << option_name(parameter.key) << "  " << parameter.help << " ("
               << domain_text(parameter) << "; default " << to_text(parameter.default_value)
               << ")\n";
   }
@@ -88,7 +88,7 @@ void run_methods(const VerbArguments& arguments, std::stop_token) {
   if (is_json) {
     Json list = Json::array();
     for (const Estimator* each : methods) list.push_back(method_json(*each));
-    return print_json(Json::object({{"methods", list}}));
+    return print_answer(Json::object({{"methods", list}, {"results", list}}));
   }
   if (names.empty()) return print_table(methods);
   for (const Estimator* each : methods) print_method(*each);

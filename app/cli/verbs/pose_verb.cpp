@@ -105,7 +105,9 @@ void run_pose(const VerbArguments& arguments, std::stop_token stop) {
   story.solved = capture::solve_pose(story.pairs, story.camera);
   capture::write_pose(request.output, story);
   job.finish();
-  if (request.is_json) return print_json(answer(story, request.output));
+  if (request.is_json) {
+    return print_answer(answer(story, request.output), job.notes(), {request.output});
+  }
   print(story, request.output);
 }
 

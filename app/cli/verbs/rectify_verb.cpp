@@ -3,7 +3,7 @@
 #include "app/cli/input.h"
 #include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/capture_output.h"
+#include "app/session/capture_work.h"
 #include "engine/capture/pose_file.h"
 
 #include <fmt/format.h>
@@ -128,7 +128,7 @@ void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
   if (request.is_json) {
     Json json = answer(rectified, request.output);
     if (!pairs.empty()) json["written"].push_back(request.pairs);
-    return print_json(json);
+    return print_answer(std::move(json), job.notes());
   }
   print(rectified, request.output);
   if (!pairs.empty()) std::cout << request.pairs << ": " << pairs.size() << " pairs\n";

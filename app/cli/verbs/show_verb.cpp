@@ -2,8 +2,8 @@
 #include "app/cli/arguments.h"
 #include "app/cli/output.h"
 #include "app/cli/shown_map.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
-#include "app/session/movie.h"
 #include "app/session/picture.h"
 #include "app/session/result_files.h"
 #include "app/session/scene_summary.h"
@@ -12,13 +12,16 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/formats/movie.h"
 #include "engine/io/models/segmentation_file.h"
+#include "engine/render/legend.h"
 #include "engine/render/shade.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -120,6 +123,8 @@ enum class Layer { Foreground, Background };
 
 struct ShowRequest {
   std::string output;
+  std::unique_ptr<InputStream> from;  ///< Standard input, if the subject is that.
+  std::unique_ptr<OutputStream> to;   ///< Standard output likewise.
   What what;
   Layer layer = Layer::Foreground;
   ShownMap map;
@@ -130,7 +135,9 @@ struct ShowRequest {
   ParameterOptions maps;          ///< Of a result.
   int longest_px = 0;             ///< Of a picture; 0 = as large as what it shows.
   std::optional<double> opacity;  ///< Over the view; empty = the map by itself.
+  bool has_legend = false;        ///< Beside a picture.
   Overwrite overwrite = Overwrite::No;
+  bool is_json = false;
   JobOptions job;
   ReadOptions read;
 };
@@ -191,7 +198,10 @@ bool is_movie(const ShowRequest& request) {
 }
 
 /// What follows from the options.
-void complete(ShowRequest& request) {
+void complete(ShowRequest& request, const std::stop_token& stop) {
+  request.from = std::make_unique<InputStream>(request.map.subject, stop);
+  request.to = std::make_unique<OutputStream>(request.output, ".png");
+  request.to->require_alone(request.is_json);
   while (request.output.size() > 1 && request.output.ends_with('/')) request.output.pop_back();
   if (request.what.id.empty() && (request.row || request.column)) request.what = epi();
   if (request.what.movie) request.movie.kind = request.what.movie;
@@ -202,13 +212,18 @@ void complete(ShowRequest& request) {
   if (request.map.kind != ShownKind::Result) {
     require_no_map_options(request.maps, request.map.subject);
   }
-  request.map.reading = io::map_schema().parse(request.maps.values());
+  request.map.reading = map_reading(request.maps);
   if (request.movie.kind == MovieKind::Flip) request.map.quantity = Quantity::Difference;
   if (request.what.id.empty()) {
     const bool is_of_labels = request.map.kind == ShownKind::Labels;
     request.what.id =
         render::info_of(is_of_labels ? Quantity::TrueLabels : request.map.quantity).id;
   }
+}
+
+/// Whether colors stand for numbers that a scale can name.
+bool has_numbers(Quantity quantity) {
+  return render::info_of(quantity).has_scale() && quantity != Quantity::BadPixels;
 }
 
 /// Options that fit other pictures than the one that is asked for.
@@ -226,21 +241,24 @@ std::vector<Arguments::Use> uses_of(const ShowRequest& request) {
           {{"--layer"}, has_layers, what},
           {{"--range", "--colormap"}, is_map && render::info_of(quantity).has_scale(), what},
           {{"--over-view"}, is_map, what},
+          {{"--legend"}, is_map && !movie && has_numbers(quantity), movie ? "on a movie" : what},
+          {{"--threshold"}, quantity == Quantity::BadPixels, what + "; say --what bad_pixels"},
           {{"--fit"}, !movie, "on a movie, whose size is --width"},
           {{"--seconds", "--width"}, movie.has_value(), "on a picture"},
           {{"--path"}, movie == MovieKind::Parallax, "unless the movie is a parallax"},
           {{"--focus-range"}, movie == MovieKind::Refocus, "unless the movie is a refocus"}};
 }
 
-bool parse(const VerbArguments& arguments, ShowRequest& request) {
+bool parse(const VerbArguments& arguments, const std::stop_token& stop, ShowRequest& request) {
   Arguments parser("show", {"Writes a picture of a light field, a result or labels, as the window "
                             "shows it.",
                             "episcope-cli show demo.h5 -o error.png --what error"});
   parser.positional(
       "INPUT|RESULT", request.map.subject,
-      "A light field, a result, labels, or a project, whose current light field is shown");
+      "A light field, a result, labels, or a project, whose current light field is shown; - is a "
+      "map on standard input");
   parser.required_option("-o,--output", request.output, text_value("OUT.png"),
-                         "Picture to write; a movie as .mp4, .webm or .gif");
+                         "Picture to write; a movie as .mp4, .webm or .gif; - is standard output");
   parser.option("--what", request.what, what_value(),
                 "What to show; by default the view of an INPUT, the disparity of a RESULT, the "
                 "labels of a file of labels");
@@ -252,18 +270,21 @@ bool parse(const VerbArguments& arguments, ShowRequest& request) {
                 "Image column of a vertical EPI (then --what is epi)");
   parser.exclude_each_other({"--row", "--column"});
   parser.option("--range", request.shading.range, interval_value(),
-                "Values at the ends of the color map");
+                "Values at the ends of the color map; by default those of what is shown");
   parser.option("--colormap", request.shading.color_map, one_of(render::color_map_names()),
-                "Color map");
-  parser.option(
-      "--fit", request.longest_px, index_value("PIXELS"),
-      "Scale a larger picture down to this many pixels on its longer side (default 0: as it is)");
+                "Color map; by default that of what is shown");
+  parser.flag("--legend", request.has_legend, "Draw the scale of the colors beside the picture");
+  parser.option("--threshold", request.map.bad_threshold_px, real_value("PX", 0, 1e3),
+                "Error above which --what bad_pixels calls a pixel bad, in px (default 0.07)");
+  parser.option("--fit", request.longest_px, index_value("PIXELS"),
+                "Scale a larger picture down to this many pixels on its longer side, without its "
+                "legend (default 0: as it is)");
   parser.option("--truth", request.map.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one named in its file");
   parser.option(
       "--layer", request.layer,
       choice_of<Layer>({{Layer::Foreground, "foreground"}, {Layer::Background, "background"}}),
-      "Layer to show where there are two");
+      "Layer to show where there are two (default foreground)");
   parser.option("--label", request.map.label, integer_value("N", 1, kMost),
                 "Label whose probability is shown (default 1)");
   parser.option("--minus", request.map.minus, text_value("RESULT"),
@@ -271,10 +292,11 @@ bool parse(const VerbArguments& arguments, ShowRequest& request) {
   parser.option("--over-view", request.opacity, real_value("OPACITY", 0, 1),
                 "Overlay the map on the view, with an opacity from 0 to 1");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace another picture");
+  parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_movie_options(parser, request.movie);
   declare_map_options(parser, request.maps);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
-  complete(request);
+  complete(request, stop);
   parser.check_uses(uses_of(request));
   return true;
 }
@@ -296,19 +318,47 @@ RgbaImage picture_of(const ShowRequest& request, const LoadedMap& loaded, const 
                  overlay_picture(*map, shading), *request.opacity);
 }
 
-/// What was written, for the user.
-std::string write_picture(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
-  RgbaImage picture = request.what.is_epi
-                          ? epi_picture(request, *loaded.source.light_field, loaded.source.view)
-                          : picture_of(request, loaded, loaded.source);
+/// What was drawn: for people, and as keys of JSON.
+struct Drawn {
+  std::string text;
+  Json json;
+};
+
+/// What the colors of a map mean.
+void tell_colors(const ShowRequest& request, const LoadedMap& loaded, Drawn& drawn) {
+  const Quantity quantity = loaded.source.quantity;
+  if (request.what.is_epi || !render::info_of(quantity).has_scale()) return;
+  if (quantity == Quantity::BadPixels) {
+    drawn.text += fmt::format(", bad above {:g} px", request.map.bad_threshold_px);
+    drawn.json["threshold_px"] = request.map.bad_threshold_px;
+    return;
+  }
+  const Interval range = shading_of(quantity, loaded.disparity_range, request.shading).range;
+  const std::string unit = render::info_of(quantity).unit;
+  drawn.text += fmt::format(", colors from {:.4g} to {:.4g}{}", range.min, range.max,
+                            unit.empty() ? "" : " " + unit);
+  drawn.json["range"] = interval_json(range);
+  if (!unit.empty()) drawn.json["unit"] = unit;
+}
+
+Drawn write_picture(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
+  const MapSource& source = loaded.source;
+  RgbaImage picture = request.what.is_epi ? epi_picture(request, *source.light_field, source.view)
+                                          : picture_of(request, loaded, source);
   if (request.longest_px > 0) picture = render::fitted(picture, request.longest_px);
+  if (request.has_legend) {
+    picture = render::with_legend(
+        picture, shading_of(source.quantity, loaded.disparity_range, request.shading),
+        render::info_of(source.quantity).unit);
+  }
   job.progress().check();
   write_output(request.output, request.overwrite,
                [&](const std::filesystem::path& path) { io::write_picture(path, picture.view()); });
-  return fmt::format("{}, {}×{} px", request.what.id, picture.width(), picture.height());
+  return {fmt::format("{}, {}×{} px", request.what.id, picture.width(), picture.height()),
+          Json::object({{"width", picture.width()}, {"height", picture.height()}})};
 }
 
-std::string write_movie_of(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
+Drawn write_movie_of(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
   const Movie movie = movie_of(request.movie, loaded, [&](const MapSource& source) {
     return picture_of(request, loaded, source);
   });
@@ -316,7 +366,9 @@ std::string write_movie_of(const ShowRequest& request, const LoadedMap& loaded, 
     write_movie(path, movie, request.movie.choice.width_px, job.progress());
   });
   const std::string what = request.movie.kind == MovieKind::Flip ? "flip" : request.what.id;
-  return fmt::format("{}, {} pictures in {:.1f} s", what, movie.count, movie.count / movie.rate);
+  const double seconds = movie.count / movie.rate;
+  return {fmt::format("{}, {} pictures in {:.1f} s", what, movie.count, seconds),
+          Json::object({{"pictures", movie.count}, {"seconds", seconds}})};
 }
 
 /// Pictures of a movie go into a folder, which may be there, empty.
@@ -330,7 +382,7 @@ void check_output(const ShowRequest& request) {
 
 void run_show(const VerbArguments& arguments, std::stop_token stop) {
   ShowRequest request;
-  if (!parse(arguments, request)) return;
+  if (!parse(arguments, stop, request)) return;
   check_output(request);
   for (const std::string& input : {request.map.subject, request.map.truth, request.map.minus}) {
     if (!input.empty()) protect_input(request.output, input);
@@ -339,10 +391,21 @@ void run_show(const VerbArguments& arguments, std::stop_token stop) {
   Job job(std::move(stop), request.job);
   const LoadedMap loaded = load_map(request.map, request.read, job);
   job.progress().check();
-  const std::string written = request.movie.kind ? write_movie_of(request, loaded, job)
-                                                 : write_picture(request, loaded, job);
+  Drawn drawn = request.movie.kind ? write_movie_of(request, loaded, job)
+                                   : write_picture(request, loaded, job);
+  tell_colors(request, loaded, drawn);
   job.finish();
-  std::cout << request.output << ": " << written << "\n";
+  if (request.to->is_meant()) return request.to->send();
+  if (!request.is_json) {
+    std::cout << request.output << ": " << drawn.text << "\n";
+    return;
+  }
+  Json json{{"input", request.map.subject},
+            {"what", request.what.id},
+            {"view", view_json(loaded.source.view)}};
+  json.update(drawn.json);
+  json["output"] = request.output;
+  print_answer(std::move(json), job.notes(), {request.output});
 }
 
 }  // namespace episcope::cli

@@ -9,6 +9,8 @@
 #include "engine/io/formats/write_scene.h"
 #include "engine/scenes/builtin.h"
 
+#include <nlohmann/json.hpp>
+
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -29,6 +31,7 @@ struct SynthesizeRequest {
   std::optional<double> noise;
   std::optional<int> seed;
   Overwrite overwrite = Overwrite::No;
+  bool is_json = false;
   JobOptions job;
 };
 
@@ -62,6 +65,7 @@ bool parse(const VerbArguments& arguments, SynthesizeRequest& request) {
   parser.option("--seed", request.seed, integer_value("N", 0, std::numeric_limits<int>::max()),
                 "Seed of a random scene and of the noise (default 1)");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
+  parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_job_options(parser, request.job);
   return parser.parse(arguments);
 }
@@ -93,7 +97,19 @@ void synthesize_gantry(const SynthesizeRequest& request, std::stop_token stop) {
   Job job(std::move(stop), request.job);
   capture::write_demo_folder(request.output, options, job.progress());
   job.finish();
+  if (request.is_json) {
+    return print_answer(Json::object({{"scene", kGantry}, {"output", request.output}}), job.notes(),
+                        {request.output});
+  }
   std::cout << request.output << ": photographs, pattern, mesh and picks; see readme.txt\n";
+}
+
+Json answer_json(const SynthesizeRequest& request, const scenes::RenderOptions& options) {
+  return Json::object({{"scene", request.scene},
+                       {"views", Json::object({{"v", options.grid.v}, {"u", options.grid.u}})},
+                       {"height", options.height},
+                       {"width", options.width},
+                       {"output", request.output}});
 }
 
 }  // namespace
@@ -119,6 +135,10 @@ void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   }
   io::write_archive(request.output, scene, job.progress().part(0.9, 1));
   job.finish();
+  if (request.is_json) {
+    return print_answer(answer_json(request, options), job.notes(),
+                        files_written(request.output, labels));
+  }
   std::cout << request.output << ": " << request.scene << ", " << options.grid.v << "×"
             << options.grid.u << " views of " << options.width << "×" << options.height << " px\n";
   print_labels_written(labels, request.output);

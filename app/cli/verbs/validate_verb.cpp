@@ -49,17 +49,17 @@ std::vector<io::SubmittedScene> wanted_scenes(const ValidateRequest& request) {
   return scenes;
 }
 
-void print_answer(const ValidateRequest& request, std::size_t scenes,
-                  const std::vector<std::string>& problems) {
+void print_problems(const ValidateRequest& request, std::size_t scenes,
+                    const std::vector<std::string>& problems) {
   if (!request.is_json) {
     for (const std::string& problem : problems) std::cout << problem << '\n';
     if (problems.empty()) std::cout << request.folder << ": " << scenes << " scenes are complete\n";
     return;
   }
-  print_json(Json::object({{"folder", request.folder},
-                           {"scenes", scenes},
-                           {"complete", problems.empty()},
-                           {"problems", problems}}));
+  print_answer(Json::object({{"folder", request.folder},
+                             {"scenes", scenes},
+                             {"complete", problems.empty()},
+                             {"problems", problems}}));
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void run_validate(const VerbArguments& arguments, std::stop_token) {
     throw IoError(request.folder, "is not a folder; a submission holds disp_maps and runtimes");
   }
   const std::vector<std::string> problems = io::submission_problems(request.folder, scenes);
-  print_answer(request, scenes.size(), problems);
+  print_problems(request, scenes.size(), problems);
   if (problems.empty()) return;
   throw Error(fmt::format("{} would not be accepted: {} problems, the first: {}", request.folder,
                           problems.size(), problems.front()));

@@ -2,7 +2,6 @@
 #include "app/gui/annotate/annotate_controller.h"
 
 #include "annotation/brush.h"
-#include "annotation/flood_fill.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/viewer_area.h"
@@ -10,8 +9,6 @@
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/panes.h"
 #include "widgets/canvas/canvas_tool.h"
-#include "widgets/canvas/outline_tool.h"
-#include "widgets/canvas/stroke_tool.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/panels/brush_panel.h"
 

@@ -5,7 +5,7 @@
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
-#include "widgets/canvas/stroke_tool.h"
+#include "widgets/canvas/canvas_tool.h"
 
 #include <QObject>
 

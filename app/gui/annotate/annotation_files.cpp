@@ -8,7 +8,7 @@
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/picture.h"
-#include "app/session/segmentation_files.h"
+#include "app/session/segmentation.h"
 #include "app/session/user_folders.h"
 #include "engine/core/shear.h"
 #include "engine/io/base/image_file.h"

@@ -3,8 +3,8 @@
 
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/shell/workbench.h"
-#include "app/session/known_files.h"
 #include "app/session/session.h"
+#include "app/session/user_folders.h"
 
 #include <QKeySequence>
 #include <QList>

@@ -6,7 +6,7 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
-#include "widgets/canvas/canvas_text.h"
+#include "widgets/canvas/canvas_geometry.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/panels/brush_panel.h"
 

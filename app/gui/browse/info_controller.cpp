@@ -12,7 +12,7 @@
 #include "engine/core/parameter.h"
 #include "engine/core/scene.h"
 #include "engine/cuda/device.h"
-#include "engine/io/models/names/views_folder.h"
+#include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/order_check.h"
 #include "engine/io/models/reader.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/pair_marks.h"
 
+#include "engine/capture/mesh_file.h"
 #include "engine/capture/solve_pose.h"
-#include "engine/capture/triangle_mesh.h"
 #include "widgets/cloud/cloud_look.h"
 
 #include <cmath>

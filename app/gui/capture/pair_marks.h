@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/capture/mesh_file.h"
 #include "engine/capture/solve_pose.h"
-#include "engine/capture/triangle_mesh.h"
 #include "widgets/canvas/canvas_geometry.h"
 #include "widgets/cloud/cloud_look.h"
 #include "widgets/panels/capture_panel.h"

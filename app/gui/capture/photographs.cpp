@@ -6,7 +6,7 @@
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
-#include "app/session/capture_output.h"
+#include "app/session/capture_work.h"
 #include "app/session/session.h"
 #include "engine/capture/demo_folder.h"
 #include "engine/capture/pose_file.h"

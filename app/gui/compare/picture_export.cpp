@@ -6,7 +6,6 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
-#include "app/session/movie.h"
 #include "app/session/picture.h"
 #include "app/session/session.h"
 #include "engine/io/base/image_file.h"

@@ -4,7 +4,7 @@
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/quantity_map.h"
-#include "engine/render/region_statistics.h"
+#include "engine/render/quantity.h"
 
 #include <QObject>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/shell/workbench.h"
-#include "app/session/known_files.h"
+#include "app/session/user_folders.h"
 
 #include <QObject>
 #include <QString>

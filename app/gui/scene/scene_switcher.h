@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/session/known_files.h"
 #include "app/session/session.h"
 #include "app/session/sweep.h"
+#include "app/session/user_folders.h"
 
 #include <QObject>
 #include <QString>

@@ -2,7 +2,7 @@
 #include "app/gui/shell/frame.h"
 
 #include "app/gui/shell/panes.h"
-#include "widgets/canvas/canvas_text.h"
+#include "widgets/canvas/canvas_geometry.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/theme.h"
 

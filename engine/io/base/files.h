@@ -61,6 +61,19 @@ void make_folder(const std::filesystem::path& folder,
 [[nodiscard]] bool is_inside_folder(const std::filesystem::path& path,
                                     const std::filesystem::path& folder);
 
+/// Whether the suffix is one that `decode_image` (image_file.h) reads.
+[[nodiscard]] bool is_image_name(const std::filesystem::path& path);
+
+/// Lists the images directly in a folder, by name. Omits hidden files and links that lead nowhere
+/// or to themselves. Throws filesystem_error if the folder cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
+
+/// Lists the visible folders directly in a folder, in any order; none if it cannot be opened.
+[[nodiscard]] std::vector<std::filesystem::path> list_folders(const std::filesystem::path& folder);
+
+/// Number of images directly in a folder; 0 if there is no such folder.
+[[nodiscard]] int count_images(const std::filesystem::path& folder);
+
 /// Turns the signal of a file beyond the size limit of the process (`ulimit -f`, batch systems)
 /// into a failed write: EFBIG, which `write_error` explains. By default SIGXFSZ ends the program
 /// and leaves temporary files. To be called by `main`.

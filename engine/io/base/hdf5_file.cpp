@@ -8,11 +8,13 @@
 
 #include <fmt/format.h>
 #include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <fstream>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -315,7 +317,8 @@ std::optional<std::string> Hdf5Input::text(const std::string& object,
   if (attribute.count != 1 || H5Tget_class(attribute.type) != H5T_STRING) return {};
   if (H5Tis_variable_str(attribute.type) > 0) {
     char* value = nullptr;
-    if (H5Aread(attribute.id, attribute.type, &value) < 0 || value == nullptr) return {};
+    if (H5Aread(attribute.id, attribute.type, &value) < 0) return {};
+    if (value == nullptr) return "";  // So the library stores an empty text.
     std::string copy(value);
     H5free_memory(value);
     return copy;
@@ -449,6 +452,18 @@ void Hdf5Output::add_group(const std::string& name) {
   require(group.ok());
 }
 
+namespace {
+
+/// In chunks of a view, by the least effort: more takes far longer and saves little.
+void deflate_views(hid_t creation, std::vector<hsize_t> extent) {
+  std::fill(extent.begin(), extent.end() - 2, 1);
+  H5Pset_chunk(creation, static_cast<int>(extent.size()), extent.data());
+  H5Pset_shuffle(creation);
+  H5Pset_deflate(creation, 1);
+}
+
+}  // namespace
+
 template <class T>
 void Hdf5Output::create_dataset(const std::string& name, const Hdf5Shape& shape, bool is_reserved) {
   const Hdf5Lock session;
@@ -458,6 +473,8 @@ void Hdf5Output::create_dataset(const std::string& name, const Hdf5Shape& shape,
   const Hdf5Handle creation(creation_of(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
   if (is_reserved) H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
+  const bool is_deflated = storage_ == Hdf5Storage::Deflated && !is_reserved && extent.size() > 1;
+  if (is_deflated) deflate_views(creation, extent);
   const hid_t id =
       H5Dcreate2(file_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation, H5P_DEFAULT);
   require(id >= 0);
@@ -507,6 +524,28 @@ template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std:
 template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::int32_t*);
 template void Hdf5Output::write(const std::string&, const Hdf5Block&, const float*);
 
+void Hdf5Output::add_axes(const std::string& group, const std::vector<Hdf5Axis>& axes) {
+  const Hdf5Lock session;
+  const std::map<std::string, std::int64_t> datasets = datasets_;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const Hdf5Axis& axis = axes[i];
+    const std::string name = group + "/" + axis.name;
+    std::vector<std::int32_t> places(static_cast<std::size_t>(axis.count));
+    std::iota(places.begin(), places.end(), axis.first);
+    add_dataset<std::int32_t>(name, {places.size()}, axis.name, axis.units);
+    write(name, {{0}, {places.size()}}, places.data());
+    set_text(name, "long_name", axis.meaning);
+    const hid_t scale = datasets_.at(name);
+    bool is_done = H5DSset_scale(scale, axis.name.c_str()) >= 0;
+    const auto dimension = static_cast<unsigned>(i);
+    for (const auto& [of, id] : datasets) {
+      is_done = is_done && H5DSattach_scale(id, scale, dimension) >= 0 &&
+                H5DSset_label(id, dimension, axis.name.c_str()) >= 0;
+    }
+    require(is_done);
+  }
+}
+
 void Hdf5Output::set_number(const std::string& object, const std::string& name, double value) {
   set_attribute(object, name, H5T_NATIVE_DOUBLE, {}, &value);
 }
@@ -527,9 +566,10 @@ void Hdf5Output::set_text(const std::string& object, const std::string& name,
                           const std::string& value) {
   const Hdf5Lock session;
   const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type, value.size() + 1);
+  H5Tset_size(type, H5T_VARIABLE);
   H5Tset_cset(type, H5T_CSET_UTF8);
-  set_attribute(object, name, type, {}, value.c_str());
+  const char* const begin = value.c_str();
+  set_attribute(object, name, type, {}, &begin);
 }
 
 void Hdf5Output::set_ascii(const std::string& object, const std::string& name,
@@ -598,6 +638,25 @@ std::vector<std::string> Hdf5Input::referenced(const std::string& name) const {
   }
   std::vector<std::string> names;
   for (const hobj_ref_t& reference : references) names.push_back(name_of(file_, reference));
+  return names;
+}
+
+std::vector<std::string> Hdf5Input::scale_names(const std::string& dataset) const {
+  constexpr hssize_t kMostAxes = 32;
+  const Hdf5Lock session;
+  const OpenedAttribute attribute(open_attribute(dataset, "DIMENSION_LIST"));
+  if (attribute.count < 1 || attribute.count > kMostAxes) return {};
+  const Hdf5Handle of_axis(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose);
+  if (H5Tequal(attribute.type, of_axis) <= 0) return {};
+  std::vector<hvl_t> scales(static_cast<std::size_t>(attribute.count), hvl_t{});
+  if (H5Aread(attribute.id, of_axis, scales.data()) < 0) return {};
+  std::vector<std::string> names;
+  for (const hvl_t& axis : scales) {
+    std::string name;
+    if (axis.len > 0) name = name_of(file_, *static_cast<const hobj_ref_t*>(axis.p));
+    names.push_back(name.substr(name.rfind('/') + 1));
+  }
+  H5Dvlen_reclaim(of_axis, attribute.space, H5P_DEFAULT, scales.data());
   return names;
 }
 

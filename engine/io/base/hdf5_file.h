@@ -54,6 +54,15 @@ struct Hdf5Block {
 /// Whether the file begins with the signature of HDF5; false also if it cannot be read.
 [[nodiscard]] bool has_hdf5_signature(const std::filesystem::path& path);
 
+/// An axis that datasets share: its places are `first`, `first` + 1, ….
+struct Hdf5Axis {
+  std::string name;  ///< "v".
+  std::string units;
+  std::string meaning;  ///< In words.
+  int first = 0;
+  int count = 0;
+};
+
 class Hdf5OpenFile;
 
 /// An HDF5 file open for reading, without file locks. All inputs of one file share one opening and
@@ -109,6 +118,9 @@ class Hdf5Input {
   /// All elements of an attribute of texts of variable length; empty if there is none.
   [[nodiscard]] std::vector<std::string> texts(const std::string& object,
                                                const std::string& name) const;
+  /// Last names of the dimension scales that are attached to the axes of a dataset, one an axis,
+  /// empty for an axis without. Empty if there are none.
+  [[nodiscard]] std::vector<std::string> scale_names(const std::string& dataset) const;
 
  private:
   friend class Hdf5Output;  // Copies from here.
@@ -126,9 +138,12 @@ class Hdf5Input {
   mutable std::map<std::string, std::int64_t> datasets_;  ///< Open ones, with their chunk caches.
 };
 
+/// How samples are stored: as one array, or view by view, each shuffled and deflated.
+enum class Hdf5Storage { Plain, Deflated };
+
 /// A new HDF5 file at the temporary place of `file`: `close` it, then commit that. Datasets are
-/// contiguous and uncompressed, since speed matters more than size. All members throw IoError that
-/// names the target of `file`.
+/// contiguous and uncompressed unless told otherwise, since speed matters more than size. All
+/// members throw IoError that names the target of `file`.
 class Hdf5Output {
  public:
   /// `user_bytes`: room for other contents in front: 0, 512 or a power of two above.
@@ -143,6 +158,8 @@ class Hdf5Output {
   /// Copies every object and attribute of the root group as stored, except those in `without`.
   void copy_all(const Hdf5Input& from, const std::vector<std::string>& without);
   void add_group(const std::string& name);
+  /// How datasets that are added from now on are stored; those of less than two axes are plain.
+  void set_storage(Hdf5Storage storage) { storage_ = storage; }
   /// Adds a dataset with its attributes `axes` ("v,u,y,x") and `units`. T as in `Hdf5Input::read`.
   template <class T>
   void add_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
@@ -154,12 +171,18 @@ class Hdf5Output {
                        const std::string& units);
   template <class T>
   void write(const std::string& name, const Hdf5Block& block, const T* in);
+  /// Whether it added a dataset of this name.
+  [[nodiscard]] bool has(const std::string& dataset) const { return datasets_.contains(dataset); }
+  /// Names the axes of all datasets added so far, which have these axes and lie in `group`: a
+  /// dataset of the places of each axis, attached as dimension scale, as netCDF has it.
+  void add_axes(const std::string& group, const std::vector<Hdf5Axis>& axes);
 
   void set_number(const std::string& object, const std::string& name, double value);
   void set_integers(const std::string& object, const std::string& name,
                     const std::vector<int>& values);
   void set_numbers(const std::string& object, const std::string& name,
                    const std::vector<double>& values);
+  /// UTF-8 of variable length, which other programs take for a text and not for bytes.
   void set_text(const std::string& object, const std::string& name, const std::string& value);
   /// Writes text as MATLAB does: ASCII of fixed length, without a terminator.
   void set_ascii(const std::string& object, const std::string& name, const std::string& value);
@@ -179,6 +202,7 @@ class Hdf5Output {
   std::filesystem::path path_;
   std::int64_t file_ = -1;
   std::map<std::string, std::int64_t> datasets_;
+  Hdf5Storage storage_ = Hdf5Storage::Plain;
   Hdf5WriteLog log_;
 };
 

@@ -2,7 +2,6 @@
 #include "engine/io/base/image_file.h"
 
 #include "engine/core/error.h"
-#include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 
@@ -306,12 +305,6 @@ std::vector<AnyImage> decode_pages(const fs::path& path, int count) {
     page.release();
   }
   return pages;
-}
-
-bool is_image_name(const fs::path& path) {
-  constexpr std::array suffixes{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".ppm",
-                                ".pgm", ".pnm", ".webp", ".jp2", ".exr",  ".hdr"};
-  return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
 }
 
 std::string describe_image(const AnyImage& image) {
@@ -669,50 +662,6 @@ void write_tiff(const fs::path& path, ImageView<const float> image) {
   require_channels(image, image.channels == 1 || image.channels == 3, "1 or 3");
   constexpr int kNoCompression = 1;  // COMPRESSION_NONE of libtiff
   encode(path, ".tiff", to_mat(image), {cv::IMWRITE_TIFF_COMPRESSION, kNoCompression});
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-
-template <class Visit>
-void for_each_image(const fs::path& folder, const Visit& visit) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (!is_hidden && is_image_name(entry.path()) && entry.is_regular_file(error)) {
-      visit(entry.path());
-    }
-  }
-}
-
-}  // namespace
-
-std::vector<fs::path> list_images(const fs::path& folder) {
-  std::vector<fs::path> images;
-  for_each_image(folder, [&](const fs::path& path) { images.push_back(path); });
-  // Comparing whole paths, part by part, takes seconds where there are 100,000.
-  std::ranges::sort(images, {},
-                    [](const fs::path& path) { return std::string_view(path.native()); });
-  return images;
-}
-
-std::vector<fs::path> list_folders(const fs::path& folder) {
-  std::vector<fs::path> folders;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (!is_hidden && entry.is_directory(error)) folders.push_back(entry.path());
-  }
-  return folders;
-}
-
-int count_images(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) return 0;
-  int count = 0;
-  for_each_image(folder, [&](const fs::path&) { ++count; });
-  return count;
 }
 
 }  // namespace episcope::io

@@ -28,9 +28,6 @@ using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<f
 /// Decodes the first `count` pages of a TIFF file. Throws IoError, also if there are fewer pages.
 [[nodiscard]] std::vector<AnyImage> decode_pages(const std::filesystem::path& path, int count);
 
-/// Whether the suffix is one that `decode_image` reads.
-[[nodiscard]] bool is_image_name(const std::filesystem::path& path);
-
 /// "512×512 px, 3 channels, 8 bit", for messages.
 [[nodiscard]] std::string describe_image(const AnyImage& image);
 
@@ -84,15 +81,5 @@ void write_png(const std::filesystem::path& path, ImageView<const std::uint16_t>
 
 /// Writes 32-bit float TIFF, grey or RGB. Atomic. Throws IoError.
 void write_tiff(const std::filesystem::path& path, ImageView<const float> image);
-
-/// Lists the images directly in a folder, by name. Omits hidden files and links that lead nowhere
-/// or to themselves. Throws filesystem_error if the folder cannot be read.
-[[nodiscard]] std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
-
-/// Lists the visible folders directly in a folder, in any order; none if it cannot be opened.
-[[nodiscard]] std::vector<std::filesystem::path> list_folders(const std::filesystem::path& folder);
-
-/// Number of images directly in a folder; 0 if there is no such folder.
-[[nodiscard]] int count_images(const std::filesystem::path& folder);
 
 }  // namespace episcope::io

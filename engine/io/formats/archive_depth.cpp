@@ -11,6 +11,7 @@
 #include "engine/io/models/label_list.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/warp_check.h"
+#include "engine/io/models/result_file.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 
 #include <fmt/format.h>
@@ -24,8 +25,6 @@
 
 namespace episcope::io {
 namespace {
-
-constexpr const char* kTrueDepth = "GT_DEPTH";
 
 /// Whether the archive, or Episcope, gives a dataset of this name its meaning.
 bool is_of_archive(const std::string& name) {
@@ -60,8 +59,13 @@ std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& fil
   const bool has_depth = !parts.truth.field.empty();
   const std::string depth = has_depth ? other_depth(*file, layout.shape) : "";
   std::vector<const ArrayEntry*> others;
+  // What `write_archive` put beside depth.
+  const auto repeats_depth = [&](const std::string& name) {
+    return name.starts_with(kTrueDisparity) &&
+           file->has(kTrueDepth + name.substr(std::string(kTrueDisparity).size()));
+  };
   for (const ArrayEntry& entry : arrays.entries()) {
-    const bool is_read = entry.name == depth ||
+    const bool is_read = repeats_depth(entry.name) || entry.name == depth ||
                          (is_of_archive(entry.name) && (has_depth || entry.name != kTrueDepth));
     if (&entry == &*views || is_read) continue;
     others.push_back(&entry);
@@ -69,7 +73,7 @@ std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& fil
   const ArrayLayout axes{views->shape, layout.has_channel_axis ? "vuyxc" : "vuyx"};
   ArrayMaps maps = read_array_maps(arrays, others, {axes, views->order}, wants_labels, progress);
   if (!has_depth && !maps.truth.field.empty()) {
-    settle_disparity(parts.samples, maps, maps.truth.field, parts.camera, parts.report);
+    settle_disparity(parts.samples, maps, maps.truth.field, parts.report);
     parts.truth.field = std::move(maps.truth.field);
     parts.expected.is_truth_sign_assumed = maps.is_sign_assumed;
   } else if (!maps.disparity_name.empty()) {
@@ -242,8 +246,7 @@ CameraGrid stored_camera(const Hdf5Input& file) {
   const double from_distance =
       camera.cam_distance ? camera.baseline * camera.focal_length / *camera.cam_distance : 0;
   camera.shift = camera_number(file, "shift").value_or(from_distance);
-  const std::vector<double> pinhole = file.numbers("/", kPinhole);
-  if (pinhole.size() == 3) camera.pinhole = Pinhole{pinhole[0], pinhole[1], pinhole[2]};
+  camera.pinhole = camera_in(file, "/").pinhole;
   const bool is_finite = std::isfinite(camera.baseline) && std::isfinite(camera.focal_length) &&
                          std::isfinite(camera.shift);
   return is_finite ? camera : CameraGrid{};

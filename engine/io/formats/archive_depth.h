@@ -74,13 +74,12 @@ struct ArchiveParts {
   const LightField::Samples& samples;
   GroundTruth& truth;
   ViewStack<std::uint8_t>& valid;
-  CameraGrid& camera;
   ExpectedOrder& expected;
   ConventionReport& report;
 };
 
 /// Reads datasets beside LF whose names are not the archive's: disparity, labels and masks as
-/// `read_array_maps` does, and depth that no camera converts. Existing `parts` stay. Returns the
+/// `read_array_maps` does. Existing `parts` stay. Returns the
 /// use of these datasets. Throws IoError, Cancelled.
 [[nodiscard]] std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& file,
                                                    const ArchiveLayout& layout, bool wants_labels,

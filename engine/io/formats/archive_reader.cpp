@@ -317,9 +317,9 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
                     std::move(depth.background), std::move(labels.labels), std::move(regions)};
   info.camera = depth.camera;
   ExpectedOrder expected = expected_order(file);
-  const std::vector<FileUse> others = read_other_maps(
-      input, layout, options.needs_truth, {samples, truth, valid, info.camera, expected, report},
-      progress.part(0.95, 0.97));
+  const std::vector<FileUse> others =
+      read_other_maps(input, layout, options.needs_truth, {samples, truth, valid, expected, report},
+                      progress.part(0.95, 0.97));
   tell_unused_depth(depth, !truth.field.empty(), report);
   if (truth.has_disparity() || truth.has_layers()) truth.estimated = read_estimated(file);
   if (truth.estimated && options.needs_truth) {

@@ -6,6 +6,7 @@
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
 #include "engine/io/base/array_preview.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/base/sample_range.h"
@@ -303,7 +304,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
     const auto stored = is_row ? std::optional(chosen.layout.grid()) : std::nullopt;
     arrange_list(file.path(), options, parts, chosen.reason, progress, stored);
   }
-  settle_disparity(parts.samples, maps, parts.truth.field, parts.info.camera, scene.convention);
+  settle_disparity(parts.samples, maps, parts.truth.field, scene.convention);
   report_form(file, entry, chosen, scene.convention);
   parts.files = std::move(maps.uses);
   parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});

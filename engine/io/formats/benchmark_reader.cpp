@@ -5,7 +5,6 @@
 #include "engine/core/numbers.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
-#include "engine/io/base/image_file.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/benchmark_truth.h"
 #include "engine/io/formats/image_grid.h"

@@ -8,7 +8,6 @@
 #include "engine/io/models/order/order_check.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
-#include "engine/io/models/sidecar_maps/infer_units.h"
 
 #include <fmt/format.h>
 
@@ -311,7 +310,7 @@ DisparityField read_stored(const fs::path& folder, const SidecarViews& views,
 void drop_unknown(const LightField::Samples& samples, ViewIndex at, DisparityField& field,
                   ConventionReport& report) {
   for (const float value : possible_unknown_values(field.view(at))) {
-    const std::string text = drop_unknown_value(samples, at, {value, value}, field);
+    const std::string text = drop_unknown_value(samples, at, {value, 1}, field);
     if (!text.empty()) report.warnings.push_back("The disparity" + text);
   }
 }

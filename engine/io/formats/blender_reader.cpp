@@ -7,7 +7,6 @@
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/io/base/files.h"
-#include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/image_grid.h"

@@ -6,10 +6,11 @@
 #include "engine/core/text.h"
 #include "engine/core/version.h"
 #include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
-#include "engine/io/models/names/views_folder.h"
+#include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/reader.h"
 
 #include <nlohmann/json.hpp>

@@ -5,6 +5,7 @@
 #include "engine/core/image.h"
 #include "engine/core/parallel.h"
 #include "engine/core/text.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_header.h"
 #include "engine/io/models/open_options.h"
 

@@ -5,6 +5,7 @@
 #include "engine/core/image.h"
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
 #include "engine/io/base/sample_range.h"
@@ -13,8 +14,8 @@
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/file_usage.h"
 #include "engine/io/models/load_views.h"
+#include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/open_options.h"
-#include "engine/io/models/names/views_folder.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
@@ -307,13 +308,13 @@ void add_beside(const fs::path& path, const OpenOptions& options, SceneParts& pa
   const AdjacentMaps own(path);
   SidecarMaps beside =
       read_sidecar_maps({.files = views,
-                   .folder = folder,
-                   .samples = parts.samples,
-                   .camera = parts.info.camera,
-                   .map_views = options.map_views(),
-                   .needs_truth = options.needs_truth,
-                   .is_own = [&](const fs::path& file) { return own.contains(file); }},
-                  {account, scene.convention}, progress);
+                         .folder = folder,
+                         .samples = parts.samples,
+                         .camera = parts.info.camera,
+                         .map_views = options.map_views(),
+                         .needs_truth = options.needs_truth,
+                         .is_own = [&](const fs::path& file) { return own.contains(file); }},
+                        {account, scene.convention}, progress);
   parts.truth = std::move(beside.truth);
   parts.expected.is_truth_sign_assumed = beside.is_sign_assumed;
   parts.info.camera = beside.camera;

@@ -16,8 +16,8 @@ namespace episcope::io {
 [[nodiscard]] bool can_be_stack(const ArrayEntry& entry);
 
 /// Several light fields of equal rank in one file: arrays of one shape with similar names, in
-/// several groups ("a/LF", "b/LF") or with numbers, or one array that is a stack of them. Three or
-/// four slices of a stack count as light fields, not channels, if they show different scenes. The
+/// several groups ("a/LF", "b/LF") or with numbers, or one array that is a stack of them. Up to four
+/// gray slices of a stack count as channels unless the option `axes` states the axes of a slice. The
 /// option `frame` or `dataset` selects one.
 class MultiFieldFile {
  public:
@@ -41,7 +41,6 @@ class MultiFieldFile {
  private:
   std::vector<std::string> names_;  ///< Of arrays; of a stack its own.
   int count_ = 0;
-  bool are_unrelated_channels_ = false;
 };
 
 }  // namespace episcope::io

@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text.h"
-#include "engine/io/base/image_file.h"
+#include "engine/io/base/files.h"
 #include "engine/io/models/names/index_fields.h"
 #include "engine/io/models/names/name_parts.h"
 #include "engine/io/models/names/view_folders.h"

@@ -57,7 +57,8 @@ void add_stack(ZipWriter& zip, const std::string& name, const ViewStack<T>& stac
                            stack.size() * sizeof(T)}});
 }
 
-/// Disparity as files hold it: NaN where it is invalid; empty if there is none.
+}  // namespace
+
 ViewStack<float> disparity_with_nan(const DisparityField& field) {
   if (field.empty()) return {};
   ViewStack<float> disparity = field.disparity.clone();
@@ -66,8 +67,6 @@ ViewStack<float> disparity_with_nan(const DisparityField& field) {
   }
   return disparity;
 }
-
-}  // namespace
 
 void write_npy(const std::filesystem::path& path, const Scene& scene, const Progress& progress) {
   progress.check();
@@ -190,6 +189,17 @@ void write_light_field(Hdf5Output& file, const ViewStack<T>& stack,
                  [](std::uint8_t is_valid) { return is_valid ? full_weight<T>() : T{0}; });
 }
 
+/// Closes a MATLAB file, marks it as one, and puts it in its place.
+void finish_mat(Hdf5Output& file, AtomicFile& target, const Progress& progress) {
+  file.close();
+  {
+    const FileDescriptor front(target.temporary(), O_WRONLY);
+    if (!front.ok() || !write_all(front.id(), matlab_header())) throw write_error(target.target());
+  }
+  progress.check();
+  target.commit();
+}
+
 }  // namespace
 
 void write_mat(const std::filesystem::path& path, const Scene& scene, const Progress& progress) {
@@ -207,13 +217,27 @@ void write_mat(const std::filesystem::path& path, const Scene& scene, const Prog
   progress.check();
   write_map(file, "labels", scene.truth->labels);
   if (light_field.channels() == 1) write_map(file, "valid", light_field.valid());
-  file.close();
-  {
-    const FileDescriptor front(target.temporary(), O_WRONLY);
-    if (!front.ok() || !write_all(front.id(), matlab_header())) throw write_error(path);
-  }
-  progress.check();
-  target.commit();
+  finish_mat(file, target, progress);
+}
+
+void write_npy_maps(const std::filesystem::path& path, const ViewStack<float>& maps) {
+  const OrderedStack<float> ordered(maps);
+  write_npy<float>(path, shape_of(maps, false), {ordered.get().data(), maps.size()});
+}
+
+void write_npz_maps(const std::filesystem::path& path, const ViewStack<float>& maps) {
+  AtomicFile file(path, maps.size() * sizeof(float));
+  ZipWriter zip(file);
+  add_stack(zip, "disparity", maps, false);
+  zip.close();
+  file.commit();
+}
+
+void write_mat_maps(const std::filesystem::path& path, const ViewStack<float>& maps) {
+  AtomicFile target(path, maps.size() * sizeof(float));
+  Hdf5Output file(target, kUserBytes);
+  write_map(file, "disparity", maps);
+  finish_mat(file, target, Progress());
 }
 
 }  // namespace episcope::io

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/disparity_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
+#include "engine/core/view_stack.h"
 
 #include <filesystem>
 
@@ -22,5 +24,15 @@ void write_npz(const std::filesystem::path& path, const Scene& scene, const Prog
 /// the scene has invalid pixels. `disparity`, `labels` and, for grey views, `valid` as above, in
 /// MATLAB's order: (v, u) or (t, s, v, u). Throws IoError, Cancelled.
 void write_mat(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
+
+/// Disparity as files hold it: NaN where it is invalid; empty if there is none.
+[[nodiscard]] ViewStack<float> disparity_with_nan(const DisparityField& field);
+
+/// Write maps alone, `[y][x]` of a single view, else `[v][u][y][x]`, NaN = invalid: as `.npy`; as
+/// `disparity` of an `.npz` archive; as `disparity` of a MATLAB file of version 7.3, in its order,
+/// (y, x) or (v, u, y, x). Atomic. Throw IoError.
+void write_npy_maps(const std::filesystem::path& path, const ViewStack<float>& maps);
+void write_npz_maps(const std::filesystem::path& path, const ViewStack<float>& maps);
+void write_mat_maps(const std::filesystem::path& path, const ViewStack<float>& maps);
 
 }  // namespace episcope::io

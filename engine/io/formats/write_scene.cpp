@@ -10,6 +10,7 @@
 #include "engine/io/base/pfm.h"
 #include "engine/io/formats/benchmark_truth.h"
 #include "engine/io/models/label_list.h"
+#include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/models/stored_maps.h"
 
@@ -78,14 +79,8 @@ void write_attributes(Hdf5Output& file, const Scene& scene, const CameraGrid& ca
   file.set_integers(root, "channels", {field.channels()});
   file.set_number(root, "vSampling", camera.baseline / field.width());
   file.set_number(root, "hSampling", camera.baseline / field.width());
-  file.set_number(root, "dH", camera.baseline);
+  write_camera(file, root, camera);
   file.set_number(root, "dV", camera.baseline);
-  file.set_number(root, "focalLength", camera.focal_length);
-  file.set_number(root, "shift", camera.shift);
-  if (camera.cam_distance) file.set_number(root, "camDistance", *camera.cam_distance);
-  if (const auto& pinhole = camera.pinhole) {
-    file.set_numbers(root, kPinhole, {pinhole->focal_px, pinhole->center_x, pinhole->center_y});
-  }
   file.set_text(root, kConvention, kConventionText);
   file.set_text(root, "name", field.info().name);
   if (!field.info().camera.is_known()) {
@@ -119,19 +114,40 @@ void write_light_field(Hdf5Output& file, const LightField& field, const Progress
       field.samples());
 }
 
-/// Writes a disparity field as depth, 0 where there is none, and its mask if something is missing.
 /// A single view is stored as `[y][x]` if it is the center, else as one valid view of all.
+MapGeometry stored_geometry(const DisparityField& field, const LightField& light_field) {
+  MapGeometry maps = geometry_of(field.disparity);
+  if (maps.grid.count() == 1 && maps.first == light_field.center()) return maps;
+  maps.grid = light_field.grid();
+  maps.first = {};
+  return maps;
+}
+
+/// Writes a disparity field as it is, NaN where there is none.
+void write_true_disparity(Hdf5Output& file, const std::string& name, const DisparityField& field,
+                          const LightField& light_field, const Progress& progress) {
+  if (field.empty()) return;
+  std::vector<float> values(field.disparity.view_size());
+  const auto marked = [&](ViewIndex view) -> const float* {
+    std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
+    if (!field.contains(view)) return values.data();
+    const DisparityView map = field.view(view);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (map.valid.empty() || map.valid.data[i] != 0) values[i] = map.disparity.data[i];
+    }
+    return values.data();
+  };
+  write_maps<float>(file, name, stored_geometry(field, light_field), kDisparityUnit, progress,
+                    marked);
+}
+
+/// Writes a disparity field as depth, 0 where there is none, and its mask if something is missing.
 void write_depth(Hdf5Output& file, const std::string& name, const DisparityField& field,
                  const Scene& scene, const CameraGrid& camera, const Progress& progress) {
   if (field.empty()) return;
   const LightField& light_field = *scene.light_field;
   const ViewStack<float>& disparity = field.disparity;
-  const bool is_center = disparity.grid().count() == 1 && disparity.first() == light_field.center();
-  MapGeometry maps = geometry_of(disparity);
-  if (!is_center) {
-    maps.grid = light_field.grid();
-    maps.first = {};
-  }
+  const MapGeometry maps = stored_geometry(field, light_field);
   std::vector<float> depth(disparity.view_size());
   const auto to_depth = [&](ViewIndex view) -> const float* {
     std::fill(depth.begin(), depth.end(), 0.0F);
@@ -269,9 +285,9 @@ class FormerFile {
   bool was_there_ = false;
 };
 
-std::uintmax_t archive_bytes(const Scene& scene) {
-  const auto of = [](const DisparityField& field) {
-    return field.empty() ? 0 : field.disparity.size() * 5;
+std::uintmax_t archive_bytes(const Scene& scene, bool has_disparity) {
+  const auto of = [&](const DisparityField& field) {
+    return field.empty() ? 0 : field.disparity.size() * (has_disparity ? 9 : 5);
   };
   const GroundTruth& truth = *scene.truth;
   const LightField& field = *scene.light_field;
@@ -300,29 +316,36 @@ std::filesystem::path labels_place(const std::filesystem::path& path, const Scen
 }
 
 void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress,
-                   LabelFile labels) {
+                   const ArchiveForm& form) {
   progress.check();
   progress.step("writing " + path.filename().string());
-  const std::filesystem::path beside = label_file(path, labels);
-  const std::filesystem::path place = labels_place(path, scene, labels);
+  const std::filesystem::path beside = label_file(path, form.labels);
+  const std::filesystem::path place = labels_place(path, scene, form.labels);
   const bool is_inside = !place.empty() && place == path;
   const bool is_apart = !place.empty() && !is_inside;
   const GroundTruth& truth = *scene.truth;
   const CameraGrid camera = camera_for(scene);
 
-  AtomicFile target(path, archive_bytes(scene) + (is_inside ? label_bytes(scene) : 0));
+  const std::uintmax_t label_room = is_inside ? label_bytes(scene) : 0;
+  AtomicFile target(path, archive_bytes(scene, form.has_disparity) + label_room);
   Hdf5Output file(target);
   write_attributes(file, scene, camera);
   write_light_field(file, *scene.light_field, progress.part(0, 0.6));
   const std::pair<const char*, const DisparityField*> fields[] = {
-      {"GT_DEPTH", &truth.field},
-      {"GT_DEPTH_FOREGROUND", &truth.foreground},
-      {"GT_DEPTH_BACKGROUND", &truth.background}};
+      {"", &truth.field}, {"_FOREGROUND", &truth.foreground}, {"_BACKGROUND", &truth.background}};
   double done = 0.6;
-  for (const auto& [name, field] : fields) {
+  for (const auto& [layer, field] : fields) {
     progress.check();
-    write_depth(file, name, *field, scene, camera, progress.part(done, done + 0.08));
-    if (truth.estimated && !field->empty()) write_estimated(file, name, *truth.estimated);
+    const std::string depth = std::string(kTrueDepth) + layer;
+    const std::string disparity = std::string(kTrueDisparity) + layer;
+    write_depth(file, depth, *field, scene, camera, progress.part(done, done + 0.06));
+    if (form.has_disparity) {
+      write_true_disparity(file, disparity, *field, *scene.light_field,
+                           progress.part(done + 0.06, done + 0.08));
+    }
+    for (const std::string& name : {depth, disparity}) {
+      if (truth.estimated && file.has(name)) write_estimated(file, name, *truth.estimated);
+    }
     done += 0.08;
   }
   write_masks(file, scene, progress.part(0.84, 0.86));

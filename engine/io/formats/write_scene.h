@@ -11,12 +11,18 @@ namespace episcope::io {
 /// File beside the light field for its labels: `labels.h5`, or one of its name (label_files_of).
 enum class LabelFile { Usual, NamedAfter };
 
+/// What there is to choose for a file of the archive form.
+struct ArchiveForm {
+  LabelFile labels = LabelFile::Usual;
+  bool has_disparity = false;  ///< GT_DISPARITY beside GT_DEPTH, px per view step, NaN = not known.
+};
+
 /// Writes a scene in the form of the 2013 archive: the light field and its depth to `path`, labels
 /// and scribbles to a file beside it. They go into `path` if that file is there and of another
 /// light field. Rows are in canonical order, which the attribute `convention` states. Atomic for
 /// each file. Throws IoError, Cancelled.
 void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress,
-                   LabelFile labels = LabelFile::Usual);
+                   const ArchiveForm& form = {});
 
 /// Where `write_archive` puts labels: `path` itself if a file of another light field lies beside
 /// it; empty if the scene has none.
@@ -40,15 +46,16 @@ inline constexpr const char* kConventionText =
 /// Attribute of the root: x and y of the camera of each view, row by row; and their unit.
 inline constexpr const char* kPositions = "camera_positions";
 inline constexpr const char* kPositionUnit = "camera_position_unit";
-/// Attribute of the root: the pinhole of the center view: focal length, x and y of its center in
-/// px.
-inline constexpr const char* kPinhole = "pinhole";
 /// Attributes of GT_DEPTH that is no truth but a result: the method, its parameters (a JSON
 /// object), the light field it was estimated from, and the version of Episcope.
 inline constexpr const char* kEstimatedBy = "estimated_by";
 inline constexpr const char* kEstimateParameters = "parameters";
 inline constexpr const char* kEstimateSource = "source";
 inline constexpr const char* kEstimateVersion = "version";
+/// Datasets of depth, `[v][h][y][x]` or, of the center view alone, `[y][x]`; names of layers begin
+/// so. Those of disparity have the same shape, and the same names but for the beginning.
+inline constexpr const char* kTrueDepth = "GT_DEPTH";
+inline constexpr const char* kTrueDisparity = "GT_DISPARITY";
 /// Dataset `[v][h][y][x]`, uint8: 0 = the pixel holds nothing that was seen.
 inline constexpr const char* kValid = "VALID";
 /// Datasets `[y][x]`, uint8: a region mask of the center view, whose name follows.

@@ -5,7 +5,6 @@
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
-#include "engine/io/models/sidecar_maps/infer_units.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 
 #include <fmt/format.h>
@@ -93,20 +92,6 @@ void take_disparity(const ArrayEntry& entry, ViewStack<float> values, ArrayMaps&
   maps.is_named_labels = kind_of(entry) == MapKind::Labels;
 }
 
-/// The first array of depth, in the place of disparity.
-void take_depth(const ArrayFile& file, const std::vector<const ArrayEntry*>& others,
-                const FieldAxes& light_field, ArrayMaps& maps, const Progress& progress) {
-  for (const ArrayEntry* entry : others) {
-    if (kind_of(*entry) != MapKind::Depth) continue;
-    const auto axes = map_layout(*entry, light_field.layout, light_field.order);
-    if (!axes) continue;
-    const GridShape grid = light_field.layout.grid();
-    take_disparity(*entry, read_maps<float>(*file.open(*entry), *axes, grid, progress), maps);
-    maps.is_depth = true;
-    return;
-  }
-}
-
 /// Pixels where a mask of the same single view is 0 hold no disparity.
 void mask_truth(ViewStack<std::uint8_t> mask, DisparityField& field) {
   if (mask.empty() || field.empty() || field.disparity.grid().count() != 1) return;
@@ -118,7 +103,11 @@ void mask_truth(ViewStack<std::uint8_t> mask, DisparityField& field) {
                  [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
 }
 
+/// Depth would need the camera, which arrays do not state.
 FileUse not_used(const ArrayEntry& entry) {
+  if (kind_of(entry) == MapKind::Depth) {
+    return {"depth maps, as no camera parameters are known", 1, entry.name, false};
+  }
   const std::string content = content_text(entry);
   return {entry.other_kind.empty() ? "array of " + content : content, 1, entry.name, false};
 }
@@ -194,28 +183,14 @@ ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEn
     }
     maps.uses.push_back({kind_text(*kind), 1, entry.name, true});
   }
-  if (maps.truth.field.empty()) take_depth(file, others, light_field, maps, progress);
   mask_truth(std::move(mask_of_one), maps.truth.field);
   return maps;
 }
 
 void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, DisparityField& field,
-                      CameraGrid& camera, ConventionReport& report) {
+                      ConventionReport& report) {
   if (field.empty()) return;
-  if (!maps.is_depth) {
-    maps.is_sign_assumed = !settle_stored(samples, {field, maps.disparity_text()}, report);
-    return;
-  }
-  const auto meaning = infer_unknown_units(samples, {ValueForm::Inverse, ValueForm::Linear},
-                                           {field, maps.disparity_name}, report);
-  if (!meaning) {
-    field = {};
-    return;
-  }
-  const auto use = std::ranges::find(maps.uses, maps.disparity_name, &FileUse::example);
-  if (use != maps.uses.end()) *use = {kind_text(MapKind::Depth), 1, maps.disparity_name, true};
-  maps.is_sign_assumed = meaning->is_sign_assumed;
-  if (!camera.is_known()) camera = meaning->camera();
+  maps.is_sign_assumed = !settle_stored(samples, {field, maps.disparity_text()}, report);
 }
 
 }  // namespace episcope::io

@@ -17,7 +17,6 @@ struct ArrayMaps {
   ViewStack<std::uint8_t> valid;  ///< Likewise; empty = none.
   std::vector<FileUse> uses;      ///< Every array of the file but the light field: used as what.
   std::string disparity_name;     ///< Of the array that holds the disparity.
-  bool is_depth = false;          ///< Or, where there is none, depth of unknown unit.
   bool is_sign_assumed = false;   ///< Nothing tells near from far in it.
   bool is_named_labels = false;   ///< That name is one of labels, but it holds fractions.
 
@@ -48,11 +47,9 @@ inline constexpr const char* kNamedLabels = "named like labels, but with fractio
                                         const Progress& progress);
 
 /// Converts stored disparity to px per view step, positive = nearer, by the evidence of the views
-/// (`infer_units`, `find_occlusion_order`), and tells the report. Depth becomes disparity, and tells an
-/// unknown camera, if the views show its unit (`infer_unknown_units`); else it is not used.
-/// `field` is the truth of `maps`, which may have been moved; `maps` notes whether the sign is
-/// assumed.
+/// (`infer_units`, `find_occlusion_order`), and tells the report. `field` is the truth of `maps`,
+/// which may have been moved; `maps` notes whether the sign is assumed.
 void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, DisparityField& field,
-                      CameraGrid& camera, ConventionReport& report);
+                      ConventionReport& report);
 
 }  // namespace episcope::io

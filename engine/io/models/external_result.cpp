@@ -4,12 +4,17 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
+#include "engine/io/base/csv_map.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/base/pfm.h"
+#include "engine/io/models/array_file.h"
 #include "engine/io/models/array_samples.h"
+#include "engine/io/models/choose_layout.h"
+#include "engine/io/models/mat5.h"
+#include "engine/io/models/numpy_file.h"
 #include "engine/io/models/stored_maps.h"
 
 #include <fmt/format.h>
@@ -17,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <system_error>
 #include <vector>
@@ -47,30 +53,94 @@ Image<float> read_float_tiff(const fs::path& path) {
                     ", but a disparity map needs 32-bit float samples; export it in that format");
 }
 
+/// The place, among the names of all arrays that can be a disparity map, of the one that is meant:
+/// the only one, or the only one of the expected name. `what`: what an array is called.
+std::size_t meant_map(const fs::path& path, const std::vector<std::string>& names,
+                      const std::string& what) {
+  if (names.size() == 1) return 0;
+  const auto is_named = [](const std::string& name) {
+    return lower_case(name).find("disp") != std::string::npos;
+  };
+  const auto place_of = [&names](const auto& found) {
+    return static_cast<std::size_t>(found - names.begin());
+  };
+  if (std::ranges::count_if(names, is_named) == 1) {
+    return place_of(std::ranges::find_if(names, is_named));
+  }
+  const auto exact = std::ranges::find_if(
+      names, [](const std::string& name) { return lower_case(name) == "disparity"; });
+  if (exact != names.end()) return place_of(exact);
+  const std::string found =
+      names.empty() ? "none was found"
+                    : fmt::format("{} were found ({})", names.size(), joined(names, ", "));
+  throw IoError(path, fmt::format("one {} with 2 or 4 axes is expected, but {}; store the "
+                                  "disparity alone",
+                                  what, found));
+}
+
 /// The one dataset of an HDF5 file that can be a disparity map.
 Hdf5Dataset find_map(const Hdf5Input& file) {
-  std::vector<Hdf5Dataset> maps;
-  for (const Hdf5Dataset& dataset : file.datasets()) {
+  std::vector<Hdf5Dataset> maps = file.datasets();
+  std::erase_if(maps, [](const Hdf5Dataset& dataset) {
     const bool is_map = dataset.shape.size() == 2 || dataset.shape.size() == 4;
-    if (!is_map || dataset.type != Hdf5Type::Float) continue;
-    maps.push_back(dataset);
+    return !is_map || dataset.type != Hdf5Type::Float;
+  });
+  std::vector<std::string> names;
+  for (const Hdf5Dataset& map : maps) names.push_back(map.name);
+  return maps[meant_map(file.path(), names, "dataset of float samples")];
+}
+
+/// The axes of an array that can be a disparity map; empty for any other, such as a single number.
+std::string map_axes_of(const ArrayEntry& entry) {
+  const std::size_t rank = entry.shape.size();
+  if (!entry.other_kind.empty() || (rank != 2 && rank != 4)) return {};
+  const std::string usual = rank == 2 ? "yx" : "vuyx";
+  const std::string axes =
+      entry.is_of_views() ? joined_axes(entry) : in_index_order(usual, entry.order);
+  const ArrayLayout layout{entry.shape, axes};
+  return layout.height() > 1 && layout.width() > 1 ? axes : std::string();
+}
+
+/// Whether views of a light field are among the arrays: rather that than maps by name or axes.
+bool holds_light_field(const ArrayFile& file) {
+  return std::ranges::any_of(light_fields_of(file, {}), [](const ArrayEntry* entry) {
+    const bool has_views = entry->shape.size() > 3 || entry->is_of_views();
+    return !has_other_name(*entry) && (has_views || has_light_field_name(*entry));
+  });
+}
+
+/// Numbers with the meaning of their axes.
+struct PlacedArray {
+  std::unique_ptr<const ArrayInput> array;
+  ArrayLayout layout;
+};
+
+/// The one array of a file that can be a disparity map: of floats, else of whole numbers.
+PlacedArray find_map(const ArrayFile& file) {
+  std::vector<const ArrayEntry*> maps;
+  for (const bool are_floats : {true, false}) {
+    for (const ArrayEntry& entry : file.entries()) {
+      if (is_float(entry.type) == are_floats && !map_axes_of(entry).empty()) maps.push_back(&entry);
+    }
+    if (!maps.empty()) break;
   }
-  if (maps.size() == 1) return maps.front();
-  // Several float datasets are not ambiguous if only one has the expected name.
-  const auto is_named = [](const Hdf5Dataset& map) {
-    return lower_case(map.name).find("disp") != std::string::npos;
-  };
-  if (std::ranges::count_if(maps, is_named) == 1) return *std::ranges::find_if(maps, is_named);
-  for (const Hdf5Dataset& map : maps) {
-    if (lower_case(map.name) == "disparity") return map;
-  }
-  const std::string found = maps.empty() ? "none was found"
-                                         : fmt::format("{} were found ({})", maps.size(),
-                                                       joined(maps, ", ", &Hdf5Dataset::name));
-  throw IoError(file.path(),
-                fmt::format("one dataset of float samples with 2 or 4 axes is expected, but {}; "
-                            "store the disparity alone",
-                            found));
+  std::vector<std::string> names;
+  for (const ArrayEntry* map : maps) names.push_back(map->name);
+  const ArrayEntry& meant = *maps[meant_map(file.path(), names, "array of numbers")];
+  return {file.open(meant), {meant.shape, map_axes_of(meant)}};
+}
+
+/// Opens an `.npz` or a MATLAB file of version 5 to 7; null for other files.
+std::unique_ptr<const ArrayFile> open_map_archive(const fs::path& path) {
+  if (suffix_of(path) == ".npz") return std::make_unique<const NumpyFile>(path);
+  return is_mat5_file(path) ? open_matlab_file(path) : nullptr;
+}
+
+PlacedArray open_npy_maps(const fs::path& path) {
+  auto file = std::make_unique<const NpyFile>(path);
+  const IndexOrder order = file->header().is_fortran ? IndexOrder::Fortran : IndexOrder::C;
+  const ArrayLayout layout{file->shape(), in_index_order(std::string("vuyx"), order)};
+  return {std::move(file), layout};
 }
 
 DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
@@ -92,23 +162,37 @@ DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
   return field;
 }
 
-/// `[y][x]`, or `[v][u][y][x]`.
-DisparityField read_npy_field(const fs::path& path, GridShape grid) {
-  const NpyFile file(path);
-  if (file.shape().size() != 4) return center_field(path, read_npy_map(path), grid);
-  const ArrayLayout layout{
-      file.shape(), in_index_order(std::string("vuyx"),
-                                   file.header().is_fortran ? IndexOrder::Fortran : IndexOrder::C)};
-  if (layout.has_one_view()) return center_field(path, read_npy_map(path), grid);
-  if (!(layout.grid() == grid)) {
-    throw IoError(path, fmt::format("the array has the shape {}, but the light field has {}×{} "
-                                    "views; name the light field that it belongs to",
-                                    shape_text(file.header().shape), grid.v, grid.u));
+DisparityField read_placed(const PlacedArray& maps, GridShape grid) {
+  const ArrayLayout& layout = maps.layout;
+  const fs::path& path = maps.array->path();
+  if (!layout.has_one_view() && !(layout.grid() == grid)) {
+    throw IoError(path, fmt::format("the array has {}×{} maps of {}×{} pixels, but the light field "
+                                    "has {}×{} views; name the light field that it belongs to",
+                                    layout.grid().v, layout.grid().u, layout.width(),
+                                    layout.height(), grid.v, grid.u));
   }
   DisparityField field;
-  field.disparity = read_map_stack<float>(file, layout, Progress(1));
+  field.disparity = read_map_stack<float>(*maps.array, layout, Progress(1));
+  if (layout.has_one_view()) {
+    ViewStack<float> center({1, 1}, layout.height(), layout.width(), 1, grid.center());
+    std::copy_n(field.disparity.data(), center.size(), center.data());
+    field.disparity = std::move(center);
+  }
   mark_invalid(field);
   return field;
+}
+
+/// `[y][x]`, or `[v][u][y][x]`.
+DisparityField read_npy_field(const fs::path& path, GridShape grid) {
+  if (NpyFile(path).shape().size() != 4) return center_field(path, read_npy_map(path), grid);
+  return read_placed(open_npy_maps(path), grid);
+}
+
+DisparityField read_archive_field(const ArrayFile& file, GridShape grid) {
+  if (holds_light_field(file)) {
+    throw IoError(file.path(), "holds a light field and no estimated disparity; name a result");
+  }
+  return read_placed(find_map(file), grid);
 }
 
 /// `disp_maps/<scene>.pfm`, or the only map if no scene is named.
@@ -159,13 +243,28 @@ DisparityField read_disparity_map(const fs::path& path, GridShape grid) {
   if (suffix == ".tif" || suffix == ".tiff") {
     return center_field(path, read_float_tiff(path), grid);
   }
+  if (suffix == ".csv") return center_field(path, read_csv_map(path), grid);
+  if (const auto archive = open_map_archive(path)) return read_archive_field(*archive, grid);
   if (has_hdf5_signature(path) || has_hdf5_name(path)) {
     return read_hdf5_map(path, grid);
   }
-  throw IoError(
-      path,
-      "this is not a disparity map: a result file, another HDF5 file, a PFM, a float TIFF "
-      "or an .npy array is expected; choose another file");
+  throw IoError(path, std::string("this is not a disparity map: a result file, ") + kMapForms +
+                          " is expected; choose another file");
+}
+
+bool is_map_archive(const fs::path& path) {
+  try {
+    const auto file = open_map_archive(path);
+    const auto is_map = [](const ArrayEntry& entry) { return !map_axes_of(entry).empty(); };
+    return file && !holds_light_field(*file) && std::ranges::any_of(file->entries(), is_map);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+GridShape grid_of_arrays(const fs::path& path) {
+  if (const auto file = open_map_archive(path)) return find_map(*file).layout.grid();
+  return NpyFile(path).shape().size() == 4 ? open_npy_maps(path).layout.grid() : GridShape{1, 1};
 }
 
 Estimate read_external_result(const fs::path& path, GridShape grid, const std::string& scene) {

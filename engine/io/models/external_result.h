@@ -11,10 +11,16 @@
 
 namespace episcope::io {
 
-/// Reads a disparity map of another program: PFM, 32-bit float TIFF, `.npy` of two or four axes, or
-/// an HDF5 file with one 2-D or 4-D dataset of float samples, in the order of axes that it states
-/// (`stated_map_layout`). A 2-D map belongs to the center view of `grid`. Values that are not
-/// finite become invalid pixels. Throws IoError with one sentence.
+/// Forms of disparity maps, for help and errors.
+inline constexpr const char* kMapForms =
+    "HDF5 or .mat (5 to 7.3) with one map, .npy, .npz, PFM, float TIFF, .csv";
+
+/// Reads a disparity map of another program: PFM, 32-bit float TIFF, `.csv` (`read_csv_map`),
+/// `.npy` of two or four axes, an `.npz` or MATLAB file with one such array, or an HDF5 file with
+/// one 2-D or 4-D dataset of float samples, in the order of axes that it states
+/// (`stated_map_layout`). Of several arrays, the only one named like disparity is meant. A 2-D map
+/// belongs to the center view of `grid`. Values that are not finite become invalid pixels. Throws
+/// IoError with one sentence, also for an `.npz` or MATLAB file with a light field.
 [[nodiscard]] DisparityField read_disparity_map(const std::filesystem::path& path, GridShape grid);
 
 /// Reads a result of another program: a file as above, or a folder of the 2016 submission form
@@ -22,6 +28,13 @@ namespace episcope::io {
 /// IoError.
 [[nodiscard]] Estimate read_external_result(const std::filesystem::path& path, GridShape grid,
                                             const std::string& scene);
+
+/// Whether an `.npz` file, or a MATLAB file of version 5 to 7, holds maps and no light field. False
+/// for other files, and for damaged ones.
+[[nodiscard]] bool is_map_archive(const std::filesystem::path& path);
+
+/// The views that the map of such a file or of an `.npy` file covers. Throws IoError.
+[[nodiscard]] GridShape grid_of_arrays(const std::filesystem::path& path);
 
 /// Marks values that are not finite as invalid and sets them to 0.
 void mark_invalid(DisparityField& field);

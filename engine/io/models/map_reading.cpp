@@ -195,6 +195,7 @@ void apply_reading(const MapReading& reading, const LightField* light_field, Est
         read_maps_so({std::move(estimate.confidence), {}}, places, target).disparity;
   }
   estimate.field = read_maps_so(estimate.field, reading, target);
+  if (!estimate.second.empty()) estimate.second = read_maps_so(estimate.second, reading, target);
   estimate.border_px = reading.border_px;
 }
 

@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
-#include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/models/choose_layout.h"
 #include "engine/io/models/sidecar_maps/map_name.h"

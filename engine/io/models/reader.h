@@ -6,7 +6,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/io/base/image_file.h"
+#include "engine/io/base/files.h"
 #include "engine/io/models/open_options.h"
 
 #include <filesystem>

@@ -6,6 +6,7 @@
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
+#include "engine/io/models/external_result.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/stored_maps.h"
 
@@ -216,13 +217,14 @@ struct Dataset {
 };
 constexpr Dataset kDatasets[] = {
     {DraftMap::Disparity, "disparity", kDisparityUnit},
-    {DraftMap::Confidence, "confidence", ""},
+    {DraftMap::Confidence, "confidence", kNoUnit},
     {DraftMap::Foreground, "disparity_foreground", kDisparityUnit, false, true},
     {DraftMap::Background, "disparity_background", kDisparityUnit, false, true},
     {DraftMap::Layers, "layers", "surfaces", false, true},
-    {DraftMap::Valid, "valid", "", true},
-    {DraftMap::ForegroundValid, "valid_foreground", "", true, true},
-    {DraftMap::BackgroundValid, "valid_background", "", true, true},
+    {DraftMap::Second, "disparity_second", kDisparityUnit},
+    {DraftMap::Valid, "valid", kNoUnit, true},
+    {DraftMap::ForegroundValid, "valid_foreground", kNoUnit, true, true},
+    {DraftMap::BackgroundValid, "valid_background", kNoUnit, true, true},
 };
 
 bool is_mask(DraftMap map) {
@@ -237,6 +239,7 @@ std::vector<Dataset> datasets_of(const DraftShape& shape) {
   for (const Dataset& dataset : kDatasets) {
     if (dataset.is_mask && !shape.has_valid) continue;
     if (dataset.is_of_layers && !shape.has_layers) continue;
+    if (dataset.map == DraftMap::Second && !shape.has_second) continue;
     datasets.push_back(dataset);
   }
   return datasets;
@@ -261,6 +264,8 @@ auto& field_in(Maps& maps, DraftMap map) {
     case DraftMap::Background:
     case DraftMap::BackgroundValid:
       return maps.layered.background;
+    case DraftMap::Second:
+      return maps.second;
     default:
       return maps.field;
   }
@@ -316,6 +321,7 @@ void DraftFile::create(const std::filesystem::path& path, const DraftShape& shap
       output.reserve_dataset<float>(name, extent, axes, dataset.unit);
     }
   }
+  describe_maps(output, maps);
   output.close();
   {
     const FileDescriptor reserved(file.temporary(), O_RDWR);
@@ -408,6 +414,7 @@ BlockMaps DraftFile::read(const MapBlock& block) const {
   if (shape_.has_layers) {
     maps.layered = {{empty(0.0F), {}}, {empty(0.0F), {}}, empty(std::uint8_t{})};
   }
+  if (shape_.has_second) maps.second.disparity = empty(0.0F);
   for (const Place& place : places_) {
     if (is_mask(place.map)) continue;
     for (int i = 0; i < views.grid.count(); ++i) {
@@ -416,6 +423,7 @@ BlockMaps DraftFile::read(const MapBlock& block) const {
                           at(place, view, block.first_row)));
     }
   }
+  mark_invalid(maps.second);
   return maps;
 }
 

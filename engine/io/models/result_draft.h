@@ -17,7 +17,8 @@ namespace episcope::io {
 struct DraftShape {
   MapGeometry maps;
   bool has_valid = false;   ///< Whether some pixels may be marked as not valid.
-  bool has_layers = false;  ///< Whether it holds two layers as well.
+  bool has_layers = false;  ///< Whether it holds two layers as well,
+  bool has_second = false;  ///< and a second disparity.
   int kept = 0;             ///< Maps beside it that passes keep for later ones.
 };
 
@@ -34,6 +35,7 @@ enum class DraftMap {
   Foreground,
   Background,
   Layers,
+  Second,
   Valid,
   ForegroundValid,
   BackgroundValid

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace episcope::io {
 namespace {
@@ -20,8 +21,8 @@ namespace {
 /// Bytes of all maps, with some room for the structure of the file.
 std::uintmax_t result_bytes(const Estimate& estimate) {
   std::uintmax_t bytes = 1 << 16;
-  for (const DisparityField* field :
-       {&estimate.field, &estimate.layered.foreground, &estimate.layered.background}) {
+  for (const DisparityField* field : {&estimate.field, &estimate.layered.foreground,
+                                      &estimate.layered.background, &estimate.second}) {
     if (!field->empty()) bytes += field->disparity.size() * sizeof(float);
     if (!field->valid.empty()) bytes += field->valid.size();
   }
@@ -40,18 +41,45 @@ std::vector<std::string> split_lines(const std::string& text) {
   return lines;
 }
 
-void write_layers(Hdf5Output& file, const LayeredDisparity& layered, const Progress& progress) {
-  const auto write = [&](const DisparityField& field, const char* name, const char* valid) {
-    if (field.empty()) return;
-    write_disparity(file, in_group(name), field, progress);
-    if (!field.valid.empty()) write_stack(file, in_group(valid), field.valid, "", progress);
-  };
-  write(layered.foreground, "disparity_foreground", "valid_foreground");
-  write(layered.background, "disparity_background", "valid_background");
-  if (!layered.layers.empty()) {
-    write_stack(file, in_group("layers"), layered.layers, "surfaces", progress);
+/// Writes the maps of an estimate.
+class ResultWriter {
+ public:
+  ResultWriter(Hdf5Output& file, Hdf5Storage floats) : file_(file), floats_(floats) {}
+
+  void write(const Estimate& estimate, const Progress& progress) {
+    write_field(estimate.field, "disparity", "valid", progress.part(0, 0.6));
+    if (!estimate.confidence.empty()) {
+      file_.set_storage(floats_);
+      write_stack(file_, in_group("confidence"), estimate.confidence, kNoUnit,
+                  progress.part(0.6, 0.9));
+    }
+    const LayeredDisparity& layered = estimate.layered;
+    const Progress last = progress.part(0.9, 1);
+    if (!estimate.second.empty()) {
+      file_.set_storage(floats_);
+      write_disparity(file_, in_group("disparity_second"), estimate.second, last);
+    }
+    write_field(layered.foreground, "disparity_foreground", "valid_foreground", last);
+    write_field(layered.background, "disparity_background", "valid_background", last);
+    if (layered.layers.empty()) return;
+    file_.set_storage(Hdf5Storage::Deflated);
+    write_stack(file_, in_group("layers"), layered.layers, "surfaces", last);
   }
-}
+
+ private:
+  void write_field(const DisparityField& field, const char* name, const char* valid,
+                   const Progress& progress) {
+    if (field.empty()) return;
+    file_.set_storage(floats_);
+    write_disparity(file_, in_group(name), field, progress.part(0, 0.85));
+    if (field.valid.empty()) return;
+    file_.set_storage(Hdf5Storage::Deflated);
+    write_stack(file_, in_group(valid), field.valid, kNoUnit, progress.part(0.85, 1));
+  }
+
+  Hdf5Output& file_;
+  Hdf5Storage floats_;
+};
 
 /// Reads the maps of an own result file, which all have the same views, in the order of axes that
 /// the file states: other programs may have written it again.
@@ -66,6 +94,8 @@ class ResultReader {
     estimate.layered.foreground = read_field_if_there("disparity_foreground", "valid_foreground");
     estimate.layered.background = read_field_if_there("disparity_background", "valid_background");
     estimate.layered.layers = read_if_there<std::uint8_t>("layers");
+    estimate.second.disparity = read_if_there<float>("disparity_second");
+    mark_invalid(estimate.second);
     read_provenance(estimate);
     return estimate;
   }
@@ -129,6 +159,10 @@ class ResultReader {
     estimate.source = text("source");
     estimate.source_hash = hash_from_digits(text("source_hash"));
     estimate.reading = reading_in(file_, kResultGroup);
+    estimate.camera = camera_in(file_, kResultGroup);
+    estimate.device = text("device");
+    estimate.commit = text("commit");
+    estimate.date = text("date");
     estimate.notes = split_lines(text("notes"));
     constexpr int widest = 1 << 16;
     const double border_px = file_.number(kResultGroup, "border_px").value_or(0);
@@ -144,22 +178,16 @@ class ResultReader {
 }  // namespace
 
 void write_result(const std::filesystem::path& path, const Estimate& estimate,
-                  const Progress& progress, const std::optional<std::string>& source) {
+                  const Progress& progress, const ResultForm& form) {
   if (estimate.field.empty()) throw InvalidInput("an estimate without disparity cannot be written");
   progress.check();
   AtomicFile target(path, result_bytes(estimate));
   Hdf5Output file(target);
   file.add_group(kResultGroup);
-  write_disparity(file, in_group("disparity"), estimate.field, progress.part(0, 0.5));
-  if (!estimate.field.valid.empty()) {
-    write_stack(file, in_group("valid"), estimate.field.valid, "", progress.part(0.5, 0.6));
-  }
-  if (!estimate.confidence.empty()) {
-    write_stack(file, in_group("confidence"), estimate.confidence, "", progress.part(0.6, 0.9));
-  }
-  write_layers(file, estimate.layered, progress.part(0.9, 1));
-  write_provenance(file, estimate, geometry_of(estimate.field.disparity),
-                   source.value_or(estimate.source));
+  ResultWriter(file, form.floats).write(estimate, progress);
+  const MapGeometry maps = geometry_of(estimate.field.disparity);
+  describe_maps(file, maps);
+  write_provenance(file, estimate, maps, form.source.value_or(estimate.source));
   file.close();
   progress.check();
   target.commit();
@@ -187,6 +215,41 @@ std::string join_lines(const std::vector<std::string>& lines) {
   return text;
 }
 
+// Names and meanings of the maps of a result.
+constexpr std::pair<const char*, const char*> kMapMeanings[] = {
+    {"disparity", "disparity; NaN = not known"},
+    {"confidence", "confidence, 0 to 1"},
+    {"valid", "1 where the disparity is known, else 0"},
+    {"disparity_foreground", "disparity of the surface in front; NaN = not known"},
+    {"disparity_background", "disparity of the surface behind; NaN = not known"},
+    {"valid_foreground", "1 where the disparity of the surface in front is known, else 0"},
+    {"valid_background", "1 where the disparity of the surface behind is known, else 0"},
+    {"layers", "number of surfaces: 1 or 2"},
+};
+
+constexpr const char* kSign =
+    "positive disparity = nearer than the plane of zero disparity; a point at (x, y) of view "
+    "(v, u) is at (x - d, y) of view (v, u + 1) and at (x, y - d) of view (v + 1, u)";
+constexpr const char* kAxisOrder =
+    "v = row of views, counted downwards; u = column of views, counted to the right; y = row of "
+    "pixels, counted downwards; x = column of pixels, counted to the right; all from 0; x varies "
+    "fastest; MATLAB and Octave show the axes in the opposite order";
+constexpr const char* kDepthFormula =
+    "Z = dH * focalLength / (disparity + shift), distance to the image plane in units of the scene";
+constexpr const char* kHashName = "FNV-1a of 64 bits over the sizes and samples of the light field";
+
+void write_run(Hdf5Output& file, const Provenance& estimate) {
+  const auto write = [&](const char* name, const std::string& text) {
+    if (!text.empty()) file.set_text(kResultGroup, name, text);
+  };
+  write("program", "Episcope");
+  write("version", estimate.version.empty() ? kVersion : estimate.version);
+  write("commit", estimate.commit);
+  write("date", estimate.date);
+  write("device", estimate.device);
+  file.set_number(kResultGroup, "seconds", estimate.seconds);
+}
+
 }  // namespace
 
 std::string in_group(const char* name) {
@@ -197,11 +260,17 @@ void write_provenance(Hdf5Output& file, const Provenance& estimate, const MapGeo
                       const std::string& source) {
   file.set_text(kResultGroup, "method", estimate.method);
   file.set_text(kResultGroup, "parameters", parameters_to_json(estimate.parameters));
-  file.set_number(kResultGroup, "seconds", estimate.seconds);
-  file.set_text(kResultGroup, "version", estimate.version.empty() ? kVersion : estimate.version);
+  write_run(file, estimate);
+  file.set_text(kResultGroup, "sign", kSign);
+  file.set_text(kResultGroup, "axis_order", kAxisOrder);
+  if (estimate.camera.is_known()) {
+    write_camera(file, kResultGroup, estimate.camera);
+    file.set_text(kResultGroup, "depth", kDepthFormula);
+  }
   file.set_text(kResultGroup, "source", source);
   if (estimate.source_hash != 0) {
     file.set_text(kResultGroup, "source_hash", hash_digits(estimate.source_hash));
+    file.set_text(kResultGroup, "source_hash_of", kHashName);
   }
   write_reading(file, kResultGroup, estimate.reading);
   if (!(estimate.range == Interval{})) {
@@ -214,6 +283,43 @@ void write_provenance(Hdf5Output& file, const Provenance& estimate, const MapGeo
   }
   if (!estimate.notes.empty()) file.set_text(kResultGroup, "notes", join_lines(estimate.notes));
   if (estimate.border_px > 0) file.set_number(kResultGroup, "border_px", estimate.border_px);
+}
+
+void describe_maps(Hdf5Output& file, const MapGeometry& maps) {
+  for (const auto& [name, meaning] : kMapMeanings) {
+    if (file.has(in_group(name))) file.set_text(in_group(name), "long_name", meaning);
+  }
+  std::vector<Hdf5Axis> axes;
+  if (maps.grid.count() > 1) {
+    axes = {{"v", "view", "row of views, counted downwards", maps.first.v, maps.grid.v},
+            {"u", "view", "column of views, counted to the right", maps.first.u, maps.grid.u}};
+  }
+  axes.push_back({"y", "px", "row of pixels, counted downwards", 0, maps.height});
+  axes.push_back({"x", "px", "column of pixels, counted to the right", 0, maps.width});
+  file.add_axes(kResultGroup, axes);
+}
+
+void write_camera(Hdf5Output& file, const std::string& group, const CameraGrid& camera) {
+  file.set_number(group, "dH", camera.baseline);
+  file.set_number(group, "focalLength", camera.focal_length);
+  file.set_number(group, "shift", camera.shift);
+  if (camera.cam_distance) file.set_number(group, "camDistance", *camera.cam_distance);
+  if (const auto& pinhole = camera.pinhole) {
+    file.set_numbers(group, kPinhole, {pinhole->focal_px, pinhole->center_x, pinhole->center_y});
+  }
+}
+
+CameraGrid camera_in(const Hdf5Input& file, const std::string& group) {
+  CameraGrid camera;
+  camera.baseline = file.number(group, "dH").value_or(0);
+  camera.focal_length = file.number(group, "focalLength").value_or(0);
+  camera.shift = file.number(group, "shift").value_or(0);
+  camera.cam_distance = file.number(group, "camDistance");
+  const std::vector<double> pinhole = file.numbers(group, kPinhole);
+  if (pinhole.size() == 3) camera.pinhole = Pinhole{pinhole[0], pinhole[1], pinhole[2]};
+  const bool is_sound = std::isfinite(camera.baseline) && std::isfinite(camera.focal_length) &&
+                        std::isfinite(camera.shift);
+  return is_sound ? camera : CameraGrid{};
 }
 
 void write_reading(Hdf5Output& file, const std::string& group, const Reading& reading) {

@@ -191,11 +191,10 @@ std::string listed_axes(const std::string& list) {
   return letters;
 }
 
-std::string labeled_axes(const Hdf5Input& file, const std::string& name) {
+/// Letters of axes that have a name each.
+std::string named_axes(const std::vector<std::string>& names) {
   std::string letters;
-  for (const std::string& label : file.texts(name, "DIMENSION_LABELS")) {
-    letters += axis_letter(label);
-  }
+  for (const std::string& name : names) letters += axis_letter(name);
   return letters;
 }
 
@@ -204,7 +203,8 @@ std::string labeled_axes(const Hdf5Input& file, const std::string& name) {
 ArrayLayout stated_map_layout(const Hdf5Input& file, const Hdf5Dataset& dataset) {
   const std::string usual = dataset.shape.size() == 2 ? "yx" : "vuyx";
   for (const std::string& stated : {listed_axes(file.text(dataset.name, "axes").value_or("")),
-                                    labeled_axes(file, dataset.name)}) {
+                                    named_axes(file.texts(dataset.name, "DIMENSION_LABELS")),
+                                    named_axes(file.scale_names(dataset.name))}) {
     if (std::ranges::is_permutation(stated, usual)) return {dataset.shape, stated};
   }
   const IndexOrder order = is_matlab_hdf5(file) ? IndexOrder::Fortran : IndexOrder::C;

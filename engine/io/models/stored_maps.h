@@ -41,8 +41,9 @@ template <class T>
                                    const FieldShape& shape);
 
 /// Order of the axes of maps, of two or four axes, as their file states it: by the attribute `axes`
-/// ("x,y"), by labels of the dimensions ("y", "rows", "height"), or as a file of MATLAB, whose axes
-/// are reversed. Without such a statement, or with one that names other axes, `[y][x]` or
+/// ("x,y"), by labels of the dimensions or the names of their scales ("y", "rows", "height"), or as
+/// a file of MATLAB, whose axes are reversed. Without such a statement, or with one that names
+/// other axes, `[y][x]` or
 /// `[v][u][y][x]`.
 [[nodiscard]] ArrayLayout stated_map_layout(const Hdf5Input& file, const Hdf5Dataset& dataset);
 

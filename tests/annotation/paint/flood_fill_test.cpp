@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/flood_fill.h"
+#include "annotation/brush.h"
 #include "engine/core/error.h"
 #include "tests/annotation/drawn_region.h"
 #include "tests/test_main.h"

@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
       {"foreground", same(a.layered.foreground, b.layered.foreground)},
       {"background", same(a.layered.background, b.layered.background)},
       {"layers", same(a.layered.layers, b.layered.layers)},
+      {"second", same(a.second, b.second)},
       {"method", a.method == b.method},
       {"parameters", a.parameters == b.parameters},
       {"range", a.range == b.range},

@@ -96,6 +96,22 @@ def test_nothing_but_a_result_is_replaced(scene, tmp_path):
     result.save(tmp_path / "r.h5")
 
 
+@pytest.mark.parametrize("form", ["h5", "npy", "npz", "csv", "ply"])
+def test_another_result_is_replaced_when_asked(scene, form, tmp_path):
+    path = tmp_path / ("r." + form)
+    first = episcope.estimate(scene, "epi_l", views="center")
+    other = episcope.estimate(scene, "epi_s", views="center")
+    first.save(path)
+    before = path.read_bytes()
+    first.save(path)
+    with pytest.raises(episcope.IoError, match="or pass overwrite=True"):
+        other.save(path)
+    if form != "h5":
+        assert path.read_bytes() == before
+    other.save(path, overwrite=True)
+    assert path.read_bytes() != before
+
+
 def test_name_that_tells_no_form_is_refused(scene, tmp_path):
     with pytest.raises(episcope.InvalidInput, match="let it end in"):
         episcope.estimate(scene, "epi_l", views="center").save(tmp_path / "r.xyz")

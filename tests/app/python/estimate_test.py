@@ -62,7 +62,7 @@ def test_keyword_that_python_reserves_has_a_line_below(scene):
     assert result.parameters["lambda"] == 0.5
 
 
-@pytest.mark.parametrize("form", ["h5", "pfm", "tif", "npy", "ply"])
+@pytest.mark.parametrize("form", ["h5", "pfm", "tif", "npy", "npz", "mat", "csv", "ply"])
 def test_result_is_saved_as_its_name_says(scene, form, tmp_path):
     result = episcope.estimate(scene, "epi_l")
     path = tmp_path / ("map." + form)

@@ -34,7 +34,7 @@ def folder(tmp_path, monkeypatch, cli):
 @pytest.mark.parametrize("number", range(len(examples("python"))))
 def test_python(number, folder):
     code = examples("python")[number]
-    for module in re.findall(r"\b(pandas|matplotlib|h5py)\b", code):
+    for module in re.findall(r"\b(pandas|matplotlib|h5py|xarray|h5netcdf)\b", code):
         pytest.importorskip(module)
     exec(compile(code, f"example {number}", "exec"), {})
     if "strokes.h5" in code:
@@ -42,8 +42,9 @@ def test_python(number, folder):
 
 
 def test_every_kind_of_example_is_found():
-    assert len(examples("python")) >= 6
-    assert len(examples("matlab")) == len(examples("octave")) == 1
+    assert len(examples("python")) >= 7
+    assert len(examples("matlab")) == 2
+    assert len(examples("octave")) == 1
 
 
 # What MATLAB has and Octave lacks: it gives arrays in the same order.
@@ -57,12 +58,24 @@ end
 """
 
 
+def h5readatt():
+    """What MATLAB reads attributes with; Octave reads none."""
+    h5py = pytest.importorskip("h5py")
+    with h5py.File("result.h5") as file:
+        cases = [
+            f"case '{name}'; value = " + (f"'{value}'" if isinstance(value, str) else repr(float(value))) + ";"
+            for name, value in file["estimate"].attrs.items()
+            if name in ("dH", "focalLength", "shift", "method")
+        ]
+    return "function value = h5readatt(name, path, key)\n switch key\n" + "\n".join(cases) + "\n end\nend\n"
+
+
 @pytest.mark.parametrize("language", ["matlab", "octave"])
 def test_octave(language, folder):
     if not shutil.which("octave-cli"):
         pytest.skip("there is no Octave")
     pathlib.Path("example.m").write_text(
-        (H5READ if language == "matlab" else "")
+        (H5READ + h5readatt() if language == "matlab" else "")
         + "".join(examples(language))
         + "printf('%.9g ', disparity(2, 3, 10, 20), center(7, 8));\n"
         + "printf('%d ', views(2, 3, 10, 20, 3), size(views));\n"
@@ -74,3 +87,17 @@ def test_octave(language, folder):
     assert disparities == pytest.approx([expected[1, 2, 9, 19], expected[4, 4, 6, 7]], rel=1e-7)
     assert sample == lf.views[1, 2, 9, 19, 2]
     assert (v, u, y, x, c) == lf.views.shape
+
+
+def test_matlab_finds_depth(folder):
+    if not shutil.which("octave-cli"):
+        pytest.skip("there is no Octave")
+    pathlib.Path("example.m").write_text(
+        H5READ + h5readatt() + "".join(examples("matlab")) + "printf('%.9g %s', depth(2, 3, 10, 20), method);\n"
+    )
+    printed = subprocess.run(["octave-cli", "--norc", "example.m"], check=True, capture_output=True, text=True).stdout
+    depth, method = printed.split()
+    lf = episcope.open("scene")
+    expected = lf.camera.depth(episcope.estimate(lf, "epi_l").disparity[1, 2, 9, 19])
+    assert float(depth) == pytest.approx(float(expected), rel=1e-6)
+    assert method == "epi_l"

@@ -6,7 +6,7 @@ import episcope
 from conftest import SCENE
 
 # Not of the file, or of the moment.
-OTHER = {"file", "seconds", "runtime_class", "method"}
+OTHER = {"file", "seconds", "runtime_class", "method", "view"}
 
 
 def of_command_line(cli, file, *options):
@@ -16,7 +16,7 @@ def of_command_line(cli, file, *options):
 
 
 def of_python(scores):
-    return {key: value for key, value in scores.items() if key not in OTHER | {"view"}}
+    return {key: value for key, value in scores.items() if key not in OTHER}
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,7 @@
 #include "engine/capture/demo_folder.h"
 #include "engine/capture/rectify.h"
 #include "engine/capture/solve_pose.h"
-#include "engine/capture/visible_depth.h"
+#include "engine/capture/view_surface.h"
 
 #include <optional>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/scan_mesh.h"
-#include "engine/capture/triangle_mesh.h"
 #include "engine/core/error.h"
 
 #include "tests/test_main.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/capture/visible_depth.h"
 #include "engine/capture/pixel_surface.h"
 #include "engine/capture/scan_mesh.h"
+#include "engine/capture/view_surface.h"
 #include "engine/core/error.h"
 
 #include "tests/engine/capture/exact_rays.h"

@@ -216,6 +216,7 @@ class ShearTest : public QObject {
     before.field.disparity = stack_of([](ViewIndex, int, int) { return 0.75F; });
     before.confidence = stack_of([](ViewIndex, int, int x) { return x < 32 ? 0.2F : 0.8F; });
     before.range = {-1, 1};
+    before.camera = {.baseline = 2, .focal_length = 4, .shift = 1};
     before.parameters = {{"range", IntervalOrAuto(Interval{-1, 1})}, {"edges", true}};
 
     const Estimate after = sheared(before, {kCenter, 17}, 1, Progress());
@@ -227,6 +228,7 @@ class ShearTest : public QObject {
     QVERIFY(std::get<IntervalOrAuto>(after.parameters[0].second) ==
             IntervalOrAuto(Interval{-2, 0}));
     QCOMPARE(after.source_hash, std::uint64_t{17});
+    QCOMPARE(after.camera.depth_from_disparity(-0.25), before.camera.depth_from_disparity(0.75));
     QCOMPARE(after.notes.size(), 1U);
   }
 

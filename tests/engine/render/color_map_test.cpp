@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/render/color_map.h"
 #include "engine/core/error.h"
+#include "engine/render/shade.h"
 #include "tests/test_main.h"
 
 #include <algorithm>

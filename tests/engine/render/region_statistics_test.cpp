@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/render/region_statistics.h"
+#include "engine/render/quantity.h"
 #include "tests/test_main.h"
 
 #include <limits>

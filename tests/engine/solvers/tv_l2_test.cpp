@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/solvers/tv_l2.h"
-#include "engine/solvers/tv_l2_grid.h"
+#include "engine/core/error.h"
 #include "tests/cpu_time.h"
 #include "tests/engine/solvers/tv_l2_reference.h"
 #include "tests/test_main.h"

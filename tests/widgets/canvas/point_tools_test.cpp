@@ -3,7 +3,6 @@
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/canvas_tool.h"
-#include "widgets/canvas/stroke_tool.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QSignalSpy>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The brush and the eraser, driven with the mouse on a canvas.
 #include "tests/window_test_main.h"
-#include "widgets/canvas/stroke_tool.h"
+#include "widgets/canvas/canvas_tool.h"
 
 #include "tests/widgets/pictures.h"
-#include "widgets/canvas/canvas_text.h"
+#include "widgets/canvas/canvas_geometry.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QPainter>

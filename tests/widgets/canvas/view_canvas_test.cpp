@@ -2,7 +2,7 @@
 #include "widgets/canvas/view_canvas.h"
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
-#include "widgets/canvas/canvas_text.h"
+#include "widgets/canvas/canvas_geometry.h"
 #include "widgets/controls/picture.h"
 
 #include <QPainter>

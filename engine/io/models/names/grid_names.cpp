@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_orientation.h"
 #include "engine/io/models/names/view_files.h"

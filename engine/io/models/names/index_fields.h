@@ -4,10 +4,8 @@
 #include "engine/io/models/names/name_parts.h"
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace episcope::io {
 
@@ -49,14 +47,5 @@ struct IndexFields {
 /// must run over a full grid from 0 or 1 on, and as one number it must have gaps. Other groups stay
 /// as they are.
 void separate_joined_digits(NameGroup& group);
-
-/// Joins groups whose names differ in one letter that stands alone and runs from a on, as in A1, A2
-/// … C9. The letter becomes a number, from 1 on. Needs at least three letters with equal counts of
-/// images that form a grid together. Other groups stay as they are.
-void join_lettered_rows(std::vector<NameGroup>& groups);
-
-/// Sorts folders by letter if their names are letters that run from a on; at least three.
-[[nodiscard]] std::optional<std::vector<std::filesystem::path>> by_letter(
-    std::vector<std::filesystem::path> folders);
 
 }  // namespace episcope::io

@@ -89,11 +89,15 @@ bool store(NameField field, std::string_view text, NamedView& view) {
     value = parsed<T>(text);
     return value.has_value();
   };
+  const auto is_letter_stored = [&](std::optional<long long>& value) {
+    if (text.size() == 1 && is_letter(text[0])) value = lower_case(text[0]) - 'a' + 1;
+    return value || is_stored(value);
+  };
   switch (field) {
     case NameField::Row:
-      return is_stored(view.row);
+      return is_letter_stored(view.row);
     case NameField::Column:
-      return is_stored(view.column);
+      return is_letter_stored(view.column);
     case NameField::Index:
       return is_stored(view.index);
     case NameField::Y:
@@ -111,10 +115,11 @@ struct PatternPart {
   char byte = 0;
 };
 
-/// Every place at which the number that begins at `begin` may end, the farthest first.
+/// Every place at which the number, or letter, that begins at `begin` may end, the farthest first.
 std::vector<std::size_t> ends_of_number(std::string_view name, std::size_t begin,
                                         bool may_have_fraction) {
   std::size_t first = begin;
+  if (!may_have_fraction && first < name.size() && is_letter(name[first])) return {first + 1};
   if (first < name.size() && (name[first] == '-' || name[first] == '+')) ++first;
   std::size_t end = end_of_digits(name, first);
   if (end == first) return {};

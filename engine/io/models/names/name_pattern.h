@@ -19,9 +19,10 @@ struct NamedView {
 };
 
 /// Pattern for the names of views, as users write it. It matches the whole name with its suffix and
-/// ignores case. Fields: {row} and {col}, one of them, or {index}, for whole numbers; {y} and {x}
-/// for positions of cameras, also alone; `*` for anything and `?` for one character. Or `re:` and a
-/// regular expression (ECMAScript) with named groups: `re:(?<row>\d+)of(?<col>\d+).*`.
+/// ignores case. Fields: {row} and {col}, one of them, or {index}, for whole numbers, the first two
+/// also for one letter (a = 1); {y} and {x} for positions of cameras, also alone; `*` for anything
+/// and `?` for one character. Or `re:` and a regular expression (ECMAScript) with named groups:
+/// `re:(?<row>\d+)of(?<col>\d+).*`.
 class NamePattern {
  public:
   class Matcher;

@@ -323,7 +323,7 @@ const Candidate& best_of(const fs::path& folder, const std::vector<Candidate>& c
   if (equal[0].first > equal[1].first) return *equal[0].second;
   throw IoError(folder,
                 fmt::format("two sets of {} images could be the views, {} and {}; say which by "
-                            "--pattern",
+                            "--pattern, in which a letter may be a {{row}} as well",
                             equal[0].second->group->images.size(),
                             pattern_text(*equal[0].second->group, equal[0].second->fields),
                             pattern_text(*equal[1].second->group, equal[1].second->fields)));
@@ -366,7 +366,6 @@ ViewNames names_of(const Candidate& candidate) {
 
 ViewNames find_view_names(const fs::path& folder, const std::vector<fs::path>& images) {
   std::vector<NameGroup> groups = group_by_name(images);
-  join_lettered_rows(groups);
   std::ranges::for_each(groups, separate_joined_digits);
   const std::vector<Candidate> candidates = candidates_of(groups);
   if (candidates.empty()) refuse(folder, groups, images.size());

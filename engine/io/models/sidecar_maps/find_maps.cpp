@@ -2,7 +2,7 @@
 #include "engine/io/models/sidecar_maps/find_maps.h"
 
 #include "engine/core/text.h"
-#include "engine/io/models/names/views_folder.h"
+#include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 
 #include <algorithm>

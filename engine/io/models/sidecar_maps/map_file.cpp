@@ -7,7 +7,6 @@
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/image_header.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/models/array_maps.h"
 #include "engine/io/models/array_samples.h"
@@ -282,36 +281,6 @@ DisparityField read_exr_values(const fs::path& path) {
   return marked(std::move(values));
 }
 
-/// Whether a picture holds levels of grey, or colors, and no floats.
-bool holds_levels(const fs::path& path) {
-  if (!is_image_name(path)) return false;
-  if (!can_hold_values(path)) return true;
-  const auto header = stated_image_header(path);
-  return header && header->sample_type != SampleType::Float32;
-}
-
-/// Levels of grey as numbers. Throws IoError for colors, which are no numbers.
-DisparityField read_picture_values(const fs::path& path) {
-  return std::visit(
-      [&](const auto& image) {
-        ViewStack<float> values({1, 1}, image.height(), image.width());
-        const int channels = image.channels();
-        for (std::size_t i = 0; i < values.size(); ++i) {
-          const auto* pixel = image.data() + i * static_cast<std::size_t>(channels);
-          const bool is_grey =
-              std::all_of(pixel, pixel + channels, [&](auto level) { return level == *pixel; });
-          if (!is_grey) {
-            throw IoError(path,
-                          "this picture has colors, but levels of grey are expected, which "
-                          "stand for numbers; export the map without a color map");
-          }
-          values.data()[i] = static_cast<float>(*pixel);
-        }
-        return marked(std::move(values));
-      },
-      decode_image(path));
-}
-
 StoredLabels read_npy_label_maps(const fs::path& path, GridShape grid) {
   const NpyFile file(path);
   StoredLabels labels{read_grid<std::int32_t>(file, grid)};
@@ -411,7 +380,6 @@ DisparityField read_values(const fs::path& path, GridShape grid) {
   if (is_archive_of_maps(path)) return marked(read_archived_values(path, grid));
   if (suffix_of(path) == ".exr") return read_exr_values(path);
   if (has_text_suffix(path)) return marked(single(read_text_map(path)));
-  if (holds_levels(path)) return read_picture_values(path);
   DisparityField field = read_disparity_map(path, grid);
   if (!(field.disparity.grid() == GridShape{1, 1}) || field.disparity.first() == ViewIndex{}) {
     return field;

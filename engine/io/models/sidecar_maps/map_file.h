@@ -18,7 +18,7 @@ namespace episcope::io {
 /// Whether files of this suffix can hold labels: integers, or pictures with a color for each label.
 [[nodiscard]] bool can_hold_labels(const std::filesystem::path& path);
 
-/// Reads disparity or depth as stored, or the levels of a grey picture. Returns one view, at view
+/// Reads disparity or depth as stored. Returns one view, at view
 /// (0, 0), or all views of `grid`, `[v][u]`, if the file holds as many. Values that are not finite
 /// are invalid. Throws IoError.
 [[nodiscard]] DisparityField read_values(const std::filesystem::path& path, GridShape grid);

@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/io/base/image_file.h"
+#include "engine/io/base/files.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/padding.h"
 #include "engine/io/models/sidecar_maps/map_file.h"

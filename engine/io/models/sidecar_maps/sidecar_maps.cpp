@@ -6,7 +6,6 @@
 #include "engine/io/base/files.h"
 #include "engine/io/models/array_maps.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
-#include "engine/io/models/sidecar_maps/infer_units.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 #include "engine/io/models/sidecar_maps/map_sets.h"
 #include "engine/io/models/sidecar_maps/sidecar_labels.h"
@@ -214,36 +213,18 @@ SidecarDisparity from_disparity(StoredMaps maps, const RankedSets& depths,
   return found;
 }
 
-/// Maps of which no file says what their numbers mean.
-struct UnknownSets {
-  const std::vector<const MapSet*>& sets;
-  std::string name;
-  std::vector<ValueForm> forms;
-  std::string left_out;  ///< Why they are not used if the views do not tell either.
-};
-
-/// Takes the first set whose numbers the views explain, unless there is disparity already; the
-/// others are left out.
-void add_unknown(const UnknownSets& unknown, const SidecarViews& views, const SidecarNotes& notes,
-                 SidecarDisparity& found) {
-  for (const MapSet* set : unknown.sets) {
+/// Leaves out maps of which no file says what their numbers mean: "depth maps, as …". Where there
+/// is no disparity (`is_missed`), a warning says what to do.
+void leave_out_unknown(const std::vector<const MapSet*>& sets, const std::string& what,
+                       bool is_missed, const SidecarNotes& notes) {
+  for (const MapSet* set : sets) {
     if (set->entries.empty()) continue;
-    SetOutcome outcome;
-    DisparityField field;
-    if (found.field.empty()) field = read_value_set(*set, views, outcome, Progress(1));
-    std::optional<FittedMeaning> meaning;
-    if (!field.empty()) {
-      const NamedValues values{field, set->pattern};
-      meaning = infer_unknown_units(views.samples, unknown.forms, values, notes.report);
-    }
-    if (!meaning) {
-      notes.account.leave_out(set->files(), unknown.left_out);
-      continue;
-    }
-    outcome.tell(unknown.name, notes);
-    found.field = std::move(field);
-    found.is_sign_assumed = meaning->is_sign_assumed;
-    if (!views.camera.is_known() || views.is_shift_unknown) found.camera = meaning->camera();
+    notes.account.leave_out(set->files(), what);
+    if (!is_missed) continue;
+    notes.report.warnings.push_back(fmt::format(
+        "{} is not used ({}): save disparity in px per view step as .npy, .pfm or float "
+        ".tif.",
+        set->pattern, what));
   }
 }
 
@@ -298,20 +279,13 @@ SidecarDisparity read_sidecar_disparity(const std::vector<MapSet>& sets, const S
   } else if (has_camera) {
     found = from_depth(depths, views, notes, progress);
   }
-  const std::vector<ValueForm> depth_forms{ValueForm::Inverse, ValueForm::Linear};
+  const bool is_missed = found.field.empty();
   if (!has_disparity && !has_camera) {
-    add_unknown({depths.fit, kind_text(MapKind::Depth), depth_forms,
-                 "depth maps, as no camera parameters are known"},
-                views, notes, found);
+    leave_out_unknown(depths.fit, "depth maps, as no camera parameters are known", is_missed,
+                      notes);
   }
-  add_unknown({disparities.unfit,
-               "pictures of disparity",
-               {ValueForm::Linear},
-               "pictures of disparity, of unknown scale"},
-              views, notes, found);
-  add_unknown(
-      {depths.unfit, "pictures of depth", depth_forms, "pictures of depth, of unknown scale"},
-      views, notes, found);
+  leave_out_unknown(disparities.unfit, "pictures of disparity, of unknown scale", is_missed, notes);
+  leave_out_unknown(depths.unfit, "pictures of depth, of unknown scale", is_missed, notes);
   return found;
 }
 

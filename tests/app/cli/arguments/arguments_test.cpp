@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
 
+#include "app/cli/help_text.h"
 #include "app/cli/parameter_options.h"
+#include "app/session/command_line.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/models/open_options.h"
@@ -52,6 +54,15 @@ class ArgumentsTest : public QObject {
     QCOMPARE(parsed(Extent{}, extent_value("WxH", 9), {"-o", "8×9"}).second, 9);
     QCOMPARE(parsed(Device::Auto, choice_of<Device>(), {"-o", "cuda"}), Device::Cuda);
     QCOMPARE(parsed(std::string(), text_value("FILE"), {"-o", "a", "-o", "b"}), std::string("b"));
+  }
+
+  void help_isWrapped() {
+    QCOMPARE(wrapped("one two\nthree four\n  - a list\n  - of two", 9),
+             std::string("one two\nthree\nfour\n  - a\n    list\n  - of\n    two"));
+    QCOMPARE(wrapped("Größe größer\n", 12), std::string("Größe größer\n"));
+    QCOMPARE(help_entry("-o", "to write", 8, 80), std::string("  -o    to write\n"));
+    QCOMPARE(help_entry("--output", "to write", 4, 9),
+             std::string("  --output\n    to\n    write\n"));
   }
 
   void values_stayWhereNothingIsGiven() {
@@ -127,13 +138,15 @@ class ArgumentsTest : public QObject {
 
     QVERIFY(values({}).empty());
     for (const ParameterDescription& each : descriptions) {
-      const std::string option = "--" + each.key;
       const std::string preset = to_text(each.default_value);
-      if (each.is_toggle) {
-        QCOMPARE(values({option}), (ParameterSet{{each.key, true}}));
-      } else if (!preset.empty()) {
-        QCOMPARE(values({option, preset}), (ParameterSet{{each.key, each.default_value}}));
-        QVERIFY_THROWS_EXCEPTION(UsageError, (void)values({option, "no such value"}));
+      for (const std::string& name : {each.key, option_name(each.key)}) {
+        const std::string option = "--" + name;
+        if (each.is_toggle) {
+          QCOMPARE(values({option}), (ParameterSet{{each.key, true}}));
+        } else if (!preset.empty()) {
+          QCOMPARE(values({option, preset}), (ParameterSet{{each.key, each.default_value}}));
+          QVERIFY_THROWS_EXCEPTION(UsageError, (void)values({option, "no such value"}));
+        }
       }
     }
   }

@@ -15,6 +15,20 @@ expect("of one view" 0 OUT "net of view 0,2" ARGS estimate net lf.h5 -o one.h5 -
 expect("mean" 0 OUT "net of the center view" ARGS estimate net lf.h5 -o mean.h5 --views center --silhouettes mean
        --rounds 1 --range -1,1.5 -q)
 
+# Another disparity beside silhouettes is in the file of one view, however it was made.
+run_cli(info one.h5 --json)
+json_is("${out}" ON second)
+run_cli(info all.h5 --json)
+json_is("${out}" OFF second)
+expect("second" 0 ARGS show one.h5 -o second.png --what second --view 0,2)
+expect("no second" 1 ERR "the result of net has no second disparity" ARGS show all.h5 -o no.png --what second)
+run_cli(estimate net lf.h5 -o blocks.h5 --views center --view 0,2 --memory 2G -q)
+execute_process(COMMAND "${SAME_RESULTS}" one.h5 blocks.h5 3 3 WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE code
+                OUTPUT_VARIABLE differences ERROR_VARIABLE err)
+if(NOT code EQUAL 0)
+  fail_case("in blocks: ${differences}${err}")
+endif()
+
 # The same weights from a file that is named, from anywhere.
 file(COPY_FILE "${weights}" "${WORK}/mine.npz")
 expect("own weights" 0 ERR "weights of mine.npz, hash [0-9a-f]+" ARGS estimate net lf.h5 -o mine.h5

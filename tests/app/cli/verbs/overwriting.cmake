@@ -60,7 +60,7 @@ function(expect_kept file)
 endfunction()
 file(SHA256 "${WORK}/a/r.h5" before_a/r.h5)
 refused("a/r.h5: exists and holds a result of epi_l; .*--overwrite" estimate epi_s a -o a/r.h5)
-refused("a/r.h5: exists and holds a result with --inner_scale .*--overwrite" estimate epi_l a
+refused("a/r.h5: exists and holds a result with --inner-scale .*--overwrite" estimate epi_l a
         -o a/r.h5 --inner_scale 0.9)
 refused("a/r.h5: exists and holds a result of another light field, a; .*--overwrite"
         estimate epi_l b -o a/r.h5)
@@ -89,7 +89,7 @@ foreach(suffix npy pfm tiff)
   expect("estimate it when asked" 0 ARGS estimate epi_l a -o map.${suffix} --overwrite)
 endforeach()
 expect("evaluate them" 0 OUT "map.npy.*map.pfm" ARGS evaluate map.npy map.pfm map.tiff --truth a)
-expect("all views in a map" 2 ERR "one view; leave out --views" ARGS estimate epi_l a -o all.npy
+expect("all views in a map" 2 ERR "one view; leave out --views" ARGS estimate epi_l a -o all.pfm
        --views all)
 
 # What is written is printed; labels bear the name of their light field.

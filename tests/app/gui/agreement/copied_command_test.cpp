@@ -90,6 +90,7 @@ QString difference(const Estimate& a, const Estimate& b) {
   if (!is_same(a.layered.foreground, b.layered.foreground)) parts << "foreground";
   if (!is_same(a.layered.background, b.layered.background)) parts << "background";
   if (!is_same(a.layered.layers, b.layered.layers)) parts << "layers";
+  if (!is_same(a.second, b.second)) parts << "second";
   if (a.method != b.method) parts << "method";
   if (a.parameters != b.parameters) parts << "parameters";
   if (!(a.range == b.range)) parts << "range";

@@ -7,7 +7,7 @@
 #include "app/session/project_store.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/window_test_main.h"
-#include "widgets/canvas/outline_tool.h"
+#include "widgets/canvas/canvas_tool.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
 

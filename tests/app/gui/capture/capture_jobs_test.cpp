@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is read and computed for the Capture tab while other light fields are opened and closed.
-#include "app/gui/capture/mesh_shelf.h"
+#include "app/gui/capture/capture_controller.h"
 #include "app/gui/capture/photographs.h"
 #include "app/session/gantry_scene.h"
 #include "engine/capture/demo_folder.h"

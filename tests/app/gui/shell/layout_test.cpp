@@ -2,7 +2,7 @@
 #include "app/gui/shell/frame.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
-#include "widgets/canvas/canvas_text.h"
+#include "widgets/canvas/canvas_geometry.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/job_panel.h"
 #include "widgets/controls/message_bar.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ground truth of a mesh as a reader of the archive sees it: by HDF5 alone, with the names, shapes
 // and attributes of the archive, and nothing of ours.
-#include "app/session/capture_output.h"
+#include "app/session/capture_work.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"

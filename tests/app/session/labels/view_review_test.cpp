@@ -2,7 +2,7 @@
 // What is told and written of labels, without a window.
 #include "app/session/label_review.h"
 
-#include "app/session/segmentation_files.h"
+#include "app/session/segmentation.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 

@@ -18,7 +18,7 @@ std::pair<ParameterSet, std::string> one_changed() {
     if (change.empty() && std::holds_alternative<double>(value) &&
         std::get<double>(value) != each.min) {
       value = each.min;
-      change = " --" + each.key + "=" + to_text(value);
+      change = " --" + option_name(each.key) + "=" + to_text(value);
     }
     values.emplace_back(each.key, value);
   }

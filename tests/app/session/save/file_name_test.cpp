@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/known_files.h"
+#include "app/session/user_folders.h"
 
 #include "app/session/project_file.h"
 #include "tests/test_main.h"

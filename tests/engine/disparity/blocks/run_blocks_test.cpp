@@ -79,55 +79,33 @@ class StoredField {
 class MemoryStore : public BlockStore {
  public:
   explicit MemoryStore(const BlockwiseRun& run)
-      : has_layers_(run.has_layers),
+      : has_second_(run.has_second),
         field_(run.maps),
-        near_(run.maps),
-        far_(run.maps),
-        confidence_(stack_of(run.maps, 0.0F)),
-        layers_(stack_of(run.maps, std::uint8_t{0})) {
-    for (int i = 0; i < run.kept; ++i) kept_.push_back(stack_of(run.maps, 0.0F));
-  }
+        second_(run.maps),
+        confidence_(stack_of(run.maps, 0.0F)) {}
 
   int writes = 1 << 20;
   int blocks = 0;
 
   [[nodiscard]] BlockProgress progress() const override { return progress_; }
   [[nodiscard]] BlockMaps read(const MapBlock& block) const override {
-    BlockMaps maps{field_.read(block), of_block(confidence_, block)};
-    if (has_layers_) {
-      maps.layered = {near_.read(block), far_.read(block), of_block(layers_, block)};
-    }
-    return maps;
-  }
-  [[nodiscard]] ViewStack<float> read_kept(const MapBlock& block, int number) const override {
-    return of_block(kept_[static_cast<std::size_t>(number)], block);
+    return {field_.read(block), of_block(confidence_, block)};
   }
   void note(const BlockProgress& after) override { progress_ = after; }
   void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
              bool) override {
-    for (std::size_t i = 0; i < maps.kept.size(); ++i) {
-      copy(maps.kept[i], block, 0, kept_[i], block.first_row);
-    }
     if (writes-- == 0) throw Ended();
     ++blocks;
     field_.write(block, maps.field);
     copy(maps.confidence, block, 0, confidence_, block.first_row);
-    if (has_layers_) {
-      near_.write(block, maps.layered.foreground);
-      far_.write(block, maps.layered.background);
-      copy(maps.layered.layers, block, 0, layers_, block.first_row);
-    }
+    if (has_second_) second_.write(block, maps.second);
     note(after);
   }
 
   [[nodiscard]] bool equals(const Estimate& estimate) const {
-    const LayeredDisparity& layered = estimate.layered;
-    if (has_layers_ != !layered.layers.empty()) return false;
-    const bool same_layers =
-        !has_layers_ || (near_.equals(layered.foreground) && far_.equals(layered.background) &&
-                         std::memcmp(layers_.data(), layered.layers.data(), layers_.size()) == 0);
-    return same_layers && field_.equals(estimate.field) &&
-           same_bytes(confidence_, estimate.confidence);
+    if (has_second_ != !estimate.second.empty()) return false;
+    return estimate.layered.layers.empty() && (!has_second_ || second_.equals(estimate.second)) &&
+           field_.equals(estimate.field) && same_bytes(confidence_, estimate.confidence);
   }
 
  private:
@@ -139,11 +117,9 @@ class MemoryStore : public BlockStore {
     return part;
   }
 
-  bool has_layers_;
-  StoredField field_, near_, far_;
+  bool has_second_;
+  StoredField field_, second_;
   ViewStack<float> confidence_;
-  ViewStack<std::uint8_t> layers_;
-  std::vector<ViewStack<float>> kept_;
   BlockProgress progress_;
 };
 
@@ -232,8 +208,8 @@ class RunBlocksTest : public QObject {
 };
 
 void RunBlocksTest::localMethodsAndMethodsByViews_runInBlocks() {
-  for (const char* id : {"epi_l", "epi_s", "st_av_l", "st_ch_l", "st_av_s", "st_ch_s", "plane_pm",
-                         "epi_two_layer", "epi_c", "net"}) {
+  for (const char* id :
+       {"epi_l", "epi_s", "st_av_l", "st_ch_l", "st_av_s", "st_ch_s", "plane_pm", "net"}) {
     QVERIFY2(find_estimator(id).can_run_in_blocks(), id);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/replace_occluded.h"
+#include "engine/disparity/epi_c.h"
 
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"

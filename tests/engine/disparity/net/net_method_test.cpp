@@ -61,6 +61,7 @@ class NetMethodTest : public QObject {
   void centerView_isThatOfTheNetwork();
   void anyView_isEstimated();
   void silhouettes_areChosen();
+  void secondDisparities_areTheOtherSide();
   void givenWeights_areUsedAndNamed();
   void badWeights_areRefusedInASentence();
   void changedWeights_areReadAgain();
@@ -97,6 +98,31 @@ void NetMethodTest::silhouettes_areChosen() {
 
   QVERIFY(!same_bytes(mode.field.disparity, mean.field.disparity));
   QVERIFY(same_bytes(mode.confidence, mean.confidence));
+}
+
+void NetMethodTest::secondDisparities_areTheOtherSide() {
+  const Estimate estimate = estimated({});
+
+  const ViewIndex view = scene().light_field->center();
+  const DisparityView second = estimate.second.view(view), own = estimate.field.view(view);
+  const DisparityView truth = scene().truth->field.view(view);
+  int found = 0;
+  for (int y = 0; y < second.disparity.height; ++y) {
+    for (int x = 0; x < second.disparity.width; ++x) {
+      if (!second.is_valid(y, x)) continue;
+      ++found;
+      QVERIFY(std::abs(second.disparity.at(y, x) - own.disparity.at(y, x)) > 0.2);
+      // One of the two surfaces is within two columns.
+      double nearest = 9;
+      for (int at = std::max(x - 4, 0); at <= std::min(x + 4, second.disparity.width - 1); ++at) {
+        nearest = std::min<double>(nearest,
+                                   std::abs(truth.disparity.at(y, at) - second.disparity.at(y, x)));
+      }
+      QVERIFY2(nearest < 0.15, qPrintable(QString("%1 at %2, %3").arg(nearest).arg(x).arg(y)));
+    }
+  }
+  QVERIFY(found > 0);
+  QVERIFY(estimated({}, ViewSelection::All).second.empty());
 }
 
 void NetMethodTest::givenWeights_areUsedAndNamed() {

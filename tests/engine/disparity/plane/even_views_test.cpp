@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/correction_of_points.h"
+#include "engine/disparity/plane_pm.h"
 
 #include "engine/core/view_gain.h"
 #include "tests/engine/disparity/light_fields.h"

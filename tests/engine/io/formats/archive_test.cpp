@@ -42,6 +42,27 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QVERIFY2(read.convention.warnings.empty(), describe(read.convention).c_str());
   }
 
+  /// It is no second truth, nor a part that is left out.
+  void disparityBesideDepth_isWrittenOnRequest() {
+    const Scene scene = plane_scene();
+
+    io::write_archive(path("lf.h5"), scene, Progress(1), {.has_disparity = true});
+    const io::Hdf5Input file(path("lf.h5"));
+    const Scene read = open(path());
+
+    const DisparityField& truth = scene.truth->field;
+    std::vector<float> stored(truth.disparity.size());
+    const io::Hdf5Shape shape = file.dataset("GT_DISPARITY").shape;
+    file.read("GT_DISPARITY", {io::Hdf5Shape(shape.size(), 0), shape}, stored.data());
+    QVERIFY(std::equal(stored.begin(), stored.end(), truth.disparity.data()));
+    QCOMPARE(*file.text("GT_DISPARITY", "units"), std::string("px per view step"));
+    QVERIFY(largest_difference(truth, read.truth->field) < kDepthRounding);
+    QVERIFY2(read.convention.warnings.empty(), describe(read.convention).c_str());
+    for (const FileUse& use : read.convention.files) QVERIFY2(use.is_used, use.example.c_str());
+    io::write_archive(path("lf.h5"), scene, Progress(1));
+    QVERIFY(!io::Hdf5Input(path("lf.h5")).has("GT_DISPARITY"));
+  }
+
   /// A result in the place of truth stays one.
   void estimatedDepth_saysHowItWasMade() {
     const Scene made = plane_scene();

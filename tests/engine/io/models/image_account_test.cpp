@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/file_usage.h"

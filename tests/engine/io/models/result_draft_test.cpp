@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/io/models/result_draft.h"
+#include "engine/core/error.h"
 #include "engine/io/models/result_file.h"
 #include "tests/test_main.h"
 
@@ -42,12 +42,13 @@ BlockMaps block_of(const MapBlock& block, float more = 0, bool has_mask = false)
   return maps;
 }
 
-// The same with layers, and two maps that are kept.
+// The same with layers, a second disparity, and two maps that are kept.
 BlockMaps layered_block_of(const MapBlock& block) {
   BlockMaps maps = block_of(block, 0, true);
   maps.layered.foreground = block_of(block, 1000, true).field;
   maps.layered.background = block_of(block, 2000, true).field;
   const ViewRectangle& views = block.views;
+  maps.second = block_of(block, 5000, true).field;
   maps.layered.layers = {views.grid, block.rows(), kMaps.width, 1, views.first};
   std::fill_n(maps.layered.layers.data(), maps.layered.layers.size(), std::uint8_t{2});
   for (const float more : {3000.0F, 4000.0F}) {
@@ -72,7 +73,7 @@ class ResultDraftTest : public QObject {
   void completedDraft_isTheResultFile();
   void maskedPixels_areNotValid();
   void whatWasWritten_isFoundAgain();
-  void layersAndKeptMaps_areFoundAgain();
+  void furtherAndKeptMaps_areFoundAgain();
   void lostKeptMaps_beginAnew();
   void draftOfAnotherRun_isReplaced();
   void replacement_endedBeforeItIsNoted_isRepeated();
@@ -96,6 +97,7 @@ void ResultDraftTest::completedDraft_isTheResultFile() {
   provenance.method = "epi_l";
   provenance.range = {-1.5, 2};
   provenance.notes = {"one", "two"};
+  provenance.camera = {.baseline = 2.5, .focal_length = 4, .shift = 1};
   ResultDraft made = draft();
   made.write(rows(0, 3), block_of(rows(0, 3)), {.done = 3}, false);
   made.write(rows(3, 5), block_of(rows(3, 5)), {.done = 5}, false);
@@ -105,6 +107,11 @@ void ResultDraftTest::completedDraft_isTheResultFile() {
   const Estimate read = io::read_result(path(), kMaps.grid);
   QVERIFY(read.method == "epi_l" && read.source == "lf.h5" && read.notes == provenance.notes);
   QVERIFY(read.range == provenance.range);
+  QCOMPARE(read.camera.depth_from_disparity(1), 5.0);
+  const io::Hdf5Input file(path());
+  QVERIFY(file.has_attribute("estimate/confidence", "DIMENSION_LIST"));
+  QCOMPARE(*file.text("estimate/confidence", "units"), std::string("1"));
+  QVERIFY(file.text("estimate/disparity", "long_name").has_value());
   QCOMPARE(read.field.disparity.view({1, 2}).at(4, 3), value_at({1, 2}, 4, 3));
   QCOMPARE(read.confidence.view({0, 1}).at(2, 0), -value_at({0, 1}, 2, 0));
   QCOMPARE(std::distance(std::filesystem::directory_iterator(path().parent_path()), {}), 1);
@@ -139,8 +146,9 @@ void ResultDraftTest::whatWasWritten_isFoundAgain() {
   QCOMPARE(maps.confidence.view({1, 0}).at(1, 0), -value_at({1, 0}, 2, 0));
 }
 
-void ResultDraftTest::layersAndKeptMaps_areFoundAgain() {
-  const io::DraftShape shape{kMaps, true, true, 2};
+void ResultDraftTest::furtherAndKeptMaps_areFoundAgain() {
+  const io::DraftShape shape{
+      .maps = kMaps, .has_valid = true, .has_layers = true, .has_second = true, .kept = 2};
   {
     ResultDraft left(path(), shape, "a run");
     left.write(rows(0, 5), layered_block_of(rows(0, 5)), {.done = 5}, false);
@@ -158,11 +166,14 @@ void ResultDraftTest::layersAndKeptMaps_areFoundAgain() {
   QCOMPARE(read.layered.foreground.disparity.view({1, 2}).at(4, 3), value_at({1, 2}, 4, 3) + 1000);
   QCOMPARE(read.layered.background.valid.view({1, 2}).at(4, 1), std::uint8_t{0});
   QCOMPARE(read.layered.layers.view({0, 0}).at(0, 0), std::uint8_t{2});
+  QCOMPARE(read.second.disparity.view({1, 2}).at(4, 3), value_at({1, 2}, 4, 3) + 5000);
+  QCOMPARE(read.second.valid.view({1, 2}).at(4, 1), std::uint8_t{0});
   QVERIFY(!std::filesystem::exists(path("r.h5.partial.kept")));
 }
 
 void ResultDraftTest::lostKeptMaps_beginAnew() {
-  const io::DraftShape shape{kMaps, true, true, 2};
+  const io::DraftShape shape{
+      .maps = kMaps, .has_valid = true, .has_layers = true, .has_second = true, .kept = 2};
   {
     ResultDraft left(path(), shape, "a run");
     left.write(rows(0, 5), layered_block_of(rows(0, 5)), {.done = 5}, false);

@@ -95,6 +95,7 @@ class ResultTest : public QObject {
     if (statement == "MATLAB_class") out.set_ascii(name, "MATLAB_class", "single");
     out.close();
     if (statement == "DIMENSION_LABELS") label_dimensions(target.temporary(), name);
+    if (statement == "DIMENSION_LIST") attach_scales(target.temporary(), name);
     target.commit();
   }
   static void label_dimensions(const std::filesystem::path& file, const std::string& name) {
@@ -111,6 +112,33 @@ class ResultTest : public QObject {
     H5Aclose(attribute);
     H5Sclose(space);
     H5Tclose(type);
+    H5Dclose(dataset);
+    H5Fclose(id);
+  }
+  /// As h5py and netCDF attach the scales "x" and "y".
+  static void attach_scales(const std::filesystem::path& file, const std::string& name) {
+    const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t dataset = H5Dopen2(id, name.c_str(), H5P_DEFAULT);
+    hobj_ref_t references[2];
+    hvl_t axes[2];
+    for (const int axis : {0, 1}) {
+      const char* scale = axis == 0 ? "x" : "y";
+      const hsize_t length = 1;
+      const hid_t space = H5Screate_simple(1, &length, nullptr);
+      H5Dclose(H5Dcreate2(id, scale, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+      H5Sclose(space);
+      QVERIFY(H5Rcreate(&references[axis], id, scale, H5R_OBJECT, -1) >= 0);
+      axes[axis] = {1, &references[axis]};
+    }
+    const hsize_t count = 2;
+    const hid_t space = H5Screate_simple(1, &count, nullptr);
+    const hid_t type = H5Tvlen_create(H5T_STD_REF_OBJ);
+    const hid_t attribute =
+        H5Acreate2(dataset, "DIMENSION_LIST", type, space, H5P_DEFAULT, H5P_DEFAULT);
+    QVERIFY(H5Awrite(attribute, type, axes) >= 0);
+    H5Aclose(attribute);
+    H5Tclose(type);
+    H5Sclose(space);
     H5Dclose(dataset);
     H5Fclose(id);
   }
@@ -145,6 +173,10 @@ class ResultTest : public QObject {
     estimate.source = "/somewhere/lf.h5";
     estimate.source_hash = 0xFEDCBA9876543210U;
     estimate.notes = {"gap 0.001", "two views unsolved"};
+    estimate.camera = {2.5, 4, 1.25, 8, Pinhole{120, 3.5, 3}};
+    estimate.device = "CPU";
+    estimate.commit = "0123abc";
+    estimate.date = "2026-11-27T22:43:23Z";
 
     io::write_result(path("r.h5"), estimate, Progress(1));
     const Estimate read = io::read_result(path("r.h5"), kGrid);
@@ -161,6 +193,82 @@ class ResultTest : public QObject {
     QCOMPARE(read.source, estimate.source);
     QCOMPARE(read.source_hash, estimate.source_hash);
     QVERIFY(read.notes == estimate.notes);
+    QCOMPARE(read.camera.depth_from_disparity(0.75), 5.0);
+    QCOMPARE(read.camera.cam_distance.value(), 8.0);
+    QCOMPARE(read.camera.pinhole.value().center_x, 3.5);
+    QCOMPARE(read.device, estimate.device);
+    QCOMPARE(read.commit, estimate.commit);
+    QCOMPARE(read.date, estimate.date);
+  }
+
+  /// Former versions wrote texts of fixed length, and no more than this.
+  void fileOfFormerVersion_isRead() {
+    {
+      io::AtomicFile target(path("old.h5"));
+      io::Hdf5Output out(target);
+      out.add_group("estimate");
+      out.add_dataset<float>("estimate/disparity", {kHeight, kWidth}, "y,x", "px per view step");
+      const std::vector<float> values(kHeight * kWidth, 0.5F);
+      out.write("estimate/disparity", {{0, 0}, {kHeight, kWidth}}, values.data());
+      out.set_ascii("estimate", "method", "epi_l");
+      out.set_ascii("estimate", "parameters", R"({"profile":"tuned"})");
+      out.set_ascii("estimate", "source", "lf.h5");
+      out.set_number("estimate", "seconds", 1.25);
+      out.set_integers("estimate", "view", {2, 4});
+      out.close();
+      target.commit();
+    }
+
+    const Estimate read = io::read_result(path("old.h5"), kGrid);
+
+    QCOMPARE(read.method, std::string("epi_l"));
+    QCOMPARE(read.source, std::string("lf.h5"));
+    QCOMPARE(read.parameters.size(), std::size_t{1});
+    QCOMPARE(read.field.disparity.first(), (ViewIndex{2, 4}));
+    QCOMPARE(read.field.disparity.data()[5], 0.5F);
+    QVERIFY(!read.camera.is_known());
+    QVERIFY(read.date.empty() && read.device.empty());
+  }
+
+  void texts_areOfVariableLength() {
+    Estimate estimate;
+    estimate.field = sample_field(kGrid, {});
+    estimate.method = "größer";
+
+    io::write_result(path("r.h5"), estimate, Progress(1));
+
+    const hid_t file = H5Fopen(path("r.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t text = H5Aopen_by_name(file, "estimate", "method", H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t type = H5Aget_type(text);
+    const bool is_variable = H5Tis_variable_str(type) > 0;
+    const H5T_cset_t letters = H5Tget_cset(type);
+    H5Tclose(type);
+    H5Aclose(text);
+    H5Fclose(file);
+    QVERIFY(is_variable);
+    QCOMPARE(letters, H5T_CSET_UTF8);
+  }
+
+  /// HDF5 1.10 copies beyond its memory where lengths of texts are damaged.
+  void damagedTexts_doNoHarm() {
+    Estimate estimate;
+    estimate.field = sample_field({1, 1}, kGrid.center());
+    estimate.method = "epi_l";
+    io::write_result(path("r.h5"), estimate, Progress(1));
+    const std::string sound = text_of(path("r.h5"));
+    const std::size_t texts = sound.find("GCOL");
+    QVERIFY(texts != std::string::npos);
+
+    for (std::size_t at = texts + 8; at < texts + 256; ++at) {
+      std::string damaged = sound;
+      damaged[at] = '\xFF';
+      std::ofstream(path("damaged.h5"), std::ios::binary) << damaged;
+      try {
+        QVERIFY(!io::read_result(path("damaged.h5"), kGrid).field.empty());
+      } catch (const IoError&) {
+        continue;  // as good
+      }
+    }
   }
 
   void layers_areKept() {
@@ -180,6 +288,20 @@ class ResultTest : public QObject {
     QCOMPARE(read.layered.layers.data()[0], std::uint8_t{2});
   }
 
+  void secondDisparity_isKept() {
+    Estimate estimate;
+    estimate.field = sample_field({1, 1}, kGrid.center());
+    estimate.second = sample_field({1, 1}, kGrid.center());
+    estimate.second.require_mask();
+    estimate.second.valid.data()[7] = 0;
+    estimate.second.disparity.data()[7] = 0;
+
+    io::write_result(path("r.h5"), estimate, Progress(1));
+    const Estimate read = io::read_result(path("r.h5"), kGrid);
+
+    compare(read.second, estimate.second);
+  }
+
   void file_statesAxesUnitsAndInvalidPixels() {
     Estimate estimate;
     estimate.field = sample_field(kGrid, {});
@@ -191,8 +313,52 @@ class ResultTest : public QObject {
 
     QCOMPARE(*file.text("estimate/disparity", "axes"), std::string("v,u,y,x"));
     QCOMPARE(*file.text("estimate/disparity", "units"), std::string("px per view step"));
-    QVERIFY(file.text("estimate/valid", "axes").has_value());
+    QCOMPARE(*file.text("estimate/valid", "axes"), std::string("v,u,y,x"));
+    QCOMPARE(*file.text("estimate/valid", "units"), std::string("1"));
+    QVERIFY(file.text("estimate/valid", "long_name").has_value());
+    QVERIFY(file.text("estimate", "sign")->starts_with("positive disparity = nearer"));
     QVERIFY(std::isnan(first));
+  }
+
+  /// Masks always are, maps on request; nothing is lost.
+  void compressedResult_holdsTheSame() {
+    Estimate estimate;
+    estimate.field = sample_field(kGrid, {});
+    estimate.confidence = ViewStack<float>(kGrid, kHeight, kWidth);
+    std::fill_n(estimate.confidence.data(), estimate.confidence.size(), 0.25F);
+
+    io::write_result(path("plain.h5"), estimate, Progress(1));
+    io::write_result(path("packed.h5"), estimate, Progress(1),
+                     {.floats = io::Hdf5Storage::Deflated});
+    const Estimate read = io::read_result(path("packed.h5"), kGrid);
+
+    const io::Hdf5Shape view{1, 1, kHeight, kWidth};
+    QVERIFY(io::Hdf5Input(path("plain.h5")).dataset("estimate/valid").chunk == view);
+    QVERIFY(io::Hdf5Input(path("plain.h5")).dataset("estimate/disparity").chunk.empty());
+    QVERIFY(io::Hdf5Input(path("packed.h5")).dataset("estimate/disparity").chunk == view);
+    compare(read.field, estimate.field);
+    QVERIFY(std::equal(read.confidence.data(), read.confidence.data() + read.confidence.size(),
+                       estimate.confidence.data()));
+  }
+
+  /// The axes of every map are datasets of their places, as netCDF has them.
+  void axes_areDimensionScales() {
+    Estimate estimate;
+    estimate.field = sample_field({2, 2}, {1, 3});
+
+    io::write_result(path("r.h5"), estimate, Progress(1));
+    const io::Hdf5Input file(path("r.h5"));
+
+    for (const char* map : {"estimate/disparity", "estimate/valid"}) {
+      QVERIFY(file.texts(map, "DIMENSION_LABELS") == (std::vector<std::string>{"v", "u", "y", "x"}));
+      QVERIFY(file.has_attribute(map, "DIMENSION_LIST"));
+    }
+    std::int32_t places[2] = {};
+    file.read("estimate/u", {{0}, {2}}, places);
+    QCOMPARE(places[0], 3);
+    QCOMPARE(places[1], 4);
+    QCOMPARE(*file.text("estimate/u", "CLASS"), std::string("DIMENSION_SCALE"));
+    QCOMPARE(file.dataset("estimate/x").shape, io::Hdf5Shape{kWidth});
   }
 
   void foreignMaps_belongToTheCenterView_data() {
@@ -253,6 +419,7 @@ class ResultTest : public QObject {
     QTest::newRow("axes") << "axes" << true;
     QTest::newRow("MATLAB") << "MATLAB_class" << true;
     QTest::newRow("labels of dimensions") << "DIMENSION_LABELS" << true;
+    QTest::newRow("scales of dimensions") << "DIMENSION_LIST" << true;
   }
   void statedAxes_areHonored() {
     QFETCH(QString, statement);

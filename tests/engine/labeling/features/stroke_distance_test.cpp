@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/stroke_distance.h"
+#include "engine/labeling/predict_from_strokes.h"
 #include "tests/test_main.h"
 
 #include <algorithm>

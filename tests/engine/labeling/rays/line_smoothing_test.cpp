@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/line_smoothing.h"
+#include "engine/labeling/regularizer.h"
 
 #include "engine/labeling/consistency.h"
 #include "tests/engine/labeling/rays/noisy_case.h"

@@ -2,7 +2,7 @@
 #include "engine/core/error.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/names/view_files.h"
-#include "engine/io/models/names/views_folder.h"
+#include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/open_options.h"
 #include "tests/engine/io/models/sidecar_maps/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/models/names/views_folder.h"
+#include "engine/io/models/names/view_folders.h"
 #include "tests/engine/io/models/sidecar_maps/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/io/models/names/name_pattern.h"
-#include "engine/io/models/names/views_folder.h"
+#include "engine/core/error.h"
+#include "engine/io/models/names/view_folders.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>
@@ -77,7 +77,9 @@ void NamePatternTest::pattern_readsTheName_data() {
   row("view_{row}_{col}.png", "view_02_3.png", "2,3");
   row("view_{row}_{col}.png", "VIEW_02_3.PNG", "2,3");
   row("view_{row}_{col}.png", "view_02_3.png.bak", "no");
-  row("view_{row}_{col}.png", "view_02_a.png", "no");
+  row("view_{row}_{col}.png", "view_02_ab.png", "no");
+  row("view_{row}{col}.png", "view_C4.png", "3,4");
+  row("{index}.png", "c.png", "no");
   row("c{col}r{row}_*.png", "c2r3_t17.png", "3,2");
   row("{row}_{col}.*", "-4_+2.tif", "-4,2");
   row("*{index}.png", "take 7 of 12.png", "12");
@@ -94,7 +96,8 @@ void NamePatternTest::pattern_readsTheName_data() {
   row("re:(?<row>\\d)_(?<col>\\d)_(?<y>[-.0-9]+)_(?<x>[-.0-9]+)", "1_2_-1.5_.25",
       "1,2 at -1.5,0.25");
   row("re:(?<row>\\d)_(?<col>\\d)", "1_2.png", "no");
-  row("re:(?<row>\\w+)_(?<col>\\d).png", "a_2.png", "no");
+  row("re:(?<row>\\w+)_(?<col>\\d).png", "a_2.png", "1,2");
+  row("re:(?<row>\\w+)_(?<col>\\d).png", "ab_2.png", "no");
 }
 
 void NamePatternTest::pattern_readsTheName() {

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/streams.h"
+
+#include "app/cli/arguments.h"
+#include "engine/core/error.h"
+#include "engine/io/base/files.h"
+
+#include <poll.h>
+#include <unistd.h>
+#include <array>
+#include <fstream>
+#include <iostream>
+#include <string_view>
+#include <utility>
+
+namespace episcope::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStream = "-";
+constexpr int kLookAgain_ms = 100;
+constexpr std::size_t kBlock = std::size_t{1} << 16;
+
+std::string read_to_end(const std::stop_token& stop) {
+  std::string bytes;
+  std::array<char, kBlock> block{};
+  for (;;) {
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (stop.stop_requested()) throw Cancelled();
+    if (poll(&input, 1, kLookAgain_ms) == 0) continue;
+    const ssize_t count = read(STDIN_FILENO, block.data(), block.size());
+    if (count < 0) throw IoError(kStream, "standard input cannot be read; redirect a file to it");
+    if (count == 0) return bytes;
+    bytes.append(block.data(), static_cast<std::size_t>(count));
+  }
+}
+
+const char* suffix_by_begin(std::string_view bytes) {
+  constexpr std::pair<std::string_view, const char*> kBegins[] = {
+      {"\x93NUMPY", ".npy"}, {"PK\x03\x04", ".npz"}, {"Pf", ".pfm"},   {"PF", ".pfm"},
+      {"\x89HDF", ".h5"},    {"MATLAB", ".mat"},     {"II*", ".tiff"}, {"MM\0*", ".tiff"}};
+  for (const auto& [begin, suffix] : kBegins) {
+    if (bytes.starts_with(begin)) return suffix;
+  }
+  return ".csv";
+}
+
+}  // namespace
+
+StreamFolder::~StreamFolder() {
+  std::error_code ignored;
+  if (!path_.empty()) fs::remove_all(path_, ignored);
+}
+
+fs::path StreamFolder::file(const std::string& name) {
+  if (path_.empty()) {
+    std::error_code ignored;
+    std::string folder = (fs::temp_directory_path(ignored) / "episcope-XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) throw io::write_error(folder);
+    path_ = folder;
+  }
+  return path_ / name;
+}
+
+InputStream::InputStream(std::string& name, const std::stop_token& stop) {
+  if (name != kStream) return;
+  const std::string bytes = read_to_end(stop);
+  if (bytes.empty()) throw IoError(kStream, "standard input is empty; redirect a map to it");
+  file_ = folder_.file(std::string("stdin") + suffix_by_begin(bytes)).string();
+  std::ofstream out(file_, std::ios::binary);
+  if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush()) {
+    throw io::write_error(file_);
+  }
+  name = file_;
+}
+
+OutputStream::OutputStream(std::string& name, const std::string& suffix) {
+  if (name != kStream && !name.ends_with(":-")) return;
+  const std::string form = name == kStream ? suffix : "." + name.substr(0, name.size() - 2);
+  file_ = folder_.file("stdout" + form).string();
+  name = file_;
+}
+
+void OutputStream::send() const {
+  std::ifstream in(file_, std::ios::binary);
+  std::cout << in.rdbuf();
+  if (!std::cout.flush()) throw IoError(kStream, "standard output cannot be written");
+}
+
+void OutputStream::require_alone(bool is_json) const {
+  if (!is_meant() || !is_json) return;
+  throw UsageError("the map goes to standard output, and so would --json; leave one of them out");
+}
+
+}  // namespace episcope::cli

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <stop_token>
+#include <string>
+
+namespace episcope::cli {
+
+/// A folder for temporary files that goes with this object.
+class StreamFolder {
+ public:
+  StreamFolder() = default;
+  ~StreamFolder();
+  StreamFolder(const StreamFolder&) = delete;
+  StreamFolder& operator=(const StreamFolder&) = delete;
+
+  /// A file there; the folder is made first. Throws IoError.
+  [[nodiscard]] std::filesystem::path file(const std::string& name);
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Standard input as a file, for what reads files.
+class InputStream {
+ public:
+  /// If `name` is "-", reads standard input to its end, and `name` becomes the path of a file of
+  /// the same bytes, "stdin" with the suffix that their beginning tells: .npy, .npz, .pfm, .h5,
+  /// .mat, .tiff, else .csv. Throws IoError; Cancelled once `stop` is requested.
+  InputStream(std::string& name, const std::stop_token& stop);
+
+  /// "-" for that file, another path as it is.
+  [[nodiscard]] std::string shown(const std::string& path) const {
+    return !file_.empty() && path == file_ ? "-" : path;
+  }
+
+ private:
+  StreamFolder folder_;
+  std::string file_;
+};
+
+/// A file that goes to standard output, for what writes files.
+class OutputStream {
+ public:
+  /// If `name` is "-" or, with a form, "pfm:-", it becomes the path of a file that does not exist:
+  /// "stdout" with that form, else `suffix`, as suffix. Throws IoError.
+  OutputStream(std::string& name, const std::string& suffix);
+
+  [[nodiscard]] bool is_meant() const { return !file_.empty(); }
+  /// Writes the file to standard output. Throws IoError.
+  void send() const;
+  /// Throws UsageError if an answer in JSON is wanted there, too.
+  void require_alone(bool is_json) const;
+
+ private:
+  StreamFolder folder_;
+  std::string file_;
+};
+
+}  // namespace episcope::cli

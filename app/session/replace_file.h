@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/parameter.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace episcope {
+
+/// Whether a file that is there may be replaced.
+enum class Overwrite { No, Yes };
+
+/// How a user asks for it: the end of a sentence.
+inline constexpr const char* kByOption = "replace it with --overwrite";
+
+/// Whether there is a file with something in it.
+[[nodiscard]] bool holds_something(const std::filesystem::path& path);
+/// Whether a file is a result, or labels that `label` wrote; false also for a damaged one.
+[[nodiscard]] bool is_sound_result(const std::filesystem::path& path);
+[[nodiscard]] bool is_sound_labeling(const std::filesystem::path& path);
+
+/// What a result or labels are to be made by.
+struct IntendedRun {
+  std::string method;       ///< Id of an estimator; empty for labels.
+  ParameterSet parameters;  ///< Those that are not listed have their default.
+  std::string input;        ///< As typed.
+  ParameterSet reading;     ///< Reading options that are set (io::given_options).
+};
+
+/// Refuses to replace anything but a result file, and one of another method, other parameters,
+/// another light field or another reading of it unless that is asked for. Parameters that the file
+/// does not know count as their default. Throws IoError, which says `how` to ask for it.
+void check_result_output(const std::filesystem::path& path, const IntendedRun& run,
+                         Overwrite overwrite, const std::string& how = kByOption);
+
+/// Refuses to replace anything but a file of labels that `label` wrote, and one as above. Throws
+/// IoError.
+void check_labeling_output(const std::filesystem::path& path, const IntendedRun& run,
+                           Overwrite overwrite);
+
+/// Writes a file by `write`, to which it passes the path. Unless `overwrite` says otherwise, a file
+/// that is there stays: one of the same bytes as it is, one of others makes this throw IoError,
+/// which says `how` to ask for it. For forms that do not tell what they were made by.
+void write_output(const std::filesystem::path& path, Overwrite overwrite,
+                  const std::function<void(const std::filesystem::path&)>& write,
+                  const std::string& how = kByOption);
+
+}  // namespace episcope

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/csv_map.h"
+#include "engine/io/base/npy.h"
+#include "engine/io/formats/write_arrays.h"
+#include "engine/io/models/external_result.h"
+#include "tests/engine/io/formats/array_files.h"
+#include "tests/test_main.h"
+
+#include <QTemporaryDir>
+
+#include <cmath>
+#include <limits>
+
+namespace episcope::in_map_forms_test {
+
+namespace {
+
+constexpr GridShape kGrid{3, 5};
+constexpr int kHeight = 4;
+constexpr int kWidth = 6;
+
+ViewStack<float> sample_maps(GridShape grid) {
+  ViewStack<float> maps(grid, kHeight, kWidth);
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    maps.data()[i] = 0.1F * static_cast<float>(i) - 1;
+  }
+  maps.data()[8] = std::numeric_limits<float>::quiet_NaN();
+  return maps;
+}
+
+using Write = void (*)(const std::filesystem::path&, const ViewStack<float>&);
+
+void write_mat5(const std::filesystem::path& path, const ViewStack<float>& maps) {
+  test::write_mat5_map(path, "disparity", maps.view({0, 0}));
+}
+
+void write_csv(const std::filesystem::path& path, const ViewStack<float>& maps) {
+  io::write_csv_map(path, maps.view({0, 0}));
+}
+
+}  // namespace
+
+class MapFormsTest : public QObject {
+  Q_OBJECT
+
+ private:
+  QTemporaryDir folder_;
+  std::filesystem::path path(const QString& name) const {
+    return std::filesystem::path(folder_.path().toStdString()) / name.toStdString();
+  }
+  Image<float> csv_map(const char* text) const {
+    io::write_atomically(path("map.csv"), std::string_view(text));
+    return io::read_csv_map(path("map.csv"));
+  }
+
+ private slots:
+  void mapsOfAllForms_areRead_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<Write>("write");
+    QTest::addColumn<bool>("has_all_views");
+    QTest::newRow("npy") << "a.npy" << &io::write_npy_maps << false;
+    QTest::newRow("npz") << "a.npz" << &io::write_npz_maps << false;
+    QTest::newRow("mat 7.3") << "a.mat" << &io::write_mat_maps << false;
+    QTest::newRow("mat 5") << "five.mat" << &write_mat5 << false;
+    QTest::newRow("csv") << "a.csv" << &write_csv << false;
+    QTest::newRow("npy of all views") << "b.npy" << &io::write_npy_maps << true;
+    QTest::newRow("npz of all views") << "b.npz" << &io::write_npz_maps << true;
+    QTest::newRow("mat of all views") << "b.mat" << &io::write_mat_maps << true;
+  }
+  void mapsOfAllForms_areRead() {
+    QFETCH(QString, file);
+    QFETCH(Write, write);
+    QFETCH(bool, has_all_views);
+    const ViewStack<float> maps = sample_maps(has_all_views ? kGrid : GridShape{1, 1});
+
+    write(path(file), maps);
+    const DisparityField read = io::read_disparity_map(path(file), kGrid);
+
+    QCOMPARE(read.disparity.grid(), maps.grid());
+    QCOMPARE(read.disparity.first(), has_all_views ? ViewIndex{} : kGrid.center());
+    QCOMPARE(read.disparity.height(), kHeight);
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      QCOMPARE(read.valid.data()[i] != 0, std::isfinite(maps.data()[i]));
+      if (i != 8) QCOMPARE(read.disparity.data()[i], maps.data()[i]);
+    }
+  }
+
+  void lightFieldsBesideMaps_areNoResult() {
+    ViewStack<std::uint8_t> views(kGrid, kHeight, kWidth, 3);
+    std::fill_n(views.data(), views.size(), std::uint8_t{7});
+    test::write_mat5(path("lf.mat"), views, {});
+    io::write_npz_maps(path("maps.npz"), sample_maps(kGrid));
+
+    QVERIFY(!io::is_map_archive(path("lf.mat")));
+    QVERIFY(io::is_map_archive(path("maps.npz")));
+    QVERIFY(!io::is_map_archive(path("none.npz")));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_disparity_map(path("lf.mat"), kGrid));
+  }
+
+  void csv_takesWhatProgramsWrite_data() {
+    QTest::addColumn<QString>("text");
+    QTest::newRow("commas") << "1,2.5,-3e-1\n4,,6\n";
+    QTest::newRow("semicolons, comment, CR LF") << "# a map\r\n1; 2.5; -0.3\r\n4;NaN;6\r\n";
+    QTest::newRow("spaces") << "  1 2.5   -.3\n\n4 nan 6";
+    QTest::newRow("tabs") << "1\t2.5\t-0.3\n4\t-inf\t+6\n";
+  }
+  void csv_takesWhatProgramsWrite() {
+    QFETCH(QString, text);
+
+    const Image<float> map = csv_map(text.toUtf8().constData());
+
+    QCOMPARE(map.height(), 2);
+    QCOMPARE(map.width(), 3);
+    QCOMPARE(map.at(0, 2), -0.3F);
+    QVERIFY(std::isnan(map.at(1, 1)));
+    QCOMPARE(map.at(1, 2), 6.0F);
+  }
+
+  void csv_refusesWhatIsNoMap() {
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)csv_map("1,2\n3\n"));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)csv_map("x,y\n3,4\n"));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)csv_map("\n# nothing\n"));
+  }
+};
+
+}  // namespace episcope::in_map_forms_test
+
+EPISCOPE_TEST(map_forms_test, MapFormsTest)
+#include "map_forms_test.moc"
