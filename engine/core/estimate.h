@@ -76,9 +76,7 @@ struct MapBlock {
 struct BlockMaps {
   DisparityField field;
   ViewStack<float> confidence;
-  LayeredDisparity layered{};            ///< Empty unless the method estimates two layers.
-  DisparityField second{};               ///< As in Estimate.
-  std::vector<ViewStack<float>> kept{};  ///< For later passes, no part of the result.
+  DisparityField second{};  ///< As in Estimate.
 };
 
 /// Progress of an estimate in blocks.

@@ -95,10 +95,7 @@ void mark_invalid(const LightField& light_field, Estimate& estimate) {
 
 void mark_invalid(const LightField& light_field, int first_row, BlockMaps& block) {
   mark(light_field, block.field, first_row);
-  mark(light_field, block.layered.foreground, first_row);
-  mark(light_field, block.layered.background, first_row);
   mark(light_field, block.second, first_row);
-  clear_invalid_of(light_field, block.layered.layers, first_row);
   clear_invalid_of(light_field, block.confidence, first_row);
 }
 

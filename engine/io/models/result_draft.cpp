@@ -87,11 +87,10 @@ ResultDraft::ResultDraft(const std::filesystem::path& result, const DraftShape& 
       draft_(with(result_, ".partial")),
       log_path_(with(result_, ".partial.log")),
       aside_path_(with(result_, ".partial.block")),
-      kept_path_(with(result_, ".partial.kept")),
       shape_(shape) {
   log_.emplace(log_path_, LogFraming::Lines, LogFlush::AtOnce);
   const std::vector<LogRecord>& records = log_->records();
-  const bool is_there = records.size() >= kFirstStep && has_files();
+  const bool is_there = records.size() >= kFirstStep && std::filesystem::exists(draft_);
   if (is_there && text_of(records.front()) == identity) {
     found_ = Found::Same;
     continue_with(records);
@@ -106,26 +105,11 @@ ResultDraft::ResultDraft(const std::filesystem::path& result, const DraftShape& 
   }
 }
 
-bool ResultDraft::has_files() const {
-  if (!std::filesystem::exists(draft_)) return false;
-  std::error_code error;
-  return shape_.kept == 0 || std::filesystem::file_size(kept_path_, error) ==
-                                 KeptMaps::byte_size(shape_.maps, shape_.kept);
-}
-
-void ResultDraft::open_files() {
-  file_ = DraftFile(draft_, shape_, result_);
-  if (shape_.kept > 0) kept_ = KeptMaps(kept_path_, shape_.maps, result_);
-}
-
 void ResultDraft::begin(const std::string& identity) {
   std::error_code ignored;
-  for (const std::filesystem::path& old : {draft_, kept_path_}) {
-    std::filesystem::remove(old, ignored);  // makes room
-  }
+  std::filesystem::remove(draft_, ignored);  // makes room
   DraftFile::create(draft_, shape_, result_);
-  if (shape_.kept > 0) KeptMaps::create(kept_path_, shape_.maps, shape_.kept, result_);
-  open_files();
+  file_ = DraftFile(draft_, shape_, result_);
   const std::vector<LogRecord> records{record_of(identity), record_of(rest_text())};
   log_.emplace(log_path_, LogFraming::Lines, LogFlush::AtOnce, records);
 }
@@ -133,7 +117,7 @@ void ResultDraft::begin(const std::string& identity) {
 void ResultDraft::continue_with(const std::vector<LogRecord>& records) {
   try {
     restore(text_of(records[1]));
-    open_files();
+    file_ = DraftFile(draft_, shape_, result_);
     if (records.size() == kFirstStep) return;
     const Json last = parse_json<Json>(text_of(records.back()));
     progress_ = progress_in(last);
@@ -170,7 +154,6 @@ void ResultDraft::note(const BlockProgress& after) {
 
 void ResultDraft::write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
                         bool replaces) {
-  if (!maps.kept.empty()) kept_.write(block, maps.kept);
   if (replaces) {
     const FileDescriptor aside(aside_path_, O_RDWR | O_CREAT);
     if (!aside.ok()) throw write_error(result_);
@@ -187,7 +170,6 @@ void ResultDraft::write(const MapBlock& block, const BlockMaps& maps, const Bloc
 void ResultDraft::remove_others() const {
   std::error_code ignored;
   std::filesystem::remove(aside_path_, ignored);
-  std::filesystem::remove(kept_path_, ignored);
   std::filesystem::remove(log_path_, ignored);
 }
 
@@ -212,33 +194,22 @@ struct Dataset {
   DraftMap map;
   const char* name;
   const char* unit;
-  bool is_mask = false;
-  bool is_of_layers = false;
 };
 constexpr Dataset kDatasets[] = {
     {DraftMap::Disparity, "disparity", kDisparityUnit},
     {DraftMap::Confidence, "confidence", kNoUnit},
-    {DraftMap::Foreground, "disparity_foreground", kDisparityUnit, false, true},
-    {DraftMap::Background, "disparity_background", kDisparityUnit, false, true},
-    {DraftMap::Layers, "layers", "surfaces", false, true},
     {DraftMap::Second, "disparity_second", kDisparityUnit},
-    {DraftMap::Valid, "valid", kNoUnit, true},
-    {DraftMap::ForegroundValid, "valid_foreground", kNoUnit, true, true},
-    {DraftMap::BackgroundValid, "valid_background", kNoUnit, true, true},
+    {DraftMap::Valid, "valid", kNoUnit},
 };
 
-bool is_mask(DraftMap map) {
-  return map >= DraftMap::Valid;
-}
 std::size_t sample_bytes(DraftMap map) {
-  return is_mask(map) || map == DraftMap::Layers ? 1 : sizeof(float);
+  return map == DraftMap::Valid ? 1 : sizeof(float);
 }
 
 std::vector<Dataset> datasets_of(const DraftShape& shape) {
   std::vector<Dataset> datasets;
   for (const Dataset& dataset : kDatasets) {
-    if (dataset.is_mask && !shape.has_valid) continue;
-    if (dataset.is_of_layers && !shape.has_layers) continue;
+    if (dataset.map == DraftMap::Valid && !shape.has_valid) continue;
     if (dataset.map == DraftMap::Second && !shape.has_second) continue;
     datasets.push_back(dataset);
   }
@@ -254,21 +225,9 @@ std::span<std::uint8_t> bytes_to(ImageView<T> map) {
   return {reinterpret_cast<std::uint8_t*>(map.data), map.size() * sizeof(T)};
 }
 
-// Of a disparity or of its mask.
 template <class Maps>
 auto& field_in(Maps& maps, DraftMap map) {
-  switch (map) {
-    case DraftMap::Foreground:
-    case DraftMap::ForegroundValid:
-      return maps.layered.foreground;
-    case DraftMap::Background:
-    case DraftMap::BackgroundValid:
-      return maps.layered.background;
-    case DraftMap::Second:
-      return maps.second;
-    default:
-      return maps.field;
-  }
+  return map == DraftMap::Second ? maps.second : maps.field;
 }
 
 // Disparity as files have it.
@@ -286,16 +245,14 @@ std::span<const std::uint8_t> marked_disparity(const DisparityField& field, View
 
 std::span<const std::uint8_t> bytes_in(const BlockMaps& maps, DraftMap map, ViewIndex view,
                                        std::vector<float>& marked) {
-  if (is_mask(map)) return bytes_of(field_in(maps, map).valid.view(view));
+  if (map == DraftMap::Valid) return bytes_of(maps.field.valid.view(view));
   if (map == DraftMap::Confidence) return bytes_of(maps.confidence.view(view));
-  if (map == DraftMap::Layers) return bytes_of(maps.layered.layers.view(view));
   return marked_disparity(field_in(maps, map), view, marked);
 }
 
 // Where the samples of a map that is no mask go.
 std::span<std::uint8_t> target_in(BlockMaps& maps, DraftMap map, ViewIndex view) {
   if (map == DraftMap::Confidence) return bytes_to(maps.confidence.view(view));
-  if (map == DraftMap::Layers) return bytes_to(maps.layered.layers.view(view));
   return bytes_to(field_in(maps, map).disparity.view(view));
 }
 
@@ -407,16 +364,11 @@ void DraftFile::restore(const std::filesystem::path& path, const std::vector<Fil
 
 BlockMaps DraftFile::read(const MapBlock& block) const {
   const ViewRectangle& views = block.views;
-  const auto empty = [&]<class T>(T) {
-    return ViewStack<T>(views.grid, block.rows(), shape_.maps.width, 1, views.first);
-  };
-  BlockMaps maps{{empty(0.0F), {}}, empty(0.0F)};
-  if (shape_.has_layers) {
-    maps.layered = {{empty(0.0F), {}}, {empty(0.0F), {}}, empty(std::uint8_t{})};
-  }
-  if (shape_.has_second) maps.second.disparity = empty(0.0F);
+  const ViewStack<float> empty(views.grid, block.rows(), shape_.maps.width, 1, views.first);
+  BlockMaps maps{{empty, {}}, empty};
+  if (shape_.has_second) maps.second.disparity = empty;
   for (const Place& place : places_) {
-    if (is_mask(place.map)) continue;
+    if (place.map == DraftMap::Valid) continue;
     for (int i = 0; i < views.grid.count(); ++i) {
       const ViewIndex view = views.grid.view_at(i, views.first);
       require(read_all_at(file_.id(), target_in(maps, place.map, view),
@@ -434,7 +386,7 @@ void DraftFile::write_strips(const FileDescriptor& to, bool is_aside, const MapB
   for (int i = 0; i < block.views.grid.count(); ++i) {
     const ViewIndex view = block.views.grid.view_at(i, block.views.first);
     for (const Place& place : places_) {
-      if (is_mask(place.map) && maps.field.valid.empty()) continue;
+      if (place.map == DraftMap::Valid && maps.field.valid.empty()) continue;
       const std::span<const std::uint8_t> bytes = bytes_in(maps, place.map, view, marked);
       require(write_all_at(to.id(), bytes, is_aside ? end : at(place, view, block.first_row)));
       end += bytes.size();
@@ -459,65 +411,11 @@ void DraftFile::take_from(const FileDescriptor& aside, const MapBlock& block,
   for (int i = 0; i < block.views.grid.count(); ++i) {
     const ViewIndex view = block.views.grid.view_at(i, block.views.first);
     for (const Place& place : places_) {
-      if (is_mask(place.map) && !has_valid) continue;
+      if (place.map == DraftMap::Valid && !has_valid) continue;
       bytes.resize(sample_bytes(place.map) * block.rows() * shape_.maps.width);
       require(read_all_at(aside.id(), bytes, end) &&
               write_all_at(file_.id(), bytes, at(place, view, block.first_row)));
       end += bytes.size();
-    }
-  }
-  require(::fdatasync(file_.id()) == 0);
-}
-
-std::uintmax_t KeptMaps::byte_size(const MapGeometry& maps, int count) {
-  return sizeof(float) * static_cast<std::uintmax_t>(count) * maps.grid.count() * maps.height *
-         maps.width;
-}
-
-void KeptMaps::create(const std::filesystem::path& path, const MapGeometry& maps, int count,
-                      const std::filesystem::path& target) {
-  const FileDescriptor file(path, O_RDWR | O_CREAT | O_TRUNC);
-  if (!file.ok()) throw write_error(target);
-  errno = posix_fallocate(file.id(), 0, static_cast<off_t>(byte_size(maps, count)));
-  if (errno != 0) throw write_error(target);
-}
-
-KeptMaps::KeptMaps(const std::filesystem::path& path, const MapGeometry& maps,
-                   const std::filesystem::path& target)
-    : target_(target), maps_(maps), file_(path, O_RDWR) {
-  require(file_.ok());
-}
-
-std::uintmax_t KeptMaps::at(int number, ViewIndex view, int row) const {
-  const auto index = static_cast<std::uintmax_t>(view.v - maps_.first.v) * maps_.grid.u +
-                     static_cast<std::uintmax_t>(view.u - maps_.first.u);
-  return byte_size(maps_, number) + (index * maps_.height + row) * maps_.width * sizeof(float);
-}
-
-void KeptMaps::require(bool is_done) const {
-  if (!is_done) throw write_error(target_);
-}
-
-ViewStack<float> KeptMaps::read(const MapBlock& block, int number) const {
-  ViewStack<float> kept(block.views.grid, block.rows(), maps_.width, 1, block.views.first);
-  for (int i = 0; i < kept.grid().count(); ++i) {
-    const ViewIndex view = kept.view_at(i);
-    const ImageView<float> map = kept.view(view);
-    require(read_all_at(file_.id(),
-                        {reinterpret_cast<std::uint8_t*>(map.data), map.size() * sizeof(float)},
-                        at(number, view, block.first_row)));
-  }
-  return kept;
-}
-
-void KeptMaps::write(const MapBlock& block, const std::vector<ViewStack<float>>& kept) const {
-  for (std::size_t number = 0; number < kept.size(); ++number) {
-    for (int i = 0; i < kept[number].grid().count(); ++i) {
-      const ViewIndex view = kept[number].view_at(i);
-      const ImageView<const float> map = kept[number].view(view);
-      require(write_all_at(
-          file_.id(), {reinterpret_cast<const std::uint8_t*>(map.data), map.size() * sizeof(float)},
-          at(static_cast<int>(number), view, block.first_row)));
     }
   }
   require(::fdatasync(file_.id()) == 0);

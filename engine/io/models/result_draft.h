@@ -17,9 +17,7 @@ namespace episcope::io {
 struct DraftShape {
   MapGeometry maps;
   bool has_valid = false;   ///< Whether some pixels may be marked as not valid.
-  bool has_layers = false;  ///< Whether it holds two layers as well,
-  bool has_second = false;  ///< and a second disparity.
-  int kept = 0;             ///< Maps beside it that passes keep for later ones.
+  bool has_second = false;  ///< Whether it holds a second disparity.
 };
 
 /// Bytes of a file and their offset.
@@ -29,17 +27,7 @@ struct FileExtent {
 };
 
 /// The maps of a draft, in the order in which they are made; masks of valid pixels last.
-enum class DraftMap {
-  Disparity,
-  Confidence,
-  Foreground,
-  Background,
-  Layers,
-  Second,
-  Valid,
-  ForegroundValid,
-  BackgroundValid
-};
+enum class DraftMap { Disparity, Confidence, Second, Valid };
 
 /// An HDF5 file with the maps of a result. Blocks are written in any order, without the HDF5
 /// library. Members throw IoError that names `target`.
@@ -90,38 +78,10 @@ class DraftFile {
   std::vector<Place> places_;  // By offset.
 };
 
-/// A file of maps that passes of a block-wise run keep for later passes. The maps follow each other
-/// as float32 `[v][u][y][x]`, without a header. Members throw IoError that names `target`.
-class KeptMaps {
- public:
-  /// Size of a file of `count` maps.
-  [[nodiscard]] static std::uintmax_t byte_size(const MapGeometry& maps, int count);
-  /// Creates the file at `path`, replacing any other. Throws IoError also if the disk has no room.
-  static void create(const std::filesystem::path& path, const MapGeometry& maps, int count,
-                     const std::filesystem::path& target);
-
-  KeptMaps() = default;
-  /// Opens a file that `create` made.
-  KeptMaps(const std::filesystem::path& path, const MapGeometry& maps,
-           const std::filesystem::path& target);
-
-  [[nodiscard]] ViewStack<float> read(const MapBlock& block, int number) const;
-  /// Writes a block of all maps, which is on the disk when it returns.
-  void write(const MapBlock& block, const std::vector<ViewStack<float>>& kept) const;
-
- private:
-  [[nodiscard]] std::uintmax_t at(int number, ViewIndex view, int row) const;
-  void require(bool is_done) const;
-
-  std::filesystem::path target_;
-  MapGeometry maps_;
-  FileDescriptor file_;
-};
-
 /// A result file that is filled block by block and survives the end of the program at any instant.
 /// Each block is on the disk before the next. `NAME.partial` becomes the result when it is
-/// complete. `NAME.partial.kept` holds maps for later passes. `NAME.partial.log` tells the run, its
-/// progress, and how to undo or redo an interrupted write. Members throw IoError.
+/// complete. `NAME.partial.log` tells the run, its progress, and how to undo or redo an interrupted
+/// write. Members throw IoError.
 class ResultDraft {
  public:
   /// Continues the draft of a run with the same `identity` (one line), or begins a new one that
@@ -137,13 +97,10 @@ class ResultDraft {
   [[nodiscard]] const BlockProgress& progress() const { return progress_; }
   /// Reads disparity and confidence as last written.
   [[nodiscard]] BlockMaps read(const MapBlock& block) const { return file_.read(block); }
-  [[nodiscard]] ViewStack<float> read_kept(const MapBlock& block, int number) const {
-    return kept_.read(block, number);
-  }
 
   void note(const BlockProgress& after);
   /// Writes a block, then notes the progress once it is on the disk. With `replaces`, the block and
-  /// the progress change together or not at all. Maps for later passes are written first.
+  /// the progress change together or not at all.
   void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
              bool replaces);
 
@@ -151,20 +108,17 @@ class ResultDraft {
   void commit(const Provenance& provenance, const std::string& source);
 
  private:
-  [[nodiscard]] bool has_files() const;
-  void open_files();
   void begin(const std::string& identity);
   void continue_with(const std::vector<LogRecord>& records);
   [[nodiscard]] std::string rest_text() const;
   void restore(const std::string& rest) const;
   void remove_others() const;
 
-  std::filesystem::path result_, draft_, log_path_, aside_path_, kept_path_;
+  std::filesystem::path result_, draft_, log_path_, aside_path_;
   DraftShape shape_;
   Found found_ = Found::Nothing;
   std::optional<AppendLog> log_;
   DraftFile file_;
-  KeptMaps kept_;
   BlockProgress progress_;
 };
 

@@ -42,21 +42,6 @@ BlockMaps block_of(const MapBlock& block, float more = 0, bool has_mask = false)
   return maps;
 }
 
-// The same with layers, a second disparity, and two maps that are kept.
-BlockMaps layered_block_of(const MapBlock& block) {
-  BlockMaps maps = block_of(block, 0, true);
-  maps.layered.foreground = block_of(block, 1000, true).field;
-  maps.layered.background = block_of(block, 2000, true).field;
-  const ViewRectangle& views = block.views;
-  maps.second = block_of(block, 5000, true).field;
-  maps.layered.layers = {views.grid, block.rows(), kMaps.width, 1, views.first};
-  std::fill_n(maps.layered.layers.data(), maps.layered.layers.size(), std::uint8_t{2});
-  for (const float more : {3000.0F, 4000.0F}) {
-    maps.kept.push_back(std::move(block_of(block, more).field.disparity));
-  }
-  return maps;
-}
-
 MapBlock rows(int first, int end) {
   return {{{}, kMaps.grid}, first, end};
 }
@@ -73,8 +58,7 @@ class ResultDraftTest : public QObject {
   void completedDraft_isTheResultFile();
   void maskedPixels_areNotValid();
   void whatWasWritten_isFoundAgain();
-  void furtherAndKeptMaps_areFoundAgain();
-  void lostKeptMaps_beginAnew();
+  void secondDisparity_isFoundAgain();
   void draftOfAnotherRun_isReplaced();
   void replacement_endedBeforeItIsNoted_isRepeated();
   void endWhileItIsCompleted_isUndone();
@@ -146,43 +130,20 @@ void ResultDraftTest::whatWasWritten_isFoundAgain() {
   QCOMPARE(maps.confidence.view({1, 0}).at(1, 0), -value_at({1, 0}, 2, 0));
 }
 
-void ResultDraftTest::furtherAndKeptMaps_areFoundAgain() {
-  const io::DraftShape shape{
-      .maps = kMaps, .has_valid = true, .has_layers = true, .has_second = true, .kept = 2};
-  {
-    ResultDraft left(path(), shape, "a run");
-    left.write(rows(0, 5), layered_block_of(rows(0, 5)), {.done = 5}, false);
-  }
+void ResultDraftTest::secondDisparity_isFoundAgain() {
+  const io::DraftShape shape{.maps = kMaps, .has_valid = true, .has_second = true};
+  BlockMaps maps = block_of(rows(0, 5), 0, true);
+  maps.second = block_of(rows(0, 5), 5000, true).field;
+  { ResultDraft(path(), shape, "a run").write(rows(0, 5), maps, {.done = 5}, false); }
 
   ResultDraft found(path(), shape, "a run");
 
-  const MapBlock part{{{1, 1}, {1, 2}}, 2, 4};
-  QCOMPARE(found.read_kept(part, 0).view({1, 2}).at(1, 3), value_at({1, 2}, 3, 3) + 3000);
-  QCOMPARE(found.read_kept(part, 1).view({1, 1}).at(0, 2), value_at({1, 1}, 2, 2) + 4000);
-  QCOMPARE(found.read(part).layered.background.disparity.view({1, 2}).at(1, 0),
-           value_at({1, 2}, 3, 0) + 2000);
+  QCOMPARE(found.read({{{1, 1}, {1, 2}}, 2, 4}).second.disparity.view({1, 2}).at(1, 0),
+           value_at({1, 2}, 3, 0) + 5000);
   found.commit({}, "lf.h5");
   const Estimate read = io::read_result(path(), kMaps.grid);
-  QCOMPARE(read.layered.foreground.disparity.view({1, 2}).at(4, 3), value_at({1, 2}, 4, 3) + 1000);
-  QCOMPARE(read.layered.background.valid.view({1, 2}).at(4, 1), std::uint8_t{0});
-  QCOMPARE(read.layered.layers.view({0, 0}).at(0, 0), std::uint8_t{2});
   QCOMPARE(read.second.disparity.view({1, 2}).at(4, 3), value_at({1, 2}, 4, 3) + 5000);
   QCOMPARE(read.second.valid.view({1, 2}).at(4, 1), std::uint8_t{0});
-  QVERIFY(!std::filesystem::exists(path("r.h5.partial.kept")));
-}
-
-void ResultDraftTest::lostKeptMaps_beginAnew() {
-  const io::DraftShape shape{
-      .maps = kMaps, .has_valid = true, .has_layers = true, .has_second = true, .kept = 2};
-  {
-    ResultDraft left(path(), shape, "a run");
-    left.write(rows(0, 5), layered_block_of(rows(0, 5)), {.done = 5}, false);
-  }
-  std::filesystem::remove(path("r.h5.partial.kept"));
-
-  const ResultDraft found(path(), shape, "a run");
-
-  QVERIFY(found.progress() == BlockProgress{});
 }
 
 void ResultDraftTest::draftOfAnotherRun_isReplaced() {
