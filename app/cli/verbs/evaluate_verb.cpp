@@ -403,9 +403,7 @@ void check_error_map(const std::filesystem::path& map, const JudgedFile& file) {
 void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
   EvaluateRequest request;
   if (!parse(arguments, request)) return;
-  std::string none;
-  const auto piped = std::ranges::find(request.files, "-");
-  const InputStream input(piped == request.files.end() ? none : *piped, stop);
+  const InputStream input(request.files, stop);
   Job job(std::move(stop), request.job);
   const std::vector<JudgedFile> files =
       judged_files(request.files, request.truth, request.read, job);

@@ -269,7 +269,7 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
     return load_input(input, read, job.progress());
   }();
   if (is_json) {
-    print_answer(scene_json(scene, input), scene.convention.warnings);
+    print_answer(scene_json(scene, piped.shown(input)), scene.convention.warnings);
   } else {
     print_scene(scene);
   }
