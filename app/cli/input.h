@@ -6,6 +6,7 @@
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
+#include "engine/core/view_stack.h"
 #include "engine/io/models/map_reading.h"
 #include "engine/io/models/open_options.h"
 
@@ -74,6 +75,13 @@ struct NamedReading {
 
 /// The view itself. Throws InvalidInput if the light field has no such view.
 [[nodiscard]] ViewIndex view_of(const LightField& light_field, ViewIndex view);
+
+/// The view in the middle of those of a stack, or its only one.
+template <class T>
+[[nodiscard]] ViewIndex middle_of(const ViewStack<T>& stack) {
+  const ViewIndex middle = stack.grid().center();
+  return {stack.first().v + middle.v, stack.first().u + middle.u};
+}
 
 /// Notes if the estimate was made from samples of another light field, and which reading options
 /// may explain it.

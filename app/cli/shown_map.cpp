@@ -83,12 +83,6 @@ IoError missing_source(const ShownMap& shown, const std::string& named) {
               "; name it with --truth INPUT"};
 }
 
-template <class T>
-ViewIndex middle_of(const ViewStack<T>& stack) {
-  const ViewIndex middle = stack.grid().center();
-  return {stack.first().v + middle.v, stack.first().u + middle.u};
-}
-
 void take_scene(const ShownMap& shown, Scene scene, LoadedMap& loaded) {
   loaded.source.light_field = scene.light_field;
   loaded.source.truth = scene.truth;

@@ -320,7 +320,7 @@ class Runner {
     if (request_.is_submission) {
       submit(task, *estimate, center);
     } else if (map_form(task.output)) {
-      save_maps(task.output, estimate->field);
+      save_maps(task.output, *estimate);
     } else {
       io::write_result(task.output, *estimate, progress.part(0.85, 1),
                        {source_text(source_of(task), task.output), request_.floats});
