@@ -26,6 +26,8 @@ void declare_read_options(Arguments& arguments, ReadOptions& options);
 
 /// Throws UsageError for a value that no light field can be read by, such as a grid of one number.
 void check_read_options(const ReadOptions& options);
+/// Throws UsageError if such an option is given for a file that is no light field.
+void require_no_read_options(const ReadOptions& options, const std::string& input);
 
 /// Prints the options of reading, which the help of verbs leaves out.
 void print_reading_help();

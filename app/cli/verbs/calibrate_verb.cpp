@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iostream>
 
 namespace episcope::cli {
@@ -45,6 +46,13 @@ bool parse(const VerbArguments& arguments, CalibrateRequest& request) {
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
   declare_job_options(parser, request.job);
   if (!parser.parse(arguments)) return false;
+  constexpr int kFewest = 3;
+  if (std::min(request.size.first, request.size.second) < kFewest) {
+    throw UsageError(
+        fmt::format("--pattern is {}x{}, but a pattern has at least {} points in a row and in a "
+                    "column; count its inner corners, or its circles",
+                    request.size.first, request.size.second, kFewest));
+  }
   request.pattern.columns = request.size.first;
   request.pattern.rows = request.size.second;
   return true;

@@ -164,9 +164,10 @@ ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
     subject.estimate = read_result_of(*subject.scene->light_field, request.input, reading);
   }
   if (target.needs_scene() && !subject.scene) {
-    throw IoError(request.input,
-                  "its light field is unknown or no longer where it was; name it with "
-                  "--truth INPUT");
+    const std::string& named = subject.estimate->source;
+    constexpr const char* kRemedy = "; name it with --truth INPUT";
+    if (named.empty()) throw UsageError(request.input + " names no light field" + kRemedy);
+    throw IoError(request.input, "its light field, " + named + ", is not there" + kRemedy);
   }
   return subject;
 }

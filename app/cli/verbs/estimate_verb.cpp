@@ -134,16 +134,26 @@ std::optional<MapForm> map_form(const std::string& output) {
   return is_map ? form : std::nullopt;
 }
 
+/// Views that the method can estimate; what it cannot is wrong usage.
+ViewSelection views_of_method(const EstimateArguments& request,
+                              std::optional<ViewSelection> wanted) {
+  try {
+    return views_to_estimate(*request.estimator, wanted);
+  } catch (const InvalidInput& error) {
+    throw UsageError(error.what());
+  }
+}
+
 ViewSelection selected_views(const EstimateArguments& request) {
   std::optional<ViewSelection> wanted;
   if (request.job.run.is_given("views")) wanted = request.job.run_options().views;
   const auto form = map_form(request.output);
-  if (!request.is_submission && !form) return views_to_estimate(*request.estimator, wanted);
+  if (!request.is_submission && !form) return views_of_method(request, wanted);
   if (wanted.value_or(ViewSelection::Center) == ViewSelection::Center) return ViewSelection::Center;
   if (request.is_submission) {
     throw UsageError("a submission holds center views; leave out --views");
   }
-  if (holds_all_views(*form)) return views_to_estimate(*request.estimator, wanted);
+  if (holds_all_views(*form)) return views_of_method(request, wanted);
   throw UsageError(request.output +
                    " holds the map of one view; leave out --views, or name it OUT.h5 or OUT.npy");
 }

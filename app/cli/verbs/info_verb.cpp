@@ -10,6 +10,7 @@
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
 #include "engine/io/base/json.h"
+#include "engine/io/models/result_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -258,8 +259,9 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
   if (!parse_reading(parser, arguments, job_options, read)) return;
 
   const InputStream piped(input, stop);
-  const bool is_plain = read.options.values().empty();
+  const bool is_plain = read.options.values().empty() || io::is_result_file(input);
   if (auto file = describe_file(input, is_plain ? Reads::AsItIs : Reads::AsViews)) {
+    require_no_read_options(read, input);
     if (is_json) return print_answer(std::move(file->json));
     for (const auto& [label, text] : file->lines) print_line(label, text);
     return;

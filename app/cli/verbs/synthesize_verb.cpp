@@ -67,7 +67,12 @@ bool parse(const VerbArguments& arguments, SynthesizeRequest& request) {
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_job_options(parser, request.job);
-  return parser.parse(arguments);
+  if (!parser.parse(arguments)) return false;
+  if (const std::string id = builtin_scene_id(request.scene); !id.empty()) request.scene = id;
+  parser.check_uses({{{"--overwrite"},
+                      request.scene != kGantry,
+                      "on the folder of the gantry, which must be empty"}});
+  return true;
 }
 
 // What the scene says of itself, and options over it.
@@ -117,7 +122,6 @@ Json answer_json(const SynthesizeRequest& request, const scenes::RenderOptions& 
 void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   SynthesizeRequest request;
   if (!parse(arguments, request)) return;
-  if (const std::string id = builtin_scene_id(request.scene); !id.empty()) request.scene = id;
   if (request.scene == kGantry) return synthesize_gantry(request, std::move(stop));
   check_builtin_scene(request.scene);
   const auto [id, options] = scene_of(request);
