@@ -22,15 +22,6 @@
 namespace episcope::cli {
 namespace {
 
-void add_camera(Json& json, const LightFieldInfo& info) {
-  if (const auto& camera = info.camera; camera.is_known()) {
-    json["camera"] = Json::object({{"baseline", camera.baseline},
-                                   {"focal_length", camera.focal_length},
-                                   {"shift", camera.shift}});
-    if (camera.cam_distance) json["camera"]["cam_distance"] = *camera.cam_distance;
-  }
-}
-
 /// Keys of what there is; what is missing has no key.
 void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
   if (const auto& promised = scene.light_field->info().disparity_range) {
@@ -109,7 +100,9 @@ Json scene_json(const Scene& scene, const std::string& input) {
   json["samples"] = samples_text(scene);
   json["brightness"] = scene.convention.gain;
   json["bytes"] = light_field.byte_size();
-  add_camera(json, light_field.info());
+  if (Json camera = camera_json(light_field.info().camera); !camera.is_null()) {
+    json["camera"] = std::move(camera);
+  }
   add_truth(json, scene, summary);
   json["companions"] = Json::array();
   for (const auto& companion : scene.companions) {
@@ -155,15 +148,6 @@ void print_valid(const LightField& light_field) {
   if (light_field.valid().empty()) return;
   print_line("valid", fmt::format("{:.4g} % of the pixels; the others are dark or empty",
                                   valid_percent(light_field)));
-}
-
-void print_camera(const LightFieldInfo& info) {
-  const CameraGrid& camera = info.camera;
-  if (!camera.is_known()) return print_line("camera", "not known: disparity has no depth");
-  const std::string distance =
-      camera.cam_distance ? fmt::format(", d = 0 at Z = {:g}", *camera.cam_distance) : "";
-  print_line("camera", fmt::format("baseline {:g}, focal length {:g}, shift {:g} px{}",
-                                   camera.baseline, camera.focal_length, camera.shift, distance));
 }
 
 void print_positions(const LightFieldInfo& info) {
@@ -219,7 +203,7 @@ void print_scene(const Scene& scene) {
   print_line("samples", samples_text(scene));
   print_valid(*scene.light_field);
   print_line("brightness", scene.convention.gain);
-  print_camera(scene.light_field->info());
+  print_line("camera", camera_text(scene.light_field->info().camera));
   print_positions(scene.light_field->info());
   print_truth(scene, summary);
   for (const auto& companion : scene.companions) {

@@ -203,3 +203,40 @@ expect("a pose as JSON" 0 ARGS info pose.json --json)
 json_is("${out}" pose kind)
 json_is("${out}" OFF mesh_exists)
 json_is("${out}" 2.0 translation 2)
+
+# A result says what made it, on what, and of which samples.
+expect("a result that is whole" 0 ARGS estimate epi_l scenes/bars -o whole.h5 --views center)
+expect("a result" 0 OUT "\nversion +Episcope .*\ncommit +[^\n]+\ndevice +[^\n]+\nfinished +20[^\n]+Z\nsource_hash +[0-9a-f]+\ncamera +baseline "
+       ARGS info whole.h5)
+expect("a result as JSON" 0 ARGS info whole.h5 --json)
+foreach(key commit device finished source_hash)
+  string(JSON value ERROR_VARIABLE problem GET "${out}" ${key})
+  if(problem OR value STREQUAL "")
+    fail_case("info does not tell ${key} of a result:\n${out}")
+  endif()
+endforeach()
+string(JSON baseline GET "${out}" camera baseline)
+expect("its light field" 0 ARGS info scenes/bars --json)
+json_is("${out}" "${baseline}" camera baseline)
+expect("a map of another program has none" 0 ARGS info r.pfm --json)
+json_absent("${out}" commit)
+json_absent("${out}" camera)
+
+# A project of the window.
+set(place "{\"view\": [1, 1], \"pixel\": [0, 0], \"focus_px\": 0, \"ranges\": {}}")
+set(shown "\"display_range\": [0, 1], \"shown\": true, \"compared\": false")
+file(WRITE "${WORK}/work.episcope" "{\"format\": \"episcope project\", \"version\": 1, \"current\": 1, \"bad_threshold_px\": 0.07,
+ \"scenes\": [{\"name\": \"bars\", \"source\": \"scenes/bars\", \"hash\": \"0\", \"reading\": {}, \"place\": ${place},
+   \"results\": [{\"name\": \"EPI_L\", \"file\": \"whole.h5\", ${shown}}, {\"name\": \"lost\", \"file\": \"lost.h5\", ${shown}}]},
+  {\"name\": \"gone\", \"source\": \"scenes/gone\", \"hash\": \"0\", \"reading\": {\"flip\": \"u\"}, \"place\": ${place}, \"results\": []}]}")
+expect("a project" 0 OUT "^project +2 light fields\nscene +bars, [^\n]*scenes/bars\n +result +EPI_L, whole.h5\n +result +lost, lost.h5, which is not there\nshown +gone, [^\n]*scenes/gone --flip=u, which is not there\ndate +20"
+       ARGS info work.episcope)
+expect("a project as JSON" 0 ARGS info work.episcope --json)
+one_shape("${out}" 1 0)
+json_is("${out}" project kind)
+json_is("${out}" ON scenes 0 source_exists)
+json_is("${out}" ON scenes 0 results 0 exists)
+json_is("${out}" OFF scenes 0 results 1 exists)
+json_is("${out}" ON scenes 1 shown)
+file(WRITE "${WORK}/broken.episcope" "{\"format\": \"episcope project\"")
+expect("a damaged project" 1 ERR "broken.episcope: " ARGS info broken.episcope)
