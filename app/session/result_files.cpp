@@ -230,14 +230,18 @@ std::string map_options_text(const io::MapReading& reading) {
   return options_text(io::given_options(reading), io::map_schema().descriptions());
 }
 
-std::string better_reading_text(const io::BetterReading& found) {
+std::string better_reading_finding(const io::BetterReading& found) {
   const bool is_by_truth = found.as_read.mse_100.has_value();
-  const std::string finding = fmt::format("the map {} far better with {} ({})",
-                                          is_by_truth ? "fits the truth" : "explains the views",
-                                          io::reading_text(found.reading), both_numbers(found));
-  const std::string options = map_options_text(found.reading);
-  if (!found.is_contradicted()) return finding + "; if it is stored so, add" + options;
-  return finding + ", but the views fit it as it is: check the truth, or add" + options;
+  return fmt::format("the map {} far better with {} ({}){}",
+                     is_by_truth ? "fits the truth" : "explains the views",
+                     io::reading_text(found.reading), both_numbers(found),
+                     found.is_contradicted() ? ", but the views fit it as it is" : "");
+}
+
+std::string better_reading_text(const io::BetterReading& found) {
+  const char* remedy =
+      found.is_contradicted() ? ": check the truth, or add" : "; if it is stored so, add";
+  return better_reading_finding(found) + remedy + map_options_text(found.reading);
 }
 
 void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file) {

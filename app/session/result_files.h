@@ -47,8 +47,11 @@ namespace episcope {
 /// Options that read a map so, as on the command line: " --map-transpose --map-scale=0.01".
 [[nodiscard]] std::string map_options_text(const io::MapReading& reading);
 
-/// A sentence that says so, with both numbers and the options that apply it: "the map fits the
-/// truth far better with rows and columns exchanged (…); if it is stored so, add --map-transpose".
+/// Says so with both numbers: "the map fits the truth far better with rows and columns exchanged
+/// (…)", and whether the views contradict it.
+[[nodiscard]] std::string better_reading_finding(const io::BetterReading& found);
+
+/// The same with the options that apply it: "…; if it is stored so, add --map-transpose".
 [[nodiscard]] std::string better_reading_text(const io::BetterReading& found);
 
 /// Throws InvalidInput, naming `file`, if an estimate that was read from there has not the size and
