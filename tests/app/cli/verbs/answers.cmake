@@ -2,22 +2,6 @@
 # other files stand for what they hold.
 include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
 
-# one_shape(text results written): as many results and written files, and a list of notes.
-function(one_shape text results written)
-  foreach(pair "results=${results}" "written=${written}")
-    string(REGEX REPLACE "=.*" "" key "${pair}")
-    string(REGEX REPLACE ".*=" "" count "${pair}")
-    string(JSON length ERROR_VARIABLE problem LENGTH "${text}" ${key})
-    if(NOT length STREQUAL count)
-      fail_case("${key} has ${length} (${problem}), expected ${count} in\n${text}")
-    endif()
-  endforeach()
-  string(JSON type ERROR_VARIABLE problem TYPE "${text}" notes)
-  if(NOT type STREQUAL ARRAY)
-    fail_case("notes is no list in\n${text}")
-  endif()
-endfunction()
-
 file(MAKE_DIRECTORY "${WORK}/scenes/edge" "${WORK}/scenes/bars")
 foreach(scene edge bars)
   expect("make ${scene}" 0 ARGS synthesize ${scene} -o scenes/${scene}/lf.h5 --views 3x3 --size 48x48 --json)

@@ -72,12 +72,12 @@ set(table
   "synthesize nothing -o out.h5"
   "synthesize edge -o out.npz"
   "synthesize edge -o out.h5 --seed -1"
-  "synthesize edge -o out.h5 --views 0x3"
+  "synthesize edge -o out.h5 --grid 0x3"
   "synthesize gantry -o out --overwrite"
   "calibrate"
   "calibrate pictures/input_Cam000.png -o out.yml"
   "calibrate pictures/input_Cam000.png --pattern 9 -o out.yml"
-  "calibrate pictures/input_Cam000.png --pattern 9x2 -o out.yml"
+  "calibrate pictures/input_Cam000.png --board 9x2 -o out.yml"
   "calibrate pictures/input_Cam000.png --pattern 9x6 --kind cube -o out.yml"
   "rectify pictures"
   "rectify pictures --camera c.yml -o out.png"
@@ -110,7 +110,7 @@ set(table
   "benchmark scene -o out --methods ,"
   "benchmark scene -o out --features image"
   "benchmark scene -o out --labels --features nothing"
-  "benchmark scene -o out --labels --profile paper"
+  "benchmark scene -o out --labeling --profile paper"
   "benchmark scene -o out --task-seconds 3"
   "benchmark scene -o out --point -1"
   "benchmark scene -o out --point 1 --collect"
@@ -132,5 +132,31 @@ foreach(entry IN LISTS found)
   string(STRIP "${entry}" verb)
   if(NOT verb STREQUAL "episcope-cli" AND NOT table MATCHES "(^|;)${verb} ?")
     fail_case("no wrong usage of ${verb} is tried")
+  endif()
+endforeach()
+
+# An option has one meaning; earlier names of others still work, and help does not list them.
+expect("earlier names" 0 ARGS synthesize edge -o old.h5 --views 3x3 --size 48x48 --noise=2 --seed 5)
+expect("present names" 0 ARGS synthesize edge -o new.h5 --grid 3x3 --size 48x48 --noise-sigma 2 --seed 5)
+foreach(file old new)
+  expect("a row of ${file}" 0 ARGS show ${file}.h5 -o ${file}.png --row 20)
+  file(SHA256 "${WORK}/${file}.png" of_${file})
+endforeach()
+if(NOT of_old STREQUAL of_new)
+  fail_case("an earlier name means something else")
+endif()
+expect("earlier names of benchmark" 2 ERR "--scribble-folder has no effect without --labeling"
+       ARGS benchmark scene -o out --scribbles strokes)
+expect("an earlier flag" 2 ERR "--profile has no effect" ARGS benchmark scene -o out --labels --profile paper)
+expect("earlier maps" 2 ERR "--search has no effect" ARGS benchmark scene -o out --submission theirs --search)
+expect("an earlier board" 2 ERR "--board is 9x2" ARGS calibrate pictures/input_Cam000.png --pattern 9x2 -o c.yml)
+foreach(pair calibrate=--pattern synthesize=--views synthesize=--noise benchmark=--labels benchmark=--submission
+             benchmark=--scribbles)
+  string(REPLACE "=" ";" pair "${pair}")
+  list(GET pair 0 verb)
+  list(GET pair 1 option)
+  expect("help of ${verb}" 0 ARGS help ${verb})
+  if(out MATCHES "\n  ${option}[ \n]")
+    fail_case("help of ${verb} lists ${option}, which is an option of another meaning elsewhere")
   endif()
 endforeach()
