@@ -86,10 +86,8 @@ void add_run(const Provenance& made, FileInfo& info) {
   add("device", made.device);
   add("finished", made.date);
   if (made.source_hash != 0) add("source_hash", hash_digits(made.source_hash));
-  Json camera = camera_json(made.camera);
-  if (camera.is_null()) return;
-  info.json["camera"] = std::move(camera);
-  info.lines.emplace_back("camera", camera_text(made.camera));
+  add_camera(made.camera, info.json);
+  if (made.camera.is_known()) info.lines.emplace_back("camera", camera_text(made.camera));
 }
 
 std::string views_text(GridShape grid, ViewIndex first) {
@@ -295,13 +293,12 @@ bool is_pose(const fs::path& path) {
 
 }  // namespace
 
-Json camera_json(const CameraGrid& camera) {
-  if (!camera.is_known()) return {};
-  Json json{{"baseline", camera.baseline},
-            {"focal_length", camera.focal_length},
-            {"shift", camera.shift}};
-  if (camera.cam_distance) json["cam_distance"] = *camera.cam_distance;
-  return json;
+void add_camera(const CameraGrid& camera, Json& json) {
+  if (!camera.is_known()) return;
+  json["camera"] = Json::object({{"baseline", camera.baseline},
+                                 {"focal_length", camera.focal_length},
+                                 {"shift", camera.shift}});
+  if (camera.cam_distance) json["camera"]["cam_distance"] = *camera.cam_distance;
 }
 
 std::string camera_text(const CameraGrid& camera) {

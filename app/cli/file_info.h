@@ -26,8 +26,8 @@ enum class Reads { AsItIs, AsViews };
 /// there is, such as light fields. Throws IoError for a damaged file.
 [[nodiscard]] std::optional<FileInfo> describe_file(const std::string& input, Reads reads);
 
-/// What is known of a camera; null if it is not.
-[[nodiscard]] Json camera_json(const CameraGrid& camera);
+/// Adds `camera`, if it is known.
+void add_camera(const CameraGrid& camera, Json& json);
 /// "baseline 1, focal length 2, shift 0 px", or that it is not known.
 [[nodiscard]] std::string camera_text(const CameraGrid& camera);
 

@@ -400,8 +400,7 @@ void estimate_many(const EstimateArguments& request, const std::vector<SceneInpu
   Failures failures;
   const auto fail = [&](const SceneInput& scene, const std::string& sentence) {
     failures.add(sentence);
-    results.push_back(
-        Json::object({{"input", runner.shown(scene.input)}, {"error", sentence}}));
+    results.push_back(Json::object({{"input", runner.shown(scene.input)}, {"error", sentence}}));
     runner.job().note(sentence);
   };
   const auto count = static_cast<double>(scenes.size());

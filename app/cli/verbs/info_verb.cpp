@@ -100,9 +100,7 @@ Json scene_json(const Scene& scene, const std::string& input) {
   json["samples"] = samples_text(scene);
   json["brightness"] = scene.convention.gain;
   json["bytes"] = light_field.byte_size();
-  if (Json camera = camera_json(light_field.info().camera); !camera.is_null()) {
-    json["camera"] = std::move(camera);
-  }
+  add_camera(light_field.info().camera, json);
   add_truth(json, scene, summary);
   json["companions"] = Json::array();
   for (const auto& companion : scene.companions) {

@@ -216,8 +216,8 @@ ReadEstimate read_estimate(const Scene& scene, const std::string& path,
   std::string options = differing_options(*estimate, light_field);
   std::optional<io::BetterReading> better;
   if (reading == io::MapReading()) better = find_better_reading(*estimate, scene);
-  return {{std::move(estimate), range}, is_of_others && !is_moved, std::move(options), better,
-          stamp};
+  return {
+      {std::move(estimate), range}, is_of_others && !is_moved, std::move(options), better, stamp};
 }
 
 }  // namespace
@@ -265,15 +265,14 @@ void ResultOpener::openAs(const QString& path, const io::MapReading& reading, in
 
 void ResultOpener::offerReading(const QString& path, const io::BetterReading& better, int misread) {
   const QString finding = QString::fromStdString(better_reading_finding(better));
-  messages_.warn(tr("%1: %2. If the file is stored so, apply it.")
-                     .arg(QFileInfo(path).fileName(), finding),
-                 tr("Apply"), [this, path, misread, reading = better.reading] {
-                   // Of the light field that is open, and not removed meanwhile.
-                   const auto& entries = session_.estimates();
-                   const bool is_there =
-                       std::ranges::count(entries, misread, &EstimateEntry::id) > 0;
-                   if (is_there) openAs(path, reading, misread);
-                 });
+  messages_.warn(
+      tr("%1: %2. If the file is stored so, apply it.").arg(QFileInfo(path).fileName(), finding),
+      tr("Apply"), [this, path, misread, reading = better.reading] {
+        // Of the light field that is open, and not removed meanwhile.
+        const auto& entries = session_.estimates();
+        const bool is_there = std::ranges::count(entries, misread, &EstimateEntry::id) > 0;
+        if (is_there) openAs(path, reading, misread);
+      });
 }
 
 }  // namespace episcope

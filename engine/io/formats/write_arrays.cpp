@@ -247,9 +247,8 @@ std::uintmax_t bytes_of_maps(const Estimate& estimate) {
 void write_npz_maps(const std::filesystem::path& path, const Estimate& estimate) {
   AtomicFile file(path, bytes_of_maps(estimate));
   ZipWriter zip(file);
-  for_each_map(estimate, [&zip](const char* name, const auto& maps) {
-    add_stack(zip, name, maps, false);
-  });
+  for_each_map(estimate,
+               [&zip](const char* name, const auto& maps) { add_stack(zip, name, maps, false); });
   zip.close();
   file.commit();
 }
@@ -257,9 +256,8 @@ void write_npz_maps(const std::filesystem::path& path, const Estimate& estimate)
 void write_mat_maps(const std::filesystem::path& path, const Estimate& estimate) {
   AtomicFile target(path, bytes_of_maps(estimate));
   Hdf5Output file(target, kUserBytes);
-  for_each_map(estimate, [&file](const char* name, const auto& maps) {
-    write_map(file, name, maps);
-  });
+  for_each_map(estimate,
+               [&file](const char* name, const auto& maps) { write_map(file, name, maps); });
   finish_mat(file, target, Progress());
 }
 
