@@ -171,10 +171,13 @@ struct Arguments::State {
     return result;
   }
 
-  /// An option in the spelling that it is declared with, if it is known in one: American, and with
-  /// hyphens where earlier versions had "_".
+  /// An option in the spelling that it is declared with, if it is known in one: its present name,
+  /// American, and with hyphens where earlier versions had "_".
   [[nodiscard]] std::string known_spelling(const std::string& argument) const {
     const std::string name = name_of(argument);
+    if (const auto now = earlier.find(name); now != earlier.end()) {
+      return now->second + argument.substr(name.size());
+    }
     const std::string here = option_name(american(name));
     const bool is_old = name != here && !takes_value.contains(name) && takes_value.contains(here);
     return is_old ? here + argument.substr(name.size()) : argument;
@@ -213,6 +216,7 @@ struct Arguments::State {
   std::vector<Json> positionals;
   std::vector<Json> options;
   std::map<std::string, bool> takes_value;
+  std::map<std::string, std::string> earlier;  ///< Present names of options by earlier ones.
   std::set<std::string> takes_any;  ///< Options whose values may begin with a dash.
 
   /// An option with a value, or a flag that stands for one.
@@ -266,6 +270,10 @@ void Arguments::list_option(const std::string& names, std::vector<std::string>& 
                             const std::string& value_name, const std::string& help) {
   state_->declare(state_->app.add_option(names, values, help), {names, value_name, help}, true)
       ->option_text(value_name);
+}
+
+void Arguments::earlier_name(const std::string& earlier, const std::string& name) {
+  state_->earlier[earlier] = name;
 }
 
 void Arguments::exclude_each_other(const std::vector<std::string>& names) {

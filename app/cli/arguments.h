@@ -121,13 +121,16 @@ class Arguments {
   void list_option(const std::string& names, std::vector<std::string>& values,
                    const std::string& value_name, const std::string& help);
 
+  /// An earlier name of an option, which stays valid and help does not list.
+  void earlier_name(const std::string& earlier, const std::string& name);
+
   /// Options of which only one may be given.
   void exclude_each_other(const std::vector<std::string>& names);
   /// Options that have an effect only under a condition.
   struct Use {
     std::vector<std::string> names;
     bool has_effect = true;
-    std::string why_not;  ///< After "has no effect": "without --labels", "on a picture".
+    std::string why_not;  ///< After "has no effect": "without --labeling", "on a picture".
   };
   /// Throws UsageError that names the first option that was given and has no effect. To be called
   /// after `parse`.

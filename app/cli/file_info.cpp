@@ -8,6 +8,7 @@
 #include "engine/capture/camera.h"
 #include "engine/capture/pose_file.h"
 #include "engine/core/error.h"
+#include "engine/core/hash.h"
 #include "engine/core/text.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
@@ -74,6 +75,21 @@ void add_made_by(const MadeBy& made, const std::string& file, FileInfo& info) {
   info.lines.emplace_back("date", time_text(written_at(file)));
 }
 
+/// What a result says of its run beyond that: program, machine and light field.
+void add_run(const Provenance& made, FileInfo& info) {
+  const auto add = [&info](const char* key, const std::string& text) {
+    if (text.empty()) return;
+    info.json[key] = text;
+    info.lines.emplace_back(key, text);
+  };
+  add("commit", made.commit);
+  add("device", made.device);
+  add("finished", made.date);
+  if (made.source_hash != 0) add("source_hash", hash_digits(made.source_hash));
+  add_camera(made.camera, info.json);
+  if (made.camera.is_known()) info.lines.emplace_back("camera", camera_text(made.camera));
+}
+
 std::string views_text(GridShape grid, ViewIndex first) {
   if (grid.count() == 1) return "view " + view_text(first);
   return fmt::format("{}×{} views", grid.v, grid.u);
@@ -134,6 +150,7 @@ FileInfo describe_result(const std::string& file) {
   add_made_by(
       {estimate.parameters, estimate.seconds, estimate.version, estimate.source, estimate.reading},
       file, info);
+  add_run(estimate, info);
   json["notes"] = estimate.notes;
   for (const std::string& note : estimate.notes) info.lines.emplace_back("note", note);
   return info;
@@ -275,6 +292,22 @@ bool is_pose(const fs::path& path) {
 }
 
 }  // namespace
+
+void add_camera(const CameraGrid& camera, Json& json) {
+  if (!camera.is_known()) return;
+  json["camera"] = Json::object({{"baseline", camera.baseline},
+                                 {"focal_length", camera.focal_length},
+                                 {"shift", camera.shift}});
+  if (camera.cam_distance) json["camera"]["cam_distance"] = *camera.cam_distance;
+}
+
+std::string camera_text(const CameraGrid& camera) {
+  if (!camera.is_known()) return "not known: disparity has no depth";
+  const std::string distance =
+      camera.cam_distance ? fmt::format(", d = 0 at Z = {:g}", *camera.cam_distance) : "";
+  return fmt::format("baseline {:g}, focal length {:g}, shift {:g} px{}", camera.baseline,
+                     camera.focal_length, camera.shift, distance);
+}
 
 std::string range_text(const Interval& range) {
   return fmt::format("{:.4g} … {:.4g} px", range.min, range.max);

@@ -7,7 +7,10 @@
 #include "app/session/load_scene.h"
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
+#include "engine/io/base/array_layout.h"
+#include "engine/io/base/sample_range.h"
 #include "engine/io/formats/sequence_reader.h"
+#include "engine/io/models/names/name_pattern.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/result_file.h"
 
@@ -26,14 +29,25 @@ void declare_read_options(Arguments& arguments, ReadOptions& options) {
 
 void check_read_options(const ReadOptions& options) {
   const io::OpenOptions open = io::open_schema().parse(options.options.values());
-  for (const auto& [name, value] :
-       {std::pair{"--grid", &open.grid}, std::pair{"--crop", &open.crop}}) {
+  const auto check = [](const char* name, const std::string& value, const auto& parse) {
     try {
-      if (!value->empty() && *value != "all") (void)io::parse_grid(*value);
+      if (!value.empty()) (void)parse(value);
     } catch (const InvalidInput& error) {
       throw UsageError(std::string(name) + ": " + error.what());
     }
-  }
+  };
+  check("--grid", open.grid, io::parse_grid);
+  check("--crop", open.crop == "all" ? std::string() : open.crop, io::parse_grid);
+  check("--levels", open.levels, io::parse_levels);
+  check("--axes", open.axes, io::axis_letters);
+  check("--pattern", open.pattern, [](const std::string& text) { return io::NamePattern(text); });
+}
+
+void require_no_read_options(const ReadOptions& options, const std::string& input) {
+  const ParameterSet given = options.options.values();
+  if (given.empty()) return;
+  throw UsageError("--" + option_name(given.front().first) + " is for light fields, but " + input +
+                   " is none; leave it out");
 }
 
 void print_reading_help() {

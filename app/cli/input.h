@@ -6,6 +6,7 @@
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
+#include "engine/core/view_stack.h"
 #include "engine/io/models/map_reading.h"
 #include "engine/io/models/open_options.h"
 
@@ -25,6 +26,8 @@ void declare_read_options(Arguments& arguments, ReadOptions& options);
 
 /// Throws UsageError for a value that no light field can be read by, such as a grid of one number.
 void check_read_options(const ReadOptions& options);
+/// Throws UsageError if such an option is given for a file that is no light field.
+void require_no_read_options(const ReadOptions& options, const std::string& input);
 
 /// Prints the options of reading, which the help of verbs leaves out.
 void print_reading_help();
@@ -74,6 +77,13 @@ struct NamedReading {
 
 /// The view itself. Throws InvalidInput if the light field has no such view.
 [[nodiscard]] ViewIndex view_of(const LightField& light_field, ViewIndex view);
+
+/// The view in the middle of those of a stack, or its only one.
+template <class T>
+[[nodiscard]] ViewIndex middle_of(const ViewStack<T>& stack) {
+  const ViewIndex middle = stack.grid().center();
+  return {stack.first().v + middle.v, stack.first().u + middle.u};
+}
 
 /// Notes if the estimate was made from samples of another light field, and which reading options
 /// may explain it.

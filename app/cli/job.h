@@ -75,17 +75,17 @@ class Job {
 /// Largest resident memory of this process so far.
 [[nodiscard]] double peak_memory_mib();
 
-/// Counts light fields that failed while others continue.
+/// Counts light fields, or what else there are several of, that failed while others continue.
 class Failures {
  public:
   void add(const std::string& sentence) {
     if (count_++ == 0) first_ = sentence;
   }
   /// Throws Error, with the first sentence, if anything failed of `total`.
-  void require_none(std::size_t total) const {
+  void require_none(std::size_t total, const std::string& kind = "light fields") const {
     if (count_ == 0) return;
-    throw Error(std::to_string(count_) + " of " + std::to_string(total) +
-                " light fields failed, the first: " + first_);
+    throw Error(std::to_string(count_) + " of " + std::to_string(total) + " " + kind +
+                " failed, the first: " + first_);
   }
 
  private:

@@ -67,6 +67,15 @@ std::string source_of(const std::string& result) {
   return io::Hdf5Input(result).text(io::kResultGroup, "source").value_or("");
 }
 
+/// The same; empty for a damaged file, since judging it says what is wrong.
+std::string known_source_of(const std::string& result) {
+  try {
+    return source_of(result);
+  } catch (const IoError&) {
+    return {};
+  }
+}
+
 JudgedFile by_own_source(const std::string& result) {
   std::error_code ignored;
   if (!fs::exists(result, ignored)) {
@@ -81,6 +90,15 @@ JudgedFile by_own_source(const std::string& result) {
   if (!input.empty()) return {result, input, true};
   throw IoError(result,
                 "its light field, " + source + ", is not there; name it with --truth INPUT");
+}
+
+/// One of several, which does not stop the others.
+JudgedFile by_own_source_of_several(const std::string& result) {
+  try {
+    return by_own_source(result);
+  } catch (const IoError& error) {
+    return {.result = result, .truth = {}, .problem = error.what()};
+  }
 }
 
 /// Whether two inputs are one light field; its folder stands for an lf.h5.
@@ -105,7 +123,7 @@ std::size_t shared_letters(const fs::path& result, const std::string& scene) {
 }
 
 const SceneInput* scene_of(const std::string& result, const std::vector<SceneInput>& scenes) {
-  const std::string source = existing_source(source_of(result), result);
+  const std::string source = existing_source(known_source_of(result), result);
   for (const SceneInput& scene : scenes) {
     if (!source.empty() && is_same_input(source, scene.input)) return &scene;
   }
@@ -146,7 +164,8 @@ std::vector<JudgedFile> judged_files(const std::vector<std::string>& results,
   const std::vector<std::string> files = expanded(results);
   std::vector<JudgedFile> judged;
   if (truth.empty()) {
-    std::ranges::transform(files, std::back_inserter(judged), by_own_source);
+    if (files.size() == 1) return {by_own_source(files.front())};
+    std::ranges::transform(files, std::back_inserter(judged), by_own_source_of_several);
     std::ranges::stable_sort(judged, {}, &JudgedFile::truth);
     return judged;
   }

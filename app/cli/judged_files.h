@@ -13,6 +13,7 @@ struct JudgedFile {
   std::string result;
   std::string truth;
   bool is_own = false;  ///< The result itself names that light field; its samples must be the same.
+  std::string problem{};  ///< Why this one of several cannot be judged, if that is known.
 };
 
 /// What `results` and `truth` of a command line stand for, light field by light field. A folder of
@@ -20,8 +21,8 @@ struct JudgedFile {
 /// that it names. If `truth` is a folder of light fields, each result belongs to the one that it
 /// names, else to the one whose name its own begins with or its folder has; a submission to the
 /// 2016 benchmark to each that it has a map of. Results of none are noted and left out.
-/// Throws UsageError for a result that does not name its light field, IoError if that is gone, or
-/// if nothing is left; Cancelled.
+/// Throws UsageError for a result that does not name its light field, IoError for a single one that
+/// is damaged or whose light field is gone, or if nothing is left; Cancelled.
 [[nodiscard]] std::vector<JudgedFile> judged_files(const std::vector<std::string>& results,
                                                    const std::string& truth,
                                                    const ReadOptions& options, Job& job);

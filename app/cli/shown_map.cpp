@@ -76,17 +76,15 @@ std::string named_source(const ShownMap& shown, const std::string& of_file) {
   return shown.truth.empty() ? of_file : shown.truth;
 }
 
-IoError missing_source(const ShownMap& shown, const std::string& named) {
-  return {shown.subject,
-          "the light field it was made from" +
-              (named.empty() ? " is not named in it" : ", " + named + ", is not there") +
-              "; name it with --truth INPUT"};
-}
-
-template <class T>
-ViewIndex middle_of(const ViewStack<T>& stack) {
-  const ViewIndex middle = stack.grid().center();
-  return {stack.first().v + middle.v, stack.first().u + middle.u};
+/// A file that names no light field needs the option; one whose light field is gone is at fault.
+[[noreturn]] void fail_without_source(const ShownMap& shown, const std::string& named) {
+  constexpr const char* kRemedy = "; name it with --truth INPUT";
+  if (named.empty()) {
+    throw UsageError(shown.subject + ": the light field it was made from is not named in it" +
+                     kRemedy);
+  }
+  throw IoError(shown.subject,
+                "the light field it was made from, " + named + ", is not there" + kRemedy);
 }
 
 void take_scene(const ShownMap& shown, Scene scene, LoadedMap& loaded) {
@@ -146,7 +144,7 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
     if (!source.empty()) {
       scene = load_input_of(reading, source, read, job.progress().part(0, 0.9));
     } else if (!can_do_without_scene(shown)) {
-      throw missing_source(shown, estimate->source);
+      fail_without_source(shown, estimate->source);
     }
   }
   loaded.source.view = shown.view.value_or(subject_of(shown) == Subject::Error && scene
@@ -177,7 +175,7 @@ void load_labels(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   if (shown.quantity != Quantity::WrongLabels && !shown.needs_light_field) return;
   const std::string named = io::SegmentationFile(shown.subject).source();
   const std::string input = named_source(shown, existing_source(named, shown.subject));
-  if (input.empty()) throw missing_source(shown, named);
+  if (input.empty()) fail_without_source(shown, named);
   take_scene(shown,
              load_input_of({shown.subject, segmentation.reading}, input, read,
                            job.progress().part(0, 0.9)),

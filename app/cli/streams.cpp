@@ -3,10 +3,12 @@
 
 #include "app/cli/arguments.h"
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/io/base/files.h"
 
 #include <poll.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iostream>
@@ -64,15 +66,32 @@ fs::path StreamFolder::file(const std::string& name) {
 }
 
 InputStream::InputStream(std::string& name, const std::stop_token& stop) {
-  if (name != kStream) return;
+  if (name == kStream) read(name, stop);
+}
+
+InputStream::InputStream(std::vector<std::string>& names, const std::stop_token& stop) {
+  const auto count = std::ranges::count(names, kStream);
+  if (count > 1) throw UsageError("standard input can be read only once; give one - alone");
+  if (count == 1) read(*std::ranges::find(names, kStream), stop);
+}
+
+void InputStream::read(std::string& name, const std::stop_token& stop) {
   const std::string bytes = read_to_end(stop);
-  if (bytes.empty()) throw IoError(kStream, "standard input is empty; redirect a map to it");
+  if (bytes.empty()) throw IoError(kStream, "standard input is empty; redirect a file to it");
   file_ = folder_.file(std::string("stdin") + suffix_by_begin(bytes)).string();
   std::ofstream out(file_, std::ios::binary);
   if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush()) {
     throw io::write_error(file_);
   }
   name = file_;
+}
+
+void InputStream::require_light_field() const {
+  const std::string suffix = suffix_of(file_);
+  if (suffix != ".csv" && suffix != ".pfm") return;
+  throw IoError(kStream,
+                "standard input holds no light field of a form that can be piped, which are HDF5, "
+                ".npy, .npz, .mat and TIFF; name its file or folder instead");
 }
 
 OutputStream::OutputStream(std::string& name, const std::string& suffix) {

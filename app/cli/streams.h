@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 namespace episcope::cli {
 
@@ -29,13 +30,19 @@ class InputStream {
   /// the same bytes, "stdin" with the suffix that their beginning tells: .npy, .npz, .pfm, .h5,
   /// .mat, .tiff, else .csv. Throws IoError; Cancelled once `stop` is requested.
   InputStream(std::string& name, const std::stop_token& stop);
+  /// The same for the one of several names. Throws UsageError, too, if more than one is "-".
+  InputStream(std::vector<std::string>& names, const std::stop_token& stop);
 
+  /// Whether a path is that of the file.
+  [[nodiscard]] bool is(const std::string& path) const { return !file_.empty() && path == file_; }
   /// "-" for that file, another path as it is.
-  [[nodiscard]] std::string shown(const std::string& path) const {
-    return !file_.empty() && path == file_ ? "-" : path;
-  }
+  [[nodiscard]] std::string shown(const std::string& path) const { return is(path) ? "-" : path; }
+  /// Throws IoError, naming the forms that can be piped, if what was read can be a map only.
+  void require_light_field() const;
 
  private:
+  void read(std::string& name, const std::stop_token& stop);
+
   StreamFolder folder_;
   std::string file_;
 };

@@ -101,7 +101,7 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path, con
       return save_result(path, estimate, found.of.input, job);
     }
     const auto write = [&](const std::filesystem::path& file) {
-      if (*form != MapForm::PointCloud) return save_map(file, estimate.field.view(at));
+      if (*form != MapForm::PointCloud) return save_map(file, estimate, at);
       save_point_cloud(file, lf, at, estimate.field.view(at));
     };
     write_output(path, overwrite, write, kByArgument);

@@ -123,11 +123,23 @@ void require_upright(const Estimate& estimate, const LightField& light_field,
                           ": rows and columns are exchanged; add --map-transpose");
 }
 
+/// Drops what no longer has the size of the disparity beside it.
+void keep_fitting_maps(Estimate& estimate) {
+  const ViewStack<float>& maps = estimate.field.disparity;
+  const auto fits = [&maps](const ViewStack<float>& other) {
+    return other.height() == maps.height() && other.width() == maps.width();
+  };
+  if (!fits(estimate.confidence)) estimate.confidence = {};
+  if (!fits(estimate.second.disparity)) estimate.second = {};
+}
+
 void remove_padding_of(Estimate& estimate, const LightField& light_field) {
-  if (!estimate.confidence.empty() || !estimate.layered.layers.empty()) return;
+  const bool is_own = !estimate.version.empty();
+  if (is_own || !estimate.layered.layers.empty()) return;
   const std::string note =
       io::remove_padding(estimate.field, light_field.height(), light_field.width());
   if (!note.empty()) estimate.notes.push_back(note);
+  keep_fitting_maps(estimate);
 }
 
 void find_border_of(Estimate& estimate, const LightField& light_field) {
@@ -135,6 +147,7 @@ void find_border_of(Estimate& estimate, const LightField& light_field) {
       io::find_bare_border(estimate.field, light_field.height(), light_field.width());
   estimate.border_px = border.width_px;
   if (!border.note.empty()) estimate.notes.push_back(border.note);
+  keep_fitting_maps(estimate);
 }
 
 }  // namespace
@@ -217,14 +230,18 @@ std::string map_options_text(const io::MapReading& reading) {
   return options_text(io::given_options(reading), io::map_schema().descriptions());
 }
 
-std::string better_reading_text(const io::BetterReading& found) {
+std::string better_reading_finding(const io::BetterReading& found) {
   const bool is_by_truth = found.as_read.mse_100.has_value();
-  const std::string finding = fmt::format("the map {} far better with {} ({})",
-                                          is_by_truth ? "fits the truth" : "explains the views",
-                                          io::reading_text(found.reading), both_numbers(found));
-  const std::string options = map_options_text(found.reading);
-  if (!found.is_contradicted()) return finding + "; if it is stored so, add" + options;
-  return finding + ", but the views fit it as it is: check the truth, or add" + options;
+  return fmt::format("the map {} far better with {} ({}){}",
+                     is_by_truth ? "fits the truth" : "explains the views",
+                     io::reading_text(found.reading), both_numbers(found),
+                     found.is_contradicted() ? ", but the views fit it as it is" : "");
+}
+
+std::string better_reading_text(const io::BetterReading& found) {
+  const char* remedy =
+      found.is_contradicted() ? ": check the truth, or add" : "; if it is stored so, add";
+  return better_reading_finding(found) + remedy + map_options_text(found.reading);
 }
 
 void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file) {
@@ -376,41 +393,34 @@ void save_result(const std::filesystem::path& path, const Estimate& estimate,
 
 namespace {
 
-/// NaN = invalid.
-void write_stack(const fs::path& path, const ViewStack<float>& maps) {
-  const ImageView<const float> first = maps.view(maps.first());
-  switch (map_form_of(path).value_or(MapForm::Tiff)) {
-    case MapForm::Pfm:
-      return io::write_pfm(path, first);
-    case MapForm::Csv:
-      return io::write_csv_map(path, first);
-    case MapForm::Npy:
-      return io::write_npy_maps(path, maps);
-    case MapForm::Npz:
-      return io::write_npz_maps(path, maps);
-    case MapForm::Mat:
-      return io::write_mat_maps(path, maps);
-    default:
-      return io::write_tiff(path, first);
-  }
+template <class T>
+ViewStack<T> only_view(const ViewStack<T>& maps, ViewIndex view) {
+  if (maps.empty()) return {};
+  ViewStack<T> only({1, 1}, maps.height(), maps.width(), 1, view);
+  std::copy_n(maps.view(view).data, only.size(), only.data());
+  return only;
 }
 
 }  // namespace
 
-void save_map(const fs::path& path, const DisparityView& map) {
-  ViewStack<float> values({1, 1}, map.disparity.height, map.disparity.width);
-  const ImageView<float> out = values.view({});
-  for (int y = 0; y < out.height; ++y) {
-    for (int x = 0; x < out.width; ++x) {
-      out.at(y, x) =
-          map.is_valid(y, x) ? map.disparity.at(y, x) : std::numeric_limits<float>::quiet_NaN();
-    }
-  }
-  write_stack(path, values);
+void save_map(const fs::path& path, const Estimate& estimate, ViewIndex view) {
+  Estimate one;
+  one.field = {only_view(estimate.field.disparity, view), only_view(estimate.field.valid, view)};
+  one.confidence = only_view(estimate.confidence, view);
+  one.second = {only_view(estimate.second.disparity, view), only_view(estimate.second.valid, view)};
+  save_maps(path, one);
 }
 
-void save_maps(const fs::path& path, const DisparityField& maps) {
-  write_stack(path, io::disparity_with_nan(maps));
+void save_maps(const fs::path& path, const Estimate& estimate) {
+  const MapForm form = map_form_of(path).value_or(MapForm::Tiff);
+  if (form == MapForm::Npz) return io::write_npz_maps(path, estimate);
+  if (form == MapForm::Mat) return io::write_mat_maps(path, estimate);
+  const ViewStack<float> maps = io::disparity_with_nan(estimate.field);
+  if (form == MapForm::Npy) return io::write_npy_maps(path, maps);
+  const ImageView<const float> first = std::as_const(maps).view(maps.first());
+  if (form == MapForm::Pfm) return io::write_pfm(path, first);
+  if (form == MapForm::Csv) return io::write_csv_map(path, first);
+  io::write_tiff(path, first);
 }
 
 void save_point_cloud(const std::filesystem::path& path, const LightField& light_field,

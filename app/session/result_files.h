@@ -47,8 +47,11 @@ namespace episcope {
 /// Options that read a map so, as on the command line: " --map-transpose --map-scale=0.01".
 [[nodiscard]] std::string map_options_text(const io::MapReading& reading);
 
-/// A sentence that says so, with both numbers and the options that apply it: "the map fits the
-/// truth far better with rows and columns exchanged (…); if it is stored so, add --map-transpose".
+/// Says so with both numbers: "the map fits the truth far better with rows and columns exchanged
+/// (…)", and whether the views contradict it.
+[[nodiscard]] std::string better_reading_finding(const io::BetterReading& found);
+
+/// The same with the options that apply it: "…; if it is stored so, add --map-transpose".
 [[nodiscard]] std::string better_reading_text(const io::BetterReading& found);
 
 /// Throws InvalidInput, naming `file`, if an estimate that was read from there has not the size and
@@ -96,8 +99,8 @@ enum class MapForm {
   Tiff,       ///< .tif, .tiff: one view.
   Csv,        ///< .csv: one view.
   Npy,        ///< .npy: one view or all.
-  Npz,        ///< .npz: one view or all, as `disparity`.
-  Mat,        ///< .mat: one view or all, as `disparity`; version 7.3.
+  Npz,        ///< .npz: one view or all; `disparity`, `confidence`, `valid`, `disparity_second`.
+  Mat,        ///< .mat: the same; version 7.3.
   PointCloud  ///< .ply: one view, colored.
 };
 /// Empty for another suffix.
@@ -109,12 +112,13 @@ enum class MapForm {
 void save_result(const std::filesystem::path& path, const Estimate& estimate,
                  const std::string& input, const Progress& progress);
 
-/// Writes one map as its suffix says, else as TIFF; invalid pixels become NaN. Atomic. Throws
-/// IoError.
-void save_map(const std::filesystem::path& path, const DisparityView& map);
-/// Writes the maps of all views there are. Precondition: the form of `path` holds all views, or
-/// there is one.
-void save_maps(const std::filesystem::path& path, const DisparityField& maps);
+/// Writes the maps of one view as the suffix says, else as TIFF: disparity, NaN where it is
+/// invalid, and in forms of several arrays what the result has beside it. Atomic. Throws IoError.
+/// Precondition: the result has that view.
+void save_map(const std::filesystem::path& path, const Estimate& estimate, ViewIndex view);
+/// Writes those of all views there are. Precondition: the form of `path` holds all views, or there
+/// is one.
+void save_maps(const std::filesystem::path& path, const Estimate& estimate);
 
 /// Writes the valid pixels of a view that the light field shows as a colored point cloud. Atomic.
 /// Throws IoError, InvalidInput if no pixel is valid.

@@ -57,8 +57,8 @@ Schema<Pattern> pattern_schema() {
       .choice("kind", &Pattern::kind, {"Kind", "What the photographs show"})
       .integer("columns", &Pattern::columns,
                {"Columns", "Inner corners of a chessboard or ChArUco board, or circles, in a row"},
-               {2, 100})
-      .integer("rows", &Pattern::rows, {"Rows", "Inner corners, or circles, in a column"}, {2, 100})
+               {3, 100})
+      .integer("rows", &Pattern::rows, {"Rows", "Inner corners, or circles, in a column"}, {3, 100})
       .real(
           "square", &Pattern::square,
           {"Distance", "Between neighboring points, in any unit; the camera does not depend on it"},

@@ -59,7 +59,7 @@ void write_pattern(const fs::path& folder, const DemoRig& rig, const Progress& p
 
 constexpr const char* kReadme =
     "From photographs to a light field with ground truth, in this folder:\n\n"
-    "episcope-cli calibrate pattern/*.png --pattern 9x6 --square 25 -o camera.yml\n"
+    "episcope-cli calibrate pattern/*.png --board 9x6 --square 25 -o camera.yml\n"
     "episcope-cli rectify photographs --camera camera.yml --step {:g} --picks picks.csv "
     "--pairs pairs.csv -o raw.h5\n"
     "episcope-cli pose raw.h5 --mesh mesh.ply --pairs pairs.csv -o pose.json\n"

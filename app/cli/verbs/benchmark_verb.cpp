@@ -159,25 +159,28 @@ void declare_what(Arguments& parser, BenchmarkRequest& request) {
   parser.required_option("-o,--output", request.output, text_value("DIR"), "Output folder");
   parser.option(
       "--methods", request.methods, methods_value(),
-      "Ids of estimators, separated by commas, or all (default all; none with --labels or "
-      "--submission)");
-  parser.flag("--labels", request.has_labels,
+      "Ids of estimators, separated by commas, or all (default all; none with --labeling or "
+      "--maps)");
+  parser.flag("--labeling", request.has_labels,
               "Label all views from the scribbles of each scene, with every set of features and "
               "regularizer; replaces methods unless --methods is given");
   parser.option("--features", request.features, values_value<FeatureSet>("NAME,..."),
-                "With --labels: sets of features, separated by commas (default all)");
+                "With --labeling: sets of features, separated by commas (default all)");
   parser.option("--regularizers", request.regularizers, values_value<Regularizer>("NAME,..."),
-                "With --labels: regularizers, separated by commas (default all)");
-  parser.option("--scribbles", request.scribbles, text_value("DIR"),
-                "With --labels: folder of scribbles, NAME.h5 for scene NAME; they replace those "
+                "With --labeling: regularizers, separated by commas (default all)");
+  parser.option("--scribble-folder", request.scribbles, text_value("DIR"),
+                "With --labeling: folder of scribbles, NAME.h5 for scene NAME; they replace those "
                 "next to the scene");
   request.profile.declare(parser, {profile_description()});
   parser.flag("--search", request.has_search,
               "Also search for the best parameters, of each scene and of all scenes together");
-  parser.list_option("--submission", request.submissions, "DIR...",
+  parser.list_option("--maps", request.submissions, "DIR...",
                      "Folders with maps from other programs, named after the scenes: result files, "
                      ".h5, .mat, .npy, .npz, .pfm, .tif or .csv; without --methods they are judged "
                      "alone");
+  parser.earlier_name("--labels", "--labeling");
+  parser.earlier_name("--scribbles", "--scribble-folder");
+  parser.earlier_name("--submission", "--maps");
   ParameterDescription views = run_schema().description("views");
   views.help = "Views to estimate for the tables; all if the method can";
   ParameterDescription device = run_schema().description("device");
@@ -223,12 +226,14 @@ bool runs_methods(const BenchmarkRequest& request) {
 void check(const BenchmarkRequest& request, const Arguments& parser) {
   const bool runs = runs_methods(request);
   parser.check_uses(
-      {{{"--features", "--regularizers", "--scribbles"}, request.has_labels, "without --labels"},
+      {{{"--features", "--regularizers", "--scribble-folder"},
+        request.has_labels,
+        "without --labeling"},
        {{"--task-seconds"}, request.makes_plan(), "without --slurm or --plan"},
        {{"--search", "--profile"}, runs, "without --methods, since no method is run"}});
   if (!request.map.values().empty() && request.submissions.empty()) {
     throw UsageError("benchmark: --" + request.map.values().front().first +
-                     " has no effect without --submission; add it");
+                     " has no effect without --maps; add it");
   }
   if (!request.inputs.empty()) return;
   if (!request.follows_plan()) {
@@ -250,7 +255,7 @@ bool parse_benchmark(const VerbArguments& arguments, BenchmarkRequest& request) 
        "command resumes where it was stopped. The exit code is 1 if anything failed; the\n"
        "tables are written anyway.",
        "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search\n"
-       "episcope-cli benchmark demo:edge demo:bars --labels --features image -o tables\n"
+       "episcope-cli benchmark demo:edge demo:bars --labeling --features image -o tables\n"
        "episcope-cli benchmark scenes --methods all --search -o tables --slurm "
        "\"--time=1:00:00\""});
   declare_what(parser, request);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iostream>
 
 namespace episcope::cli {
@@ -30,12 +31,13 @@ bool parse(const VerbArguments& arguments, CalibrateRequest& request) {
                     "length, center and distortion of the lens, as YAML that OpenCV reads.\n"
                     "Photographs that do not show the whole pattern sharply, or do not fit, are\n"
                     "named and left out.",
-                    "episcope-cli calibrate pattern/*.jpg --pattern 9x6 -o camera.yml\n"
-                    "  episcope-cli calibrate *.png --pattern 10x7 --kind charuco --square 0.02 "
+                    "episcope-cli calibrate pattern/*.jpg --board 9x6 -o camera.yml\n"
+                    "  episcope-cli calibrate *.png --board 10x7 --kind charuco --square 0.02 "
                     "-o camera.yml"});
   parser.positionals("PHOTO", request.photographs, "Photographs of the pattern");
-  parser.required_option("--pattern", request.size, extent_value("COLSxROWS", kMostCorners),
+  parser.required_option("--board", request.size, extent_value("COLSxROWS", kMostCorners),
                          "Inner corners of a chessboard or ChArUco board, circles of a grid");
+  parser.earlier_name("--pattern", "--board");
   parser.option("--kind", request.pattern.kind, choice_of<capture::PatternKind>(),
                 "Kind of pattern (default chessboard)");
   parser.option("--square", request.pattern.square, real_value("LENGTH", 1e-9, 1e9),
@@ -45,6 +47,13 @@ bool parse(const VerbArguments& arguments, CalibrateRequest& request) {
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
   declare_job_options(parser, request.job);
   if (!parser.parse(arguments)) return false;
+  constexpr int kFewest = 3;
+  if (std::min(request.size.first, request.size.second) < kFewest) {
+    throw UsageError(
+        fmt::format("--board is {}x{}, but a pattern has at least {} points in a row and in a "
+                    "column; count its inner corners, or its circles",
+                    request.size.first, request.size.second, kFewest));
+  }
   request.pattern.columns = request.size.first;
   request.pattern.rows = request.size.second;
   return true;

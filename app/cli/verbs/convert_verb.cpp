@@ -164,20 +164,19 @@ ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
     subject.estimate = read_result_of(*subject.scene->light_field, request.input, reading);
   }
   if (target.needs_scene() && !subject.scene) {
-    throw IoError(request.input,
-                  "its light field is unknown or no longer where it was; name it with "
-                  "--truth INPUT");
+    const std::string& named = subject.estimate->source;
+    constexpr const char* kRemedy = "; name it with --truth INPUT";
+    if (named.empty()) throw UsageError(request.input + " names no light field" + kRemedy);
+    throw IoError(request.input, "its light field, " + named + ", is not there" + kRemedy);
   }
   return subject;
 }
 
-/// The center view of the map, or the only one there is.
-DisparityView map_of(const ConvertSubject& subject, const std::string& name) {
-  const DisparityField& field = subject.field();
-  if (field.empty()) throw InvalidInput(name + " has no disparity to convert");
-  const auto& stack = field.disparity;
-  const ViewIndex middle = stack.grid().center();
-  return field.view({stack.first().v + middle.v, stack.first().u + middle.u});
+/// Makes true disparity an estimate, unless that is what is converted.
+void take_truth(ConvertSubject& subject) {
+  if (subject.estimate) return;
+  const DisparityField& truth = subject.field();
+  subject.estimate.emplace().field = {truth.disparity.clone(), truth.valid.clone()};
 }
 
 /// The scene to write; the disparity of a result takes the place of the truth.
@@ -196,14 +195,17 @@ Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
   return scene;
 }
 
-void write_map(const ConvertSubject& subject, const ConvertRequest& request, MapForm form) {
-  const DisparityView map = map_of(subject, request.input);
+void write_map(ConvertSubject& subject, const ConvertRequest& request, MapForm form) {
+  if (subject.field().empty()) throw InvalidInput(request.input + " has no disparity to convert");
+  take_truth(subject);
+  const Estimate& estimate = *subject.estimate;
+  const ViewIndex view = middle_of(estimate.field.disparity);
   const bool has_all = request.views == ViewSelection::All;
   write_output(request.output, request.overwrite, [&](const std::filesystem::path& path) {
-    if (has_all) return save_maps(path, subject.field());
-    if (form != MapForm::PointCloud) return save_map(path, map);
+    if (has_all) return save_maps(path, estimate);
+    if (form != MapForm::PointCloud) return save_map(path, estimate, view);
     const LightField& light_field = *subject.scene->light_field;
-    save_point_cloud(path, light_field, light_field.center(), map);
+    save_point_cloud(path, light_field, light_field.center(), estimate.field.view(view));
   });
 }
 
@@ -241,10 +243,8 @@ void turn_into_depth(ConvertSubject& subject, const std::string& name) {
                        ": depth does not follow from disparity, since the camera is not known; "
                        "name a light field that has one with --truth INPUT");
   }
-  if (!subject.estimate) {
-    const DisparityField& truth = subject.field();
-    subject.estimate.emplace().field = {truth.disparity.clone(), truth.valid.clone()};
-  }
+  take_truth(subject);
+  subject.estimate->second = {};
   ViewStack<float>& values = subject.estimate->field.disparity;
   for (std::size_t i = 0; i < values.size(); ++i) {
     values.data()[i] = static_cast<float>(camera.depth_from_disparity(values.data()[i]));

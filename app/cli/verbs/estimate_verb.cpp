@@ -77,7 +77,9 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments,
        "  episcope-cli estimate epi_l demo:edge demo:bars -o results\n"
        "  episcope-cli estimate plane_pm benchmark2016 -o ours --submission"});
   parser.positional("METHOD", request.method, "Id of the estimator, in any case");
-  parser.positionals("INPUT", request.inputs, "The light field, or several");
+  parser.positionals("INPUT", request.inputs,
+                     "The light field, or several; - is one on standard input: HDF5, .npy, .npz, "
+                     ".mat or TIFF");
   parser.required_option(
       "-o,--output", request.output, text_value("OUT.h5|DIR"),
       "Result file to write, or a map: .npy, .npz, .mat, .pfm, .tiff, .csv; - is "
@@ -132,16 +134,26 @@ std::optional<MapForm> map_form(const std::string& output) {
   return is_map ? form : std::nullopt;
 }
 
+/// Views that the method can estimate; what it cannot is wrong usage.
+ViewSelection views_of_method(const EstimateArguments& request,
+                              std::optional<ViewSelection> wanted) {
+  try {
+    return views_to_estimate(*request.estimator, wanted);
+  } catch (const InvalidInput& error) {
+    throw UsageError(error.what());
+  }
+}
+
 ViewSelection selected_views(const EstimateArguments& request) {
   std::optional<ViewSelection> wanted;
   if (request.job.run.is_given("views")) wanted = request.job.run_options().views;
   const auto form = map_form(request.output);
-  if (!request.is_submission && !form) return views_to_estimate(*request.estimator, wanted);
+  if (!request.is_submission && !form) return views_of_method(request, wanted);
   if (wanted.value_or(ViewSelection::Center) == ViewSelection::Center) return ViewSelection::Center;
   if (request.is_submission) {
     throw UsageError("a submission holds center views; leave out --views");
   }
-  if (holds_all_views(*form)) return views_to_estimate(*request.estimator, wanted);
+  if (holds_all_views(*form)) return views_of_method(request, wanted);
   throw UsageError(request.output +
                    " holds the map of one view; leave out --views, or name it OUT.h5 or OUT.npy");
 }
@@ -210,8 +222,11 @@ std::size_t budget_after_program(std::size_t budget) {
 /// Does what the command line asks for, light field by light field.
 class Runner {
  public:
-  Runner(const EstimateArguments& request, std::stop_token stop)
-      : request_(request), options_(request.job.run_options()), job_(std::move(stop), request.job) {
+  Runner(const EstimateArguments& request, const InputStream& from, std::stop_token stop)
+      : request_(request),
+        from_(from),
+        options_(request.job.run_options()),
+        job_(std::move(stop), request.job) {
     options_.views = selected_views(request);
     options_.threads = job_.progress().threads();
     // The method asks as well, but not before the light field is loaded.
@@ -220,26 +235,28 @@ class Runner {
   }
 
   [[nodiscard]] Job& job() { return job_; }
+  /// An INPUT as it was typed.
+  [[nodiscard]] std::string shown(const std::string& input) const { return from_.shown(input); }
   /// Scenes of the submission so far.
   [[nodiscard]] const std::vector<io::SubmittedScene>& submitted() const { return submitted_; }
 
   /// Refuses an output that cannot be written, before hours are spent. Throws UsageError, IoError.
   void check(const Task& task) const {
-    if (!request_.is_submission && !map_form(task.output)) {
+    const bool is_map = request_.is_submission || map_form(task.output);
+    if (!is_map) {
       check_hdf5_output("estimate", task.output);
       check_result_output(task.output,
-                          {request_.estimator->info.id, request_.parameters.values(), task.input,
-                           io::given_options(options_of(task))},
+                          {request_.estimator->info.id, request_.parameters.values(),
+                           from_.shown(task.input), io::given_options(options_of(task))},
                           request_.overwrite);
-    } else {
-      if (!request_.is_submission) check_output_file(task.output);
-      std::error_code ignored;
-      if (request_.overwrite == Overwrite::No && std::filesystem::exists(task.output, ignored) &&
-          std::filesystem::file_size(task.output, ignored) > 0) {
-        throw IoError(task.output,
-                      "exists and does not tell which method made it; choose another name, or "
-                      "replace it with --overwrite");
-      }
+    } else if (!request_.is_submission) {
+      check_output_file(task.output);
+    }
+    const bool is_unknown = is_map || from_.is(task.input);
+    if (is_unknown && request_.overwrite == Overwrite::No && holds_something(task.output)) {
+      const char* what = is_map ? "which method made it" : "whether it is of what is piped";
+      throw IoError(task.output, std::string("exists and does not tell ") + what +
+                                     "; choose another name, or " + kByOption);
     }
     protect_input(task.output, task.input);
   }
@@ -265,6 +282,11 @@ class Runner {
   }
 
  private:
+  /// What opens the light field again; nothing of one that came from standard input.
+  [[nodiscard]] std::string source_of(const Task& task) const {
+    return from_.is(task.input) ? std::string() : task.input;
+  }
+
   [[nodiscard]] io::OpenOptions options_of(const Task& task) const {
     io::OpenOptions open = io::open_schema().parse(request_.read.options.values());
     open.frame = task.frame.value_or(open.frame);
@@ -291,7 +313,7 @@ class Runner {
     const std::size_t wanted = memory_budget();
     const BlockRequest request{run,
                                task.output,
-                               task.input,
+                               source_of(task),
                                {left_of(wanted), left_of(std::max(wanted, request_.memory))}};
     FinishedBlocks made = run_in_blocks(light_field, *request_.estimator, request, progress);
     if (!made.remark.empty()) note(task, made.remark);
@@ -308,10 +330,10 @@ class Runner {
     if (request_.is_submission) {
       submit(task, *estimate, center);
     } else if (map_form(task.output)) {
-      save_maps(task.output, estimate->field);
+      save_maps(task.output, *estimate);
     } else {
       io::write_result(task.output, *estimate, progress.part(0.85, 1),
-                       {source_text(task.input, task.output), request_.floats});
+                       {source_text(source_of(task), task.output), request_.floats});
     }
     return {task.output, estimate->provenance(), geometry_of(estimate->field.disparity), center,
             request_.is_submission ? io::submitted_runtime_file(request_.output, task.name).string()
@@ -336,6 +358,7 @@ class Runner {
   }
 
   const EstimateArguments& request_;
+  const InputStream& from_;
   RunOptions options_;
   Job job_;
   std::vector<io::SubmittedScene> submitted_;
@@ -377,7 +400,7 @@ void estimate_many(const EstimateArguments& request, const std::vector<SceneInpu
   Failures failures;
   const auto fail = [&](const SceneInput& scene, const std::string& sentence) {
     failures.add(sentence);
-    results.push_back(Json::object({{"input", scene.input}, {"error", sentence}}));
+    results.push_back(Json::object({{"input", runner.shown(scene.input)}, {"error", sentence}}));
     runner.job().note(sentence);
   };
   const auto count = static_cast<double>(scenes.size());
@@ -394,7 +417,7 @@ void estimate_many(const EstimateArguments& request, const std::vector<SceneInpu
       runner.check(task);
       const Answer answer = runner.run(task, progress);
       Json json = answer_json(answer);
-      json["input"] = scenes[i].input;
+      json["input"] = runner.shown(scenes[i].input);
       results.push_back(std::move(json));
       runner.job().finish();
       if (!request.is_json) print_line(answer);
@@ -443,7 +466,9 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   const OutputStream to(request.output, ".npy");
   to.require_alone(request.is_json);
   check_compression(request);
-  Runner runner(request, std::move(stop));
+  const InputStream from(request.inputs, stop);
+  from.require_light_field();
+  Runner runner(request, from, std::move(stop));
   if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner, to);
   const std::vector<SceneInput> scenes = scene_inputs_and_failed(
       request.inputs, request.read, request.frames, runner.job().progress().part(0, 0));

@@ -55,6 +55,18 @@ struct Row {
   std::string error_map{};  ///< The picture that was written; empty = none.
 };
 
+/// One of several results that could not be judged.
+struct FailedResult {
+  std::string file;
+  std::string truth;  ///< Empty if it is not known.
+  std::string error;
+};
+
+struct JudgedResults {
+  std::vector<Row> rows;
+  std::vector<FailedResult> failed;
+};
+
 /// The 2013 paper ranks run times in classes.
 bool has_runtime_classes(const EvaluateRequest& request) {
   return request.protocol == Protocol::Vmv2013;
@@ -149,28 +161,39 @@ Json better_reading_json(const io::BetterReading& found) {
   return json;
 }
 
-Json results_json(const EvaluateRequest& request, const std::vector<Row>& rows) {
+Json row_json(const EvaluateRequest& request, const Row& row) {
+  Json result;
+  result["file"] = row.file;
+  result["method"] = row.method;
+  result["truth"] = row.truth;
+  result["view"] = view_json(row.view);
+  for (const auto& [key, value] : row.metrics) result[key] = value;
+  if (row.seconds > 0) {
+    result["seconds"] = row.seconds;
+    if (has_runtime_classes(request)) result["runtime_class"] = runtime_class(row.seconds);
+  }
+  result["all_views"] = row.has_all_views;
+  if (row.better) result["better_reading"] = better_reading_json(*row.better);
+  if (!row.notes.empty()) result["notes"] = row.notes;
+  if (!row.error_map.empty()) result["error_map"] = row.error_map;
+  return result;
+}
+
+Json results_json(const EvaluateRequest& request, const JudgedResults& judged) {
   Json json;
   json["protocol"] = protocol_name(request.protocol);
-  json["truth"] = request.truth.empty() ? rows.front().truth : request.truth;
-  json["view"] = view_json(rows.front().view);
+  if (!request.truth.empty()) json["truth"] = request.truth;
+  if (!judged.rows.empty()) {
+    if (request.truth.empty()) json["truth"] = judged.rows.front().truth;
+    json["view"] = view_json(judged.rows.front().view);
+  }
   json["missing_values"] = missing_rule(request.invalid);
   json["results"] = Json::array();
-  for (const Row& row : rows) {
-    Json result;
-    result["file"] = row.file;
-    result["method"] = row.method;
-    result["truth"] = row.truth;
-    result["view"] = view_json(row.view);
-    for (const auto& [key, value] : row.metrics) result[key] = value;
-    if (row.seconds > 0) {
-      result["seconds"] = row.seconds;
-      if (has_runtime_classes(request)) result["runtime_class"] = runtime_class(row.seconds);
-    }
-    result["all_views"] = row.has_all_views;
-    if (row.better) result["better_reading"] = better_reading_json(*row.better);
-    if (!row.notes.empty()) result["notes"] = row.notes;
-    if (!row.error_map.empty()) result["error_map"] = row.error_map;
+  for (const Row& row : judged.rows) json["results"].push_back(row_json(request, row));
+  for (const FailedResult& each : judged.failed) {
+    Json result{{"file", each.file}};
+    if (!each.truth.empty()) result["truth"] = each.truth;
+    result["error"] = each.error;
     json["results"].push_back(result);
   }
   return json;
@@ -220,14 +243,16 @@ TextTable results_table(const EvaluateRequest& request, const std::vector<Row>& 
   return table;
 }
 
-void print_rows(const EvaluateRequest& request, const std::vector<Row>& rows, const Job& job) {
+void print_results(const EvaluateRequest& request, const JudgedResults& judged, const Job& job) {
+  const std::vector<Row>& rows = judged.rows;
   if (request.format == Format::Json) {
     std::vector<std::string> written;
     for (const Row& row : rows) {
       if (!row.error_map.empty()) written.push_back(row.error_map);
     }
-    return print_answer(results_json(request, rows), job.notes(), written);
+    return print_answer(results_json(request, judged), job.notes(), written);
   }
+  if (rows.empty()) return;
   const TextTable table = results_table(request, rows);
   if (request.format == Format::Csv) {
     std::cout << table_to_csv(table);
@@ -392,6 +417,31 @@ class Judge {
   std::vector<std::string> keys_;  ///< Of all metrics so far.
 };
 
+/// Judges all. One of several that fails is noted and does not stop the others.
+JudgedResults judge_all(const std::vector<JudgedFile>& files,
+                        const std::vector<std::filesystem::path>& maps, const InputStream& input,
+                        Judge& judge, Job& job) {
+  JudgedResults judged;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string shown = input.shown(files[i].result);
+    try {
+      if (!files[i].problem.empty()) throw Error(files[i].problem);
+      judged.rows.push_back(judge.judge_file(files[i], maps[i]));
+      judged.rows.back().file = shown;
+    } catch (const UsageError&) {
+      throw;
+    } catch (const Error& error) {
+      if (files.size() == 1) throw;
+      const std::string text = error.what();
+      const std::string sentence = text.starts_with(files[i].result) ? text : shown + ": " + text;
+      judged.failed.push_back({shown, files[i].truth, sentence});
+      job.note(sentence);
+    }
+    job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / files.size());
+  }
+  return judged;
+}
+
 void check_error_map(const std::filesystem::path& map, const JudgedFile& file) {
   if (map.empty()) return;
   check_output_file(map);
@@ -403,26 +453,22 @@ void check_error_map(const std::filesystem::path& map, const JudgedFile& file) {
 void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
   EvaluateRequest request;
   if (!parse(arguments, request)) return;
-  std::string none;
-  const auto piped = std::ranges::find(request.files, "-");
-  const InputStream input(piped == request.files.end() ? none : *piped, stop);
+  const InputStream input(request.files, stop);
   Job job(std::move(stop), request.job);
   const std::vector<JudgedFile> files =
       judged_files(request.files, request.truth, request.read, job);
   const auto maps = error_map_paths(request, files);
   for (std::size_t i = 0; i < files.size(); ++i) check_error_map(maps[i], files[i]);
 
-  std::vector<Row> rows;
   Judge judge(request, job);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    rows.push_back(judge.judge_file(files[i], maps[i]));
-    rows.back().file = input.shown(rows.back().file);
-    job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / files.size());
-  }
-  judge.require_known_keys();
+  const JudgedResults judged = judge_all(files, maps, input, judge, job);
+  if (!judged.rows.empty()) judge.require_known_keys();
   job.finish();
-  print_rows(request, rows, job);
-  tell_error_maps(request, rows, job);
+  print_results(request, judged, job);
+  tell_error_maps(request, judged.rows, job);
+  Failures failures;
+  for (const FailedResult& each : judged.failed) failures.add(each.error);
+  failures.require_none(files.size(), "results");
 }
 
 }  // namespace episcope::cli

@@ -10,6 +10,7 @@
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
 #include "engine/io/base/json.h"
+#include "engine/io/models/result_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,15 +21,6 @@
 
 namespace episcope::cli {
 namespace {
-
-void add_camera(Json& json, const LightFieldInfo& info) {
-  if (const auto& camera = info.camera; camera.is_known()) {
-    json["camera"] = Json::object({{"baseline", camera.baseline},
-                                   {"focal_length", camera.focal_length},
-                                   {"shift", camera.shift}});
-    if (camera.cam_distance) json["camera"]["cam_distance"] = *camera.cam_distance;
-  }
-}
 
 /// Keys of what there is; what is missing has no key.
 void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
@@ -108,7 +100,7 @@ Json scene_json(const Scene& scene, const std::string& input) {
   json["samples"] = samples_text(scene);
   json["brightness"] = scene.convention.gain;
   json["bytes"] = light_field.byte_size();
-  add_camera(json, light_field.info());
+  add_camera(light_field.info().camera, json);
   add_truth(json, scene, summary);
   json["companions"] = Json::array();
   for (const auto& companion : scene.companions) {
@@ -154,15 +146,6 @@ void print_valid(const LightField& light_field) {
   if (light_field.valid().empty()) return;
   print_line("valid", fmt::format("{:.4g} % of the pixels; the others are dark or empty",
                                   valid_percent(light_field)));
-}
-
-void print_camera(const LightFieldInfo& info) {
-  const CameraGrid& camera = info.camera;
-  if (!camera.is_known()) return print_line("camera", "not known: disparity has no depth");
-  const std::string distance =
-      camera.cam_distance ? fmt::format(", d = 0 at Z = {:g}", *camera.cam_distance) : "";
-  print_line("camera", fmt::format("baseline {:g}, focal length {:g}, shift {:g} px{}",
-                                   camera.baseline, camera.focal_length, camera.shift, distance));
 }
 
 void print_positions(const LightFieldInfo& info) {
@@ -218,7 +201,7 @@ void print_scene(const Scene& scene) {
   print_line("samples", samples_text(scene));
   print_valid(*scene.light_field);
   print_line("brightness", scene.convention.gain);
-  print_camera(scene.light_field->info());
+  print_line("camera", camera_text(scene.light_field->info().camera));
   print_positions(scene.light_field->info());
   print_truth(scene, summary);
   for (const auto& companion : scene.companions) {
@@ -258,8 +241,9 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
   if (!parse_reading(parser, arguments, job_options, read)) return;
 
   const InputStream piped(input, stop);
-  const bool is_plain = read.options.values().empty();
+  const bool is_plain = read.options.values().empty() || io::is_result_file(input);
   if (auto file = describe_file(input, is_plain ? Reads::AsItIs : Reads::AsViews)) {
+    require_no_read_options(read, input);
     if (is_json) return print_answer(std::move(file->json));
     for (const auto& [label, text] : file->lines) print_line(label, text);
     return;
@@ -269,7 +253,7 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
     return load_input(input, read, job.progress());
   }();
   if (is_json) {
-    print_answer(scene_json(scene, input), scene.convention.warnings);
+    print_answer(scene_json(scene, piped.shown(input)), scene.convention.warnings);
   } else {
     print_scene(scene);
   }

@@ -50,24 +50,31 @@ std::string list_of_scenes() {
 
 bool parse(const VerbArguments& arguments, SynthesizeRequest& request) {
   Arguments parser("synthesize", {list_of_scenes(),
-                                  "episcope-cli synthesize edge -o lf.h5 --views 9x9 "
+                                  "episcope-cli synthesize edge -o lf.h5 --grid 9x9 "
                                   "--size 256x256"});
   parser.positional("SCENE", request.scene,
                     "Id of a built-in scene; a random one with its kind: 'random?kind=thin'");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "Light field to write");
-  parser.option("--views", request.views, extent_value("VxU", kMostViews),
+  parser.option("--grid", request.views, extent_value("VxU", kMostViews),
                 "Camera rows and columns (default 9x9)");
   parser.option("--size", request.size, extent_value("WxH", kMostPixels),
                 "Pixels of a view (default 512x512)");
-  parser.option("--noise", request.noise, real_value("SIGMA", 0, kMostNoise),
+  parser.option("--noise-sigma", request.noise, real_value("SIGMA", 0, kMostNoise),
                 "Standard deviation of Gaussian noise, in gray levels of 255 (default 0)");
   parser.option("--seed", request.seed, integer_value("N", 0, std::numeric_limits<int>::max()),
                 "Seed of a random scene and of the noise (default 1)");
+  parser.earlier_name("--views", "--grid");
+  parser.earlier_name("--noise", "--noise-sigma");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_job_options(parser, request.job);
-  return parser.parse(arguments);
+  if (!parser.parse(arguments)) return false;
+  if (const std::string id = builtin_scene_id(request.scene); !id.empty()) request.scene = id;
+  parser.check_uses({{{"--overwrite"},
+                      request.scene != kGantry,
+                      "on the folder of the gantry, which must be empty"}});
+  return true;
 }
 
 // What the scene says of itself, and options over it.
@@ -117,7 +124,6 @@ Json answer_json(const SynthesizeRequest& request, const scenes::RenderOptions& 
 void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   SynthesizeRequest request;
   if (!parse(arguments, request)) return;
-  if (const std::string id = builtin_scene_id(request.scene); !id.empty()) request.scene = id;
   if (request.scene == kGantry) return synthesize_gantry(request, std::move(stop));
   check_builtin_scene(request.scene);
   const auto [id, options] = scene_of(request);

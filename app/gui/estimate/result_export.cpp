@@ -44,7 +44,7 @@ Write writer_of(const Workbench& bench, const EstimateEntry& entry,
   return [file, result, view, light_field = bench.session.light_field(),
           is_cloud = form == MapForm::PointCloud](const Progress&) {
     is_cloud ? save_point_cloud(file, *light_field, view, result->field.view(view))
-             : save_map(file, result->field.view(view));
+             : save_map(file, *result, view);
   };
 }
 

@@ -16,6 +16,7 @@
 #include <unistd.h>
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace episcope {
@@ -196,14 +197,16 @@ namespace {
 struct ReadEstimate : FinishedEstimate {
   bool is_of_others = false;
   std::string differing_options;
-  std::string better_reading;  ///< A sentence.
+  std::optional<io::BetterReading> better;
   FileStamp stamp;
 };
 
-ReadEstimate read_estimate(const Scene& scene, const std::string& path, const Progress& progress) {
+/// A user's reading is not doubted.
+ReadEstimate read_estimate(const Scene& scene, const std::string& path,
+                           const io::MapReading& reading, const Progress& progress) {
   const LightField& light_field = *scene.light_field;
   const FileStamp stamp = stamp_of(path);
-  auto estimate = std::make_shared<Estimate>(read_result_of(light_field, path));
+  auto estimate = std::make_shared<Estimate>(read_result_of(light_field, path, reading));
   progress.check();
   check_fits(*estimate, light_field, path);
   const bool is_of_others = is_of_other_samples(*estimate, light_field);
@@ -211,12 +214,10 @@ ReadEstimate read_estimate(const Scene& scene, const std::string& path, const Pr
   bring_to_focus(*estimate, light_field, progress);
   const Interval range = display_range(*estimate);
   std::string options = differing_options(*estimate, light_field);
-  const auto better = find_better_reading(*estimate, scene);
-  return {{std::move(estimate), range},
-          is_of_others && !is_moved,
-          std::move(options),
-          better ? better_reading_text(*better) : std::string(),
-          stamp};
+  std::optional<io::BetterReading> better;
+  if (reading == io::MapReading()) better = find_better_reading(*estimate, scene);
+  return {
+      {std::move(estimate), range}, is_of_others && !is_moved, std::move(options), better, stamp};
 }
 
 }  // namespace
@@ -233,28 +234,44 @@ ResultOpener::ResultOpener(Session& session, Jobs& jobs, Messages& messages, QOb
     : QObject(parent), session_(session), jobs_(jobs), messages_(messages) {}
 
 void ResultOpener::open(const QString& path) {
+  openAs(path, {});
+}
+
+void ResultOpener::openAs(const QString& path, const io::MapReading& reading, int misread) {
   const QString name = QFileInfo(path).fileName();
   jobs_.start<ReadEstimate>(
       Lane::Load, tr("Opening %1").arg(name),
-      [scene = session_.scene(), path = path.toStdString()](const Progress& progress) {
-        return read_estimate(*scene, path, progress);
+      [scene = session_.scene(), path = path.toStdString(), reading](const Progress& progress) {
+        return read_estimate(*scene, path, reading, progress);
       },
-      [this, generation = session_.generation(), name, path](const ReadEstimate& read) {
+      [this, generation = session_.generation(), name, path, misread](const ReadEstimate& read) {
         files_.note(path.toStdString(), read.stamp);
-        session_.add_estimate(read.estimate, read.display_range, generation);
+        session_.remove_estimate(misread);
+        const int id = session_.add_estimate(read.estimate, read.display_range, generation);
         if (!read.differing_options.empty()) {
           messages_.warn(tr("%1 was estimated with%2: its errors may be meaningless. Choose the "
                             "same values in Conventions…")
                              .arg(name, QString::fromStdString(read.differing_options)));
-        } else if (!read.better_reading.empty()) {
-          messages_.warn(tr("%1: %2 to episcope-cli convert, and open the file that it writes.")
-                             .arg(name, QString::fromStdString(read.better_reading)));
+        } else if (read.better) {
+          offerReading(path, *read.better, id);
         } else if (read.is_of_others) {
           messages_.warn(
               tr("%1 was estimated from different samples than those of this light field: "
                  "its errors may be meaningless.")
                   .arg(name));
         }
+      });
+}
+
+void ResultOpener::offerReading(const QString& path, const io::BetterReading& better, int misread) {
+  const QString finding = QString::fromStdString(better_reading_finding(better));
+  messages_.warn(
+      tr("%1: %2. If the file is stored so, apply it.").arg(QFileInfo(path).fileName(), finding),
+      tr("Apply"), [this, path, misread, reading = better.reading] {
+        // Of the light field that is open, and not removed meanwhile.
+        const auto& entries = session_.estimates();
+        const bool is_there = std::ranges::count(entries, misread, &EstimateEntry::id) > 0;
+        if (is_there) openAs(path, reading, misread);
       });
 }
 

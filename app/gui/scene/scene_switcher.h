@@ -4,6 +4,7 @@
 #include "app/session/session.h"
 #include "app/session/sweep.h"
 #include "app/session/user_folders.h"
+#include "engine/io/models/map_reading.h"
 
 #include <QObject>
 #include <QString>
@@ -77,7 +78,8 @@ class SceneSwitcher : public QObject {
 [[nodiscard]] bool is_result(const QString& path);
 
 /// Adds result files and maps of other programs to the open light field's results, in the
-/// background. Warns of results that may belong to another light field.
+/// background. Warns of results that may belong to another light field, and of maps that fit far
+/// better by another reading, which it offers to apply.
 class ResultOpener : public QObject {
   Q_OBJECT
 
@@ -90,6 +92,11 @@ class ResultOpener : public QObject {
   [[nodiscard]] KnownFiles& files() { return files_; }
 
  private:
+  /// `misread`: the result of the same file that this reading replaces; 0 = none.
+  void openAs(const QString& path, const io::MapReading& reading, int misread = 0);
+  /// Offers to read a file so that was read into the result `misread`.
+  void offerReading(const QString& path, const io::BetterReading& better, int misread);
+
   Session& session_;
   Jobs& jobs_;
   Messages& messages_;

@@ -308,6 +308,10 @@ void Messages::warn(const QString& sentence) {
   bar_->showMessage(Severity::Warning, sentence);
 }
 
+void Messages::warn(const QString& sentence, const QString& button, std::function<void()> run) {
+  bar_->showMessage(Severity::Warning, sentence, {button, std::move(run)});
+}
+
 void Messages::fail(const QString& sentence) {
   bar_->showMessage(Severity::Error, sentence);
 }

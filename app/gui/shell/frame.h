@@ -147,6 +147,8 @@ class Messages : public QObject {
   void hint(const QString& sentence);
   void success(const QString& sentence);
   void warn(const QString& sentence);
+  /// The same with a button that remedies it.
+  void warn(const QString& sentence, const QString& button, std::function<void()> run);
   void fail(const QString& sentence);
   /// Shows "Written: …".
   void written(const QString& path);

@@ -176,14 +176,32 @@ std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder o
   return layouts;
 }
 
-ArrayLayout stated_layout(const std::filesystem::path& path, const ArrayShape& stored,
-                          const std::string& axes, IndexOrder order) {
+std::string axis_letters(const std::string& axes) {
   std::string letters;
   for (const char c : axes) {
     const char lower = lower_case(c);
     if (lower == ',' || lower == ' ') continue;
     letters += lower == 't' ? 'v' : lower == 's' ? 'u' : lower;
   }
+  const auto refused = [&](char letter, const char* why) {
+    return InvalidInput(
+        fmt::format("axes {}: {} {}; give one of the letters v, u, y, x, c for each axis, or n, y, "
+                    "x, c for a list of views, as in vuyxc",
+                    axes.substr(0, 40), letter, why));
+  };
+  for (const char letter : letters) {
+    if (letter == kSingle) continue;
+    if (std::string("vuyxcn").find(letter) == std::string::npos) {
+      throw refused(letter, "is no axis");
+    }
+    if (std::ranges::count(letters, letter) > 1) throw refused(letter, "stands there twice");
+  }
+  return letters;
+}
+
+ArrayLayout stated_layout(const std::filesystem::path& path, const ArrayShape& stored,
+                          const std::string& axes, IndexOrder order) {
+  const std::string letters = axis_letters(axes);
   const auto refused = [&](const std::string& why) {
     return InvalidInput(fmt::format(
         "{}: axes {} do not fit the array of {}: {}; give one of the letters v, u, y, x, c for "
@@ -192,15 +210,6 @@ ArrayLayout stated_layout(const std::filesystem::path& path, const ArrayShape& s
   };
   if (letters.size() != stored.size()) {
     throw refused(fmt::format("{} letters, but {} axes", letters.size(), stored.size()));
-  }
-  for (const char letter : letters) {
-    if (letter == kSingle) continue;
-    if (std::string("vuyxcn").find(letter) == std::string::npos) {
-      throw refused(fmt::format("{} is no axis", letter));
-    }
-    if (std::ranges::count(letters, letter) > 1) {
-      throw refused(fmt::format("{} stands there twice", letter));
-    }
   }
   const ArrayLayout layout{stored, in_index_order(letters, order)};
   const bool has_list = layout.has('n') && !layout.has('v') && !layout.has('u');

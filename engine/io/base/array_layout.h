@@ -61,6 +61,10 @@ struct ArrayLayout {
 /// and N gray ones with one channel before rows of pixels, are a list too ("1nyxc", "ncyx").
 [[nodiscard]] std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder order);
 
+/// The letters of axes as `stated_layout` takes them, with v and u for t and s. Throws InvalidInput
+/// for a letter that is no axis or stands there twice.
+[[nodiscard]] std::string axis_letters(const std::string& axes);
+
 /// Parses `axes` in the order of indices: "vuyxc", "v,u,y,x", or with t for rows and s for columns
 /// of views, as in MATLAB's light fields. Throws InvalidInput that names `path` and shape if axes
 /// and shape do not fit.

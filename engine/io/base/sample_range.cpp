@@ -30,6 +30,8 @@ int bits_of(int white) {
   return static_cast<int>(std::bit_width(static_cast<unsigned>(white)));
 }
 
+}  // namespace
+
 Interval parse_levels(const std::string& text) {
   const std::size_t comma = text.find(',');
   if (comma != std::string::npos) {
@@ -41,6 +43,8 @@ Interval parse_levels(const std::string& text) {
                      "' are no levels of samples; give the values of black and white as stored, as "
                      "in 0,1023 or -1,1");
 }
+
+namespace {
 
 template <class T>
 void apply(ViewStack<T>& stack, const Interval& levels) {

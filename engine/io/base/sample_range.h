@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/indices.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
 
 #include <string>
 
 namespace episcope::io {
+
+/// The stored values of black and white: "0,1023". Throws InvalidInput for another text.
+[[nodiscard]] Interval parse_levels(const std::string& text);
 
 /// Maps samples to the range of the engine: 0 … 1 for floats, the full range for integers. Tells
 /// `report` of any change. `levels`: stored values of black and white, "0,1023"; if empty, they are

@@ -225,18 +225,39 @@ void write_npy_maps(const std::filesystem::path& path, const ViewStack<float>& m
   write_npy<float>(path, shape_of(maps, false), {ordered.get().data(), maps.size()});
 }
 
-void write_npz_maps(const std::filesystem::path& path, const ViewStack<float>& maps) {
-  AtomicFile file(path, maps.size() * sizeof(float));
+namespace {
+
+/// Calls `write` for each map of a result with its name.
+template <class Write>
+void for_each_map(const Estimate& estimate, const Write& write) {
+  write("disparity", disparity_with_nan(estimate.field));
+  write("confidence", estimate.confidence);
+  write("valid", estimate.field.valid);
+  write("disparity_second", disparity_with_nan(estimate.second));
+}
+
+/// An upper bound of the bytes of all maps.
+std::uintmax_t bytes_of_maps(const Estimate& estimate) {
+  constexpr std::uintmax_t kFloatMaps = 3;
+  return estimate.field.disparity.size() * (kFloatMaps * sizeof(float) + 1);
+}
+
+}  // namespace
+
+void write_npz_maps(const std::filesystem::path& path, const Estimate& estimate) {
+  AtomicFile file(path, bytes_of_maps(estimate));
   ZipWriter zip(file);
-  add_stack(zip, "disparity", maps, false);
+  for_each_map(estimate,
+               [&zip](const char* name, const auto& maps) { add_stack(zip, name, maps, false); });
   zip.close();
   file.commit();
 }
 
-void write_mat_maps(const std::filesystem::path& path, const ViewStack<float>& maps) {
-  AtomicFile target(path, maps.size() * sizeof(float));
+void write_mat_maps(const std::filesystem::path& path, const Estimate& estimate) {
+  AtomicFile target(path, bytes_of_maps(estimate));
   Hdf5Output file(target, kUserBytes);
-  write_map(file, "disparity", maps);
+  for_each_map(estimate,
+               [&file](const char* name, const auto& maps) { write_map(file, name, maps); });
   finish_mat(file, target, Progress());
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
@@ -28,11 +29,15 @@ void write_mat(const std::filesystem::path& path, const Scene& scene, const Prog
 /// Disparity as files hold it: NaN where it is invalid; empty if there is none.
 [[nodiscard]] ViewStack<float> disparity_with_nan(const DisparityField& field);
 
-/// Write maps alone, `[y][x]` of a single view, else `[v][u][y][x]`, NaN = invalid: as `.npy`; as
-/// `disparity` of an `.npz` archive; as `disparity` of a MATLAB file of version 7.3, in its order,
-/// (y, x) or (v, u, y, x). Atomic. Throw IoError.
+/// Writes maps alone as one array, `[y][x]` of a single view, else `[v][u][y][x]`, NaN = invalid.
+/// Atomic. Throws IoError.
 void write_npy_maps(const std::filesystem::path& path, const ViewStack<float>& maps);
-void write_npz_maps(const std::filesystem::path& path, const ViewStack<float>& maps);
-void write_mat_maps(const std::filesystem::path& path, const ViewStack<float>& maps);
+
+/// Write the maps of a result as arrays of the same shape: `disparity`, NaN where it is invalid,
+/// and, where the result has them, `confidence`, `valid` (uint8, 0 = invalid) and
+/// `disparity_second`, NaN where there is none. `.npz` archive; MATLAB file of version 7.3, in its
+/// order, (y, x) or (v, u, y, x). Atomic. Throw IoError.
+void write_npz_maps(const std::filesystem::path& path, const Estimate& estimate);
+void write_mat_maps(const std::filesystem::path& path, const Estimate& estimate);
 
 }  // namespace episcope::io

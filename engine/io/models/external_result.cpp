@@ -195,6 +195,56 @@ DisparityField read_archive_field(const ArrayFile& file, GridShape grid) {
   return read_placed(find_map(file), grid);
 }
 
+bool has_size_of(const ViewStack<float>& maps, const ArrayLayout& layout) {
+  return layout.grid() == maps.grid() && layout.height() == maps.height() &&
+         layout.width() == maps.width();
+}
+
+/// The array of this name, if there is one of the shape of `maps`, for the same views; else empty.
+ViewStack<float> read_beside(const fs::path& path, const std::string& name,
+                             const ViewStack<float>& maps) {
+  ViewStack<float> read;
+  if (const auto archive = open_map_archive(path)) {
+    const auto found = std::ranges::find(archive->entries(), name, &ArrayEntry::name);
+    if (found == archive->entries().end() || map_axes_of(*found).empty()) return {};
+    const ArrayLayout layout{found->shape, map_axes_of(*found)};
+    if (!has_size_of(maps, layout)) return {};
+    read = read_map_stack<float>(*archive->open(*found), layout, Progress(1));
+  } else if (has_hdf5_signature(path)) {
+    const Hdf5Input file(path);
+    const std::vector<Hdf5Dataset> all = file.datasets();
+    const auto found = std::ranges::find(all, name, &Hdf5Dataset::name);
+    if (found == all.end() || (found->shape.size() != 2 && found->shape.size() != 4)) return {};
+    const ArrayLayout layout = stated_map_layout(file, *found);
+    if (!has_size_of(maps, layout)) return {};
+    read = read_laid_out<float>(file, name, layout, {});
+  }
+  if (read.empty()) return {};
+  read.keep_in_place({}, maps.grid(), maps.first());
+  return read;
+}
+
+/// Adds what write_npz_maps and write_mat_maps store beside disparity, or another program under
+/// the same names.
+void add_maps_beside(const fs::path& path, Estimate& estimate) {
+  const ViewStack<float>& maps = estimate.field.disparity;
+  estimate.confidence = read_beside(path, "confidence", maps);
+  const float* confidence = estimate.confidence.data();
+  const auto is_share = [](float value) { return value >= 0 && value <= 1; };
+  if (!std::all_of(confidence, confidence + estimate.confidence.size(), is_share)) {
+    estimate.confidence = {};
+    estimate.notes.emplace_back("confidence is left out: it has values beyond 0 … 1");
+  }
+  estimate.second.disparity = read_beside(path, "disparity_second", maps);
+  mark_invalid(estimate.second);
+  const ViewStack<float> valid = read_beside(path, "valid", maps);
+  if (valid.empty()) return;
+  estimate.field.require_mask();
+  for (std::size_t i = 0; i < valid.size(); ++i) {
+    if (!(valid.data()[i] > 0)) estimate.field.valid.data()[i] = 0;
+  }
+}
+
 /// `disp_maps/<scene>.pfm`, or the only map if no scene is named.
 fs::path submitted_map(const fs::path& folder, const std::string& scene) {
   const fs::path named = submitted_map_file(folder, scene);
@@ -271,6 +321,7 @@ Estimate read_external_result(const fs::path& path, GridShape grid, const std::s
   Estimate estimate;
   if (!fs::is_directory(path)) {
     estimate.field = read_disparity_map(path, grid);
+    add_maps_beside(path, estimate);
     estimate.method = path.stem().string();
     return estimate;
   }

@@ -24,8 +24,10 @@ inline constexpr const char* kMapForms =
 [[nodiscard]] DisparityField read_disparity_map(const std::filesystem::path& path, GridShape grid);
 
 /// Reads a result of another program: a file as above, or a folder of the 2016 submission form
-/// (`disp_maps/<scene>.pfm`, `runtimes/<scene>.txt`), of which `scene` picks the map. Throws
-/// IoError.
+/// (`disp_maps/<scene>.pfm`, `runtimes/<scene>.txt`), of which `scene` picks the map. Beside the
+/// disparity of an `.npz`, MATLAB or HDF5 file, arrays of its shape named `confidence` (0 … 1, else
+/// left out with a note), `valid` (0 = invalid) and `disparity_second` (NaN = none) are read, too.
+/// Throws IoError.
 [[nodiscard]] Estimate read_external_result(const std::filesystem::path& path, GridShape grid,
                                             const std::string& scene);
 

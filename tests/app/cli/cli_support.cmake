@@ -65,6 +65,23 @@ function(json_absent text)
   endif()
 endfunction()
 
+# one_shape(text results written): the keys that every answer in JSON has: as
+# many results and written files, and a list of notes.
+function(one_shape text results written)
+  foreach(pair "results=${results}" "written=${written}")
+    string(REGEX REPLACE "=.*" "" key "${pair}")
+    string(REGEX REPLACE ".*=" "" count "${pair}")
+    string(JSON length ERROR_VARIABLE problem LENGTH "${text}" ${key})
+    if(NOT length STREQUAL count)
+      fail_case("${key} has ${length} (${problem}), expected ${count} in\n${text}")
+    endif()
+  endforeach()
+  string(JSON type ERROR_VARIABLE problem TYPE "${text}" notes)
+  if(NOT type STREQUAL ARRAY)
+    fail_case("notes is no list in\n${text}")
+  endif()
+endfunction()
+
 # expect_file(path [SIGNATURE hex]): exists and begins with these bytes.
 function(expect_file path)
   if(NOT EXISTS "${WORK}/${path}")

@@ -37,6 +37,7 @@ endforeach()
 expect("again" 0 ARGS benchmark edge slant --methods epi_l,epi_s -o out)
 expect_reused("4 results, 0 points searched, 4 taken from before")
 expect("as JSON" 0 ARGS benchmark edge slant --methods epi_l,epi_s -o out --json)
+one_shape("${out}" 4 5)
 json_is("${out}" edge scenes 0 name)
 json_near("${out}" 0.0001 100 results 0 vmv2013 mse_100)
 json_near("${out}" 0.0001 100 results 0 benchmark2016 badpix_0010)
@@ -119,9 +120,9 @@ set(unpainted benchmark edge --labels --features image --regularizers none)
 expect("strokes kept elsewhere" 0 OUT "^Labels ranked" ARGS ${unpainted} --scribbles strokes -o stroked)
 expect("no folder of strokes" 1 ERR "nowhere.*is not a folder"
        ARGS ${unpainted} --scribbles nowhere -o stroked)
-expect("strokes without labels" 2 ERR "without --labels"
+expect("strokes without labels" 2 ERR "without --labeling"
        ARGS benchmark edge --scribbles strokes --methods epi_l -o o)
-expect("features without labels" 2 ERR "without --labels"
+expect("features without labels" 2 ERR "without --labeling"
        ARGS benchmark painted --features image --methods epi_l -o o)
 file(MAKE_DIRECTORY "${WORK}/painters")
 expect("a map of it" 0 ARGS convert painted painters/painted.pfm)

@@ -10,6 +10,7 @@ expect("a gantry of one photograph" 2 ERR "3 to 21 rows" ARGS info "demo:gantry?
 file(GLOB photographs RELATIVE "${WORK}" "${WORK}/rig/pattern/*.png")
 
 expect(calibrate 0 ARGS calibrate ${photographs} --pattern 9x6 --square 25 -o camera.yml --json)
+one_shape("${out}" 1 1)
 json_near("${out}" 0 0.3 rms)
 json_near("${out}" 448 458 focal_length_px 0)
 json_is("${out}" ON photos 0 used)
@@ -28,18 +29,20 @@ json_is("${out}" ON photos 1 used)
 json_near("${out}" 448 458 focal_length_px 0)
 expect("calibrate with too few" 1 ERR "at least 3 photographs"
        ARGS calibrate rig/pattern/01.png --pattern 9x6 -o other.yml)
-expect("calibrate without a pattern" 2 ERR "pattern" ARGS calibrate rig/pattern/01.png -o other.yml)
+expect("calibrate without a pattern" 2 ERR "--board" ARGS calibrate rig/pattern/01.png -o other.yml)
 expect("calibrate over its input" 1 ERR "01.png"
        ARGS calibrate rig/pattern/01.png --pattern 9x6 -o rig/pattern/01.png)
 
 expect(rectify 0 ARGS rectify rig/photographs --camera camera.yml --step 12 --picks rig/picks.csv
        --pairs pairs.csv -o raw.h5 --json --quiet)
+one_shape("${out}" 1 2)
 json_near("${out}" 0 0.1 vertical_disparity_after_px percentile_95)
 json_near("${out}" 0.1 9 vertical_disparity_before_px percentile_95)
 expect("rectify without a camera" 1 ERR "camera_matrix"
        ARGS rectify rig/photographs --camera rig/picks.csv -o other.h5 --quiet)
 
 expect(pose 0 ARGS pose raw.h5 --mesh rig/mesh.ply --pairs pairs.csv -o pose.json --json --quiet)
+one_shape("${out}" 1 1)
 json_near("${out}" 0 1.2 reprojection_error_px)
 json_is("${out}" p1 pairs 0 name)
 json_is("${out}" OFF pairs 0 outlier)
@@ -50,6 +53,12 @@ expect("pose without a pinhole" 1 ERR "pinhole" ARGS pose demo:edge --mesh rig/m
 
 expect(ground-truth 0 OUT "depth of 9 views from 1 mesh"
        ARGS ground-truth raw.h5 --pose pose.json -o lf.h5 --quiet)
+expect("ground-truth as JSON" 0
+       ARGS ground-truth raw.h5 --pose pose.json -o lf.h5 --overwrite --json --quiet)
+one_shape("${out}" 1 2)
+json_near("${out}" 80 99.99 valid_percent)
+expect("a gantry as JSON" 0 ARGS synthesize gantry -o small --grid 3x3 --size 160x120 --json --quiet)
+one_shape("${out}" 1 1)
 expect(info 0 ARGS info lf.h5 --json)
 json_is("${out}" all truth views)
 json_near("${out}" 80 99.99 truth valid_percent)

@@ -38,4 +38,4 @@ json_is("${out}" OFF results 0 all_views)
 
 expect("two maps" 1 ERR "2 were found \\(left, right\\)" ARGS show two.h5 -o two.png)
 expect("two maps to convert" 1 ERR "2 were found \\(left, right\\)" ARGS convert two.h5 two.pfm)
-expect("error without a truth" 1 ERR "--truth" ARGS show one.h5 -o e2.png --what error)
+expect("error without a truth" 2 ERR "--truth" ARGS show one.h5 -o e2.png --what error)

@@ -5,6 +5,7 @@ expect("estimate the center" 0 ARGS estimate epi_l lf.h5 -o center.h5 --views ce
 
 expect(label 0 ARGS label lf.h5 --scribbles labels.h5 -o l.h5 --features image+truth
        --regularizer rayspace --write-probabilities --json)
+one_shape("${out}" 1 1)
 json_is("${out}" 3 labels)
 json_is("${out}" l.h5 written 0)
 json_near("${out}" 0.001 100 seconds)

@@ -74,7 +74,7 @@ json_near("${out}" 0 0.0001 results 0 mse_100)
 
 expect("options without a map" 2 ERR "--map-flip is for the maps of a RESULT"
        ARGS show lf.h5 -o v.png --map-flip x)
-expect("options without a submission" 2 ERR "has no effect without --submission"
+expect("options without a submission" 2 ERR "has no effect without --maps"
        ARGS benchmark lf.h5 -o t --methods epi_l --map-flip x)
 
 # A result that took the place of truth stays a result.

@@ -14,6 +14,7 @@ expect_file(ours/disp_maps/boxes.pfm 50660a36342034380a2d312e300a)
 expect("validate what there is" 0 OUT "^ours: 2 scenes are complete\n$"
        ARGS validate ours --scenes boxes dots --size 64x48)
 expect("validate as JSON" 0 ARGS validate ours --scenes boxes --scenes dots --size 64x48 --json)
+one_shape("${out}" 1 0)
 json_is("${out}" ON complete)
 json_is("${out}" 2 scenes)
 

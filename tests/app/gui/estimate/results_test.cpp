@@ -17,6 +17,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGuiApplication>
+#include <QPushButton>
 #include <QRegularExpression>
 #include <QTreeWidget>
 
@@ -62,7 +63,7 @@ class ResultsTest : public QObject {
   void chosenForm_namesTheFile();
   void openedResult_isListed();
   void resultOfAnotherLightField_isRefused();
-  void mapOfTheOtherSign_isOpenedWithAWarning();
+  void mapOfTheOtherSign_isOpenedWithAWarning_andNegatedWhenAsked();
   void resultOfOtherSamples_isOpenedWithAWarning();
   void lightField_isNoResult();
   void copiedCommand_opensTheSameFile();
@@ -203,7 +204,7 @@ void ResultsTest::resultOfAnotherLightField_isRefused() {
   QVERIFY(f.window.bench().session.estimates().empty());
 }
 
-void ResultsTest::mapOfTheOtherSign_isOpenedWithAWarning() {
+void ResultsTest::mapOfTheOtherSign_isOpenedWithAWarning_andNegatedWhenAsked() {
   WindowFixture f;
   f.openSmall();
   const Session& session = f.window.bench().session;
@@ -219,9 +220,22 @@ void ResultsTest::mapOfTheOtherSign_isOpenedWithAWarning() {
   QTRY_COMPARE_WITH_TIMEOUT(session.estimates().size(), 1U, kPatience);
   const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
   for (const char* words : {"negated.pfm: the map fits the truth far better with values negated",
-                            "add --map-scale=-1 to episcope-cli convert"}) {
+                            "MSE×100 0 instead of "}) {
     QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains(words), qPrintable(messages->text()),
                               kPatience);
+  }
+  QCOMPARE(messages->severity(), Severity::Warning);
+  const int misread = session.shown()->id;
+
+  messages->findChild<QPushButton*>("message.action")->click();
+
+  QTRY_VERIFY_WITH_TIMEOUT(session.shown() && session.shown()->id != misread, kPatience);
+  QCOMPARE(session.estimates().size(), 1U);
+  QCOMPARE(session.shown()->name, std::string("negated"));
+  const ViewIndex center = session.light_field()->center();
+  const auto applied = session.shown()->estimate->field.view(center).disparity;
+  for (int y = 0; y < truth.height; ++y) {
+    for (int x = 0; x < truth.width; ++x) QCOMPARE(applied.at(y, x), truth.at(y, x));
   }
 }
 

@@ -30,6 +30,14 @@ ViewStack<float> sample_maps(GridShape grid) {
   return maps;
 }
 
+/// A result whose maps these are, NaN = invalid.
+Estimate result_of(const ViewStack<float>& maps) {
+  Estimate estimate;
+  estimate.field.disparity = maps.clone();
+  io::mark_invalid(estimate.field);
+  return estimate;
+}
+
 using Write = void (*)(const std::filesystem::path&, const ViewStack<float>&);
 
 void write_mat5(const std::filesystem::path& path, const ViewStack<float>& maps) {
@@ -38,6 +46,28 @@ void write_mat5(const std::filesystem::path& path, const ViewStack<float>& maps)
 
 void write_csv(const std::filesystem::path& path, const ViewStack<float>& maps) {
   io::write_csv_map(path, maps.view({0, 0}));
+}
+
+void write_npz(const std::filesystem::path& path, const ViewStack<float>& maps) {
+  io::write_npz_maps(path, result_of(maps));
+}
+
+void write_mat(const std::filesystem::path& path, const ViewStack<float>& maps) {
+  io::write_mat_maps(path, result_of(maps));
+}
+
+/// With confidence, and second disparity in every other pixel.
+Estimate full_result(GridShape grid) {
+  Estimate estimate = result_of(sample_maps(grid));
+  estimate.confidence = ViewStack<float>(grid, kHeight, kWidth);
+  estimate.second.disparity = ViewStack<float>(grid, kHeight, kWidth);
+  for (std::size_t i = 0; i < estimate.confidence.size(); ++i) {
+    estimate.confidence.data()[i] = static_cast<float>(i % 11) / 10;
+    estimate.second.disparity.data()[i] =
+        i % 2 == 0 ? static_cast<float>(i) : std::numeric_limits<float>::quiet_NaN();
+  }
+  io::mark_invalid(estimate.second);
+  return estimate;
 }
 
 }  // namespace
@@ -61,13 +91,13 @@ class MapFormsTest : public QObject {
     QTest::addColumn<Write>("write");
     QTest::addColumn<bool>("has_all_views");
     QTest::newRow("npy") << "a.npy" << &io::write_npy_maps << false;
-    QTest::newRow("npz") << "a.npz" << &io::write_npz_maps << false;
-    QTest::newRow("mat 7.3") << "a.mat" << &io::write_mat_maps << false;
+    QTest::newRow("npz") << "a.npz" << &write_npz << false;
+    QTest::newRow("mat 7.3") << "a.mat" << &write_mat << false;
     QTest::newRow("mat 5") << "five.mat" << &write_mat5 << false;
     QTest::newRow("csv") << "a.csv" << &write_csv << false;
     QTest::newRow("npy of all views") << "b.npy" << &io::write_npy_maps << true;
-    QTest::newRow("npz of all views") << "b.npz" << &io::write_npz_maps << true;
-    QTest::newRow("mat of all views") << "b.mat" << &io::write_mat_maps << true;
+    QTest::newRow("npz of all views") << "b.npz" << &write_npz << true;
+    QTest::newRow("mat of all views") << "b.mat" << &write_mat << true;
   }
   void mapsOfAllForms_areRead() {
     QFETCH(QString, file);
@@ -87,11 +117,49 @@ class MapFormsTest : public QObject {
     }
   }
 
+  void mapsBesideDisparity_areReadBack_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<bool>("has_all_views");
+    for (const bool has_all : {false, true}) {
+      QTest::addRow("npz %d", has_all) << "full.npz" << has_all;
+      QTest::addRow("mat %d", has_all) << "full.mat" << has_all;
+    }
+  }
+  void mapsBesideDisparity_areReadBack() {
+    QFETCH(QString, file);
+    QFETCH(bool, has_all_views);
+    const Estimate written = full_result(has_all_views ? kGrid : GridShape{1, 1});
+
+    file.endsWith("npz") ? io::write_npz_maps(path(file), written)
+                         : io::write_mat_maps(path(file), written);
+    const Estimate read = io::read_external_result(path(file), kGrid, "");
+
+    QCOMPARE(read.confidence.first(), read.field.disparity.first());
+    QCOMPARE(read.confidence.size(), written.confidence.size());
+    for (std::size_t i = 0; i < written.confidence.size(); ++i) {
+      QCOMPARE(read.field.valid.data()[i], written.field.valid.data()[i]);
+      QCOMPARE(read.confidence.data()[i], written.confidence.data()[i]);
+      QCOMPARE(read.second.valid.data()[i], written.second.valid.data()[i]);
+      QCOMPARE(read.second.disparity.data()[i], written.second.disparity.data()[i]);
+    }
+  }
+
+  void confidenceOfAnotherMeaning_isLeftOut() {
+    Estimate estimate = full_result({1, 1});
+    estimate.confidence.data()[3] = 7;
+    io::write_npz_maps(path("cost.npz"), estimate);
+
+    const Estimate read = io::read_external_result(path("cost.npz"), kGrid, "");
+
+    QVERIFY(read.confidence.empty());
+    QVERIFY(read.notes.front().starts_with("confidence is left out"));
+  }
+
   void lightFieldsBesideMaps_areNoResult() {
     ViewStack<std::uint8_t> views(kGrid, kHeight, kWidth, 3);
     std::fill_n(views.data(), views.size(), std::uint8_t{7});
     test::write_mat5(path("lf.mat"), views, {});
-    io::write_npz_maps(path("maps.npz"), sample_maps(kGrid));
+    write_npz(path("maps.npz"), sample_maps(kGrid));
 
     QVERIFY(!io::is_map_archive(path("lf.mat")));
     QVERIFY(io::is_map_archive(path("maps.npz")));
