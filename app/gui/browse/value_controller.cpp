@@ -10,7 +10,6 @@
 #include "engine/render/tone.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/text.h"
-#include "widgets/panels/tone_panel.h"
 #include "widgets/panels/value_bar.h"
 
 #include <QDialog>

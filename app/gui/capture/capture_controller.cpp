@@ -2,7 +2,6 @@
 #include "app/gui/capture/capture_controller.h"
 
 #include "app/gui/capture/capture_documents.h"
-#include "app/gui/capture/pair_marks.h"
 #include "app/gui/capture/photographs.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/viewer_area.h"

@@ -3,15 +3,23 @@
 
 #include "app/gui/shell/workbench.h"
 #include "app/session/capture_document.h"
+#include "engine/capture/mesh_file.h"
+#include "engine/capture/solve_pose.h"
+#include "widgets/canvas/canvas_geometry.h"
+#include "widgets/cloud/cloud_look.h"
+#include "widgets/panels/capture_panel.h"
 
 #include <QObject>
 #include <QString>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace episcope {
 
@@ -70,5 +78,27 @@ class CaptureDocuments : public QObject {
 /// Whether a new light field can be written to the path: its name ends in .h5 and no file exists.
 /// Tells the user if not.
 [[nodiscard]] bool is_new_light_field(const QString& path, Messages& messages);
+
+/// Mesh for the 3D view, coarser while it moves. Linear.
+[[nodiscard]] CloudPartsPtr mesh_parts(const capture::TriangleMesh& mesh);
+
+/// Mesh point in the coordinates of the 3D view.
+[[nodiscard]] std::array<double, 3> in_mesh_view(const capture::Point3& point);
+
+/// Pairs as rows of the table.
+[[nodiscard]] std::vector<CaptureRow> pair_rows(const std::vector<capture::PointPair>& pairs,
+                                                const std::optional<capture::SolvedPose>& pose);
+
+/// Pairs as marks in view and mesh.
+struct PairMarks {
+  std::vector<CanvasMark> on_view;  ///< With where the pose puts each, if there is one.
+  std::vector<CloudMark> on_mesh;
+};
+
+/// Emphasizes the pair at place `is_emphasised`; `pose` may be null.
+[[nodiscard]] PairMarks pair_marks(const std::vector<capture::PointPair>& pairs,
+                                   const capture::RigidPose* pose,
+                                   const std::optional<Pinhole>& pinhole,
+                                   const std::function<bool(int)>& is_emphasised);
 
 }  // namespace episcope

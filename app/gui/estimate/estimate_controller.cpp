@@ -2,7 +2,6 @@
 #include "app/gui/estimate/estimate_controller.h"
 
 #include "app/gui/estimate/live_controller.h"
-#include "app/gui/estimate/method_runs.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/estimate/sweep_controller.h"
 #include "app/gui/scene/scene_opener.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/sweep_controller.h"
 
-#include "app/gui/estimate/method_runs.h"
+#include "app/gui/estimate/live_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/scene_switcher.h"

@@ -2,7 +2,6 @@
 #include "app/gui/files/project_controller.h"
 
 #include "app/gui/files/autosave.h"
-#include "app/gui/files/session_recovery.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/scene_switcher.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/files/session_recovery.h"
+#include "app/gui/files/autosave.h"
 #include "app/session/workspace.h"
 #include "tests/app/gui/files/working.h"
 #include "tests/window_test_main.h"
