@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/project_file.h"
 
-#include "annotation/label_set.h"
+#include "annotation/scribble_layer.h"
 #include "app/session/capture_work.h"
 #include "app/session/judge.h"
 #include "app/session/load_scene.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/shell/workbench.h"
-#include "app/session/capture_document.h"
+#include "app/session/capture_work.h"
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/solve_pose.h"
 #include "widgets/canvas/canvas_geometry.h"

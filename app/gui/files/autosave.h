@@ -6,7 +6,7 @@
 #include "app/session/annotation_journal.h"
 #include "app/session/open_scene.h"
 #include "app/session/project_file.h"
-#include "app/session/workspace.h"
+#include "app/session/project_store.h"
 #include "engine/core/jobs.h"
 
 #include <QObject>
