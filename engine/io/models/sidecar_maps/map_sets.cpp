@@ -5,7 +5,7 @@
 #include "engine/core/parallel.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/external_result.h"
-#include "engine/io/models/padding.h"
+#include "engine/io/models/map_reading.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 
 #include <fmt/format.h>
