@@ -7,7 +7,6 @@
 #include "engine/io/base/json.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/archive_depth.h"
-#include "engine/io/formats/archive_layout.h"
 #include "engine/io/formats/companions.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/assemble_scene.h"

@@ -11,7 +11,6 @@
 #include "engine/io/base/npy.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/archive_depth.h"
-#include "engine/io/formats/archive_layout.h"
 #include "engine/io/formats/multi_field_file.h"
 #include "engine/io/models/array_file.h"
 #include "engine/io/models/array_maps.h"
