@@ -9,7 +9,6 @@
 #include "engine/io/formats/benchmark_truth.h"
 #include "engine/io/formats/image_grid.h"
 #include "engine/io/models/assemble_scene.h"
-#include "engine/io/models/file_usage.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/open_options.h"

@@ -11,7 +11,6 @@
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/image_grid.h"
 #include "engine/io/models/assemble_scene.h"
-#include "engine/io/models/file_usage.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/reader.h"

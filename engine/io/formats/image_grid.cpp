@@ -11,7 +11,6 @@
 #include "engine/io/base/image_orientation.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/models/assemble_scene.h"
-#include "engine/io/models/file_usage.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/names/grid_names.h"
 #include "engine/io/models/names/name_parts.h"

@@ -12,7 +12,6 @@
 #include "engine/io/formats/mosaic_layout.h"
 #include "engine/io/models/array_file.h"
 #include "engine/io/models/assemble_scene.h"
-#include "engine/io/models/file_usage.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/open_options.h"

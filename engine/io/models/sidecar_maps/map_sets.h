@@ -4,7 +4,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/io/models/file_usage.h"
+#include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/sidecar_maps/find_maps.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
