@@ -8,9 +8,9 @@
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/array_file.h"
 #include "engine/io/models/array_maps.h"
-#include "engine/io/models/label_list.h"
 #include "engine/io/models/order/warp_check.h"
 #include "engine/io/models/result_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 
 #include <fmt/format.h>

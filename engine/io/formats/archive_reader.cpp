@@ -10,7 +10,6 @@
 #include "engine/io/formats/companions.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/assemble_scene.h"
-#include "engine/io/models/label_list.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/order/view_order.h"
 #include "engine/io/models/reader.h"

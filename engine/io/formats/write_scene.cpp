@@ -9,7 +9,6 @@
 #include "engine/io/base/json.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/formats/benchmark_truth.h"
-#include "engine/io/models/label_list.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/models/stored_maps.h"

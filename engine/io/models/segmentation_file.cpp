@@ -6,8 +6,8 @@
 #include "engine/core/version.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
-#include "engine/io/models/label_list.h"
 #include "engine/io/models/result_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/io/models/stored_maps.h"
 
 #include <algorithm>

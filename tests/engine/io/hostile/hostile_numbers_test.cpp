@@ -3,7 +3,6 @@
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/npy.h"
-#include "engine/io/models/label_list.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/models/segmentation_file.h"
