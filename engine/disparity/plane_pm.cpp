@@ -6,7 +6,6 @@
 #include "engine/core/memory.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
-#include "engine/core/photometric_correction.h"
 #include "engine/core/progress.h"
 #include "engine/core/view_gain.h"
 #include "engine/disparity/carried_run.h"

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/core/light_field.h"
-#include "engine/core/photometric_correction.h"
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
+#include "engine/core/view_gain.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/islands.h"
 #include "engine/disparity/plane_labeling.h"

@@ -2,7 +2,6 @@
 #include "engine/io/models/assemble_scene.h"
 
 #include "engine/core/indices.h"
-#include "engine/core/photometric_correction.h"
 #include "engine/core/text.h"
 #include "engine/core/view_gain.h"
 #include "engine/core/view_stack.h"
