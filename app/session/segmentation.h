@@ -2,7 +2,6 @@
 #pragma once
 
 #include "annotation/scribble_layer.h"
-#include "engine/core/ground_truth.h"
 #include "engine/core/jobs.h"
 #include "engine/core/label_info.h"
 #include "engine/core/parameter.h"

@@ -2,7 +2,7 @@
 #include "engine/io/formats/benchmark_truth.h"
 
 #include "engine/core/error.h"
-#include "engine/core/ground_truth.h"
+#include "engine/core/scene.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/models/order/order_check.h"

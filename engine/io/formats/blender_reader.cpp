@@ -2,7 +2,6 @@
 #include "engine/io/formats/blender_reader.h"
 
 #include "engine/core/error.h"
-#include "engine/core/ground_truth.h"
 #include "engine/core/parallel.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/ground_truth.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/core/scene.h"
 #include "engine/io/models/order/grey_picture.h"
 
 #include <array>
