@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/islands.h"
 
+#include "engine/core/image.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
-#include "engine/core/volume.h"
 
 #include <algorithm>
 #include <cmath>

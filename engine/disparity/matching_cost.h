@@ -7,7 +7,6 @@
 #include "engine/core/schema.h"
 #include "engine/core/view_places.h"
 #include "engine/core/view_stack.h"
-#include "engine/core/volume.h"
 #include "engine/disparity/kernels/shared_constants.h"
 
 #include <array>

@@ -2,9 +2,9 @@
 #include "engine/disparity/net.h"
 
 #include "engine/core/error.h"
+#include "engine/core/image.h"
 #include "engine/core/isa.h"
 #include "engine/core/parallel.h"
-#include "engine/core/volume.h"
 #include "engine/disparity/kernels/net_kernel.h"
 #include "engine/disparity/net_evidence.h"
 #include "engine/disparity/net_layers.h"

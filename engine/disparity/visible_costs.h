@@ -4,7 +4,6 @@
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
-#include "engine/core/volume.h"
 #include "engine/cuda/device.h"
 #include "engine/disparity/global_labeling.h"
 #include "engine/disparity/matching_cost.h"

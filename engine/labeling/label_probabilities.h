@@ -3,7 +3,6 @@
 
 #include "engine/core/image.h"
 #include "engine/core/indices.h"
-#include "engine/core/volume.h"
 
 #include <cstdint>
 #include <vector>

@@ -6,7 +6,6 @@
 #include "engine/core/isa.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/core/volume.h"
 #include "engine/labeling/forest.h"
 #include "engine/labeling/label_probabilities.h"
 #include "engine/labeling/label_surfaces.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/image.h"
 #include "engine/core/parallel.h"
-#include "engine/core/volume.h"
 #include "engine/labeling/device_labeling.h"
 #include "tests/cuda/label_runs.h"
 

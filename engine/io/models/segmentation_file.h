@@ -7,7 +7,6 @@
 #include "engine/core/parameter.h"
 #include "engine/core/progress.h"
 #include "engine/core/view_stack.h"
-#include "engine/core/volume.h"
 
 #include <cstdint>
 #include <filesystem>
