@@ -4,7 +4,6 @@
 #include "engine/disparity/denoise.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/global_labeling.h"
-#include "engine/disparity/islands.h"
 #include "engine/disparity/stereo_costs.h"
 
 namespace episcope {
