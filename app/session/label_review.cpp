@@ -2,7 +2,7 @@
 #include "app/session/label_review.h"
 
 #include "engine/core/epi.h"
-#include "engine/labeling/consistency.h"
+#include "engine/labeling/label_review.h"
 
 #include <algorithm>
 #include <cmath>
