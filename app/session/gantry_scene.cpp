@@ -2,7 +2,7 @@
 #include "app/session/gantry_scene.h"
 
 #include "engine/capture/demo_folder.h"
-#include "engine/capture/scan_mesh.h"
+#include "engine/capture/mesh_file.h"
 #include "engine/core/error.h"
 #include "engine/io/open.h"
 #include "engine/scenes/builtin.h"

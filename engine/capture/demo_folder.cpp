@@ -4,7 +4,6 @@
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/photograph.h"
 #include "engine/capture/pose_file.h"
-#include "engine/capture/scan_mesh.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/io/base/atomic_file.h"

@@ -2,8 +2,8 @@
 #include "engine/capture/photograph.h"
 
 #include "engine/capture/calibrate.h"
+#include "engine/capture/mesh_file.h"
 #include "engine/capture/pixel_surface.h"
-#include "engine/capture/scan_mesh.h"
 #include "engine/core/parallel.h"
 
 #include <algorithm>

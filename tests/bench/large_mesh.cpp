@@ -4,7 +4,6 @@
 // that of xvfb-run.
 #include "app/gui/capture/capture_documents.h"
 #include "engine/capture/mesh_file.h"
-#include "engine/capture/scan_mesh.h"
 #include "widgets/cloud/point_cloud_view.h"
 
 #include <QApplication>
