@@ -3,7 +3,7 @@
 
 #include "app/session/quantity_map.h"
 #include "engine/core/point_cloud.h"
-#include "engine/evaluation/cloud_distance.h"
+#include "engine/evaluation/metrics.h"
 #include "engine/render/shade.h"
 #include "engine/render/tone.h"
 
