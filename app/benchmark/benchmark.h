@@ -21,7 +21,7 @@ namespace episcope {
 struct BenchmarkOptions {
   std::vector<std::string> inputs;
   std::vector<Estimator> methods;
-  std::vector<std::filesystem::path> submissions;  ///< Folders, see submission.h.
+  std::vector<std::filesystem::path> submissions;  ///< Folders.
   io::MapReading map_reading{};                    ///< Of their maps.
   std::filesystem::path folder;                    ///< Where everything is written.
   /// Views of the runs for the tables: all gives the times of figure 8. Points of a search always

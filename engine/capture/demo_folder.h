@@ -18,7 +18,7 @@ struct DemoOptions {
   GridShape grid{5, 5};
   int height = 360;
   int width = 480;
-  int detail = 120;        ///< Of the mesh (scan_mesh.h).
+  int detail = 120;        ///< Of the mesh (mesh_file.h).
   double jitter_px = 0.3;  ///< Standard deviation of positions, as seen at the middle depth,
   double gain = 0.01;      ///< of gains,
   double noise = 2;        ///< of samples in gray levels,

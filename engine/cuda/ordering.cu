@@ -64,7 +64,7 @@ __device__ inline float line_difference(const float* to, const Along& along, con
   return first + end.weight * (second - first) - from;
 }
 
-// As engine/solvers/ordering_terms.h.
+// As engine/solvers/pair_limits.h.
 struct DevicePenalty {
   float rise = 0, fall = 0.1F, softness = 0.05F;
 };
