@@ -9,7 +9,7 @@
 #include "engine/core/indices.h"
 #include "engine/core/scene.h"
 #include "engine/render/quantity.h"
-#include "engine/render/tone.h"
+#include "engine/render/shade.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -5,7 +5,6 @@
 #include "engine/core/point_cloud.h"
 #include "engine/evaluation/metrics.h"
 #include "engine/render/shade.h"
-#include "engine/render/tone.h"
 
 #include <filesystem>
 #include <optional>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/indices.h"
-#include "engine/render/tone.h"
+#include "engine/render/shade.h"
 
 #include <QColor>
 #include <QString>

@@ -12,7 +12,6 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/render/shade.h"
-#include "engine/render/tone.h"
 #include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"

@@ -7,7 +7,7 @@
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
-#include "engine/render/tone.h"
+#include "engine/render/shade.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/text.h"
 #include "widgets/panels/value_bar.h"
