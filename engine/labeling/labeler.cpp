@@ -6,7 +6,6 @@
 #include "engine/core/parallel.h"
 #include "engine/core/progress.h"
 #include "engine/cuda/device.h"
-#include "engine/labeling/device_labeling.h"
 #include "engine/labeling/edge_probability.h"
 #include "engine/labeling/forest.h"
 #include "engine/labeling/pixel_features.h"

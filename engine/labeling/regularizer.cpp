@@ -3,7 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/labeling/device_labeling.h"
 #include "engine/labeling/ray_labeling.h"
 #include "engine/labeling/ray_targets.h"
 #include "engine/labeling/ray_vote.h"
