@@ -4,7 +4,6 @@
 #include "engine/scenes/draw.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace episcope::scenes {
 namespace {
