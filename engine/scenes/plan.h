@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/indices.h"
-#include "engine/scenes/draw.h"
 #include "engine/scenes/random_kind.h"
 #include "engine/scenes/stage.h"
 

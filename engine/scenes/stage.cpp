@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/scenes/stage.h"
 
-#include "engine/scenes/draw.h"
-
 #include <algorithm>
 
 namespace episcope::scenes {

@@ -3,7 +3,6 @@
 
 #include "engine/core/image.h"
 #include "engine/core/scene.h"
-#include "engine/scenes/draw.h"
 #include "engine/scenes/stage.h"
 
 #include <cstdint>
