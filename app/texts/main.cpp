@@ -12,7 +12,7 @@
 #include "engine/labeling/labeler.h"
 #include "engine/render/quantity.h"
 #include "engine/scenes/builtin.h"
-#include "engine/scenes/random_kind.h"
+#include "engine/scenes/plan.h"
 
 #include <cstdint>
 #include <exception>

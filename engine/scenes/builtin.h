@@ -3,7 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/scenes/random_kind.h"
+#include "engine/scenes/plan.h"
 
 #include <string>
 #include <vector>
