@@ -5,7 +5,6 @@
 #include "engine/core/indices.h"
 #include "engine/core/numbers.h"
 #include "engine/core/text_table.h"
-#include "engine/io/models/order/grey_picture.h"
 #include "engine/io/models/order/line_matches.h"
 #include "engine/io/models/order/warp_check.h"
 

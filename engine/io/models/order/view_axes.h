@@ -4,7 +4,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/io/models/order/grey_picture.h"
+#include "engine/io/models/order/warp_check.h"
 
 #include <array>
 #include <string>
