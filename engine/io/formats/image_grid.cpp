@@ -8,7 +8,6 @@
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/base/image_orientation.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
