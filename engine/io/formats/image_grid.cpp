@@ -12,7 +12,7 @@
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/names/grid_names.h"
-#include "engine/io/models/names/name_parts.h"
+#include "engine/io/models/names/index_fields.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/open_options.h"

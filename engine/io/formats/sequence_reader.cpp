@@ -5,7 +5,6 @@
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/names/index_fields.h"
-#include "engine/io/models/names/name_parts.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/reader.h"
 
