@@ -8,7 +8,7 @@
 #include "engine/io/base/append_log.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/base/ply.h"
-#include "engine/io/formats/companions.h"
+#include "engine/io/formats/archive_reader.h"
 #include "engine/io/formats/movie.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
