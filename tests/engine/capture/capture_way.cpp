@@ -4,7 +4,6 @@
 #include "engine/capture/calibrate.h"
 #include "engine/capture/demo_folder.h"
 #include "engine/capture/mesh_file.h"
-#include "engine/capture/photograph.h"
 
 #include "tests/engine/capture/exact_rays.h"
 
