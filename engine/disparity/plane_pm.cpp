@@ -9,7 +9,6 @@
 #include "engine/core/progress.h"
 #include "engine/core/view_gain.h"
 #include "engine/disparity/carried_run.h"
-#include "engine/disparity/cost_volume.h"
 #include "engine/disparity/denoise.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/matching_cost.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/cost_volume.h"
+#include "engine/disparity/visible_costs.h"
 
 #include "engine/core/image.h"
 #include "engine/disparity/registry.h"
