@@ -24,7 +24,6 @@
 #include "app/gui/files/collection_controller.h"
 #include "app/gui/files/file_controller.h"
 #include "app/gui/files/project_controller.h"
-#include "app/gui/files/scene_chooser.h"
 #include "app/gui/shell/appearance.h"
 #include "app/gui/shell/command_palette.h"
 #include "app/gui/shell/commands.h"

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+class QComboBox;
+
 namespace episcope {
 
 class Autosave;
@@ -98,6 +100,38 @@ class ProjectGuard : public QObject {
   int settled_jobs_ = 0;     // that ran when the user said so:
   bool is_settled_ = false;  // what is there now may go
   QPointer<QMessageBox> question_;
+};
+
+/// The list of open light fields, which switches between them.
+class SceneChooser : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit SceneChooser(const Workbench& bench);
+
+ private:
+  void addCommands();
+  void fill();
+
+  Workbench bench_;
+  QComboBox* list_;
+};
+
+/// Titles the window after light field and project; a star marks unsaved scribbles or project
+/// changes.
+class WindowTitle : public QObject {
+  Q_OBJECT
+
+ public:
+  WindowTitle(const Workbench& bench, const Autosave& autosave, const ProjectController& project);
+
+ private:
+  void show();
+  void mark();
+
+  Workbench bench_;
+  const Autosave& autosave_;
+  const ProjectController& project_;
 };
 
 }  // namespace episcope
