@@ -10,7 +10,6 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
-#include "app/gui/shell/keyboard_home.h"
 #include "app/gui/shell/panes.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
