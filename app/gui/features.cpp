@@ -5,7 +5,6 @@
 #include "app/gui/annotate/annotation_files.h"
 #include "app/gui/annotate/label_controller.h"
 #include "app/gui/annotate/label_review.h"
-#include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/browse/browse_controller.h"
 #include "app/gui/browse/cloud_controller.h"
