@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/capture_controller.h"
 
-#include "app/gui/capture/capture_documents.h"
 #include "app/gui/capture/photographs.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/viewer_area.h"
