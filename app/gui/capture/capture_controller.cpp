@@ -8,7 +8,7 @@
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
-#include "app/session/gantry_scene.h"
+#include "app/session/load_scene.h"
 #include "app/session/scene_summary.h"
 #include "app/session/session.h"
 #include "engine/capture/alignment.h"

@@ -3,7 +3,7 @@
 
 #include "app/gui/shell/workbench.h"
 #include "app/session/capture_work.h"
-#include "app/session/gantry_scene.h"
+#include "app/session/load_scene.h"
 #include "engine/capture/calibrate.h"
 #include "engine/capture/demo_folder.h"
 #include "engine/capture/mesh_file.h"

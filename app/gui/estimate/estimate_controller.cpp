@@ -9,7 +9,7 @@
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/command_line.h"
-#include "app/session/gantry_scene.h"
+#include "app/session/load_scene.h"
 #include "app/session/result_files.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/models/external_result.h"
