@@ -36,7 +36,7 @@ struct LoadOptions {
 /// Opens anything that a user can name: `demo`, `demo:<scene>`, `demo:random?seed=7`, or a path
 /// that `io::open_scene` opens. The light field's `source` is what opens it again. A built-in scene
 /// is read from the cache where it is there and whole, else rendered; `store_in_cache` keeps it for
-/// the next time, but for the gantry, which is kept at once (gantry_scene.h). Throws IoError,
+/// the next time, but for the gantry, which is kept at once. Throws IoError,
 /// IsCollection for a folder of several light fields, Unavailable for an unknown built-in scene,
 /// InvalidInput for what cannot be read behind its '?', Cancelled.
 [[nodiscard]] Scene load_scene(const std::string& input, const LoadOptions& options,
@@ -54,7 +54,7 @@ void store_in_cache(const std::string& input, const Scene& scene,
                                const Progress& progress);
 
 /// All that can follow `demo:`: the built-in scenes, which have ground truth, and the gantry
-/// (gantry_scene.h), before the random one.
+///, before the random one.
 [[nodiscard]] std::vector<scenes::BuiltinSceneInfo> builtin_inputs();
 
 /// Throws Unavailable for an unknown scene, naming the nearest and all, and InvalidInput for

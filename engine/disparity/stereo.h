@@ -73,7 +73,7 @@ struct StereoGlobalParameters {
 [[nodiscard]] Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views);
 
 /// min Σ ρ(x, u) + λ ρ̄ Σ g |∇u| for one view: ρ the matching costs of the local methods, ρ̄ their
-/// mean near each pixel's best label (cost_volume.h), whatever the range, u among the labels
+/// mean near each pixel's best label (visible_costs.h), whatever the range, u among the labels
 /// (label_globally). Each pixel then settles
 /// between labels, towards the parabola through the costs of its label and the two neighboring
 /// labels, weighted by confidence², and islands are filled (engine/disparity/denoise.h).
