@@ -53,8 +53,8 @@ void store_in_cache(const std::string& input, const Scene& scene,
 [[nodiscard]] Scene open_input(const std::string& input, io::OpenOptions open, bool needs_truth,
                                const Progress& progress);
 
-/// All that can follow `demo:`: the built-in scenes, which have ground truth, and the gantry
-///, before the random one.
+/// All that can follow `demo:`: the built-in scenes, which have ground truth, and the gantry,
+/// before the random one.
 [[nodiscard]] std::vector<scenes::BuiltinSceneInfo> builtin_inputs();
 
 /// Throws Unavailable for an unknown scene, naming the nearest and all, and InvalidInput for
