@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/scene_runs.h"
 
-#include "app/benchmark/run_log.h"
 #include "app/benchmark/scene_files.h"
 #include "app/session/judge.h"
 #include "app/session/label_review.h"

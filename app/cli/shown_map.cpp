@@ -2,7 +2,6 @@
 #include "app/cli/shown_map.h"
 
 #include "app/cli/arguments.h"
-#include "app/cli/input.h"
 #include "app/session/labeling_inputs.h"
 #include "app/session/project_file.h"
 #include "app/session/result_files.h"

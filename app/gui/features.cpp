@@ -28,7 +28,6 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/panes.h"
-#include "app/gui/shell/workbench.h"
 #include "engine/core/version.h"
 #include "widgets/controls/tool_button.h"
 #include "widgets/panels/brush_panel.h"

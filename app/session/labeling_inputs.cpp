@@ -8,7 +8,6 @@
 #include "engine/io/base/files.h"
 #include "engine/io/formats/archive_reader.h"
 #include "engine/labeling/edge_probability.h"
-#include "engine/labeling/labeler.h"
 
 #include <set>
 #include <utility>

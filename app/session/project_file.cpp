@@ -6,7 +6,6 @@
 #include "app/session/judge.h"
 #include "app/session/load_scene.h"
 #include "app/session/result_files.h"
-#include "app/session/sweep.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/base/atomic_file.h"

@@ -20,7 +20,6 @@
 #include "engine/io/formats/mosaic_reader.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/models/external_result.h"
-#include "engine/io/models/map_reading.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/stored_maps.h"
 #include "engine/render/shade.h"

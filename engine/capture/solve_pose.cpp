@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/solve_pose.h"
 
-#include "engine/core/camera_grid.h"
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
 
@@ -15,8 +14,6 @@
 #include <limits>
 #include <optional>
 #include <random>
-#include <span>
-#include <vector>
 
 namespace episcope::capture {
 namespace {

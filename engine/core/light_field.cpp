@@ -4,16 +4,13 @@
 #include "engine/core/error.h"
 #include "engine/core/hash.h"
 #include "engine/core/memory.h"
-#include "engine/core/view_stack.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
 #include <string_view>
-#include <vector>
 
 namespace episcope {
 namespace {

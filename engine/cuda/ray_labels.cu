@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/ray_labels.h"
 
-#include "engine/core/progress.h"
 #include "engine/cuda/device.cuh"
 #include "engine/cuda/simplex_batch.cuh"
 #include "engine/cuda/simplex_moves.cuh"
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
 namespace episcope::cuda {

@@ -16,9 +16,7 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <optional>
 #include <utility>
-#include <vector>
 
 namespace episcope {
 namespace {

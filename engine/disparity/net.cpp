@@ -2,7 +2,6 @@
 #include "engine/disparity/net.h"
 
 #include "engine/core/error.h"
-#include "engine/core/image.h"
 #include "engine/core/isa.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/kernels/net_kernel.h"

@@ -3,7 +3,6 @@
 
 #include "engine/core/parallel.h"
 #include "engine/disparity/kernels/shared_constants.h"
-#include "engine/disparity/stereo_costs.h"
 #include "engine/disparity/view_samples.h"
 #include "engine/disparity/visible_costs.h"
 

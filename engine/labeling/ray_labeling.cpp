@@ -3,12 +3,10 @@
 
 #include "engine/core/parallel.h"
 #include "engine/labeling/ray_kernel.h"
-#include "engine/labeling/ray_targets.h"
 #include "engine/solvers/pair_limits.h"
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace episcope {
 

@@ -5,7 +5,6 @@
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/solvers/shared_constants.h"
-#include "engine/solvers/tv_l2_kernel.h"
 
 #include <fmt/format.h>
 

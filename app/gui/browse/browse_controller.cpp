@@ -11,7 +11,6 @@
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
-#include "engine/render/shade.h"
 #include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
@@ -24,7 +23,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace episcope {

@@ -5,7 +5,6 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
-#include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
 #include "engine/render/shade.h"
 #include "widgets/canvas/view_canvas.h"

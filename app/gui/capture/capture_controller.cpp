@@ -12,7 +12,6 @@
 #include "app/session/scene_summary.h"
 #include "app/session/session.h"
 #include "engine/capture/alignment.h"
-#include "engine/capture/mesh_file.h"
 #include "engine/capture/pose_file.h"
 #include "engine/core/error.h"
 #include "engine/io/formats/write_scene.h"
@@ -25,7 +24,6 @@
 #include <QFileInfo>
 #include <QKeyEvent>
 #include <QLocale>
-#include <QString>
 #include <QVBoxLayout>
 
 #include <array>

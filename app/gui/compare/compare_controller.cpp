@@ -4,7 +4,6 @@
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
-#include "app/session/picture.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/parallel.h"
 #include "widgets/canvas/tile_wall.h"

@@ -11,7 +11,6 @@
 #include "app/session/session.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 #include "widgets/canvas/canvas_geometry.h"
-#include "widgets/canvas/canvas_tool.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/panels/compare_bar.h"
 

@@ -10,7 +10,6 @@
 #include "app/gui/shell/jobs.h"
 #include "app/session/command_line.h"
 #include "app/session/session.h"
-#include "app/session/sweep.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/disparity/registry.h"
@@ -25,7 +24,6 @@
 #include <algorithm>
 #include <functional>
 #include <span>
-#include <string>
 #include <utility>
 
 namespace episcope {

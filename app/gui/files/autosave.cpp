@@ -7,7 +7,6 @@
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/load_scene.h"
-#include "app/session/project_store.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "widgets/controls/message_bar.h"

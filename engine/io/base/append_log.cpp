@@ -3,7 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/files.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -13,13 +13,9 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
-#include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <functional>
 #include <random>
-#include <string>
-#include <string_view>
 
 namespace episcope::io {
 namespace {

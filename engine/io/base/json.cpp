@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/base/json.h"
 
-#include "engine/core/error.h"
-
 #include <nlohmann/json.hpp>
 
 namespace episcope::io {

@@ -13,21 +13,16 @@
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/list_layout.h"
-#include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <optional>
 #include <sstream>
-#include <string>
 #include <utility>
 
 namespace episcope::io {

@@ -2,7 +2,6 @@
 #include "engine/io/formats/benchmark_truth.h"
 
 #include "engine/core/error.h"
-#include "engine/core/scene.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/models/order/order_check.h"
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <set>

@@ -12,7 +12,6 @@
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/open_options.h"
-#include "engine/io/models/reader.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,7 +20,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <string>
 #include <utility>
 
 namespace episcope::io {

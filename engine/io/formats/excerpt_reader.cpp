@@ -6,7 +6,6 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/formats/archive_depth.h"
 #include "engine/io/formats/image_grid.h"
-#include "engine/io/models/reader.h"
 
 #include <fmt/format.h>
 

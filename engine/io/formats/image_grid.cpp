@@ -10,25 +10,18 @@
 #include "engine/io/base/image_header.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/models/assemble_scene.h"
-#include "engine/io/models/load_views.h"
 #include "engine/io/models/names/grid_names.h"
 #include "engine/io/models/names/index_fields.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/view_axes.h"
-#include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/find_maps.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace episcope::io {
 namespace {

@@ -14,17 +14,13 @@
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/names/view_folders.h"
-#include "engine/io/models/open_options.h"
-#include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <sstream>
-#include <string>
 #include <string_view>
 #include <vector>
 

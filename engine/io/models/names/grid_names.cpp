@@ -8,8 +8,6 @@
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/names/view_folders.h"
-#include "engine/io/models/names/view_names.h"
-#include "engine/io/models/open_options.h"
 #include "engine/io/models/order/list_layout.h"
 #include "engine/io/models/poses.h"
 

@@ -2,7 +2,6 @@
 #include "engine/io/models/order/sign_check.h"
 
 #include "engine/core/numbers.h"
-#include "engine/io/models/order/line_matches.h"
 
 #include <fmt/format.h>
 

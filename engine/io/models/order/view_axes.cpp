@@ -6,7 +6,6 @@
 #include "engine/core/numbers.h"
 #include "engine/core/text_table.h"
 #include "engine/io/models/order/line_matches.h"
-#include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +14,6 @@
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace episcope::io {
 namespace {

@@ -13,7 +13,6 @@
 #include <optional>
 #include <random>
 #include <utility>
-#include <vector>
 
 namespace episcope::io {
 

@@ -6,13 +6,11 @@
 #include "engine/io/base/files.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/map_reading.h"
-#include "engine/io/models/sidecar_maps/map_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cstdint>
 #include <optional>
 #include <tuple>
 #include <utility>

@@ -16,7 +16,6 @@
 #include <map>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 namespace episcope::io {
 namespace {
