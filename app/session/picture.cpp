@@ -2,9 +2,9 @@
 #include "app/session/picture.h"
 
 #include "engine/core/disparity_field.h"
-#include "engine/core/epi.h"
 #include "engine/core/error.h"
 #include "engine/core/image.h"
+#include "engine/core/light_field.h"
 #include "engine/io/base/ply.h"
 #include "engine/io/formats/movie.h"
 

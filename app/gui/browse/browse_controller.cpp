@@ -7,7 +7,6 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
-#include "engine/core/epi.h"
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
