@@ -2,8 +2,8 @@
 #include "engine/disparity/estimator.h"
 
 #include "engine/core/error.h"
+#include "engine/core/light_field.h"
 #include "engine/core/version.h"
-#include "engine/core/view_places.h"
 #include "engine/cuda/device.h"
 #include "engine/disparity/disparity_range.h"
 
