@@ -3,7 +3,7 @@
 
 #include "engine/core/image.h"
 #include "engine/core/indices.h"
-#include "engine/core/label_info.h"
+#include "engine/core/scene.h"
 
 #include <cstdint>
 #include <memory>

@@ -6,7 +6,6 @@
 #include "app/session/session.h"
 #include "engine/core/estimate.h"
 #include "engine/core/image.h"
-#include "engine/core/label_info.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
 #include "engine/evaluation/metrics.h"

@@ -3,7 +3,6 @@
 
 #include "annotation/scribble_layer.h"
 #include "engine/core/jobs.h"
-#include "engine/core/label_info.h"
 #include "engine/core/parameter.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"

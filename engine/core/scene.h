@@ -4,11 +4,11 @@
 #include "engine/core/disparity_field.h"
 #include "engine/core/estimate.h"
 #include "engine/core/image.h"
-#include "engine/core/label_info.h"
 #include "engine/core/light_field.h"
 #include "engine/core/view_gain.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -18,6 +18,20 @@
 #include <vector>
 
 namespace episcope {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+/// Name and color of a label.
+struct LabelInfo {
+  int id = 0;        ///< From 1; 0 is "none".
+  std::string name;  ///< UTF-8, one line.
+  Rgb color{};
+  friend bool operator==(const LabelInfo&, const LabelInfo&) = default;
+};
+
+/// Default color of a label id: a fixed palette for 1 … 20, well separated also for those who
+/// cannot tell all colors apart, further ones by hue. Black for 0 and negative ids.
+[[nodiscard]] Rgb label_color(std::int32_t id);
 
 /// Scenes of the 2016 benchmark with metrics of their own.
 enum class StratifiedScene { None, Backgammon, Dots, Pyramids, Stripes };

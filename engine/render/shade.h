@@ -3,8 +3,8 @@
 
 #include "engine/core/disparity_field.h"
 #include "engine/core/image.h"
-#include "engine/core/label_info.h"
 #include "engine/core/light_field.h"
+#include "engine/core/scene.h"
 #include "engine/render/quantity.h"
 
 #include <array>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/label_info.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/core/view_stack.h"

@@ -3,9 +3,9 @@
 
 #include "engine/core/image.h"
 #include "engine/core/indices.h"
-#include "engine/core/label_info.h"
 #include "engine/core/parameter.h"
 #include "engine/core/progress.h"
+#include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
 
 #include <cstdint>
