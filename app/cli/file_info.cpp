@@ -6,7 +6,7 @@
 #include "app/session/project_file.h"
 #include "app/session/result_files.h"
 #include "engine/capture/camera.h"
-#include "engine/capture/pose_file.h"
+#include "engine/capture/solve_pose.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/hdf5_file.h"

@@ -4,7 +4,7 @@
 #include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
 #include "engine/capture/mesh_file.h"
-#include "engine/capture/pose_file.h"
+#include "engine/capture/solve_pose.h"
 #include "engine/core/error.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/capture_work.h"
-#include "engine/capture/pose_file.h"
+#include "engine/capture/solve_pose.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

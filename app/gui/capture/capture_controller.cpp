@@ -12,7 +12,7 @@
 #include "app/session/scene_summary.h"
 #include "app/session/session.h"
 #include "engine/capture/alignment.h"
-#include "engine/capture/pose_file.h"
+#include "engine/capture/solve_pose.h"
 #include "engine/core/error.h"
 #include "engine/io/formats/write_scene.h"
 #include "widgets/canvas/view_canvas.h"

@@ -3,7 +3,7 @@
 
 #include "app/session/project_file.h"
 #include "engine/capture/camera.h"
-#include "engine/capture/pose_file.h"
+#include "engine/capture/solve_pose.h"
 #include "engine/core/point_cloud.h"
 #include "engine/io/base/append_log.h"
 #include "engine/io/base/pfm.h"
