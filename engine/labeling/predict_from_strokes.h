@@ -7,8 +7,8 @@
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/labeling/forest.h"
-#include "engine/labeling/label_probabilities.h"
 #include "engine/labeling/label_surfaces.h"
+#include "engine/labeling/ray_labeling.h"
 
 #include <cstdint>
 #include <vector>

@@ -4,7 +4,6 @@
 #include "engine/core/progress.h"
 #include "engine/cuda/forest_votes.h"
 #include "engine/labeling/forest_kernel.h"
-#include "engine/labeling/label_probabilities.h"
 #include "engine/labeling/ray_labeling.h"
 #include "engine/solvers/simplex_labeling.h"
 
