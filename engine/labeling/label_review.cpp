@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/labeling/ray_targets.h"
+#include "engine/labeling/ray_labeling.h"
 
 #include <opencv2/imgproc.hpp>
 

@@ -3,7 +3,7 @@
 
 #include "engine/core/disparity_field.h"
 #include "engine/core/progress.h"
-#include "engine/labeling/ray_targets.h"
+#include "engine/labeling/ray_labeling.h"
 
 #include <cstdint>
 
