@@ -7,7 +7,6 @@
 #include "engine/cuda/tgv_l2.h"
 #include "engine/cuda/tv_l2.h"
 #include "engine/solvers/message_labeling.h"
-#include "engine/solvers/tgv_l2.h"
 #include "engine/solvers/tv_l2.h"
 
 #include <fmt/format.h>
