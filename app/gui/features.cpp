@@ -31,10 +31,10 @@
 #include "engine/core/version.h"
 #include "widgets/controls/tool_button.h"
 #include "widgets/panels/brush_panel.h"
-#include "widgets/panels/compare_bar.h"
 #include "widgets/panels/label_palette.h"
 #include "widgets/panels/label_review_panel.h"
 #include "widgets/panels/metric_table.h"
+#include "widgets/panels/overlay_bar.h"
 #include "widgets/panels/statistics_panel.h"
 
 #include <QAbstractItemView>

@@ -10,7 +10,6 @@
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
-#include "widgets/panels/compare_bar.h"
 #include "widgets/panels/overlay_bar.h"
 
 #include <QAction>
