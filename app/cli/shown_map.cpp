@@ -9,7 +9,7 @@
 #include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/io/models/result_file.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 
 #include <algorithm>
 #include <iterator>

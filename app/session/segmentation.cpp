@@ -12,7 +12,7 @@
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/formats/archive_reader.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/labeling/label_review.h"
 
 #include <fmt/format.h>

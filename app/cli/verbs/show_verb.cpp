@@ -11,7 +11,7 @@
 #include "engine/core/text.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/formats/movie.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/render/legend.h"
 #include "engine/render/shade.h"
 

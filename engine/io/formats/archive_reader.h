@@ -5,7 +5,7 @@
 #include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
 #include "engine/io/models/reader.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 
 #include <filesystem>
 #include <memory>

@@ -12,7 +12,6 @@
 #include "engine/io/formats/movie.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
-#include "engine/io/models/segmentation_file.h"
 #include "engine/io/write.h"
 #include "tests/app/session/tiny_scene.h"
 

@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/formats/archive_reader.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/labeling/labeler.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"

@@ -5,7 +5,6 @@
 #include "engine/io/base/npy.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
-#include "engine/io/models/segmentation_file.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 #include "engine/io/open.h"
 #include "tests/engine/io/archive_files.h"
