@@ -2,7 +2,6 @@
 #include "app/benchmark/benchmark.h"
 
 #include "app/benchmark/run_log.h"
-#include "app/benchmark/scene_files.h"
 #include "app/benchmark/scene_runs.h"
 #include "app/session/result_files.h"
 #include "engine/core/error.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/report.h"
 
-#include "app/benchmark/scene_files.h"
+#include "app/benchmark/scene_runs.h"
 #include "engine/core/version.h"
 #include "engine/evaluation/parameter_search.h"
 #include "engine/io/base/atomic_file.h"
