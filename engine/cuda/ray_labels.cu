@@ -27,7 +27,7 @@ struct ViewRays {
     return static_cast<long>(height) * width;
   }
   // The pixel of another view at which the ray of pixel (y, x) arrives, −1 if its point is not
-  // seen there: find_ray_targets of engine/labeling/ray_targets.h, to the same bits.
+  // seen there: find_ray_targets of engine/labeling/ray_labeling.h, to the same bits.
   [[nodiscard]] __device__ std::int32_t target(int view, int other, int y, int x) const {
     const long here = view * pixels() + static_cast<long>(y) * width + x;
     const float d = disparity[here];

@@ -124,7 +124,7 @@ struct LabelConsistency {
 /// Follows each ray of each view to every other view in the same row or column of the camera grid,
 /// along the lines of the horizontal and vertical EPI through it, to the nearest pixel there, and
 /// compares the labels. Disparities tell whether the point is visible there
-/// (engine/labeling/ray_targets.h). The nearest pixel of a ray that arrives at the boundary of
+/// (engine/labeling/ray_labeling.h). The nearest pixel of a ray that arrives at the boundary of
 /// an object may belong to the neighbor, so exact labels do not quite reach 1. Views without
 /// disparity are left out. Takes (v + u − 2)·rays steps.
 /// Source: the measure of [WSG13], the fraction of rays whose label equals the label at the warped

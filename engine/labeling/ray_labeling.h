@@ -197,7 +197,7 @@ struct TrackSources {
 
 /// Costs of the labels of one view, each the mean of the costs of the ray itself and of the rays of
 /// the same scene point in other views that have probabilities and disparity
-/// (engine/labeling/ray_targets.h), weighted by the trust in their colors. The floor of the
+///, weighted by the trust in their colors. The floor of the
 /// table limits the influence of a single stray ray. `costs` has the shape of the view's
 /// probabilities. Rows are processed in parallel. Precondition: probabilities and disparity hold
 /// the view. Throws Cancelled.
