@@ -63,7 +63,7 @@ __device__ inline float line_difference(const float* to, const Along& along, con
   return first + end.weight * (second - first) - from;
 }
 
-// As engine/solvers/pair_limits.h.
+// As engine/solvers/ordering_terms.h.
 struct DevicePenalty {
   float rise = 0, fall = 0.1F, softness = 0.05F;
 };

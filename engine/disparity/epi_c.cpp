@@ -6,7 +6,7 @@
 #include "engine/cuda/ordering.h"
 #include "engine/disparity/kernels/line_kernel.h"
 #include "engine/disparity/kernels/shared_constants.h"
-#include "engine/solvers/pair_limits.h"
+#include "engine/solvers/ordering_terms.h"
 #include "engine/solvers/tv_l2.h"
 
 #include <fmt/format.h>

@@ -12,7 +12,7 @@
 #include "engine/disparity/line_check.h"
 #include "engine/disparity/matching_cost.h"
 #include "engine/disparity/structure_tensor.h"
-#include "engine/solvers/pair_limits.h"
+#include "engine/solvers/ordering_terms.h"
 #include "tests/bench/bench_scene.h"
 
 #include <benchmark/benchmark.h>

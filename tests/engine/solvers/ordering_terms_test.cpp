@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/solvers/pair_limits.h"
+#include "engine/solvers/ordering_terms.h"
 #include "tests/test_main.h"
 
 #include <cmath>

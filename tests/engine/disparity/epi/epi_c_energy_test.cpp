@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi_c.h"
-#include "engine/solvers/pair_limits.h"
+#include "engine/solvers/ordering_terms.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 

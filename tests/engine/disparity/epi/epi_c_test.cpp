@@ -2,7 +2,7 @@
 #include "engine/disparity/epi_c.h"
 
 #include "engine/disparity/epi_s.h"
-#include "engine/solvers/pair_limits.h"
+#include "engine/solvers/ordering_terms.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 
