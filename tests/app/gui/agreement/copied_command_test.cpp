@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run of the window and the line of "Copy as command" give the same maps, for every method.
 #include "app/gui/estimate/estimate_controller.h"
+#include "app/gui/estimate/result_export.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/models/result_file.h"
 #include "tests/app/gui/agreement/command_line.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/app/gui/agreement/sample_scene.h"
 
-#include "app/gui/estimate/estimate_controller.h"
+#include "app/gui/estimate/result_export.h"
 #include "app/session/command_line.h"
 #include "app/session/scene_summary.h"
 #include "engine/io/formats/write_scene.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/estimate_controller.h"
+#include "app/gui/estimate/result_export.h"
 #include "app/gui/scene/scene_switcher.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/formats/write_scene.h"
