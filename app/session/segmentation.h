@@ -2,7 +2,6 @@
 #pragma once
 
 #include "annotation/scribble_layer.h"
-#include "engine/core/jobs.h"
 #include "engine/core/parameter.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
