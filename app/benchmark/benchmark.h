@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/benchmark/report.h"
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/disparity/estimator.h"

@@ -6,7 +6,7 @@
 #include "app/session/judge.h"
 #include "app/session/labeling_inputs.h"
 #include "app/session/segmentation.h"
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/labeling/labeler.h"

@@ -3,7 +3,7 @@
 
 #include "app/cli/job.h"
 #include "app/cli/parameter_options.h"
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
 #include "engine/io/models/map_reading.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/python/light_fields.h"
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/disparity/estimator.h"
 
 #include <string>

@@ -7,7 +7,7 @@
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/rectify.h"
 #include "engine/capture/solve_pose.h"
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/indices.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/session/run_estimator.h"
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/indices.h"
 #include "engine/core/light_field.h"
 #include "engine/core/parameter.h"

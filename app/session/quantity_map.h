@@ -4,7 +4,7 @@
 #include "app/session/judge.h"
 #include "app/session/segmentation.h"
 #include "app/session/session.h"
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane_pm.h"
 
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/memory.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"

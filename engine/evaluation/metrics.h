@@ -3,6 +3,7 @@
 
 #include "engine/core/camera_grid.h"
 #include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/core/schema.h"

@@ -4,7 +4,7 @@
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/open_scene.h"
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
 

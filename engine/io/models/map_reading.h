@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/schema.h"
 

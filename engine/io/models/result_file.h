@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/disparity_field.h"
+#include "engine/core/estimate.h"
 #include "engine/core/parameter.h"
 #include "engine/core/progress.h"
 #include "engine/io/base/hdf5_file.h"
