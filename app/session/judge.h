@@ -3,7 +3,7 @@
 
 #include "engine/core/estimate.h"
 #include "engine/core/indices.h"
-#include "engine/core/progress.h"
+#include "engine/core/jobs.h"
 #include "engine/core/scene.h"
 #include "engine/evaluation/metrics.h"
 

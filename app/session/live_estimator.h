@@ -3,11 +3,12 @@
 
 #include "app/session/run_estimator.h"
 #include "engine/core/estimate.h"
+#include "engine/core/view_gain.h"
 #include "engine/core/indices.h"
+#include "engine/core/jobs.h"
 #include "engine/core/light_field.h"
 #include "engine/core/parameter.h"
 #include "engine/core/progress.h"
-#include "engine/core/view_gain.h"
 
 #include <cstdint>
 #include <functional>
@@ -25,7 +26,7 @@ struct LiveRequest {
   std::string method;
   ParameterSet parameters;
   ViewIndex view;
-  PixelRect in_sight{};                       ///< Of the view; empty = all of it.
+  PixelRect in_sight{};  ///< Of the view; empty = all of it.
   std::shared_ptr<EvenViews> even = nullptr;  ///< Of the scene; null: a new one.
   friend bool operator==(const LiveRequest&, const LiveRequest&) = default;
 };

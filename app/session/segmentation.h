@@ -2,6 +2,7 @@
 #pragma once
 
 #include "annotation/scribble_layer.h"
+#include "engine/core/jobs.h"
 #include "engine/core/parameter.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"

@@ -4,7 +4,7 @@
 #include "app/gui/shell/workbench.h"
 #include "app/session/open_scene.h"
 #include "app/session/run_estimator.h"
-#include "engine/core/progress.h"
+#include "engine/core/jobs.h"
 
 #include <QObject>
 

@@ -7,7 +7,7 @@
 #include "app/session/open_scene.h"
 #include "app/session/project_file.h"
 #include "app/session/project_store.h"
-#include "engine/core/progress.h"
+#include "engine/core/jobs.h"
 
 #include <QObject>
 #include <QStringList>

@@ -11,8 +11,8 @@
 #include "app/gui/shell/jobs.h"
 #include "app/session/collections.h"
 #include "app/session/session.h"
+#include "engine/core/jobs.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/panels/scene_panel.h"
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "app/gui/scene/viewer_area.h"
-#include "app/session/picture.h"
 #include "app/session/quantity_map.h"
+#include "app/session/picture.h"
 #include "app/session/session.h"
+#include "engine/core/jobs.h"
 #include "engine/core/light_field.h"
-#include "engine/core/progress.h"
 
 #include <QImage>
 #include <QObject>

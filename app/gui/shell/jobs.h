@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/session/session.h"
+#include "engine/core/jobs.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
 
 #include <QElapsedTimer>
 #include <QObject>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/progress.h"
+#include "engine/core/jobs.h"
 
 #include <deque>
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/progress.h"
+#include "engine/core/jobs.h"
 #include "tests/test_main.h"
 
 #include <condition_variable>
