@@ -3,7 +3,6 @@
 
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/pixel_surface.h"
-#include "engine/capture/solve_pose.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/io/base/atomic_file.h"

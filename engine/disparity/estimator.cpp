@@ -2,7 +2,6 @@
 #include "engine/disparity/estimator.h"
 
 #include "engine/core/error.h"
-#include "engine/core/light_field.h"
 #include "engine/core/version.h"
 #include "engine/cuda/device.h"
 #include "engine/disparity/disparity_range.h"

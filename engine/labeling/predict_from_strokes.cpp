@@ -7,7 +7,6 @@
 #include "engine/labeling/feature_kernel.h"
 #include "engine/labeling/forest_kernel.h"
 #include "engine/labeling/pixel_features.h"
-#include "engine/labeling/ray_labeling.h"
 
 #include <opencv2/imgproc.hpp>
 

@@ -4,7 +4,6 @@
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
 #include "engine/cuda/ray_labels.h"
-#include "engine/labeling/ray_labeling.h"
 
 #include <algorithm>
 #include <cstring>

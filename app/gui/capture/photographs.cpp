@@ -6,7 +6,6 @@
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
-#include "engine/capture/solve_pose.h"
 #include "engine/core/error.h"
 #include "engine/core/parameter.h"
 #include "widgets/controls/parameter_form.h"

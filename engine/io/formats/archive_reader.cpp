@@ -11,7 +11,6 @@
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/order/view_order.h"
-#include "engine/io/models/scribble_file.h"
 #include "engine/io/models/stored_maps.h"
 
 #include <fmt/format.h>

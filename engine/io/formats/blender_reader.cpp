@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/core/progress.h"
-#include "engine/core/scene.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/npy.h"
