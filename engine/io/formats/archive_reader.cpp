@@ -10,7 +10,7 @@
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
-#include "engine/io/models/order/view_order.h"
+#include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/stored_maps.h"
 
 #include <fmt/format.h>

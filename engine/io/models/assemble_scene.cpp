@@ -8,7 +8,6 @@
 #include "engine/io/base/sample_range.h"
 #include "engine/io/models/dark_views.h"
 #include "engine/io/models/order/view_axes.h"
-#include "engine/io/models/order/view_order.h"
 
 #include <fmt/format.h>
 

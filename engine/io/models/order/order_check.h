@@ -7,7 +7,7 @@
 #include "engine/core/scene.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/line_matches.h"
-#include "engine/io/models/order/view_order.h"
+#include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/order/warp_check.h"
 
 #include <optional>
