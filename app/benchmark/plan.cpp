@@ -4,7 +4,6 @@
 #include "app/benchmark/scene_runs.h"
 #include "engine/core/error.h"
 #include "engine/core/version.h"
-#include "engine/io/base/append_log.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"

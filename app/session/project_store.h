@@ -4,7 +4,7 @@
 #include "app/session/project_file.h"
 #include "app/session/session.h"
 #include "engine/core/progress.h"
-#include "engine/io/base/append_log.h"
+#include "engine/io/base/atomic_file.h"
 
 #include <filesystem>
 #include <memory>

@@ -5,7 +5,7 @@
 #include "engine/capture/camera.h"
 #include "engine/capture/solve_pose.h"
 #include "engine/core/point_cloud.h"
-#include "engine/io/base/append_log.h"
+#include "engine/io/base/atomic_file.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/base/ply.h"
 #include "engine/io/formats/archive_reader.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/base/append_log.h"
+#include "engine/io/base/atomic_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/pfm.h"
 #include "engine/io/formats/write_scene.h"
