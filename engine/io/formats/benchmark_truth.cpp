@@ -2,8 +2,8 @@
 #include "engine/io/formats/benchmark_truth.h"
 
 #include "engine/core/error.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/pfm.h"
 #include "engine/io/models/order/order_check.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"

@@ -6,7 +6,7 @@
 #include "engine/capture/solve_pose.h"
 #include "engine/core/point_cloud.h"
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/pfm.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/ply.h"
 #include "engine/io/formats/archive_reader.h"
 #include "engine/io/formats/movie.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/base/pfm.h"
+#include "engine/io/base/exchange_files.h"
 
 #include "engine/core/error.h"
 #include "engine/io/base/atomic_file.h"
