@@ -8,7 +8,6 @@
 #include "engine/core/error.h"
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
-#include "engine/io/base/csv_map.h"
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"

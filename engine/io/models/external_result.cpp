@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/csv_map.h"
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
