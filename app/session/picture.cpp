@@ -5,7 +5,7 @@
 #include "engine/core/error.h"
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
-#include "engine/io/base/ply.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/formats/movie.h"
 
 #include <algorithm>

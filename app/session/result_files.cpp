@@ -13,7 +13,6 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
 #include "engine/io/base/npy.h"
-#include "engine/io/base/ply.h"
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/formats/frames_reader.h"
 #include "engine/io/formats/mosaic_reader.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/image.h"
+#include "engine/core/point_cloud.h"
 
 #include <filesystem>
 
@@ -24,5 +25,12 @@ void write_pfm(const std::filesystem::path& path, ImageView<const float> image);
 /// Writes such a map with commas; numbers read back exactly, NaN and infinite values as nan.
 /// Atomic. Throws IoError.
 void write_csv_map(const std::filesystem::path& path, ImageView<const float> map);
+
+enum class PlyForm { Binary, Text };
+
+/// Writes PLY, axes as `PointCloud`: x to the right, y upwards, the viewer looks along −z.
+/// Triangles become faces. Atomic. Throws IoError, InvalidInput if there is no point.
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud,
+               PlyForm form = PlyForm::Binary);
 
 }  // namespace episcope::io

@@ -2,7 +2,6 @@
 #include "engine/core/error.h"
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/ply.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/open.h"

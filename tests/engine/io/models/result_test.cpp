@@ -4,7 +4,6 @@
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/ply.h"
 #include "engine/io/models/result_file.h"
 #include "tests/test_main.h"
 
