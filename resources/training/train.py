@@ -1,21 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Trains the network in pieces. Each piece goes on where the checkpoint ended.
 
-    train.py --seconds 540 --checkpoint checkpoints [--warm net.npz] [--still] [--decay]
+    train.py --seconds 540 --checkpoint checkpoints [--warm net.npz] [--averaged] [--still] [--rate R] [--end R]
+    torchrun --standalone --nproc-per-node 2 train.py …
 
---warm: starts from released weights. --still: holds BatchNorm still. --decay: the last piece: starts
-from the averaged weights, holds BatchNorm still and lowers the rate to nothing.
+--warm: starts from released weights. --averaged: starts from the averaged weights. --still: holds BatchNorm
+still. --end: the rate falls linearly to this value. With torchrun each card draws scenes of its own, and
+the cards average their gradients.
 """
 import argparse
 import copy
 import csv
 import json
-import math
 import os
 import time
 
 import numpy as np
 import torch
+import torch.distributed as dist
 import torch.nn as nn
 import torch.nn.functional as F
 
@@ -26,6 +28,7 @@ import scenes
 
 SHAPES = ((32, 12), (40, 10), (56, 7))  # labels, scenes a batch
 PARTS = ('volume', 'selection', 'refinement')
+RANK, CARDS = (int(os.environ.get(n, d)) for n, d in (('RANK', 0), ('WORLD_SIZE', 1)))
 
 
 def arguments():
@@ -36,8 +39,9 @@ def arguments():
     p.add_argument('--warm', help='released weights (net.npz) to start from where there is no checkpoint')
     p.add_argument('--still', action='store_true', help='hold BatchNorm still')
     p.add_argument('--times', type=float, default=1., help='scenes a batch, relative to SHAPES')
-    p.add_argument('--decay', action='store_true')
+    p.add_argument('--averaged', action='store_true', help='start from the averaged weights')
     p.add_argument('--rate', type=float, default=1.5e-3)
+    p.add_argument('--end', type=float, help='rate at the end of the piece (default: the same)')
     p.add_argument('--volume-rate', type=float, default=.4, help='of the rate, for the volume')
     p.add_argument('--volume-every', type=int, default=2, help='batches between updates of the volume')
     p.add_argument('--seed', type=int, default=1)
@@ -91,7 +95,7 @@ class Trainer:
         self.net = network.channels_last(network.Net().to(dev))
         self.done = dict(iteration=0, seconds=0., pieces=[])
         path = lambda n: os.path.join(a.checkpoint, n)
-        if a.decay and os.path.exists(path('ema.pt')):
+        if a.averaged and os.path.exists(path('ema.pt')):
             network.load(self.net, torch.load(path('ema.pt'), map_location=dev))
             self.done = json.load(open(path('state.json')))
         elif os.path.exists(path('net.pt')):
@@ -107,15 +111,17 @@ class Trainer:
         if os.path.exists(path('opt.pt')):
             self.opt.load_state_dict(torch.load(path('opt.pt'), map_location=dev))
         self.seed = a.seed * 1000003 + self.done['iteration']
-        torch.manual_seed(self.seed)
-        np.random.seed(self.seed % (1 << 32))
+        np.random.seed(self.seed % (1 << 32))  # the same on all cards: shapes of batches
         without = [w for w in a.without.split(',') if w]
-        self.gen = generator.Generator(self.seed, without=without)
+        self.gen = generator.Generator(self.seed + 500009 * RANK, without=without)
         self.net.train()
         self.kept = None
         if a.warm and not self.done['iteration']:
             self.calibrate()
-        if a.decay or a.still:
+        if CARDS > 1:
+            for v in [*self.net.state_dict().values(), *self.ema.state_dict().values()]:
+                dist.broadcast(v, 0)
+        if a.still:
             for m in self.net.modules():
                 if isinstance(m, export.NORM):
                     m.eval()
@@ -216,6 +222,13 @@ class Trainer:
         with torch.no_grad():
             torch._foreach_lerp_([x for x, _ in pairs], [y for _, y in pairs], share)
 
+    def share_gradients(self):
+        grads = [p.grad for p in self.net.parameters() if p.grad is not None]
+        flat = torch.cat([g.flatten() for g in grads])
+        dist.all_reduce(flat, dist.ReduceOp.AVG)
+        for g, part in zip(grads, flat.split([g.numel() for g in grads])):
+            g.copy_(part.view(g.shape))
+
     def step(self, rate):
         it = self.done['iteration']
         if self.kept is None:
@@ -228,12 +241,14 @@ class Trainer:
             loss = loss + .5 * out['ce'] + .3 * out['peak']
         self.opt.zero_grad(set_to_none=True)
         loss.backward()
+        if CARDS > 1:
+            self.share_gradients()
         for g in self.opt.param_groups:
             g['lr'] = rate * (self.a.volume_rate if g['name'] == 'volume' else 1.)
             nn.utils.clip_grad_norm_(g['params'], 2.)
         self.opt.step()
         if it % 4 == 3:
-            self.average(max(.004, 1 / (it / 4 + 5.)) if not self.a.decay else .008)
+            self.average(.008 if self.a.end == 0 else max(.004, 1 / (it / 4 + 5.)))
         self.done['iteration'] += 1
         return out
 
@@ -261,8 +276,25 @@ def look(net, batches, D=40):
     return {k: np.mean(v, 0) for k, v in total.items()}
 
 
+class Clock:
+    """Seconds since the start; on all cards those of the first."""
+
+    def __init__(self):
+        self.start = time.time()
+        self.group = dist.new_group(backend='gloo') if CARDS > 1 else None
+
+    def __call__(self):
+        elapsed = torch.tensor([time.time() - self.start], dtype=torch.double)
+        if self.group is not None:
+            dist.broadcast(elapsed, 0, group=self.group)
+        return float(elapsed)
+
+
 def main():
     a = arguments()
+    if CARDS > 1:
+        torch.cuda.set_device(int(os.environ['LOCAL_RANK']))
+        dist.init_process_group('nccl', device_id=torch.device('cuda', torch.cuda.current_device()))
     torch.backends.cuda.matmul.allow_tf32 = torch.backends.cudnn.allow_tf32 = True
     torch.backends.cudnn.benchmark = True
     begun = time.time()
@@ -271,18 +303,18 @@ def main():
         setattr(network, name, json.loads(value))
     held_out = procedural(999000 + a.seed)
     t = Trainer(a)
-    watched = scenes.read_all(a.scenes) if a.scenes else []
+    watched = scenes.read_all(a.scenes) if a.scenes and RANK == 0 else []
     print(torch.cuda.get_device_name(), {n: sum(p.numel() for p in getattr(t.net, n).parameters()) for n in PARTS},
           'starts at', t.done['iteration'], 'after %.0f s' % (time.time() - begun), flush=True)
-    first, start, looked, seconds = t.done['iteration'], time.time(), time.time(), t.done['seconds']
+    first, clock, start, looked, seconds = t.done['iteration'], Clock(), time.time(), time.time(), t.done['seconds']
     budget = a.seconds - (start - begun)
     sums, rows, marks = {}, [], {100, 400}
-    while (elapsed := time.time() - start) < budget:
+    while (elapsed := clock()) < budget:
         it = t.done['iteration'] - first
-        rate = a.rate * min(1., (it + 1) / 200)
-        if a.decay:
-            rate *= .5 * (1 + math.cos(math.pi * min(1., elapsed / budget)))
-        out = t.step(rate)
+        rate = a.rate if a.end is None else a.rate + (a.end - a.rate) * max(0., elapsed / budget)
+        out = t.step(rate * min(1., (it + 1) / 200))
+        if RANK:
+            continue
         for k, v in out.items():
             s = sums.setdefault(k, [0., 0])
             s[0], s[1] = s[0] + v.detach(), s[1] + 1
@@ -308,7 +340,11 @@ def main():
                   ' '.join('%s %.3f' % (k, v) for k, v in shown.items()), '| procedural', short(m),
                   '| choosing ' + short(m2) if watched else '', flush=True)
     t.done['pieces'].append(dict(seed=t.seed, iterations=t.done['iteration'] - first, seconds=round(time.time() - start),
-                                 card=torch.cuda.get_device_name(), decay=a.decay))
+                                 card=torch.cuda.get_device_name(), cards=CARDS, rate=a.rate, end=a.end))
+    if CARDS > 1:
+        dist.destroy_process_group()
+    if RANK:
+        return
     out = a.out or a.checkpoint
     t.save(out)
     path = os.path.join(out, 'curve.csv')

@@ -6215,10 +6215,6 @@ s</translation>
         <translation>Bilder werden gelesen</translation>
     </message>
     <message>
-        <source>one and two orientations</source>
-        <translation>eine und zwei Orientierungen</translation>
-    </message>
-    <message>
         <source>Fill islands</source>
         <translation>Inseln füllen</translation>
     </message>
@@ -7661,6 +7657,18 @@ s</translation>
     <message>
         <source>|Error|</source>
         <translation>|Fehler|</translation>
+    </message>
+    <message>
+        <source>Second</source>
+        <translation>Zweite</translation>
+    </message>
+    <message>
+        <source>Shows another disparity that pixels beside silhouettes may have</source>
+        <translation>Zeigt eine andere Disparität, die Pixel an Silhouetten haben können</translation>
+    </message>
+    <message>
+        <source>second disparity</source>
+        <translation>zweite Disparität</translation>
     </message>
 </context>
 </TS>

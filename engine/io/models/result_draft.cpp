@@ -361,9 +361,11 @@ void DraftFile::restore(const std::filesystem::path& path, const std::vector<Fil
 
 BlockMaps DraftFile::read(const MapBlock& block) const {
   const ViewRectangle& views = block.views;
-  const ViewStack<float> empty(views.grid, block.rows(), shape_.maps.width, 1, views.first);
-  BlockMaps maps{{empty, {}}, empty};
-  if (shape_.has_second) maps.second.disparity = empty;
+  const auto empty = [&] {
+    return ViewStack<float>(views.grid, block.rows(), shape_.maps.width, 1, views.first);
+  };
+  BlockMaps maps{{empty(), {}}, empty()};
+  if (shape_.has_second) maps.second.disparity = empty();
   for (const Place& place : places_) {
     if (place.map == DraftMap::Valid) continue;
     for (int i = 0; i < views.grid.count(); ++i) {

@@ -9,6 +9,7 @@
 #include <QFile>
 #include <QTemporaryDir>
 
+#include <algorithm>
 #include <cmath>
 #include <stop_token>
 
@@ -40,6 +41,13 @@ double share_of_bad(const ImageView<const float>& found, const DisparityView& tr
     }
   }
   return static_cast<double>(bad) / all;
+}
+
+// Whether a pixel of the row within four columns has this disparity.
+bool is_near(const ImageView<const float>& truth, int y, int x, float disparity) {
+  const int end = std::min(x + 5, truth.width);
+  return std::any_of(&truth.at(y, std::max(x - 4, 0)), truth.row(y) + end,
+                     [&](float each) { return std::abs(each - disparity) < 0.15F; });
 }
 
 // The sentence that a run with this file of weights gives; empty if it runs.
@@ -101,27 +109,25 @@ void NetMethodTest::silhouettes_areChosen() {
 }
 
 void NetMethodTest::secondDisparities_areTheOtherSide() {
-  const Estimate estimate = estimated({});
+  const Scene bars = render("bars", 64, 64);
+  const ViewIndex view = bars.light_field->center();
 
-  const ViewIndex view = scene().light_field->center();
+  const Estimate estimate =
+      estimate_by_net(*bars.light_field, {}, ViewSelection::Center, Progress());
+
   const DisparityView second = estimate.second.view(view), own = estimate.field.view(view);
-  const DisparityView truth = scene().truth->field.view(view);
-  int found = 0;
+  int found = 0, true_surfaces = 0;
   for (int y = 0; y < second.disparity.height; ++y) {
     for (int x = 0; x < second.disparity.width; ++x) {
       if (!second.is_valid(y, x)) continue;
+      const float other = second.disparity.at(y, x);
+      QVERIFY(std::abs(other - own.disparity.at(y, x)) > 0.2);
       ++found;
-      QVERIFY(std::abs(second.disparity.at(y, x) - own.disparity.at(y, x)) > 0.2);
-      // One of the two surfaces is within two columns.
-      double nearest = 9;
-      for (int at = std::max(x - 4, 0); at <= std::min(x + 4, second.disparity.width - 1); ++at) {
-        nearest = std::min<double>(nearest,
-                                   std::abs(truth.disparity.at(y, at) - second.disparity.at(y, x)));
-      }
-      QVERIFY2(nearest < 0.15, qPrintable(QString("%1 at %2, %3").arg(nearest).arg(x).arg(y)));
+      true_surfaces += is_near(bars.truth->field.view(view).disparity, y, x, other) ? 1 : 0;
     }
   }
-  QVERIFY(found > 0);
+  QVERIFY2(found >= 20 && true_surfaces >= 0.9 * found,
+           qPrintable(QString("%1 of %2").arg(true_surfaces).arg(found)));
   QVERIFY(estimated({}, ViewSelection::All).second.empty());
 }
 
