@@ -43,10 +43,6 @@ inline void store_halves(const TvL2Level& level, float* plane, long at, Halves v
   store(plane + at, values.even);
   store(plane + at + level.odd, values.odd);
 }
-/// The neighbors to the right.
-inline Halves load_right(const TvL2Level& level, const float* plane, long at) {
-  return {load(plane + at + level.odd), load(plane + at + 1)};
-}
 /// The neighbors to the left.
 inline Halves load_left(const TvL2Level& level, const float* plane, long at) {
   return {load(plane + at + level.odd - 1), load(plane + at)};

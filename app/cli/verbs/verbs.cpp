@@ -41,12 +41,11 @@ std::string program_help() {
   for (const Verb& verb : verbs()) {
     text += fmt::format("  {:<{}}  {}\n", verb.name, longest, verb.summary);
   }
-  text += fmt::format("  {:<{}}  {}\n", "help VERB", longest, "Tell the options of a verb") +
-          fmt::format("  {:<{}}  {}\n", "help reading", longest,
-                      "Tell how INPUT can be read otherwise");
   text +=
       "\nOptions:\n  -h,--help   Print this help, or after a verb its help, and exit\n"
-      "  --version   Print version, commit and libraries, and exit\n\nExample:\n";
+      "  --version   Print version, commit and libraries, and exit\n\nMore help:\n"
+      "  help VERB     Tell the options of a verb\n"
+      "  help reading  Tell how INPUT can be read otherwise\n\nExample:\n";
   return text + kProgramExample;
 }
 

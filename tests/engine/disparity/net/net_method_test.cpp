@@ -43,11 +43,16 @@ double share_of_bad(const ImageView<const float>& found, const DisparityView& tr
   return static_cast<double>(bad) / all;
 }
 
-// Whether a pixel of the row within four columns has this disparity.
+// Whether a pixel within four rows and columns has this disparity.
 bool is_near(const ImageView<const float>& truth, int y, int x, float disparity) {
   const int end = std::min(x + 5, truth.width);
-  return std::any_of(&truth.at(y, std::max(x - 4, 0)), truth.row(y) + end,
-                     [&](float each) { return std::abs(each - disparity) < 0.15F; });
+  for (int row = std::max(y - 4, 0); row < std::min(y + 5, truth.height); ++row) {
+    if (std::any_of(&truth.at(row, std::max(x - 4, 0)), truth.row(row) + end,
+                    [&](float each) { return std::abs(each - disparity) < 0.15F; })) {
+      return true;
+    }
+  }
+  return false;
 }
 
 // The sentence that a run with this file of weights gives; empty if it runs.
@@ -126,7 +131,7 @@ void NetMethodTest::secondDisparities_areTheOtherSide() {
       true_surfaces += is_near(bars.truth->field.view(view).disparity, y, x, other) ? 1 : 0;
     }
   }
-  QVERIFY2(found >= 20 && true_surfaces >= 0.9 * found,
+  QVERIFY2(found >= 20 && true_surfaces >= 0.95 * found,
            qPrintable(QString("%1 of %2").arg(true_surfaces).arg(found)));
   QVERIFY(estimated({}, ViewSelection::All).second.empty());
 }
