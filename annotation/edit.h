@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/label_set.h"
 #include "annotation/scribble_layer.h"
 
 #include <cstdint>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "annotation/exchange.h"
 
-#include "annotation/document.h"
 #include "engine/core/error.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "annotation/propagate.h"
 
-#include "engine/core/disparity_field.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 

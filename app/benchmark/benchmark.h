@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/benchmark/report.h"
+#include "engine/core/estimate.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/disparity/estimator.h"
@@ -20,7 +21,7 @@ namespace episcope {
 struct BenchmarkOptions {
   std::vector<std::string> inputs;
   std::vector<Estimator> methods;
-  std::vector<std::filesystem::path> submissions;  ///< Folders, see submission.h.
+  std::vector<std::filesystem::path> submissions;  ///< Folders.
   io::MapReading map_reading{};                    ///< Of their maps.
   std::filesystem::path folder;                    ///< Where everything is written.
   /// Views of the runs for the tables: all gives the times of figure 8. Points of a search always
@@ -71,5 +72,25 @@ class Workload {
   std::vector<double> ends_;  ///< Expected seconds up to the end of each item.
   std::size_t done_ = 0;
 };
+
+/// Results of another program in a folder: a map for each scene, anywhere below it, named after the
+/// scene (`cotton.pfm`, `disp_maps/cotton.h5`) or alone in a folder of that name
+/// (`cotton/result.tif`); upper and lower case do not matter. Maps are of any form
+/// that `read_result_of` reads. Seconds come from a result file, else from a text file named
+/// after the scene (`runtimes/cotton.txt`, `cotton.txt`) whose first word is a number.
+
+/// The folder's own name.
+[[nodiscard]] std::string submission_name(const std::filesystem::path& folder);
+
+/// Throws IoError unless `folder` is a folder.
+void check_submission(const std::filesystem::path& folder);
+
+/// The map for the light field of a scene, empty if the submission has none. Its notes tell whether
+/// another reading fits far better (find_better_reading), or else whether values lie beyond ±20 px,
+/// which no densely sampled light field has. Throws IoError, InvalidInput if it cannot be read, if
+/// there are several, if size or views do not fit, or if the view holds no finite value.
+[[nodiscard]] std::optional<Estimate> read_submission(const std::filesystem::path& folder,
+                                                      const Scene& scene,
+                                                      const io::MapReading& reading = {});
 
 }  // namespace episcope

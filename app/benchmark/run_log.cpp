@@ -4,7 +4,6 @@
 #include "app/session/judge.h"
 #include "engine/core/error.h"
 #include "engine/core/version.h"
-#include "engine/io/base/append_log.h"
 #include "engine/io/base/json.h"
 
 #include <nlohmann/json.hpp>

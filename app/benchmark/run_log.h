@@ -8,7 +8,7 @@
 #include "engine/core/schema.h"
 #include "engine/disparity/estimator.h"
 #include "engine/evaluation/benchmark_tables.h"
-#include "engine/io/base/append_log.h"
+#include "engine/io/base/atomic_file.h"
 
 #include <filesystem>
 #include <map>

@@ -6,24 +6,22 @@
 #include "app/session/project_file.h"
 #include "app/session/result_files.h"
 #include "engine/capture/camera.h"
-#include "engine/capture/pose_file.h"
+#include "engine/capture/solve_pose.h"
 #include "engine/core/error.h"
 #include "engine/core/hash.h"
 #include "engine/core/text.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_file.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 
 namespace episcope::cli {

@@ -8,8 +8,8 @@
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
-#include "engine/io/models/label_list.h"
 #include "engine/io/models/reader.h"
+#include "engine/io/models/scribble_file.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,6 @@
 #include "app/cli/shown_map.h"
 
 #include "app/cli/arguments.h"
-#include "app/cli/input.h"
 #include "app/session/labeling_inputs.h"
 #include "app/session/project_file.h"
 #include "app/session/result_files.h"
@@ -10,7 +9,7 @@
 #include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/io/models/result_file.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 
 #include <algorithm>
 #include <iterator>

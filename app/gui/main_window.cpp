@@ -10,9 +10,7 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
-#include "app/gui/shell/keyboard_home.h"
 #include "app/gui/shell/panes.h"
-#include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
 #include "engine/core/parallel.h"
 #include "widgets/canvas/view_canvas.h"
@@ -20,7 +18,6 @@
 #include <QByteArray>
 #include <QCloseEvent>
 #include <QDialog>
-#include <QMainWindow>
 #include <QMenuBar>
 #include <QObject>
 #include <QPointer>
@@ -32,7 +29,6 @@
 
 #include <algorithm>
 #include <latch>
-#include <memory>
 #include <vector>
 
 namespace episcope {

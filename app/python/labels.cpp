@@ -9,7 +9,7 @@
 #include "app/session/result_files.h"
 #include "app/session/segmentation.h"
 #include "engine/core/error.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/labeling/labeler.h"
 
 #include <pybind11/stl.h>

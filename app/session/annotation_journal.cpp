@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/annotation_journal.h"
 
-#include "annotation/edit_encoding.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
-#include "engine/io/base/append_log.h"
 #include "engine/io/base/files.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "annotation/document.h"
-#include "engine/io/base/append_log.h"
+#include "engine/io/base/atomic_file.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -2,7 +2,6 @@
 #include "app/session/collections.h"
 
 #include "app/session/load_scene.h"
-#include "engine/core/error.h"
 #include "engine/core/hash.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/reader.h"
@@ -17,7 +16,6 @@
 #include <stop_token>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 namespace episcope {
 namespace {

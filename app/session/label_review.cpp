@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/label_review.h"
 
-#include "engine/core/epi.h"
-#include "engine/labeling/consistency.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <vector>
 
 namespace episcope {
 

@@ -4,7 +4,7 @@
 #include "app/session/picture.h"
 #include "app/session/segmentation.h"
 #include "engine/core/disparity_field.h"
-#include "engine/core/epi.h"
+#include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/evaluation/label_quality.h"

@@ -6,9 +6,8 @@
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/base/files.h"
-#include "engine/io/formats/companions.h"
+#include "engine/io/formats/archive_reader.h"
 #include "engine/labeling/edge_probability.h"
-#include "engine/labeling/labeler.h"
 
 #include <set>
 #include <utility>

@@ -5,8 +5,8 @@
 #include "engine/core/estimate.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/labeling/label_probabilities.h"
 #include "engine/labeling/labeler.h"
+#include "engine/labeling/ray_labeling.h"
 
 #include <filesystem>
 #include <memory>

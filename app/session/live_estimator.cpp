@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/live_estimator.h"
 
-#include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
 #include "engine/core/shear.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/registry.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <memory>
-#include <optional>
 #include <utility>
 
 namespace episcope {

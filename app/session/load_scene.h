@@ -2,6 +2,8 @@
 #pragma once
 
 #include "app/session/user_folders.h"
+#include "engine/capture/calibrate.h"
+#include "engine/capture/demo_folder.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/io/models/open_options.h"
@@ -27,14 +29,14 @@ struct LoadOptions {
 /// `demo:<scene>`, which `scenes::read_request` reads; else empty.
 [[nodiscard]] std::string builtin_scene_id(const std::string& input);
 
-/// Id of the reader of an input (engine/io/models/reader.h), "builtin" for built-in scenes; empty if
-/// nobody reads it. Throws IoError if it is not there or damaged.
+/// Id of the reader of an input (engine/io/models/reader.h), "builtin" for built-in scenes; empty
+/// if nobody reads it. Throws IoError if it is not there or damaged.
 [[nodiscard]] std::string reader_of(const std::string& input, const io::OpenOptions& options);
 
 /// Opens anything that a user can name: `demo`, `demo:<scene>`, `demo:random?seed=7`, or a path
 /// that `io::open_scene` opens. The light field's `source` is what opens it again. A built-in scene
 /// is read from the cache where it is there and whole, else rendered; `store_in_cache` keeps it for
-/// the next time, but for the gantry, which is kept at once (gantry_scene.h). Throws IoError,
+/// the next time, but for the gantry, which is kept at once. Throws IoError,
 /// IsCollection for a folder of several light fields, Unavailable for an unknown built-in scene,
 /// InvalidInput for what cannot be read behind its '?', Cancelled.
 [[nodiscard]] Scene load_scene(const std::string& input, const LoadOptions& options,
@@ -51,8 +53,8 @@ void store_in_cache(const std::string& input, const Scene& scene,
 [[nodiscard]] Scene open_input(const std::string& input, io::OpenOptions open, bool needs_truth,
                                const Progress& progress);
 
-/// All that can follow `demo:`: the built-in scenes, which have ground truth, and the gantry
-/// (gantry_scene.h), before the random one.
+/// All that can follow `demo:`: the built-in scenes, which have ground truth, and the gantry,
+/// before the random one.
 [[nodiscard]] std::vector<scenes::BuiltinSceneInfo> builtin_inputs();
 
 /// Throws Unavailable for an unknown scene, naming the nearest and all, and InvalidInput for
@@ -86,5 +88,37 @@ class SceneCache {
  private:
   std::filesystem::path folder_;
 };
+
+/// Id of the synthetic gantry, `demo:gantry`: a light field of photographs that are not rectified.
+inline constexpr const char* kGantryScene = "gantry";
+
+/// Whether what follows `demo:` is the gantry, with options or without.
+[[nodiscard]] bool is_gantry(const std::string& id);
+
+/// Options as of other built-in scenes: seed, size, grid, noise. Throws InvalidInput.
+[[nodiscard]] capture::DemoOptions gantry_options(const std::string& id);
+
+/// Files of the gantry, in a folder of the cache.
+struct GantryFolder {
+  std::filesystem::path path;
+
+  [[nodiscard]] std::filesystem::path photographs() const { return path / "photographs"; }
+  /// Of the calibration pattern (capture::demo_pattern), by name.
+  [[nodiscard]] std::vector<std::filesystem::path> pattern() const;
+  [[nodiscard]] std::filesystem::path mesh() const { return path / "mesh.ply"; }
+  /// Points that were picked in the photograph of the center.
+  [[nodiscard]] std::filesystem::path picks() const { return path / "picks.csv"; }
+};
+
+/// The folder that an input belongs to: the folder of `demo:gantry`, or the one that a file lies
+/// in. None for other inputs and missing folders.
+[[nodiscard]] std::optional<GantryFolder> gantry_folder(const std::string& input,
+                                                        const std::filesystem::path& cache_folder);
+
+/// Reads the photographs from the cache, or makes them and keeps them there with pattern, mesh and
+/// picks. Without a writable cache folder, makes the photographs only. The center view is shown
+/// first. Throws InvalidInput, Cancelled.
+[[nodiscard]] Scene load_gantry(const std::string& id, const LoadOptions& options,
+                                const Progress& progress);
 
 }  // namespace episcope

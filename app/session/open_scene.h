@@ -2,13 +2,14 @@
 #pragma once
 
 #include "app/session/capture_work.h"
-#include "app/session/epi_measurement.h"
 #include "app/session/judge.h"
 #include "app/session/segmentation.h"
+#include "engine/core/camera_grid.h"
 #include "engine/core/indices.h"
+#include "engine/core/light_field.h"
 #include "engine/core/scene.h"
 #include "engine/render/quantity.h"
-#include "engine/render/tone.h"
+#include "engine/render/shade.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -20,6 +21,37 @@
 #include <vector>
 
 namespace episcope {
+
+/// A disparity that was measured along a line in an EPI.
+struct EpiMeasurement {
+  std::string name{};
+  EpiDirection direction = EpiDirection::Horizontal;
+  ViewIndex view{};    ///< Whose row or column of views the EPI runs through,
+  PixelIndex pixel{};  ///< and where the line meets it.
+  double disparity_px = 0;
+  friend bool operator==(const EpiMeasurement&, const EpiMeasurement&) = default;
+};
+
+/// Those that are kept with a scene.
+struct Measurements {
+  std::vector<EpiMeasurement> list;
+  int current = -1;  ///< Index of the one that is chosen; −1 = none.
+  friend bool operator==(const Measurements&, const Measurements&) = default;
+};
+
+/// The one that is chosen; null if none is.
+[[nodiscard]] const EpiMeasurement* current_of(const Measurements& measurements);
+
+/// Depth of a measured point, in the unit of the camera's baseline; none if the camera is not known
+/// or no point in front of it has that disparity.
+[[nodiscard]] std::optional<double> depth_of(const EpiMeasurement& measurement,
+                                             const CameraGrid& camera);
+
+/// A table with a header line: name, direction (row or column of views), view v and u, pixel y and
+/// x, slope of the line in px per view step, disparity in px per view step, depth where it is
+/// known.
+[[nodiscard]] std::string measurements_csv(const std::vector<EpiMeasurement>& list,
+                                           const CameraGrid& camera);
 
 /// An estimate of the session. Ids are never given twice.
 struct EstimateEntry {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/project_file.h"
 
-#include "annotation/label_set.h"
+#include "annotation/scribble_layer.h"
 #include "app/session/capture_work.h"
 #include "app/session/judge.h"
 #include "app/session/load_scene.h"
 #include "app/session/result_files.h"
-#include "app/session/sweep.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/base/atomic_file.h"

@@ -2,7 +2,6 @@
 #include "app/session/quantity_map.h"
 
 #include "engine/core/text.h"
-#include "engine/evaluation/metrics.h"
 #include "engine/labeling/edge_probability.h"
 #include "engine/labeling/ray_labeling.h"
 

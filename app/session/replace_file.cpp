@@ -12,7 +12,7 @@
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_file.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/labeling/labeler.h"
 
 #include <algorithm>

@@ -9,7 +9,6 @@
 #include "engine/core/version.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/registry.h"
-#include "engine/disparity/run_blocks.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_draft.h"
 

@@ -5,7 +5,6 @@
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
 #include "engine/disparity/estimator.h"
-#include "engine/disparity/run_blocks.h"
 
 #include <filesystem>
 #include <optional>

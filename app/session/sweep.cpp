@@ -16,7 +16,6 @@
 #include <cmath>
 #include <new>
 #include <sstream>
-#include <utility>
 
 namespace episcope {
 namespace {

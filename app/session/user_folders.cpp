@@ -6,7 +6,6 @@
 #include "engine/core/text.h"
 #include "engine/io/formats/archive_reader.h"
 #include "engine/io/formats/sequence_reader.h"
-#include "engine/io/models/label_list.h"
 #include "engine/io/models/scribble_file.h"
 
 #include <unistd.h>

@@ -8,11 +8,11 @@
 #include "engine/core/scene.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/models/open_options.h"
-#include "engine/io/models/order/view_order.h"
+#include "engine/io/models/order/view_axes.h"
 #include "engine/labeling/labeler.h"
 #include "engine/render/quantity.h"
 #include "engine/scenes/builtin.h"
-#include "engine/scenes/random_kind.h"
+#include "engine/scenes/plan.h"
 
 #include <cstdint>
 #include <exception>

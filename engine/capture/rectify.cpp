@@ -15,7 +15,6 @@
 #include <numbers>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 namespace episcope::capture {
 namespace {

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/view_surface.h"
 
-#include "engine/capture/mesh_file.h"
 #include "engine/capture/pixel_surface.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 namespace episcope::capture {
 

@@ -4,9 +4,9 @@
 #include "engine/capture/camera.h"
 #include "engine/capture/mesh_file.h"
 #include "engine/core/camera_grid.h"
-#include "engine/core/ground_truth.h"
 #include "engine/core/image.h"
 #include "engine/core/progress.h"
+#include "engine/core/scene.h"
 
 #include <cstdint>
 #include <memory>

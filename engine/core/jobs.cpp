@@ -6,11 +6,9 @@
 #include <condition_variable>
 #include <deque>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <stop_token>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace episcope {

@@ -151,4 +151,54 @@ using LightFieldPtr = std::shared_ptr<const LightField>;
 /// samples in [0, 1]; nothing beyond the last row and column. `out` has the size of a view.
 void gradient_magnitude(const LightField& light_field, ViewIndex view, ImageView<float> out);
 
+/// Epipolar plane images (EPIs), gathered as float in [0, 1], with rows along the view axis.
+///
+/// On an EPI a scene point is a line whose slope dx/du (dy/dv) is −d in canonical axes: views to
+/// the right see it further left. `focus_px` shears the EPI about the row of `view`: a point of
+/// disparity `focus_px` stands upright. Sheared samples are interpolated linearly, clamped at the
+/// border. Source: Bolles, Baker, Marimont 1987 [BBM87]; refocusing by Ng 2006 [Ng06].
+
+/// Direction of an EPI: along the row or the column of views through the current view.
+enum class EpiDirection { Horizontal, Vertical };
+
+/// `[u][x][c]` of image row `y` through the views of camera row `view.v`.
+/// Throws InvalidInput if view or row lies outside.
+[[nodiscard]] Image<float> horizontal_epi(const LightField& light_field, ViewIndex view, int y,
+                                          double focus_px = 0);
+
+/// `[v][y][c]` of image column `x` through the views of camera column `view.u`.
+/// Throws InvalidInput if view or column lies outside.
+[[nodiscard]] Image<float> vertical_epi(const LightField& light_field, ViewIndex view, int x,
+                                        double focus_px = 0);
+
+/// Position of a view on the plane of cameras, in mean steps of the grid, along v and u.
+struct ViewPlace {
+  double v = 0;
+  double u = 0;
+};
+
+/// Relation of the stated positions of cameras to a grid.
+enum class PlacesKind {
+  Unknown,      ///< There are none.
+  Regular,      ///< Equidistant to within 0.02 steps.
+  Irregular,    ///< Near a grid, but not on it: `places` holds them.
+  Implausible,  ///< They make no grid in the order of the views.
+};
+
+/// Views of a grid at their stated positions.
+struct ViewPlaces {
+  PlacesKind kind = PlacesKind::Unknown;
+  std::vector<ViewPlace> places;  ///< View by view in canonical order; empty unless irregular.
+  double largest_deviation = 0;   ///< From the regular grid about the center view, in steps.
+  int outliers = 0;               ///< Positions not believed and replaced by the place in the grid.
+};
+
+/// Turns stated positions into places. The step is the mean distance of neighbors along u (least
+/// squares), or along v of a single column. Both directions share it, as disparity is px per step:
+/// rows twice as far apart as columns lie two steps apart. The direction and the unit of positions
+/// do not matter. A position farther than half a step from the plane through all of them is an
+/// outlier. Positions are implausible if fewer than nine tenths fit, if steps are zero or not
+/// finite, if the grid is skewed by more than a third, or if the ratio of the steps is beyond 2.
+[[nodiscard]] ViewPlaces view_places(const LightFieldInfo& info, GridShape grid);
+
 }  // namespace episcope

@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 
-#include <algorithm>
 #include <charconv>
 #include <numeric>
 #include <string_view>

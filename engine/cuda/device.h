@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/core/error.h"
+#include "engine/core/image.h"
 #include "engine/core/progress.h"
-#include "engine/core/volume.h"
 
 #include <cstddef>
 #include <memory>

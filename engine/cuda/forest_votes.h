@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/image.h"
 #include "engine/core/progress.h"
-#include "engine/core/volume.h"
 
 #include <cstdint>
 #include <memory>

@@ -9,7 +9,6 @@
 #include "engine/disparity/kernels/shared_constants.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <future>
 #include <utility>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/lifted_solver.h"
 
-#include "engine/core/volume.h"
 #include "engine/cuda/device.cuh"
 #include "engine/solvers/shared_constants.h"
 

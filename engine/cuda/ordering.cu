@@ -7,7 +7,6 @@
 #include "engine/cuda/tv_l2.cuh"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace episcope::cuda {
 namespace {

@@ -6,7 +6,6 @@
 #include "engine/cuda/host_pages.h"
 #include "engine/cuda/orientations.cuh"
 #include "engine/cuda/tensor.cuh"
-#include "engine/disparity/kernels/shared_constants.h"
 
 #include <algorithm>
 #include <array>

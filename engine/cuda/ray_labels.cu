@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/ray_labels.h"
 
-#include "engine/core/progress.h"
 #include "engine/cuda/device.cuh"
 #include "engine/cuda/simplex_batch.cuh"
 #include "engine/cuda/simplex_moves.cuh"
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
 namespace episcope::cuda {
@@ -29,7 +27,7 @@ struct ViewRays {
     return static_cast<long>(height) * width;
   }
   // The pixel of another view at which the ray of pixel (y, x) arrives, −1 if its point is not
-  // seen there: find_ray_targets of engine/labeling/ray_targets.h, to the same bits.
+  // seen there: find_ray_targets of engine/labeling/ray_labeling.h, to the same bits.
   [[nodiscard]] __device__ std::int32_t target(int view, int other, int y, int x) const {
     const long here = view * pixels() + static_cast<long>(y) * width + x;
     const float d = disparity[here];

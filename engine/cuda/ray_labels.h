@@ -5,7 +5,6 @@
 #include "engine/core/indices.h"
 #include "engine/core/progress.h"
 #include "engine/core/view_stack.h"
-#include "engine/core/volume.h"
 
 #include <cstdint>
 #include <span>

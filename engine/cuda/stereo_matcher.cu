@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
-#include <vector>
 
 namespace episcope::cuda {
 namespace {

@@ -6,7 +6,7 @@
 
 namespace episcope::cuda {
 
-/// `solve_tgv_l2` on the device (engine/solvers/tgv_l2.h), the same steps: `f` becomes the
+/// `solve_tgv_l2` on the device (engine/solvers/tv_l2.h), the same steps: `f` becomes the
 /// minimizer. All have one shape. Throws DeviceFailure, Cancelled.
 struct TgvTask {
   ImageView<const float> w, g;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/tv_l2.h"
 
-#include "engine/core/image.h"
 #include "engine/cuda/device.cuh"
 #include "engine/cuda/device_data.cuh"
 #include "engine/cuda/tv_l2.cuh"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/disparity_range.h"
 
+#include "engine/core/image.h"
 #include "engine/core/parallel.h"
-#include "engine/core/volume.h"
 #include "engine/disparity/matching_cost.h"
 #include "engine/disparity/structure_tensor.h"
 #include "engine/disparity/view_samples.h"
@@ -16,9 +16,7 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <optional>
 #include <utility>
-#include <vector>
 
 namespace episcope {
 namespace {

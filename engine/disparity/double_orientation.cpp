@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/isa.h"
 #include "engine/core/parallel.h"
-#include "engine/cuda/double_layers.h"
 #include "engine/disparity/kernels/double_orientation_kernel.h"
 #include "engine/disparity/kernels/shared_constants.h"
 #include "engine/disparity/view_samples.h"
@@ -18,7 +17,6 @@
 #include <cstring>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 namespace episcope {
 // The filters of double orientations over an EPI of some views, with the memory they live in.

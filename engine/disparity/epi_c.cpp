@@ -4,11 +4,8 @@
 #include "engine/core/parallel.h"
 #include "engine/cuda/line_check.h"
 #include "engine/cuda/ordering.h"
-#include "engine/disparity/denoise.h"
-#include "engine/disparity/estimator.h"
 #include "engine/disparity/kernels/line_kernel.h"
 #include "engine/disparity/kernels/shared_constants.h"
-#include "engine/disparity/line_check.h"
 #include "engine/solvers/ordering_terms.h"
 #include "engine/solvers/tv_l2.h"
 
@@ -18,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 

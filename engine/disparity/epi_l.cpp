@@ -3,8 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/disparity/disparity_range.h"
-#include "engine/disparity/estimator.h"
 
 #include <algorithm>
 #include <cmath>

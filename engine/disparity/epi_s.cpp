@@ -3,7 +3,6 @@
 
 #include "engine/cuda/host_pages.h"
 #include "engine/cuda/line_check.h"
-#include "engine/disparity/line_check.h"
 #include "engine/disparity/view_samples.h"
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include "engine/cuda/host_pages.h"
 #include "engine/cuda/layer_solver.h"
 #include "engine/cuda/line_check.h"
-#include "engine/disparity/denoise.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/double_orientation.h"
 #include "engine/disparity/estimator.h"
@@ -18,7 +17,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 namespace episcope {
 namespace {

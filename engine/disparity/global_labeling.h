@@ -6,7 +6,6 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
-#include "engine/core/volume.h"
 #include "engine/cuda/device.h"
 
 #include <functional>

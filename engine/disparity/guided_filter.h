@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
-#include "engine/core/volume.h"
 
 #include <memory>
 #include <vector>

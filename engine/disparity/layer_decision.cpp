@@ -6,9 +6,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/progress.h"
 #include "engine/disparity/disparity_range.h"
-#include "engine/disparity/double_orientation.h"
 #include "engine/disparity/kernels/shared_constants.h"
-#include "engine/disparity/line_check.h"
 #include "engine/disparity/view_samples.h"
 
 #include <algorithm>

@@ -5,15 +5,12 @@
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/cuda/line_check.h"
-#include "engine/disparity/kernels/line_kernel.h"
 #include "engine/disparity/kernels/shared_constants.h"
-#include "engine/disparity/view_samples.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <vector>
 
 namespace episcope {
 namespace {

@@ -5,9 +5,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
-#include "engine/core/view_places.h"
 #include "engine/core/view_stack.h"
-#include "engine/core/volume.h"
 #include "engine/disparity/kernels/shared_constants.h"
 
 #include <array>

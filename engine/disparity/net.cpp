@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/isa.h"
 #include "engine/core/parallel.h"
-#include "engine/core/volume.h"
 #include "engine/disparity/kernels/net_kernel.h"
 #include "engine/disparity/net_evidence.h"
 #include "engine/disparity/net_layers.h"

@@ -3,13 +3,11 @@
 
 #include "engine/core/isa.h"
 #include "engine/core/parallel.h"
-#include "engine/disparity/kernels/net_kernel.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <limits>
-#include <utility>
 
 namespace episcope {
 

@@ -6,9 +6,7 @@
 #include "engine/cuda/message_labeling.h"
 #include "engine/cuda/tgv_l2.h"
 #include "engine/cuda/tv_l2.h"
-#include "engine/disparity/visible_costs.h"
 #include "engine/solvers/message_labeling.h"
-#include "engine/solvers/tgv_l2.h"
 #include "engine/solvers/tv_l2.h"
 
 #include <fmt/format.h>

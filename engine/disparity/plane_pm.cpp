@@ -2,23 +2,13 @@
 #include "engine/disparity/plane_pm.h"
 
 #include "engine/core/estimate.h"
-#include "engine/core/light_field.h"
 #include "engine/core/memory.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
-#include "engine/core/photometric_correction.h"
-#include "engine/core/progress.h"
-#include "engine/core/view_gain.h"
 #include "engine/disparity/carried_run.h"
-#include "engine/disparity/cost_volume.h"
-#include "engine/disparity/denoise.h"
-#include "engine/disparity/estimator.h"
 #include "engine/disparity/matching_cost.h"
-#include "engine/disparity/plane_labeling.h"
 #include "engine/disparity/propagate_planes.h"
-#include "engine/disparity/stereo_costs.h"
 #include "engine/disparity/view_samples.h"
-#include "engine/disparity/visible_costs.h"
 
 #include <fmt/format.h>
 

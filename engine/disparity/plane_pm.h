@@ -2,11 +2,11 @@
 #pragma once
 
 #include "engine/core/light_field.h"
-#include "engine/core/photometric_correction.h"
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
+#include "engine/core/view_gain.h"
+#include "engine/disparity/denoise.h"
 #include "engine/disparity/estimator.h"
-#include "engine/disparity/islands.h"
 #include "engine/disparity/plane_labeling.h"
 #include "engine/disparity/stereo_costs.h"
 #include "engine/disparity/visible_costs.h"
@@ -42,10 +42,10 @@ struct PlaneParameters {
 /// 2. `rounds` times: views in which a sure surface of the map shows something nearer do not count
 ///    for a point (surfaces_in_views); labeling again. Before the first, differences in
 ///    brightness between the views are found and taken away, if there are any
-///    (photometric_correction.h).
+///    (view_gain.h).
 /// 3. Placed between labels with TGV², and anew where costs leave the labels in doubt
 ///    (plane_labeling.h). Silhouettes are moved to the edges of the view (place_silhouettes),
-///    islands filled (engine/disparity/islands.h).
+///    islands filled (engine/disparity/denoise.h).
 /// 4. For all views, also from the outermost views, in one round: what the maps made before show
 ///    there occludes. The maps are carried to every view, and their majority counts
 ///    (propagate_planes.h). Beside jumps the samples of each view decide (choose_propagated_sides).

@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/matching_cost.h"
-#include "engine/disparity/view_samples.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace episcope {
 namespace {

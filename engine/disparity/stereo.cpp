@@ -2,10 +2,9 @@
 #include "engine/disparity/stereo.h"
 
 #include "engine/core/parallel.h"
-#include "engine/disparity/cost_volume.h"
 #include "engine/disparity/kernels/shared_constants.h"
-#include "engine/disparity/stereo_costs.h"
 #include "engine/disparity/view_samples.h"
+#include "engine/disparity/visible_costs.h"
 
 #include <algorithm>
 #include <limits>

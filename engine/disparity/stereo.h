@@ -4,7 +4,6 @@
 #include "engine/disparity/denoise.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/global_labeling.h"
-#include "engine/disparity/islands.h"
 #include "engine/disparity/stereo_costs.h"
 
 namespace episcope {
@@ -45,7 +44,7 @@ struct StereoSmoothParameters {
                                                   const Progress& progress);
 
 /// The local method, denoised (engine/disparity/denoise.h) and without islands
-/// (engine/disparity/islands.h); the duality gap is in the notes.
+/// (engine/disparity/denoise.h); the duality gap is in the notes.
 [[nodiscard]] Estimate estimate_stereo_smooth(const LightField& light_field, MatchedViews views,
                                               const StereoSmoothParameters& parameters,
                                               const Progress& progress,
@@ -74,10 +73,10 @@ struct StereoGlobalParameters {
 [[nodiscard]] Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views);
 
 /// min Σ ρ(x, u) + λ ρ̄ Σ g |∇u| for one view: ρ the matching costs of the local methods, ρ̄ their
-/// mean near each pixel's best label (cost_volume.h), whatever the range, u among the labels
+/// mean near each pixel's best label (visible_costs.h), whatever the range, u among the labels
 /// (label_globally). Each pixel then settles
 /// between labels, towards the parabola through the costs of its label and the two neighboring
-/// labels, weighted by confidence², and islands are filled (engine/disparity/islands.h).
+/// labels, weighted by confidence², and islands are filled (engine/disparity/denoise.h).
 /// Confidence: 1 − cost of the label / mean cost over the labels. β = 25: a smaller one joins the
 /// background between thin structures to them. ε, energy, gap and iterations are reported in the
 /// notes. Memory: 6 floats per pixel and label. Throws InvalidInput as `prepare_stereo`, Cancelled.

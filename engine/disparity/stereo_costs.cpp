@@ -6,14 +6,12 @@
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/disparity_range.h"
-#include "engine/disparity/matching_cost.h"
 #include "engine/disparity/view_samples.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace episcope {
 namespace {

@@ -71,7 +71,7 @@ struct StereoCosts {
 ///
 /// With `compensate_noise` the matching also gets the noise of the view (matching_cost.h): at
 /// each pixel that of its surroundings (local_noise_variance), at most what the residual of the
-/// best tenth of the pixels allows. Stated positions of cameras (view_places.h) are used if that
+/// best tenth of the pixels allows. Stated positions of cameras (light_field.h) are used if that
 /// residual is smaller with them than on the regular grid: whatever they say, they do no harm.
 /// The guide of the aggregation keeps whatever contrast is not noise: its regularization is
 /// 3·10⁻⁵ + 8σ², σ² the median of that noise over the view (0 without `compensate_noise`). Evidence

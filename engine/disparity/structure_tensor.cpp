@@ -3,7 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/isa.h"
-#include "engine/disparity/kernels/structure_tensor_kernel.h"
 #include "engine/disparity/view_samples.h"
 
 #include <fmt/format.h>
@@ -13,7 +12,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <utility>
 
 namespace episcope {

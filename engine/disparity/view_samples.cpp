@@ -6,11 +6,9 @@
 #include "engine/core/parallel.h"
 #include "engine/disparity/kernels/sample_kernel.h"
 
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace episcope {
 

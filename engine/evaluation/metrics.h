@@ -4,10 +4,11 @@
 #include "engine/core/camera_grid.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/estimate.h"
-#include "engine/core/ground_truth.h"
 #include "engine/core/progress.h"
+#include "engine/core/scene.h"
 #include "engine/core/schema.h"
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -136,5 +137,24 @@ inline constexpr float kBadPixel = 1.0F;
 /// kBadPixel where |error| is strictly above `threshold_px` or the estimate is missing, else
 /// kGoodPixel.
 [[nodiscard]] Image<float> bad_pixel_map(const Evaluation& evaluation, double threshold_px);
+
+/// How far the points of one cloud are from another one, in units of the scene.
+struct CloudDistance {
+  Image<float> distance;   ///< `[y][x]`, of the point of each pixel; NaN = there is none.
+  std::size_t points = 0;  ///< How many distances there are.
+  double mean = 0;
+  double median = 0;
+  double percentile95 = 0;  ///< 95 % of the points are at most that far away.
+};
+
+/// The distance of every point of `estimate` to the nearest point of `reference`, wherever in the
+/// view that is seen (cloud-to-cloud distance): both are maps of one view, placed by
+/// `BackProjection`. It is directed: what `reference` has and `estimate` lacks does not count.
+/// Exact; a search tree by Boost.Geometry (R*-tree, packed) for each band of rows. Does not depend
+/// on the number of threads. Throws InvalidInput if the camera is not known, sizes differ or a map
+/// has no point; Cancelled.
+[[nodiscard]] CloudDistance cloud_distance(const DisparityView& estimate,
+                                           const DisparityView& reference, const CameraGrid& camera,
+                                           const Progress& progress);
 
 }  // namespace episcope

@@ -2,7 +2,6 @@
 #include "engine/evaluation/parameter_search.h"
 
 #include "engine/core/text.h"
-#include "engine/evaluation/benchmark_tables.h"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,6 @@
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/formats/benchmark_reader.h"
 #include "engine/io/formats/blender_reader.h"
-#include "engine/io/formats/excerpt_reader.h"
 #include "engine/io/formats/frames_reader.h"
 #include "engine/io/formats/image_grid.h"
 #include "engine/io/formats/mosaic_reader.h"

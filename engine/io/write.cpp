@@ -15,8 +15,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace episcope::io {
 namespace {

@@ -2,7 +2,6 @@
 #include "engine/labeling/edge_probability.h"
 
 #include "engine/core/error.h"
-#include "engine/core/light_field.h"
 #include "engine/core/parallel.h"
 
 #include <opencv2/imgproc.hpp>

@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
-#include "engine/labeling/forest_kernel.h"
 
 #include <fmt/format.h>
 #include <opencv2/ml.hpp>

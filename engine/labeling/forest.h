@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/image.h"
 #include "engine/core/isa.h"
 #include "engine/core/memory.h"
 #include "engine/core/progress.h"
-#include "engine/core/volume.h"
 #include "engine/cuda/forest_votes.h"
 #include "engine/labeling/forest_kernel.h"
 

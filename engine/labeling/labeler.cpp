@@ -2,23 +2,17 @@
 #include "engine/labeling/labeler.h"
 
 #include "engine/core/error.h"
-#include "engine/core/indices.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
 #include "engine/cuda/device.h"
-#include "engine/labeling/device_labeling.h"
 #include "engine/labeling/edge_probability.h"
-#include "engine/labeling/forest.h"
 #include "engine/labeling/pixel_features.h"
 #include "engine/labeling/predict_from_strokes.h"
-#include "engine/labeling/regularizer.h"
 #include "engine/labeling/reweight_by_color.h"
 #include "engine/labeling/solve_views.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <set>
 #include <utility>

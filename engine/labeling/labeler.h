@@ -9,7 +9,7 @@
 #include "engine/core/scene.h"
 #include "engine/core/schema.h"
 #include "engine/labeling/forest.h"
-#include "engine/labeling/label_probabilities.h"
+#include "engine/labeling/ray_labeling.h"
 #include "engine/labeling/regularizer.h"
 
 #include <functional>

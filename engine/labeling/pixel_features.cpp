@@ -14,8 +14,6 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <string>
-#include <vector>
 
 namespace episcope {
 namespace {

@@ -7,7 +7,6 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/core/volume.h"
 #include "engine/labeling/forest.h"
 
 #include <array>

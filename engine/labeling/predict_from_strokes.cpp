@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/predict_from_strokes.h"
 
-#include "engine/core/image.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
 #include "engine/labeling/edge_probability.h"
 #include "engine/labeling/feature_kernel.h"
-#include "engine/labeling/forest.h"
 #include "engine/labeling/forest_kernel.h"
-#include "engine/labeling/label_probabilities.h"
-#include "engine/labeling/label_surfaces.h"
 #include "engine/labeling/pixel_features.h"
-#include "engine/labeling/ray_targets.h"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 namespace episcope {
 

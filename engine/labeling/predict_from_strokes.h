@@ -6,10 +6,9 @@
 #include "engine/core/isa.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/core/volume.h"
 #include "engine/labeling/forest.h"
-#include "engine/labeling/label_probabilities.h"
 #include "engine/labeling/label_surfaces.h"
+#include "engine/labeling/ray_labeling.h"
 
 #include <cstdint>
 #include <vector>
@@ -18,7 +17,7 @@ namespace episcope {
 
 /// Propagates the strokes of all painted views to one view, `[y][x]`: an index of `ids` (ascending)
 /// plus one, 0 = none. Strokes follow the rays of `disparity` to pixels that are visible in the
-/// view (ray_targets.h). Views without disparity are skipped.
+/// view (ray_labeling.h). Views without disparity are skipped.
 [[nodiscard]] Image<std::int32_t> propagated_strokes(const Scribbles& scribbles,
                                                      const std::vector<std::int32_t>& ids,
                                                      const DisparityField* disparity,

@@ -3,17 +3,122 @@
 
 #include "engine/core/disparity_field.h"
 #include "engine/core/image.h"
+#include "engine/core/indices.h"
 #include "engine/core/isa.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
-#include "engine/labeling/label_probabilities.h"
-#include "engine/labeling/ray_targets.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace episcope {
+
+/// Maximum difference of disparities (px per view step) that count as the same scene point.
+/// Estimates are off by about 0.05 to 0.2 px; a smaller step in depth hides less than a pixel over
+/// four views.
+inline constexpr float kSamePointTolerance_px = 0.25F;
+
+/// Where the rays of row `y` of the view `from` arrive in the view that is `step` = (v, u) away
+/// from it: pixel (y, x) of disparity d at (y − d·step.v, x − d·step.u), to the nearest pixel,
+/// written as y'·width + x'. −1 where the ray leaves the image, where either disparity is invalid,
+/// and where the pixel found has another disparity: there the point is hidden. `targets` has a
+/// row's width. Precondition: both views have one size.
+void find_ray_targets(const DisparityView& from, const DisparityView& to, ViewIndex step, int y,
+                      std::int32_t* targets);
+
+/// Columns of a row from `begin` to before `end`.
+struct ColumnRange {
+  int begin = 0, end = 0;
+};
+/// Columns that find_ray_targets processes at once.
+inline constexpr int kRayColumns = 16;
+/// Finds the targets of kRayColumns columns or more; the other `targets` stay unchanged.
+void find_ray_targets(const DisparityView& from, const DisparityView& to, ViewIndex step, int y,
+                      ColumnRange columns, std::int32_t* targets);
+
+/// Compares the colors of two rays to decide whether they see the same scene point. Disparities are
+/// least accurate at outlines, where a ray of the neighboring object has another color. Where noise
+/// or gloss exceeds σ, rays are not coupled. Refers to samples of 8 bits directly; of others it
+/// keeps a copy of a rectangle of views, rounded to 8 bits.
+class RayColors {
+ public:
+  /// Knows nothing: all rays are trusted.
+  RayColors() = default;
+  /// Precondition: the light field has these views, and outlives the object. Throws Cancelled.
+  RayColors(const LightField& light_field, GridShape grid, ViewIndex first,
+            const Progress& progress);
+
+  /// One row of a view, and a whole other view, to be compared.
+  struct Pair {
+    const std::uint8_t* row = nullptr;
+    const std::uint8_t* other = nullptr;
+  };
+  [[nodiscard]] Pair pair(ViewIndex view, int y, ViewIndex other) const {
+    if (colors_ == nullptr) return {};
+    return {colors_->view(view).row(y), colors_->view(other).data};
+  }
+
+  /// exp(−|ΔI|²/2σ²) of column x and of pixel `target` = y'·width + x' of the other view, |ΔI| the
+  /// difference of their colors, σ = 10/255; 0 beyond 4σ. 1 where nothing is known.
+  [[nodiscard]] float trust(const Pair& pair, int x, std::int32_t target) const;
+  /// Trust of many columns and their pixels, 0 where the target is −1; the other `trusts` stay
+  /// unchanged.
+  void trusts(const Pair& pair, ColumnRange columns, const std::int32_t* targets,
+              float* trusts) const;
+
+  /// The samples that are compared, 8 bits; null if nothing is known.
+  [[nodiscard]] const ViewStack<std::uint8_t>* samples() const { return colors_; }
+  /// Trust of each squared difference of colors, summed over three channels; 0 from the last on.
+  static constexpr int kNoTrust = 1600;
+  [[nodiscard]] const std::array<float, kNoTrust + 1>& trusts() const { return table_; }
+
+ private:
+  std::unique_ptr<const ViewStack<std::uint8_t>> rounded_;
+  const ViewStack<std::uint8_t>* colors_ = nullptr;  // of the light field, or `rounded_`
+  std::array<float, kNoTrust + 1> table_ = {};
+};
+
+/// Probability of each label for every pixel of one view, `[y][label][x]`, 0 … 255 for 0 … 1,
+/// labels in the order of `LabelProbabilities::ids`. 13 labels of 9×9×768×768 rays take 0.6 GB.
+using ProbabilityMap = Volume<std::uint8_t>;
+
+/// Label probabilities of a rectangle of views. Move-only.
+struct LabelProbabilities {
+  std::vector<std::int32_t> ids;      ///< The label of each layer, ascending.
+  GridShape grid;                     ///< Views covered,
+  ViewIndex first;                    ///< beginning here: one view alone is a grid of 1×1.
+  std::vector<ProbabilityMap> views;  ///< `[v][u]`
+
+  [[nodiscard]] bool empty() const { return views.empty(); }
+  [[nodiscard]] bool contains(ViewIndex view) const {
+    return !empty() && grid.contains({view.v - first.v, view.u - first.u});
+  }
+  /// The view whose map is `views[index]`.
+  [[nodiscard]] ViewIndex view_at(int index) const { return grid.view_at(index, first); }
+  /// Precondition: `contains(view)`.
+  [[nodiscard]] const ProbabilityMap& view(ViewIndex view) const { return views[index(view)]; }
+  [[nodiscard]] ProbabilityMap& view(ViewIndex view) { return views[index(view)]; }
+
+ private:
+  [[nodiscard]] std::size_t index(ViewIndex view) const {
+    return static_cast<std::size_t>(view.v - first.v) * grid.u + (view.u - first.u);
+  }
+};
+
+/// Probabilities of these views and ids, not yet filled.
+[[nodiscard]] LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids,
+                                                     ViewRectangle views);
+
+/// The most probable label of each pixel, `[y][x]`; of equals the lowest id. `ids` names the
+/// layers. Throws InvalidInput unless there is one id for each layer.
+[[nodiscard]] Image<std::int32_t> most_probable_labels(VolumeView<const std::uint8_t> probabilities,
+                                                       const std::vector<std::int32_t>& ids);
+
+/// Uncertainty of the labels of each pixel, `[y][x]` in [0, 1]: the entropy of its probabilities
+/// relative to the entropy of equal ones. 0 with a single label.
+[[nodiscard]] Image<float> label_uncertainty(VolumeView<const std::uint8_t> probabilities);
 
 /// The defaults suit a forest: it errs with confidence in whole regions, so λ must be large and the
 /// floor high, and boundaries lie where image and disparity have edges (tests/accuracy/tuning.md).
@@ -92,7 +197,7 @@ struct TrackSources {
 
 /// Costs of the labels of one view, each the mean of the costs of the ray itself and of the rays of
 /// the same scene point in other views that have probabilities and disparity
-/// (engine/labeling/ray_targets.h), weighted by the trust in their colors. The floor of the
+///, weighted by the trust in their colors. The floor of the
 /// table limits the influence of a single stray ray. `costs` has the shape of the view's
 /// probabilities. Rows are processed in parallel. Precondition: probabilities and disparity hold
 /// the view. Throws Cancelled.

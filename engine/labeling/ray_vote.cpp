@@ -2,7 +2,6 @@
 #include "engine/labeling/ray_vote.h"
 
 #include "engine/core/parallel.h"
-#include "engine/labeling/ray_targets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/labeling/device_labeling.h"
-#include "engine/labeling/ray_labeling.h"
-#include "engine/labeling/ray_targets.h"
 #include "engine/labeling/ray_vote.h"
 #include "engine/labeling/solve_views.h"
 #include "engine/solvers/linked_labeling.h"

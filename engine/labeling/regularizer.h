@@ -6,7 +6,6 @@
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
 #include "engine/labeling/ray_labeling.h"
-#include "engine/labeling/ray_targets.h"
 
 #include <cstdint>
 

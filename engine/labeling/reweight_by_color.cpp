@@ -8,11 +8,8 @@
 #include <opencv2/core.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 namespace episcope {
 namespace {

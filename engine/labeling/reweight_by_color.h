@@ -3,7 +3,6 @@
 
 #include "engine/core/image.h"
 #include "engine/core/progress.h"
-#include "engine/labeling/label_probabilities.h"
 #include "engine/labeling/ray_labeling.h"
 
 #include <array>

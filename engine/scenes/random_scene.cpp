@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/scenes/random_scene.h"
 
-#include "engine/scenes/plan.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/scenes/random_kind.h"
+#include "engine/scenes/plan.h"
 #include "engine/scenes/stage.h"
 
 namespace episcope::scenes {

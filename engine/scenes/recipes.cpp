@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/scenes/recipes.h"
 
-#include "engine/scenes/stage.h"
-
 #include <algorithm>
 #include <iterator>
 #include <map>

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/scenes/stage.h"
 
-#include "engine/scenes/draw.h"
-
 #include <algorithm>
-#include <cmath>
 
 namespace episcope::scenes {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/ground_truth.h"
 #include "engine/core/image.h"
-#include "engine/scenes/draw.h"
+#include "engine/core/scene.h"
 #include "engine/scenes/stage.h"
 
 #include <cstdint>

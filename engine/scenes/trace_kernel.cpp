@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/simd.h"
-#include "engine/scenes/model.h"
+#include "engine/scenes/stage.h"
 
 // Value noise on an integer lattice, closed-form intersections, color of surfaces, light, and the
 // row of a view that is traced by them. Compiled once for each instruction set (engine/core/isa.h).

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/isa.h"
-#include "engine/scenes/model.h"
+#include "engine/scenes/stage.h"
 
 namespace episcope::scenes {
 

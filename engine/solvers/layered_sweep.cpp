@@ -2,13 +2,11 @@
 #include "engine/solvers/layered_sweep.h"
 
 #include "engine/core/parallel.h"
-#include "engine/solvers/pair_limits.h"
 
 #include <algorithm>
 #include <atomic>
 #include <limits>
 #include <numeric>
-#include <vector>
 
 namespace episcope {
 namespace {

@@ -4,7 +4,6 @@
 #include "engine/core/image.h"
 #include "engine/core/memory.h"
 #include "engine/core/progress.h"
-#include "engine/core/volume.h"
 #include "engine/solvers/layered_kernel.h"
 #include "engine/solvers/pair_limits.h"
 

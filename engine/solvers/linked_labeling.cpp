@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/memory.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
 #include "engine/solvers/layered_kernel.h"
 #include "engine/solvers/layered_sweep.h"
 #include "engine/solvers/linked_kernel.h"
@@ -12,12 +11,9 @@
 #include "engine/solvers/simplex_labeling.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numeric>
-#include <vector>
 
 namespace episcope {
 

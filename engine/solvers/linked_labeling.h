@@ -4,7 +4,6 @@
 #include "engine/core/image.h"
 #include "engine/core/isa.h"
 #include "engine/core/progress.h"
-#include "engine/core/volume.h"
 
 #include <array>
 #include <cstdint>

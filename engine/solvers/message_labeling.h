@@ -3,7 +3,6 @@
 
 #include "engine/core/image.h"
 #include "engine/core/progress.h"
-#include "engine/core/volume.h"
 
 namespace episcope {
 

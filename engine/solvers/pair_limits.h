@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/image.h"
-#include "engine/core/volume.h"
 #include "engine/solvers/layered_kernel.h"
 
 #include <algorithm>

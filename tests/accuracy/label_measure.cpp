@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/registry.h"
 #include "tests/accuracy/label_measure.h"
+#include "engine/disparity/registry.h"
 
 #include "app/session/run_estimator.h"
 #include "engine/core/progress.h"
 #include "engine/io/models/result_file.h"
-#include "engine/labeling/consistency.h"
+#include "engine/labeling/label_review.h"
 
 #include <fmt/format.h>
 

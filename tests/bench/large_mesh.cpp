@@ -2,9 +2,8 @@
 // large_mesh [DETAIL]: a scan of 16·DETAIL² faces (707: 8 million) as the Capture tab takes it:
 // read from binary PLY, made coarser for turning, turned with the mouse. Needs a display, such as
 // that of xvfb-run.
-#include "app/gui/capture/pair_marks.h"
+#include "app/gui/capture/photographs.h"
 #include "engine/capture/mesh_file.h"
-#include "engine/capture/scan_mesh.h"
 #include "widgets/cloud/point_cloud_view.h"
 
 #include <QApplication>

@@ -3,7 +3,7 @@
 // nothing of the file in memory and with what they need there; the largest memory of the process;
 // and how fast all samples are read, beside a plain loop over the same file. What the system keeps
 // of the file is dropped first.
-#include "engine/core/epi.h"
+#include "engine/core/light_field.h"
 #include "engine/core/memory.h"
 #include "engine/core/progress.h"
 #include "engine/io/open.h"

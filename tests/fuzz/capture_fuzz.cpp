@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/camera.h"
-#include "engine/capture/pose_file.h"
+#include "engine/capture/solve_pose.h"
 #include "tests/fuzz/harness.h"
 
 #include <vector>

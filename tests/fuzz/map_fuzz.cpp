@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/pfm.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 #include "tests/engine/io/formats/array_files.h"
 #include "tests/fuzz/harness.h"

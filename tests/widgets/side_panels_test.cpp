@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/window_test_main.h"
-#include "widgets/controls/job_panel.h"
 #include "widgets/controls/labels.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/panels/info_panel.h"

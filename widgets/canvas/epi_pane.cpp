@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/canvas/epi_pane.h"
 
-#include "widgets/canvas/canvas_geometry.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 

@@ -28,7 +28,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <vector>
 
 namespace episcope {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/controls/message_bar.h"
 
+#include "widgets/controls/labels.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
@@ -8,13 +9,19 @@
 #include <QAction>
 #include <QClipboard>
 #include <QEvent>
+#include <QGridLayout>
 #include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
+#include <QProgressBar>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QToolButton>
+#include <QVBoxLayout>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace episcope {
@@ -126,6 +133,167 @@ void MessageBar::paintEvent(QPaintEvent*) {
 void MessageBar::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
   if (event->type() == QEvent::PaletteChange) updateIcon();
+}
+
+namespace {
+
+constexpr int kBarSteps = 1000;
+constexpr int kBarHeight = 6;
+constexpr int kRowSpacing = 2;
+constexpr double kRowsInSight = 1.3;  // the top of the next tells that there is more
+
+}  // namespace
+
+QString time_left_text(double fraction, double seconds) {
+  constexpr double kLeastFraction = 0.02;  // Before, one would guess wildly.
+  constexpr double kLeastSeconds = 0.5;
+  if (fraction < kLeastFraction || fraction >= 1 || seconds < kLeastSeconds) return {};
+  const double left = seconds * (1 - fraction) / fraction;
+  if (left < 1) return JobPanel::tr("less than 1 s left");
+  if (left < 60) return JobPanel::tr("about %1 s left").arg(std::lround(left));
+  const long minutes = std::lround(left / 60);
+  if (minutes < 60) return JobPanel::tr("about %1 min left").arg(minutes);
+  return JobPanel::tr("about %1 h %2 min left").arg(minutes / 60).arg(minutes % 60);
+}
+
+JobPanel::JobPanel(QWidget* parent)
+    : QWidget(parent),
+      scroll_(new QScrollArea(this)),
+      layout_(new QVBoxLayout),
+      idle_(new QLabel(tr("No jobs running"), this)) {
+  setObjectName("jobPanel");
+  idle_->setObjectName("jobPanel.idle");
+  auto* rows = new QWidget(scroll_);
+  rows->setLayout(layout_);
+  layout_->setContentsMargins(0, 0, 0, 0);
+  layout_->setSpacing(theme::kSpacing);
+  scroll_->setObjectName("jobPanel.scroll");
+  scroll_->setFrameShape(QFrame::NoFrame);
+  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll_->setFocusPolicy(Qt::NoFocus);
+  scroll_->setWidgetResizable(true);
+  scroll_->setWidget(rows);
+  scroll_->hide();
+  auto* all = new QVBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->addWidget(idle_, 0, Qt::AlignTop);
+  all->addWidget(scroll_);
+  fitHeight();
+  updateColors();
+}
+
+void JobPanel::addJob(quint64 id, const QString& title) {
+  removeJob(id);
+  const QString name = QString("job.%1").arg(id);
+  Row row;
+  row.widget = new QWidget(scroll_->widget());
+  row.widget->setObjectName(name);
+  auto* title_label = new ElidedLabel(row.widget);
+  title_label->setObjectName(name + ".title");
+  title_label->setFullText(title);
+  row.finish = make_tool_button(
+      {name + ".finish", "success", tr("Finish now and keep the result so far")}, row.widget);
+  row.finish->hide();
+  row.cancel = make_tool_button({name + ".cancel", "close", tr("Cancel this job")}, row.widget);
+  row.bar = new QProgressBar(row.widget);
+  row.bar->setObjectName(name + ".bar");
+  row.bar->setRange(0, kBarSteps);
+  row.bar->setTextVisible(false);
+  row.bar->setFixedHeight(kBarHeight);
+  row.stage = new ElidedLabel(row.widget);
+  row.stage->setObjectName(name + ".stage");
+  row.stage->setFullText(tr("waiting"));
+
+  auto* grid = new QGridLayout(row.widget);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(theme::kSpacing);
+  grid->setVerticalSpacing(kRowSpacing);
+  grid->addWidget(title_label, 0, 0);
+  grid->addWidget(row.finish, 0, 1, 3, 1, Qt::AlignVCenter);
+  grid->addWidget(row.cancel, 0, 2, 3, 1, Qt::AlignVCenter);
+  grid->addWidget(row.bar, 1, 0);
+  grid->addWidget(row.stage, 2, 0);
+  layout_->addWidget(row.widget);
+  connect(row.finish, &QToolButton::clicked, this, [this, id] { emit finishRequested(id); });
+  connect(row.cancel, &QToolButton::clicked, this, [this, id] { emit cancelRequested(id); });
+  rows_.emplace(id, row);
+  updateColors();
+  showRows();
+}
+
+void JobPanel::setProgress(quint64 id, double fraction, const QString& stage) {
+  Row* row = find(id);
+  if (!row) return;
+  if (!row->clock.isValid()) {
+    row->clock.start();
+    row->finish->setVisible(row->is_iterative);
+  }
+  row->bar->setValue(static_cast<int>(std::lround(kBarSteps * std::clamp(fraction, 0.0, 1.0))));
+  if (!row->finish->isEnabled()) return;  // It says how it is being ended.
+  QStringList parts{stage, tr("%1 %").arg(std::lround(100 * fraction)),
+                    time_left_text(fraction, row->clock.elapsed() / 1000.0)};
+  parts.removeAll({});
+  row->stage->setFullText(parts.join(" · "));
+}
+
+void JobPanel::setIterative(quint64 id) {
+  Row* row = find(id);
+  if (!row) return;
+  row->is_iterative = true;
+  row->finish->setVisible(row->clock.isValid());  // what waits has nothing yet
+}
+
+void JobPanel::setCancelling(quint64 id) {
+  end(id, tr("cancelling"), true);
+}
+
+void JobPanel::setFinishing(quint64 id) {
+  end(id, tr("finishing"), false);
+}
+
+// A job that finishes can still be cancelled.
+void JobPanel::end(quint64 id, const QString& stage, bool cancelled) {
+  Row* row = find(id);
+  if (!row) return;
+  row->finish->setEnabled(false);
+  if (cancelled) row->cancel->setEnabled(false);
+  row->stage->setFullText(stage);
+}
+
+JobPanel::Row* JobPanel::find(quint64 id) {
+  const auto found = rows_.find(id);
+  return found == rows_.end() ? nullptr : &found->second;
+}
+
+void JobPanel::removeJob(quint64 id) {
+  const auto found = rows_.find(id);
+  if (found == rows_.end()) return;
+  found->second.widget->deleteLater();
+  found->second.widget->hide();
+  rows_.erase(found);
+  showRows();
+}
+
+void JobPanel::showRows() {
+  idle_->setVisible(rows_.empty());
+  scroll_->setVisible(!rows_.empty());
+}
+
+void JobPanel::fitHeight() {
+  const int row = 2 * fontMetrics().height() + kBarHeight + 2 * kRowSpacing;
+  setFixedHeight(static_cast<int>(kRowsInSight * row) + theme::kSpacing);
+}
+
+void JobPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) updateColors();
+  if (event->type() == QEvent::FontChange) fitHeight();
+}
+
+void JobPanel::updateColors() {
+  const QPalette quiet = theme::text_palette(theme::muted_text(palette()));
+  idle_->setPalette(quiet);
+  for (const auto& [id, row] : rows_) row.stage->setPalette(quiet);
 }
 
 }  // namespace episcope

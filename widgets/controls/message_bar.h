@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QElapsedTimer>
 #include <QString>
 #include <QTimer>
 #include <QWidget>
 
 #include <array>
 #include <functional>
+#include <map>
 
 class QLabel;
+class QProgressBar;
 class QPushButton;
+class QScrollArea;
 class QToolButton;
+class QVBoxLayout;
 
 namespace episcope {
 
@@ -59,6 +64,64 @@ class MessageBar : public QWidget {
   std::array<Button, 2> buttons_;
   QToolButton* close_;
   QTimer timer_;
+};
+
+class ElidedLabel;
+
+/// Remaining time of a job that has done `fraction` in `seconds`, e.g. "about 12 s left"; empty
+/// while unknown.
+[[nodiscard]] QString time_left_text(double fraction, double seconds);
+
+/// Running and waiting jobs, one row each: bar, stage, time left, cancel button, and a button to
+/// end early for jobs that can. Shows a quiet line without jobs. The height stays at one row and
+/// the top of the next; more rows scroll.
+class JobPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit JobPanel(QWidget* parent = nullptr);
+
+  /// Adds a job, waiting until its first progress.
+  void addJob(quint64 id, const QString& title);
+  /// Ignored for an unknown id. A job's clock starts with its first progress.
+  void setProgress(quint64 id, double fraction, const QString& stage);
+  /// Offers to end an iterative job early, once it has begun.
+  void setIterative(quint64 id);
+  /// Marks the job as being cancelled.
+  void setCancelling(quint64 id);
+  void setFinishing(quint64 id);
+  void removeJob(quint64 id);
+
+  [[nodiscard]] int jobCount() const { return static_cast<int>(rows_.size()); }
+
+ signals:
+  void cancelRequested(quint64 id);
+  void finishRequested(quint64 id);
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  struct Row {
+    QWidget* widget;
+    ElidedLabel* stage;
+    QProgressBar* bar;
+    QToolButton* finish;
+    QToolButton* cancel;
+    QElapsedTimer clock;
+    bool is_iterative = false;
+  };
+
+  [[nodiscard]] Row* find(quint64 id);
+  void end(quint64 id, const QString& stage, bool cancelled);
+  void updateColors();
+  void showRows();
+  void fitHeight();
+
+  QScrollArea* scroll_;
+  QVBoxLayout* layout_;  // of the rows
+  QLabel* idle_;
+  std::map<quint64, Row> rows_;
 };
 
 }  // namespace episcope

@@ -14,7 +14,6 @@ static void register_resources() {
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
-#include <QPalette>
 #include <QPixmap>
 #include <QPixmapCache>
 #include <QSvgRenderer>

@@ -5,7 +5,7 @@ class QAction;
 class QLabel;
 class QToolButton;
 class QWidget;
-#include "engine/core/label_info.h"
+#include "engine/core/scene.h"
 
 #include <QIcon>
 #include <QIconEngine>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/label_info.h"
+#include "engine/core/scene.h"
 
 #include <QColor>
 #include <QString>

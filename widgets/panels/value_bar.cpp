@@ -2,13 +2,20 @@
 #include "widgets/panels/value_bar.h"
 
 #include "widgets/controls/labels.h"
+#include "widgets/controls/number_spin.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 
 #include <QEvent>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPixmap>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSlider>
+
+#include <cmath>
 
 namespace episcope {
 namespace {
@@ -99,6 +106,114 @@ void ValueBar::setStatus(const QString& status) {
 
 QString ValueBar::text() const {
   return values_->fullText();
+}
+
+namespace {
+
+constexpr double kSliderStep = 0.01;
+constexpr int kButtonRow = 3;
+
+int tone_step(double value) {
+  return static_cast<int>(std::lround(value / kSliderStep));
+}
+
+}  // namespace
+
+TonePanel::TonePanel(QWidget* parent) : QWidget(parent) {
+  setObjectName("tonePanel");
+  new QGridLayout(this);
+  exposure_ = addRow(0, {"tone.exposure", tr("Exposure"), tr("Each stop doubles the brightness"),
+                         render::kExposureRange, tr(" stops")});
+  gamma_ = addRow(
+      1, {"tone.gamma", tr("Gamma"), tr("More than 1 lifts the shadows"), render::kGammaRange, {}});
+  black_ = addRow(2, {"tone.black",
+                      tr("Black point"),
+                      tr("Darker values are shown as black; 1 is white"),
+                      render::kBlackRange,
+                      {}});
+  addButtons();
+  addReach();
+  setTone({});
+}
+
+TonePanel::Row TonePanel::addRow(int place, const Quality& quality) {
+  auto* layout = qobject_cast<QGridLayout*>(this->layout());
+  const Row row{new QSlider(Qt::Horizontal, this), new NumberSpin(this)};
+  auto* label = new QLabel(quality.text, this);
+  label->setBuddy(row.field);
+  row.slider->setObjectName(QString("%1.slider").arg(quality.name));
+  row.slider->setAccessibleName(quality.text);
+  row.slider->setRange(tone_step(quality.range.min), tone_step(quality.range.max));
+  row.field->setObjectName(quality.name);
+  row.field->setDecimals(2);
+  row.field->setSingleStep(0.05);
+  row.field->setRange(quality.range.min, quality.range.max);
+  row.field->setSuffix(quality.suffix);
+  row.field->setToolTip(quality.tip);
+  row.slider->setToolTip(quality.tip);
+  layout->addWidget(label, place, 0);
+  layout->addWidget(row.slider, place, 1);
+  layout->addWidget(row.field, place, 2);
+  connect(row.slider, &QSlider::valueChanged, this, [this, row](int value) {
+    const QSignalBlocker blocker(row.field);
+    row.field->setValue(value * kSliderStep);
+    emit toneEdited(tone());
+  });
+  connect(row.field, &NumberSpin::valueChanged, this, [this, row](double value) {
+    const QSignalBlocker blocker(row.slider);
+    row.slider->setValue(tone_step(value));
+    emit toneEdited(tone());
+  });
+  return row;
+}
+
+void TonePanel::addButtons() {
+  auto* layout = qobject_cast<QGridLayout*>(this->layout());
+  auto* automatic = new QPushButton(tr("Automatic"), this);
+  automatic->setObjectName("tone.automatic");
+  automatic->setToolTip(tr("Shows the whole brightness range of this view"));
+  auto* reset = new QPushButton(tr("Reset"), this);
+  reset->setObjectName("tone.reset");
+  reset->setToolTip(tr("Shows samples as they are"));
+  layout->addWidget(automatic, kButtonRow, 1);
+  layout->addWidget(reset, kButtonRow, 2);
+  connect(automatic, &QPushButton::clicked, this, &TonePanel::automaticRequested);
+  connect(reset, &QPushButton::clicked, this, [this] {
+    setTone({});
+    emit toneEdited({});
+  });
+}
+
+void TonePanel::addReach() {
+  auto* reach = new QLabel(
+      tr("Brightens views, EPIs, tiles, the points of the 3D tab, and saved pictures and movies. "
+         "Results, labels, PLY files and converted light fields keep the samples."),
+      this);
+  reach->setObjectName("tone.reach");
+  reach->setTextFormat(Qt::PlainText);
+  reach->setWordWrap(true);
+  reach->setPalette(theme::text_palette(theme::muted_text(palette())));
+  qobject_cast<QGridLayout*>(layout())->addWidget(reach, kButtonRow + 1, 0, 1, 3);
+}
+
+void TonePanel::showRow(const Row& row, double value) {
+  const QSignalBlocker slider_blocker(row.slider);
+  const QSignalBlocker field_blocker(row.field);
+  row.slider->setValue(tone_step(value));
+  row.field->setValue(value);
+}
+
+void TonePanel::setTone(const render::Tone& shown) {
+  if (shown == tone()) return;
+  showRow(exposure_, shown.exposure);
+  showRow(gamma_, shown.gamma);
+  showRow(black_, shown.black);
+}
+
+render::Tone TonePanel::tone() const {
+  return {.black = black_.field->value(),
+          .exposure = exposure_.field->value(),
+          .gamma = gamma_.field->value()};
 }
 
 }  // namespace episcope

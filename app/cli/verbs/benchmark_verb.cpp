@@ -2,7 +2,6 @@
 #include "app/benchmark/benchmark.h"
 #include "app/benchmark/plan.h"
 #include "app/benchmark/report.h"
-#include "app/benchmark/task.h"
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
 #include "app/cli/job.h"

@@ -11,7 +11,7 @@
 #include "engine/core/text.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/formats/movie.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/render/legend.h"
 #include "engine/render/shade.h"
 
@@ -105,7 +105,7 @@ Movie movie_of(const MovieRequest& request, const LoadedMap& loaded,
   return make_movie(choice, subject);
 }
 
-constexpr int kMost = std::numeric_limits<int>::max();
+constexpr int kAnyNumber = std::numeric_limits<int>::max();
 
 /// What is asked for; without an id, what there is most to say of.
 struct What {
@@ -165,7 +165,7 @@ Quantity quantity_of(const ShowRequest& request) {
 }
 
 OptionValue<int> index_value(const std::string& name) {
-  return integer_value(name, 0, kMost);
+  return integer_value(name, 0, kAnyNumber);
 }
 
 OptionValue<What> what_value() {
@@ -285,7 +285,7 @@ bool parse(const VerbArguments& arguments, const std::stop_token& stop, ShowRequ
       "--layer", request.layer,
       choice_of<Layer>({{Layer::Foreground, "foreground"}, {Layer::Background, "background"}}),
       "Layer to show where there are two (default foreground)");
-  parser.option("--label", request.map.label, integer_value("N", 1, kMost),
+  parser.option("--label", request.map.label, integer_value("N", 1, kAnyNumber),
                 "Label whose probability is shown (default 1)");
   parser.option("--minus", request.map.minus, text_value("RESULT"),
                 "For a difference: the result to subtract; for a flip: the other result");

@@ -7,7 +7,6 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
-#include "app/session/session.h"
 #include "widgets/controls/text.h"
 #include "widgets/panels/label_palette.h"
 

@@ -5,7 +5,7 @@
 #include "app/gui/shell/workbench.h"
 #include "app/session/label_review.h"
 #include "app/session/session.h"
-#include "engine/core/label_info.h"
+#include "engine/core/scene.h"
 
 #include <QObject>
 

@@ -9,7 +9,6 @@
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
-#include "widgets/panels/label_review_panel.h"
 
 #include <QAction>
 #include <QComboBox>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/labeling_source.h"
 
-#include "app/gui/shell/jobs.h"
-#include "app/session/labeling_inputs.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"

@@ -2,11 +2,8 @@
 #include "app/gui/annotate/segment_controller.h"
 
 #include "app/gui/annotate/annotation_files.h"
-#include "app/gui/scene/document_controller.h"
-#include "app/gui/scene/overlay.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
-#include "app/gui/shell/jobs.h"
 #include "widgets/controls/text.h"
 #include "widgets/panels/segment_panel.h"
 

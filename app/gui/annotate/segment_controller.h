@@ -7,7 +7,6 @@
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/label_review.h"
-#include "app/session/live_labeler.h"
 #include "app/session/segmentation.h"
 #include "app/session/session.h"
 

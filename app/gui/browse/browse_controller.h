@@ -4,7 +4,7 @@
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
-#include "engine/render/tone.h"
+#include "engine/render/shade.h"
 
 #include <QImage>
 #include <QKeySequence>

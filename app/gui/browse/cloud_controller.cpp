@@ -6,8 +6,6 @@
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/session.h"
-#include "widgets/cloud/cloud_look.h"
-#include "widgets/cloud/point_cloud_panel.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/tool_button.h"
 

@@ -4,7 +4,7 @@
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/open_scene.h"
-#include "app/session/point_clouds.h"
+#include "app/session/picture.h"
 #include "widgets/cloud/cloud_look.h"
 #include "widgets/cloud/point_cloud_panel.h"
 

@@ -5,13 +5,11 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
-#include "app/gui/shell/jobs.h"
 #include "app/session/scene_summary.h"
 #include "app/session/session.h"
 #include "engine/core/error.h"
 #include "engine/core/parameter.h"
 #include "engine/core/scene.h"
-#include "engine/cuda/device.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/order_check.h"
@@ -39,7 +37,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <optional>
 #include <string>
 #include <vector>
 

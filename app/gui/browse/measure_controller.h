@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/gui/shell/workbench.h"
-#include "app/session/epi_measurement.h"
 #include "app/session/open_scene.h"
 
 #include <QKeySequence>

@@ -5,12 +5,10 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
-#include "app/gui/shell/jobs.h"
 #include "app/session/session.h"
-#include "engine/render/tone.h"
+#include "engine/render/shade.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/text.h"
-#include "widgets/panels/tone_panel.h"
 #include "widgets/panels/value_bar.h"
 
 #include <QDialog>

@@ -5,8 +5,8 @@
 #include "app/gui/shell/workbench.h"
 #include "app/session/open_scene.h"
 #include "engine/core/estimate.h"
-#include "engine/core/ground_truth.h"
 #include "engine/core/light_field.h"
+#include "engine/core/scene.h"
 
 #include <QObject>
 #include <QStringList>

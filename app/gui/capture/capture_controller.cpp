@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/capture_controller.h"
 
-#include "app/gui/capture/capture_documents.h"
-#include "app/gui/capture/pair_marks.h"
 #include "app/gui/capture/photographs.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/viewer_area.h"
@@ -10,12 +8,11 @@
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
-#include "app/session/gantry_scene.h"
+#include "app/session/load_scene.h"
 #include "app/session/scene_summary.h"
 #include "app/session/session.h"
 #include "engine/capture/alignment.h"
-#include "engine/capture/mesh_file.h"
-#include "engine/capture/pose_file.h"
+#include "engine/capture/solve_pose.h"
 #include "engine/core/error.h"
 #include "engine/io/formats/write_scene.h"
 #include "widgets/canvas/view_canvas.h"
@@ -27,7 +24,6 @@
 #include <QFileInfo>
 #include <QKeyEvent>
 #include <QLocale>
-#include <QString>
 #include <QVBoxLayout>
 
 #include <array>

@@ -5,7 +5,7 @@ class QKeyEvent;
 #include "app/gui/shell/workbench.h"
 #include "app/session/capture_work.h"
 #include "engine/capture/mesh_file.h"
-#include "engine/capture/snap_pick.h"
+#include "engine/capture/pixel_surface.h"
 #include "engine/core/indices.h"
 #include "engine/core/light_field.h"
 #include "widgets/cloud/cloud_look.h"

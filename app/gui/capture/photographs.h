@@ -2,15 +2,28 @@
 #pragma once
 
 #include "app/gui/shell/workbench.h"
-#include "app/session/gantry_scene.h"
+#include "app/session/capture_work.h"
+#include "app/session/load_scene.h"
 #include "engine/capture/calibrate.h"
 #include "engine/capture/demo_folder.h"
+#include "engine/capture/mesh_file.h"
+#include "engine/capture/solve_pose.h"
+#include "widgets/canvas/canvas_geometry.h"
+#include "widgets/cloud/cloud_look.h"
+#include "widgets/panels/capture_panel.h"
 
 #include <QObject>
 #include <QString>
 #include <QStringList>
 
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace episcope {
 
@@ -51,5 +64,83 @@ class Photographs : public QObject {
   CaptureDocuments& documents_;
   PhotographSteps* steps_ = nullptr;
 };
+
+class Messages;
+
+/// Documents of the Capture tab, one for each open light field, kept with it in the session. A new
+/// light field inherits the lens of the previous one; work prepared before any was open goes to the
+/// first.
+class CaptureDocuments : public QObject {
+  Q_OBJECT
+
+ public:
+  CaptureDocuments(const Workbench& bench, QObject* parent);
+
+  /// Document of the shown light field, with poses.
+  [[nodiscard]] const CaptureDocument& now() const { return documents_.at(scene_); }
+  /// Why the current object has no pose although it has enough pairs; empty if it has.
+  [[nodiscard]] const QString& problem() const { return problem_; }
+  /// Meshes of all open light fields.
+  [[nodiscard]] std::set<std::string> meshes() const;
+
+  /// Changes the document of the shown light field.
+  void change(const std::function<void(CaptureDocument&)>& change);
+  /// Changes the document of the light field that was shown when `Session::generation` was `scene`.
+  /// Work begun without a light field goes to the one opened next. Returns false, and does nothing,
+  /// if it was closed.
+  [[nodiscard]] bool changeOf(std::uint64_t scene,
+                              const std::function<void(CaptureDocument&)>& change);
+  /// Sets the initial work of the shown light field, which cannot be undone.
+  void begin(CaptureWork work);
+  /// Follows newly opened light fields at once, instead of when the session announces them.
+  void follow();
+
+ signals:
+  /// The shown document changed, or another document is shown.
+  void changed();
+
+ private:
+  /// Links work begun without a light field to the light field opened next.
+  struct Heir {
+    std::uint64_t none = 0;
+    std::uint64_t next = 0;
+  };
+
+  [[nodiscard]] CaptureWork firstWork() const;
+  void settle();
+
+  Workbench bench_;
+  std::map<std::uint64_t, CaptureDocument> documents_;  // by OpenScene::id
+  std::uint64_t scene_ = 0;
+  bool shows_none_ = true;
+  Heir heir_;
+  QString problem_;
+};
+
+/// Whether a new light field can be written to the path: its name ends in .h5 and no file exists.
+/// Tells the user if not.
+[[nodiscard]] bool is_new_light_field(const QString& path, Messages& messages);
+
+/// Mesh for the 3D view, coarser while it moves. Linear.
+[[nodiscard]] CloudPartsPtr mesh_parts(const capture::TriangleMesh& mesh);
+
+/// Mesh point in the coordinates of the 3D view.
+[[nodiscard]] std::array<double, 3> in_mesh_view(const capture::Point3& point);
+
+/// Pairs as rows of the table.
+[[nodiscard]] std::vector<CaptureRow> pair_rows(const std::vector<capture::PointPair>& pairs,
+                                                const std::optional<capture::SolvedPose>& pose);
+
+/// Pairs as marks in view and mesh.
+struct PairMarks {
+  std::vector<CanvasMark> on_view;  ///< With where the pose puts each, if there is one.
+  std::vector<CloudMark> on_mesh;
+};
+
+/// Emphasizes the pair at place `is_emphasised`; `pose` may be null.
+[[nodiscard]] PairMarks pair_marks(const std::vector<capture::PointPair>& pairs,
+                                   const capture::RigidPose* pose,
+                                   const std::optional<Pinhole>& pinhole,
+                                   const std::function<bool(int)>& is_emphasised);
 
 }  // namespace episcope

@@ -4,14 +4,12 @@
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
-#include "app/session/picture.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/parallel.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
-#include "widgets/panels/compare_bar.h"
 #include "widgets/panels/overlay_bar.h"
 
 #include <QAction>

@@ -7,7 +7,6 @@
 #include "app/session/command_line.h"
 #include "app/session/run_estimator.h"
 #include "engine/evaluation/region_metrics.h"
-#include "widgets/panels/metric_table.h"
 
 #include <QCoreApplication>
 #include <QVariant>
@@ -16,7 +15,6 @@
 #include <array>
 #include <iterator>
 #include <optional>
-#include <vector>
 
 namespace episcope {
 namespace {

@@ -11,9 +11,8 @@
 #include "app/session/session.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 #include "widgets/canvas/canvas_geometry.h"
-#include "widgets/canvas/canvas_tool.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/panels/compare_bar.h"
+#include "widgets/panels/overlay_bar.h"
 
 #include <QFileInfo>
 #include <QLocale>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/estimate/method_runs.h"
+#include "app/gui/estimate/live_controller.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/open_scene.h"
 #include "app/session/run_estimator.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/sweep_controller.h"
 
-#include "app/gui/estimate/method_runs.h"
+#include "app/gui/estimate/live_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/scene_switcher.h"
@@ -10,7 +10,6 @@
 #include "app/gui/shell/jobs.h"
 #include "app/session/command_line.h"
 #include "app/session/session.h"
-#include "app/session/sweep.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/disparity/registry.h"
@@ -25,7 +24,6 @@
 #include <algorithm>
 #include <functional>
 #include <span>
-#include <string>
 #include <utility>
 
 namespace episcope {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/files/autosave.h"
 
+#include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/scene_switcher.h"
+#include "app/gui/shell/commands.h"
+#include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
-#include "app/gui/shell/jobs.h"
-#include "app/session/open_scene.h"
-#include "app/session/project_file.h"
-#include "app/session/project_store.h"
+#include "app/session/load_scene.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
+#include "widgets/controls/message_bar.h"
 #include "widgets/controls/text.h"
 
 #include <algorithm>
@@ -151,6 +152,172 @@ void Autosave::setProjectFile(fs::path file) {
   project_file_ = std::move(file);
   emit projectFileChanged();
   schedule();
+}
+
+namespace {
+
+std::size_t result_count(const Project& project) {
+  std::size_t count = 0;
+  for (const ProjectScene& scene : project.scenes) count += scene.results.size();
+  return count;
+}
+
+// The journals that the killed session left: each belongs to the scene that it was painted on. Also
+// where the user's own project holds everything: recovered strokes continue from there.
+void name_journals(ReadProject& read, const std::filesystem::path& folder) {
+  for (const OrphanedJournal& journal : orphaned_journals(folder)) {
+    try {
+      const JournalOwner owner = read_journal(journal.path).owner;
+      const auto scene = std::ranges::find(read.project.scenes, owner.source, &ProjectScene::input);
+      if (scene != read.project.scenes.end() && scene->strokes.empty()) {
+        scene->strokes = journal.path;
+      }
+    } catch (const IoError&) {
+      // Not even its beginning can be read: it is of no scene.
+    }
+  }
+}
+
+}  // namespace
+
+SessionRecovery::SessionRecovery(const Workbench& bench, Autosave& autosave)
+    : QObject(&bench.owner),
+      bench_(bench),
+      autosave_(autosave),
+      bar_(new MessageBar(&bench.frame)),
+      job_(this) {
+  bar_->setObjectName("sessionRecoveryBar");
+  bench.frame.addFloating(bar_);
+  connect(&bench.frame, &Frame::started, this, &SessionRecovery::look);
+}
+
+void SessionRecovery::look() {
+  using Left = std::vector<OrphanedWorkspace>;
+  job_.start<Left>(
+      [root = autosave_.root()](const Progress&) {
+        return root.empty() ? Left() : orphaned_workspaces(root);
+      },
+      [this](Left left) {
+        left_ = std::move(left);
+        std::ranges::reverse(left_);
+        offerNext();
+      });
+}
+
+void SessionRecovery::offerNext() {
+  if (left_.empty()) {
+    bench_.frame.settle();
+    return;
+  }
+  const OrphanedWorkspace left = left_.back();
+  left_.pop_back();
+  bar_->showMessage(
+      Severity::Warning,
+      tr("Episcope ended unexpectedly (%1). What was open can be recovered: light fields: %2, "
+         "results: %3.")
+          .arg(short_text(left.last_change))
+          .arg(left.project.scenes.size())
+          .arg(result_count(left.project)),
+      {tr("Recover"), [this, left] { recover(left); }}, {tr("Discard"), [this, left] {
+                                                           discard_workspace(left.folder);
+                                                           offerNext();
+                                                         }});
+}
+
+void SessionRecovery::recover(const OrphanedWorkspace& left) {
+  bench_.guards.leave(Leaving::Session, [this, left] { takeOver(left); });
+}
+
+void SessionRecovery::takeOver(const OrphanedWorkspace& left) {
+  using Read = std::shared_ptr<ReadProject>;
+  job_.start<Read>(
+      [project = left.project, journals = bench_.document.journalFolder()](const Progress&) {
+        auto read = std::make_shared<ReadProject>();
+        read->project = project;
+        if (!journals.empty()) name_journals(*read, journals);
+        read_strokes(*read);
+        return read;
+      },
+      [this, left](const Read& read) {
+        const std::filesystem::path saved_as = read->project.saved_as;
+        try {
+          autosave_.takeOver(left.folder);
+        } catch (const IoError& error) {
+          bench_.messages.warn(QString::fromUtf8(error.what()));
+          return;
+        }
+        const auto kept = show_project(bench_, std::move(*read), ProjectOrigin::Crash);
+        autosave_.setProjectFile(saved_as);
+        for (const std::filesystem::path& each : kept) {
+          // What lies elsewhere is of a project of the user's.
+          if (each.parent_path() == bench_.document.journalFolder()) discard_journal(each);
+        }
+        bench_.messages.success(tr("Recovered what was open."));
+        offerNext();
+      });
+}
+
+void read_strokes(ReadProject& read) {
+  for (std::size_t i = 0; i < read.project.scenes.size(); ++i) {
+    const std::filesystem::path& file = read.project.scenes[i].strokes;
+    if (file.empty()) continue;
+    try {
+      read.strokes.emplace(i, read_journal(file));
+    } catch (const IoError& error) {
+      read.failures << QString::fromUtf8(error.what());
+    }
+  }
+}
+
+namespace {
+
+// A built-in scene is what a start without a file shows.
+bool gives_way(const OpenScene& open, const Project& project) {
+  return !builtin_scene_id(open.input).empty() ||
+         std::ranges::count(project.scenes, open.input, &ProjectScene::input) > 0;
+}
+
+void make_way(const Workbench& bench, const Project& project, ProjectOrigin origin) {
+  bench.jobs.cancelLane(Lane::Open);
+  for (const OpenScene* each : bench.session.scenes()) {
+    if (origin == ProjectOrigin::Crash && !gives_way(*each, project)) continue;
+    const std::uint64_t id = each->id;
+    id == bench.session.generation() ? bench.session.close() : bench.session.remove(id);
+  }
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> show_project(const Workbench& bench, ReadProject read,
+                                                ProjectOrigin origin) {
+  const bool is_saved = origin == ProjectOrigin::File;
+  make_way(bench, read.project, origin);
+  bench.session.set_bad_threshold(read.project.bad_threshold_px);
+  std::uint64_t current = 0;
+  std::vector<std::filesystem::path> kept;
+  std::map<std::uint64_t, std::uint64_t> ids;  // of scenes: in the project, now
+  for (std::size_t i = 0; i < read.project.scenes.size(); ++i) {
+    const ProjectScene& scene = read.project.scenes[i];
+    const std::uint64_t id = bench.session.add_aside(scene_of(scene, is_saved));
+    ids[scene.id] = id;
+    if (i <= read.project.current) current = id;
+    const auto strokes = read.strokes.find(i);
+    if (strokes == read.strokes.end()) {
+      bench.session.set_unread_strokes(id, scene.strokes);
+      continue;
+    }
+    strokes->second.owner.source = scene.input;
+    const auto stored = is_saved ? scene.strokes : std::filesystem::path();
+    if (bench.document.bring(id, std::move(strokes->second), stored)) kept.push_back(scene.strokes);
+  }
+  for (Sweep& sweep : read.project.sweeps) {
+    for (SweepScene& scene : sweep.scenes) scene.scene = ids[scene.scene];
+    sweep.is_saved = is_saved;
+    bench.scenes.sweeps().add(std::move(sweep));
+  }
+  if (!read.failures.isEmpty()) bench.messages.warn(read.failures.join(' '));
+  bench.scenes.show(current);
+  return kept;
 }
 
 }  // namespace episcope

@@ -10,18 +10,15 @@
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/collections.h"
-#include "app/session/open_scene.h"
 #include "app/session/session.h"
 #include "engine/core/jobs.h"
 #include "engine/core/parallel.h"
-#include "engine/io/formats/collection.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/panels/scene_panel.h"
 
 #include <QAction>
 #include <QFileInfo>
 #include <QImage>
-#include <QObject>
 
 #include <algorithm>
 #include <deque>

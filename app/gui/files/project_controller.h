@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/gui/shell/commands.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/user_folders.h"
 
+#include <QElapsedTimer>
+#include <QMessageBox>
 #include <QObject>
+#include <QPointer>
 #include <QString>
 
 #include <functional>
 #include <string>
+#include <vector>
+
+class QComboBox;
 
 namespace episcope {
 
@@ -49,6 +56,82 @@ class ProjectController : public QObject {
   Autosave& autosave_;
   KnownFiles known_;
   std::string saved_content_;  // what it holds
+};
+
+/// Asks once before losing expensive results, scribbles of other scenes, project changes or a
+/// running method; offers to save a project.
+class ProjectGuard : public QObject {
+  Q_OBJECT
+
+ public:
+  ProjectGuard(const Workbench& bench, ProjectController& project);
+
+  /// Results computed in less time are not worth a question: 5 s by default.
+  void setWorthKeeping(double seconds) { worth_keeping_s_ = seconds; }
+
+ private:
+  using Continue = LeaveGuards::Continue;
+
+  /// What would be lost.
+  struct Loss {
+    std::vector<std::string> results;
+    std::vector<std::string> scribbled;  ///< Names of light fields,
+    std::vector<std::string> picked;     ///< of those with pairs for ground truth,
+    std::vector<std::string> measured;   ///< and of those with lines kept of EPIs.
+    bool of_project = false;             ///< Other changes of a project that has a file.
+    bool is_running = false;
+    [[nodiscard]] bool empty() const { return !has_unsaved() && !is_running; }
+    [[nodiscard]] bool has_unsaved() const {
+      return !results.empty() || !scribbled.empty() || !picked.empty() || !measured.empty() ||
+             of_project;
+    }
+  };
+
+  [[nodiscard]] Loss loss(Leaving what) const;
+  [[nodiscard]] bool isRunning() const;
+  [[nodiscard]] static QString sentence(const Loss& loss);
+  void ask(Leaving what, const Continue& go_on);
+  void answer(QMessageBox::StandardButton button, Leaving what, const Continue& go_on);
+
+  Workbench bench_;
+  ProjectController& project_;
+  double worth_keeping_s_ = 5;
+  QElapsedTimer running_;    // since the first of the methods that run was started
+  int settled_jobs_ = 0;     // that ran when the user said so:
+  bool is_settled_ = false;  // what is there now may go
+  QPointer<QMessageBox> question_;
+};
+
+/// The list of open light fields, which switches between them.
+class SceneChooser : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit SceneChooser(const Workbench& bench);
+
+ private:
+  void addCommands();
+  void fill();
+
+  Workbench bench_;
+  QComboBox* list_;
+};
+
+/// Titles the window after light field and project; a star marks unsaved scribbles or project
+/// changes.
+class WindowTitle : public QObject {
+  Q_OBJECT
+
+ public:
+  WindowTitle(const Workbench& bench, const Autosave& autosave, const ProjectController& project);
+
+ private:
+  void show();
+  void mark();
+
+  Workbench bench_;
+  const Autosave& autosave_;
+  const ProjectController& project_;
 };
 
 }  // namespace episcope

@@ -7,8 +7,6 @@
 #include "app/session/result_files.h"
 #include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
-#include "app/session/session.h"
-#include "app/session/user_folders.h"
 #include "engine/core/error.h"
 
 #include <QFileInfo>

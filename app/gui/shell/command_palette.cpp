@@ -2,13 +2,22 @@
 #include "app/gui/shell/command_palette.h"
 
 #include "app/gui/shell/commands.h"
+#include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
 #include <QAction>
+#include <QHBoxLayout>
+#include <QHeaderView>
 #include <QKeyEvent>
+#include <QKeySequenceEdit>
+#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPushButton>
+#include <QSignalBlocker>
 #include <QTimer>
+#include <QTreeWidget>
+#include <QTreeWidgetItemIterator>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -106,6 +115,228 @@ bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
     }
   }
   return QDialog::eventFilter(watched, event);
+}
+
+namespace {
+
+constexpr int kIdRole = Qt::UserRole;
+constexpr int kWordsRole = Qt::UserRole + 1;  // that it is found by, besides those seen
+
+QString key_text(const QList<QKeySequence>& keys) {
+  QStringList texts;
+  for (const QKeySequence& key : keys) texts << key.toString(QKeySequence::NativeText);
+  return texts.join(QStringLiteral(", "));
+}
+
+QTreeWidgetItem* add_group(QTreeWidget* tree, const QString& title) {
+  auto* group = new QTreeWidgetItem(tree, {title});
+  QFont font = group->font(0);
+  font.setBold(true);
+  group->setFont(0, font);
+  group->setFlags(Qt::ItemIsEnabled);
+  group->setFirstColumnSpanned(true);
+  group->setExpanded(true);
+  return group;
+}
+
+}  // namespace
+
+ShortcutWindow::ShortcutWindow(Commands& commands, QWidget* parent)
+    : QDialog(parent),
+      commands_(commands),
+      find_(new QLineEdit(this)),
+      tree_(new QTreeWidget(this)) {
+  setObjectName("shortcut_window");
+  setWindowTitle(tr("Keys and mouse"));
+  tree_->setObjectName("keys.tree");
+  tree_->setHeaderLabels({tr("Key"), tr("What it does")});
+  tree_->setRootIsDecorated(false);
+  tree_->setItemsExpandable(false);
+  find_->setObjectName("keys.find");
+  find_->setPlaceholderText(tr("Find a key or a command"));
+  find_->setClearButtonEnabled(true);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(find_);
+  layout->addWidget(tree_, 1);
+  layout->addWidget(makeEditor());
+  fillGestures();
+  fillCommands();
+  showKeys();
+  // Fonts draw the dots of capital umlauts above their height.
+  for (QTreeWidgetItemIterator item(tree_); *item; ++item) {
+    (*item)->setSizeHint(1, QSize(0, fontMetrics().height() + 4));
+  }
+  tree_->resizeColumnToContents(0);
+  tree_->setColumnWidth(0, std::clamp(tree_->columnWidth(0), 190, 330));
+  connect(tree_, &QTreeWidget::itemSelectionChanged, this, [this] {
+    const QSignalBlocker blocker(edit_);
+    edit_->clear();
+    updateEditor();
+  });
+  connect(tree_, &QTreeWidget::itemActivated, edit_, qOverload<>(&QWidget::setFocus));
+  connect(find_, &QLineEdit::textChanged, this, &ShortcutWindow::filter);
+  connect(&commands_, &Commands::keysChanged, this, &ShortcutWindow::showKeys);
+  resize(700, 680);
+}
+
+QWidget* ShortcutWindow::makeEditor() {
+  auto* editor = new QWidget(this);
+  edit_ = new QKeySequenceEdit(editor);
+  edit_->setObjectName("keys.edit");
+  set_ = new QPushButton(tr("Set key"), editor);
+  set_->setObjectName("keys.set");
+  reset_ = new QPushButton(tr("Default"), editor);
+  reset_->setObjectName("keys.reset");
+  reset_->setToolTip(tr("Restores the default keys of the selected command"));
+  auto* reset_all = new QPushButton(tr("All defaults"), editor);
+  reset_all->setObjectName("keys.resetAll");
+  reset_all->setToolTip(tr("Restores the default keys of all commands"));
+  for (auto* button : {set_, reset_, reset_all}) button->setAutoDefault(false);
+  hint_ = new QLabel(editor);
+  hint_->setObjectName("keys.hint");
+  hint_->setWordWrap(true);
+  auto* row = new QHBoxLayout;
+  row->addWidget(edit_, 1);
+  for (auto* button : {set_, reset_, reset_all}) row->addWidget(button);
+  auto* layout = new QVBoxLayout(editor);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(hint_);
+  layout->addLayout(row);
+  connect(edit_, &QKeySequenceEdit::keySequenceChanged, this, [this](const QKeySequence& keys) {
+    // One chord; the edit would gather up to four.
+    if (keys.count() > 1) edit_->setKeySequence(QKeySequence(keys[0]));
+    updateEditor();
+  });
+  connect(set_, &QPushButton::clicked, this, &ShortcutWindow::setKey);
+  connect(reset_, &QPushButton::clicked, this, [this] { commands_.resetKeys(command()); });
+  connect(reset_all, &QPushButton::clicked, &commands_, &Commands::resetAllKeys);
+  updateEditor();
+  return editor;
+}
+
+void ShortcutWindow::fillGestures() {
+  addGestures(
+      tr("In the view"),
+      {
+          {tr("Click"), tr("Moves the cross-hair")},
+          {tr("Shift+click"), tr("Focuses on the pixel")},
+          {tr("Double click"), tr("Shows the center view; in tiles: shows that tile alone")},
+          {tr("Drag"), tr("Moves between the views (parallax); in tiles: pans")},
+          {tr("Middle drag, Space+drag"), tr("Pans")},
+          {tr("Wheel"), tr("Zooms at the cursor")},
+          {tr("Alt+wheel, Ctrl+wheel"), tr("Moves the focus plane")},
+          {tr("Drag in an EPI"), tr("Draws a line and measures its disparity")},
+      });
+  addGestures(tr("In the view, while annotating"),
+              {
+                  {tr("Drag"), tr("Paints the current label, or uses the current tool")},
+                  {tr("Right drag"), tr("Erases")},
+                  {tr("Shift+drag"), tr("Paints without changing other labels")},
+                  {tr("Ctrl+click"), tr("Moves the cross-hair")},
+                  {tr("Ctrl+Shift+wheel"), tr("Changes the size of brush or eraser")},
+                  {tr("Esc"), tr("Cancels the current stroke")},
+              });
+}
+
+void ShortcutWindow::addGestures(const QString& title, const QList<QStringList>& gestures) {
+  auto* group = add_group(tree_, title);
+  for (const QStringList& gesture : gestures) {
+    auto* item = new QTreeWidgetItem(group, gesture);
+    item->setFlags(Qt::ItemIsEnabled);
+    item->setToolTip(1, gesture[1]);
+  }
+}
+
+void ShortcutWindow::fillCommands() {
+  for (const MenuInfo& menu : menus()) {
+    QTreeWidgetItem* group = nullptr;
+    for (const Command& command : commands_.all()) {
+      if (command.menu != menu.menu || command.submenu) continue;
+      if (!group) group = add_group(tree_, menu_path(menu.menu));
+      auto* item = new QTreeWidgetItem(group, {QString(), command.tip});
+      item->setToolTip(1, command.tip);
+      item->setData(0, kWordsRole, menu_path(menu.menu) + ' ' + command.text);
+      item->setData(0, kIdRole, command.id);
+    }
+  }
+}
+
+void ShortcutWindow::showKeys() {
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    QTreeWidgetItem* group = tree_->topLevelItem(i);
+    for (int row = 0; row < group->childCount(); ++row) {
+      QTreeWidgetItem* item = group->child(row);
+      const QString id = item->data(0, kIdRole).toString();
+      if (id.isEmpty()) continue;
+      item->setText(0, key_text(commands_.keys(id)));
+      QFont font = item->font(0);
+      font.setBold(commands_.hasOwnKeys(id));
+      item->setFont(0, font);
+    }
+  }
+  updateEditor();
+}
+
+void ShortcutWindow::filter(const QString& text) {
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    QTreeWidgetItem* group = tree_->topLevelItem(i);
+    bool is_empty = true;
+    for (int row = 0; row < group->childCount(); ++row) {
+      QTreeWidgetItem* item = group->child(row);
+      const bool is_found =
+          item->text(0).contains(text, Qt::CaseInsensitive) ||
+          item->text(1).contains(text, Qt::CaseInsensitive) ||
+          item->data(0, kWordsRole).toString().contains(text, Qt::CaseInsensitive);
+      item->setHidden(!is_found);
+      is_empty &= !is_found;
+    }
+    group->setHidden(is_empty);
+  }
+}
+
+QString ShortcutWindow::command() const {
+  const auto selected = tree_->selectedItems();
+  return selected.isEmpty() ? QString() : selected.front()->data(0, kIdRole).toString();
+}
+
+void ShortcutWindow::updateEditor() {
+  const QString id = command();
+  const QKeySequence key = edit_->keySequence();
+  edit_->setEnabled(!id.isEmpty());
+  set_->setEnabled(!id.isEmpty() && !key.isEmpty());
+  set_->setText(tr("Set key"));
+  reset_->setEnabled(!id.isEmpty() && commands_.hasOwnKeys(id));
+  hint_->setPalette(QPalette());
+  if (id.isEmpty()) {
+    hint_->setText(tr("Choose a command to change its key."));
+    return;
+  }
+  const QString name = commands_.find(id)->text();
+  const QString user = key.isEmpty() ? QString() : commands_.userOf(key);
+  if (user.isEmpty() || user == id) {
+    hint_->setText(tr("%1: press the new key in the field.").arg(name));
+    return;
+  }
+  const QString text = key.toString(QKeySequence::NativeText);
+  hint_->setText(tr("%1 already belongs to “%2”, which would lose it.")
+                     .arg(text, commands_.find(user)->text()));
+  hint_->setPalette(theme::text_palette(theme::warning_text(palette())));
+  set_->setText(tr("Reassign"));
+}
+
+void ShortcutWindow::setKey() {
+  const QString id = command();
+  const QKeySequence key = edit_->keySequence();
+  if (id.isEmpty() || key.isEmpty()) return;
+  if (const QString user = commands_.userOf(key); !user.isEmpty() && user != id) {
+    QList<QKeySequence> left = commands_.keys(user);
+    left.removeAll(key);
+    commands_.setKeys(user, left);
+  }
+  commands_.setKeys(id, {key});
+  const QSignalBlocker blocker(edit_);
+  edit_->clear();
+  updateEditor();
 }
 
 }  // namespace episcope

@@ -2,9 +2,15 @@
 #pragma once
 
 #include <QDialog>
+#include <QKeySequence>
+#include <QString>
 
+class QKeySequenceEdit;
+class QLabel;
 class QLineEdit;
 class QListWidget;
+class QPushButton;
+class QTreeWidget;
 
 namespace episcope {
 
@@ -31,6 +37,37 @@ class CommandPalette : public QDialog {
   const Commands& commands_;
   QLineEdit* edit_;
   QListWidget* list_;
+};
+
+/// Every key and mouse gesture, from the table of commands. To change a key, choose a command,
+/// press the new key and set it. A key of another command is named, and taken from it only on
+/// request. Does not block.
+class ShortcutWindow : public QDialog {
+  Q_OBJECT
+
+ public:
+  ShortcutWindow(Commands& commands, QWidget* parent);
+
+ private:
+  void fillGestures();
+  void addGestures(const QString& title, const QList<QStringList>& gestures);
+  void fillCommands();
+  QWidget* makeEditor();
+  void showKeys();
+  /// Shows only rows that contain the text.
+  void filter(const QString& text);
+  /// Id of the selected command; empty on gestures.
+  [[nodiscard]] QString command() const;
+  void updateEditor();
+  void setKey();
+
+  Commands& commands_;
+  QLineEdit* find_;
+  QTreeWidget* tree_;
+  QKeySequenceEdit* edit_ = nullptr;
+  QLabel* hint_ = nullptr;
+  QPushButton* set_ = nullptr;
+  QPushButton* reset_ = nullptr;
 };
 
 }  // namespace episcope

@@ -15,7 +15,6 @@
 #include <QPushButton>
 #include <QSaveFile>
 #include <QSettings>
-#include <QString>
 
 #include <chrono>
 #include <utility>

@@ -2,13 +2,11 @@
 #include "app/gui/shell/jobs.h"
 
 #include "app/gui/shell/frame.h"
-#include "app/session/session.h"
 #include "engine/core/error.h"
-#include "widgets/controls/job_panel.h"
+#include "widgets/controls/message_bar.h"
 #include "widgets/controls/text.h"
 
 #include <QMetaObject>
-#include <QObject>
 
 #include <algorithm>
 #include <chrono>

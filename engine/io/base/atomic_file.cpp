@@ -2,24 +2,28 @@
 #include "engine/io/base/atomic_file.h"
 
 #include "engine/core/error.h"
-#include "engine/io/base/files.h"
-
-#include <fmt/format.h>
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cerrno>
 #include <charconv>
+#include <condition_variable>
 #include <csignal>
-#include <cstdint>
-#include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <random>
-#include <string>
-#include <string_view>
+#include <thread>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -217,6 +221,326 @@ AtomicFolder::~AtomicFolder() {
 void AtomicFolder::commit() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw write_error(target_);
   temporary_.clear();
+}
+
+namespace {
+
+struct LogContent {
+  std::vector<LogRecord> records;
+  std::size_t whole_bytes = 0;  ///< Of the signature and these records.
+};
+
+constexpr std::array<std::uint32_t, 256> checksum_table() {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
+    std::uint32_t value = byte;
+    for (int bit = 0; bit < 8; ++bit)
+      value = (value & 1U) != 0 ? 0xEDB88320U ^ (value >> 1) : value >> 1;
+    table[byte] = value;
+  }
+  return table;
+}
+
+}  // namespace
+
+std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
+  static constexpr std::array<std::uint32_t, 256> table = checksum_table();
+  std::uint32_t value = 0xFFFFFFFFU;
+  for (const std::uint8_t byte : bytes) value = table[(value ^ byte) & 0xFFU] ^ (value >> 8);
+  return ~value;
+}
+
+namespace {
+
+using LogBytes = std::span<const std::uint8_t>;
+
+constexpr std::array<std::uint8_t, 8> kSignature{'E', 'P', 'I', 'L', 'O', 'G', '1', '\n'};
+constexpr std::size_t kFrame = 8;  // length and checksum, 32 bits each, lowest byte first
+constexpr std::size_t kMaxRecord = std::size_t{1} << 31;
+
+void put_number(std::size_t number, std::vector<std::uint8_t>& bytes) {
+  for (int shift = 0; shift < 32; shift += 8) {
+    bytes.push_back(static_cast<std::uint8_t>(number >> shift));
+  }
+}
+
+std::uint32_t number_at(LogBytes bytes) {
+  return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+         std::uint32_t{bytes[3]} << 24;
+}
+
+// It also covers the length: zeros are no record.
+std::uint32_t checksum_of(LogBytes record) {
+  return checksum(record) ^ static_cast<std::uint32_t>(record.size()) ^ 0xA5A5A5A5U;
+}
+
+// A record at the beginning of some bytes, and how many of them it takes with its frame.
+struct Framed {
+  LogBytes record;
+  std::size_t size = 0;
+};
+
+std::optional<Framed> first_line(LogBytes bytes) {
+  const auto end = std::ranges::find(bytes, '\n');
+  if (end == bytes.end()) return std::nullopt;
+  const auto length = static_cast<std::size_t>(end - bytes.begin());
+  return Framed{bytes.first(length), length + 1};
+}
+
+std::optional<Framed> first_checked(LogBytes bytes) {
+  if (bytes.size() < kFrame) return std::nullopt;
+  const std::size_t length = number_at(bytes);
+  if (bytes.size() - kFrame < length) return std::nullopt;
+  const LogBytes record = bytes.subspan(kFrame, length);
+  if (checksum_of(record) != number_at(bytes.subspan(4))) return std::nullopt;
+  return Framed{record, kFrame + length};
+}
+
+/// The bytes of a log without records.
+LogBytes log_signature(LogFraming framing) {
+  return framing == LogFraming::Lines ? LogBytes{} : LogBytes{kSignature};
+}
+
+/// Adds a record to the bytes of a log. Throws InvalidInput if it is longer than 2 GiB.
+void put_record(LogFraming framing, LogBytes record, std::vector<std::uint8_t>& bytes) {
+  if (record.size() > kMaxRecord) throw InvalidInput("a record of more than 2 GiB cannot be kept");
+  if (framing == LogFraming::Checked) {
+    put_number(record.size(), bytes);
+    put_number(checksum_of(record), bytes);
+  }
+  bytes.insert(bytes.end(), record.begin(), record.end());
+  if (framing == LogFraming::Lines) {
+    assert(std::ranges::find(record, '\n') == record.end());
+    bytes.push_back('\n');
+  }
+}
+
+/// Returns the records before the first truncated or damaged one, which a program that ends during
+/// a write leaves. Empty if the bytes are no such log.
+std::optional<LogContent> parse_log(LogFraming framing, LogBytes bytes) {
+  const LogBytes signature = log_signature(framing);
+  if (bytes.size() < signature.size() ||
+      !std::ranges::equal(signature, bytes.first(signature.size()))) {
+    return std::nullopt;
+  }
+  LogContent content{{}, signature.size()};
+  const auto first = framing == LogFraming::Lines ? first_line : first_checked;
+  while (const auto framed = first(bytes.subspan(content.whole_bytes))) {
+    content.records.emplace_back(framed->record.begin(), framed->record.end());
+    content.whole_bytes += framed->size;
+  }
+  return content;
+}
+
+bool lock(const FileDescriptor& file) {
+  return ::flock(file.id(), LOCK_EX | LOCK_NB) == 0;
+}
+
+IoError not_a_log(const std::filesystem::path& path) {
+  return {path, "this is not a log of this program; choose another file"};
+}
+
+}  // namespace
+
+/// Flushes an open file to the disk soon after each write, on a thread of its own, so that the
+/// writer never waits for a disk. The file must outlive it.
+class BackgroundFlush {
+ public:
+  /// Whether the present contents of the file and its name are on the disk.
+  enum class Start { Flushed, Unflushed };
+
+  BackgroundFlush(int descriptor, std::filesystem::path path, Start start);
+  /// Flushes first.
+  ~BackgroundFlush();
+  BackgroundFlush(const BackgroundFlush&) = delete;
+  BackgroundFlush& operator=(const BackgroundFlush&) = delete;
+
+  /// Announces that something was written.
+  void request();
+  /// Waits until everything written is on the disk, or until a flush fails.
+  void wait();
+  /// `errno` of a flush that failed; 0 = none did.
+  [[nodiscard]] int error() const;
+
+ private:
+  void run(const std::stop_token& stop);
+
+  const int descriptor_;
+  const std::filesystem::path path_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::uint64_t written_ = 0;  ///< Counts requests,
+  std::uint64_t flushed_ = 0;  ///< and those fulfilled.
+  bool is_named_;              ///< Whether the name is on the disk.
+  int error_ = 0;
+  std::jthread thread_;
+};
+
+BackgroundFlush::BackgroundFlush(int descriptor, std::filesystem::path path, Start start)
+    : descriptor_(descriptor),
+      path_(std::move(path)),
+      written_(start == Start::Unflushed ? 1 : 0),
+      is_named_(start == Start::Flushed),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+BackgroundFlush::~BackgroundFlush() {
+  thread_.request_stop();
+  thread_.join();
+}
+
+void BackgroundFlush::request() {
+  const std::scoped_lock lock(mutex_);
+  ++written_;
+  changed_.notify_all();
+}
+
+void BackgroundFlush::wait() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return flushed_ == written_ || error_ != 0; });
+}
+
+int BackgroundFlush::error() const {
+  const std::scoped_lock lock(mutex_);
+  return error_;
+}
+
+void BackgroundFlush::run(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, stop, [this] { return flushed_ != written_; });
+    if (flushed_ == written_) return;
+    const std::uint64_t reached = written_;
+    lock.unlock();
+    const int error = ::fdatasync(descriptor_) == 0 ? 0 : errno;
+    if (!std::exchange(is_named_, true)) flush_folder(path_);
+    lock.lock();
+    flushed_ = reached;
+    if (error != 0) error_ = error;
+    changed_.notify_all();
+  }
+}
+
+AppendLog::AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush)
+    : path_(path), framing_(framing) {
+  errno = 0;
+  file_ = FileDescriptor(path, O_RDWR | O_CREAT | O_APPEND);
+  if (!file_.ok()) throw write_error(path);
+  if (!lock(file_)) {
+    throw IoError(
+        path, "another program is writing it; wait until it has finished or name another folder");
+  }
+  read_records();
+  start_flush(flush, false);
+}
+
+AppendLog::AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush,
+                     std::span<const LogRecord> records)
+    : path_(path), framing_(framing) {
+  const auto signature = log_signature(framing);
+  LogRecord bytes(signature.begin(), signature.end());
+  for (const LogRecord& record : records) put_record(framing, record, bytes);
+  AtomicFile target(path, bytes.size());
+  errno = 0;
+  file_ = FileDescriptor(target.temporary(), O_WRONLY | O_APPEND);
+  // Held before it has its name: nobody can take it for one that was left.
+  if (!file_.ok() || !lock(file_) || !write_all(file_.id(), bytes)) throw write_error(path);
+  bytes_ = bytes.size();
+  std::error_code ignored;
+  if (flush == LogFlush::AtOnce || std::filesystem::exists(path, ignored)) {
+    target.commit();  // a loss of power must not cost the records that are there
+    start_flush(flush, true);
+  } else {
+    target.commit_unflushed();
+    start_flush(flush, false);
+  }
+}
+
+AppendLog::~AppendLog() = default;
+
+void AppendLog::start_flush(LogFlush flush, bool is_flushed) {
+  if (flush == LogFlush::AtOnce) return;
+  const auto start =
+      is_flushed ? BackgroundFlush::Start::Flushed : BackgroundFlush::Start::Unflushed;
+  flush_ = std::make_unique<BackgroundFlush>(file_.id(), path_, start);
+}
+
+void AppendLog::read_records() {
+  LogRecord bytes;
+  if (!read_all(file_.id(), bytes)) {
+    throw IoError(path_, std::string("cannot be read: ") + std::strerror(errno));
+  }
+  const auto signature = log_signature(framing_);
+  errno = 0;
+  if (bytes.size() < signature.size() && std::ranges::equal(bytes, signature.first(bytes.size()))) {
+    // New, or its program ended as it began to write.
+    if (!write_all(file_.id(), signature.subspan(bytes.size()))) throw write_error(path_);
+    bytes_ = signature.size();
+    return;
+  }
+  auto content = parse_log(framing_, bytes);
+  if (!content) throw not_a_log(path_);
+  records_ = std::move(content->records);
+  bytes_ = content->whole_bytes;
+  if (bytes_ < bytes.size() && ::ftruncate(file_.id(), static_cast<off_t>(bytes_)) != 0) {
+    throw write_error(path_);
+  }
+}
+
+void AppendLog::append(std::span<const std::uint8_t> record) {
+  LogRecord bytes;
+  put_record(framing_, record, bytes);
+  write(bytes);
+}
+
+void AppendLog::append(std::string_view record) {
+  append({reinterpret_cast<const std::uint8_t*>(record.data()), record.size()});
+}
+
+void AppendLog::append_all(std::span<const LogRecord> records) {
+  LogRecord bytes;
+  for (const LogRecord& record : records) put_record(framing_, record, bytes);
+  if (!bytes.empty()) write(bytes);
+}
+
+void AppendLog::write(std::span<const std::uint8_t> bytes) {
+  require_sound();
+  errno = 0;
+  if (!write_all(file_.id(), bytes) || (!flush_ && ::fsync(file_.id()) != 0)) {
+    const IoError error = write_error(path_);
+    is_broken_ = ::ftruncate(file_.id(), static_cast<off_t>(bytes_)) != 0;
+    throw error;
+  }
+  bytes_ += bytes.size();
+  if (flush_) flush_->request();
+}
+
+void AppendLog::flush() {
+  if (flush_) flush_->wait();
+  require_sound();
+}
+
+void AppendLog::require_sound() {
+  const int error = flush_ ? flush_->error() : 0;
+  if (error == 0 && !is_broken_) return;
+  errno = error;
+  throw write_error(path_);
+}
+
+std::vector<LogRecord> read_log(const std::filesystem::path& path, LogFraming framing) {
+  require_readable_file(path);
+  const FileDescriptor file(path, O_RDONLY);
+  LogRecord bytes;
+  if (!file.ok() || !read_all(file.id(), bytes)) {
+    throw IoError(path, "the file cannot be read; check its permissions");
+  }
+  auto content = parse_log(framing, bytes);
+  if (!content) throw not_a_log(path);
+  return std::move(content->records);
+}
+
+bool is_held(const std::filesystem::path& path) {
+  const FileDescriptor file(path, O_RDONLY);
+  return file.ok() && ::flock(file.id(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
 }  // namespace episcope::io

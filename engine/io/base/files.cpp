@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/base/files.h"
 
-#include "engine/core/error.h"
 #include "engine/core/text.h"
 
 #include <fcntl.h>
@@ -11,8 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 

@@ -12,12 +12,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdint>
 #include <fstream>
 #include <numeric>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 /// What reading and writing blocks of a dataset share. For the sources that speak to HDF5 only.
 

@@ -6,7 +6,6 @@
 #include "engine/io/base/hdf5_drivers.h"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 #include <lzf.h>
 #include <zlib.h>
 
@@ -15,7 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 namespace episcope::io {
 namespace {

@@ -11,22 +11,17 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <csetjmp>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <istream>
 #include <iterator>
 #include <limits>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace episcope::io {
 namespace {

@@ -21,7 +21,7 @@ using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<f
 
 /// Decodes PNG, JPEG, JPEG 2000, WebP, TIFF, BMP, PPM, OpenEXR and Radiance HDR and resolves
 /// palettes. Samples of OpenEXR and Radiance are linear. TIFF files that state an orientation come
-/// upright; Exif orientation (image_orientation.h) is ignored. Throws IoError.
+/// upright; Exif orientation (load_views.h) is ignored. Throws IoError.
 [[nodiscard]] AnyImage decode_image(const std::filesystem::path& path,
                                     PicturePart part = PicturePart::Colors);
 

@@ -6,15 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdint>
-#include <fstream>
 #include <istream>
 #include <limits>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace episcope::io {

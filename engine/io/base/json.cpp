@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/base/json.h"
 
-#include "engine/core/error.h"
-
 #include <nlohmann/json.hpp>
 
 namespace episcope::io {
@@ -16,7 +14,8 @@ OrderedJson to_json(const ParameterValue& value) {
         if constexpr (std::is_same_v<T, IntervalOrAuto>) {
           return held ? OrderedJson::array({held->min, held->max}) : OrderedJson(held.word());
         } else if constexpr (std::is_same_v<T, ViewOrAuto>) {
-          return held ? OrderedJson::array({held->v, held->u}) : OrderedJson(IntervalOrAuto().word());
+          return held ? OrderedJson::array({held->v, held->u})
+                      : OrderedJson(IntervalOrAuto().word());
         } else {
           return held;
         }

@@ -2,10 +2,8 @@
 #include "engine/io/base/npy.h"
 
 #include "engine/core/error.h"
-#include "engine/core/image.h"
 #include "engine/core/numbers.h"
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/files.h"
 
 #include <fmt/format.h>
 

@@ -8,15 +8,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace episcope::io {
 namespace {

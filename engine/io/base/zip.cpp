@@ -2,14 +2,11 @@
 #include "engine/io/base/zip.h"
 
 #include "engine/core/error.h"
-#include "engine/io/base/files.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <fcntl.h>
 #include <algorithm>
-#include <fstream>
 #include <new>
 #include <string_view>
 

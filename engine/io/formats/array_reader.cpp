@@ -3,37 +3,29 @@
 
 #include "engine/core/error.h"
 #include "engine/core/light_field.h"
-#include "engine/core/scene.h"
 #include "engine/core/text.h"
-#include "engine/io/base/array_preview.h"
+#include "engine/io/base/array_layout.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/archive_depth.h"
-#include "engine/io/formats/archive_layout.h"
 #include "engine/io/formats/multi_field_file.h"
-#include "engine/io/models/array_file.h"
 #include "engine/io/models/array_maps.h"
 #include "engine/io/models/array_samples.h"
-#include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/choose_layout.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/numpy_file.h"
-#include "engine/io/models/open_options.h"
 #include "engine/io/models/order/list_layout.h"
-#include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>

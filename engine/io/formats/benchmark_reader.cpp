@@ -9,26 +9,20 @@
 #include "engine/io/formats/benchmark_truth.h"
 #include "engine/io/formats/image_grid.h"
 #include "engine/io/models/assemble_scene.h"
-#include "engine/io/models/file_usage.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/list_layout.h"
-#include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <optional>
 #include <sstream>
-#include <string>
 #include <utility>
 
 namespace episcope::io {

@@ -2,9 +2,8 @@
 #include "engine/io/formats/benchmark_truth.h"
 
 #include "engine/core/error.h"
-#include "engine/core/ground_truth.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/pfm.h"
 #include "engine/io/models/order/order_check.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <set>

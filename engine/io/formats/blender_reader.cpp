@@ -2,19 +2,15 @@
 #include "engine/io/formats/blender_reader.h"
 
 #include "engine/core/error.h"
-#include "engine/core/ground_truth.h"
 #include "engine/core/parallel.h"
 #include "engine/core/progress.h"
-#include "engine/core/scene.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/image_grid.h"
 #include "engine/io/models/assemble_scene.h"
-#include "engine/io/models/file_usage.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/open_options.h"
-#include "engine/io/models/reader.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,7 +19,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <string>
 #include <utility>
 
 namespace episcope::io {

@@ -3,7 +3,7 @@
 
 #include "engine/core/camera_grid.h"
 #include "engine/core/indices.h"
-#include "engine/core/label_info.h"
+#include "engine/core/scene.h"
 #include "engine/io/models/reader.h"
 
 #include <filesystem>

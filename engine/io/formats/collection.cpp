@@ -11,19 +11,14 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/names/view_folders.h"
-#include "engine/io/models/reader.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <map>
-#include <optional>
 #include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace episcope::io {
 namespace {

@@ -5,7 +5,6 @@
 #include "engine/core/light_field.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
-#include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/sample_range.h"
@@ -15,7 +14,6 @@
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/warp_check.h"
-#include "engine/io/models/reader.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,11 +25,8 @@
 #include <fstream>
 #include <limits>
 #include <memory>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 extern "C" {
 #include <libavcodec/avcodec.h>

@@ -7,14 +7,12 @@
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/models/open_options.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <vector>
 
 namespace episcope::io {

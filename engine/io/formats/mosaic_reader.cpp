@@ -12,20 +12,15 @@
 #include "engine/io/formats/mosaic_layout.h"
 #include "engine/io/models/array_file.h"
 #include "engine/io/models/assemble_scene.h"
-#include "engine/io/models/file_usage.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/names/view_folders.h"
-#include "engine/io/models/open_options.h"
-#include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <sstream>
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -2,7 +2,6 @@
 #include "engine/io/formats/movie.h"
 
 #include "engine/core/error.h"
-#include "engine/core/image.h"
 #include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
@@ -12,10 +11,7 @@
 
 #include <cerrno>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <memory>
 #include <string>
 
 extern "C" {

@@ -5,21 +5,17 @@
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/names/index_fields.h"
-#include "engine/io/models/names/name_parts.h"
 #include "engine/io/models/names/view_folders.h"
-#include "engine/io/models/reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace episcope::io {
 namespace {

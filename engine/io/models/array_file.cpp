@@ -12,9 +12,7 @@
 #include <array>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <set>
-#include <string>
 #include <string_view>
 
 namespace episcope::io {

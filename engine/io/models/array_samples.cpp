@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/array_samples.h"
 
-#include "engine/io/base/array_input.h"
 #include "engine/io/models/load_views.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>

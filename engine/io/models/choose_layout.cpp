@@ -3,10 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text.h"
-#include "engine/io/base/array_layout.h"
-#include "engine/io/base/array_preview.h"
-#include "engine/io/models/array_file.h"
-#include "engine/io/models/open_options.h"
 #include "engine/io/models/order/list_layout.h"
 
 #include <fmt/format.h>
@@ -17,7 +13,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <vector>
 
 namespace episcope::io {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
-#include "engine/io/models/order/view_order.h"
+#include "engine/io/models/order/view_axes.h"
 
 #include <string>
 

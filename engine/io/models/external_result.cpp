@@ -4,12 +4,11 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/csv_map.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
-#include "engine/io/base/pfm.h"
 #include "engine/io/models/array_file.h"
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/choose_layout.h"
@@ -25,7 +24,6 @@
 #include <memory>
 #include <optional>
 #include <system_error>
-#include <vector>
 
 namespace episcope::io {
 namespace {

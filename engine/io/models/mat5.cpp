@@ -4,21 +4,18 @@
 #include "engine/core/error.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/zip.h"
-#include "engine/io/models/array_file.h"
 
 #include <fmt/format.h>
 #include <matio.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>

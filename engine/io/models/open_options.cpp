@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/open_options.h"
 
-#include "engine/core/error.h"
-
 #include <fmt/format.h>
 
 #include <charconv>

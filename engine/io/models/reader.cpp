@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/reader.h"
 
-#include "engine/io/base/files.h"
-
 #include <algorithm>
 
 namespace episcope::io {

@@ -3,7 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/external_result.h"
@@ -19,9 +18,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <limits>
-#include <optional>
 #include <utility>
-#include <vector>
 
 namespace episcope::io {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/estimate.h"
-#include "engine/io/base/append_log.h"
+#include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 
 #include <cstdint>

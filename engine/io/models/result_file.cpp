@@ -5,7 +5,6 @@
 #include "engine/core/hash.h"
 #include "engine/core/numbers.h"
 #include "engine/core/version.h"
-#include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/stored_maps.h"

@@ -15,9 +15,7 @@
 #include <map>
 #include <optional>
 #include <regex>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace episcope::io {
 namespace {

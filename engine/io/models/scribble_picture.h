@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/label_info.h"
 #include "engine/core/scene.h"
 #include "engine/io/models/stored_maps.h"
 

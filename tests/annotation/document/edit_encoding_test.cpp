@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/edit_encoding.h"
+#include "annotation/document.h"
 #include "engine/core/error.h"
 #include "tests/annotation/random_edits.h"
 #include "tests/test_main.h"

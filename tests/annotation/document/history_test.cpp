@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The history, on a document that has nothing to do with labels: pairs of points.
-#include "annotation/history.h"
+#include "annotation/document.h"
 #include "tests/test_main.h"
 
 #include <utility>

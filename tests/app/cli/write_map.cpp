@@ -4,9 +4,9 @@
 // FORM × FORM equal maps; or a way to write HDF5 with [x][y]: "x,y" states it as we do, "matlab" as
 // MATLAB does, "reversed" not at all; or "hundredths": .npy of integers.
 #include "engine/io/base/atomic_file.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/npy.h"
-#include "engine/io/base/pfm.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -5,7 +5,6 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/controls/job_panel.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/panels/info_panel.h"
 #include "widgets/panels/overlay_bar.h"

@@ -2,7 +2,7 @@
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/files/autosave.h"
-#include "app/gui/files/project_guard.h"
+#include "app/gui/files/project_controller.h"
 #include "tests/app/gui/paint_stroke.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/bench/window/process.h"

@@ -3,7 +3,7 @@
 
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/estimate/estimate_controller.h"
-#include "app/gui/estimate/method_runs.h"
+#include "app/gui/estimate/live_controller.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/scene_switcher.h"
 #include "engine/disparity/registry.h"

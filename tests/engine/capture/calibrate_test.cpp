@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/calibrate.h"
 
-#include "engine/capture/photograph.h"
+#include "engine/capture/demo_folder.h"
 #include "engine/core/error.h"
 
 #include "tests/engine/io/memory_use.h"

@@ -3,8 +3,7 @@
 
 #include "engine/capture/calibrate.h"
 #include "engine/capture/demo_folder.h"
-#include "engine/capture/photograph.h"
-#include "engine/capture/scan_mesh.h"
+#include "engine/capture/mesh_file.h"
 
 #include "tests/engine/capture/exact_rays.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/mesh_file.h"
-#include "engine/capture/scan_mesh.h"
 #include "engine/core/error.h"
 
 #include "tests/test_main.h"

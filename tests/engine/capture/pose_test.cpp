@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/capture/pose_file.h"
 #include "engine/capture/solve_pose.h"
 #include "engine/core/error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/capture/snap_pick.h"
+#include "engine/capture/pixel_surface.h"
 
 #include "tests/test_main.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/mesh_file.h"
 #include "engine/capture/pixel_surface.h"
-#include "engine/capture/scan_mesh.h"
 #include "engine/capture/view_surface.h"
 #include "engine/core/error.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/epi.h"
 #include "engine/core/error.h"
+#include "engine/core/light_field.h"
 #include "tests/test_main.h"
 
 #include <cmath>

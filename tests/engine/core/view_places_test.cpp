@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/view_places.h"
+#include "engine/core/light_field.h"
 #include "tests/test_main.h"
 
 #include <cmath>

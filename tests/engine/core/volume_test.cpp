@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/volume.h"
+#include "engine/core/image.h"
 #include "tests/test_main.h"
 
 #include <type_traits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/core/point_cloud.h"
-#include "engine/evaluation/cloud_distance.h"
+#include "engine/evaluation/metrics.h"
 #include "tests/test_main.h"
 
 #include <algorithm>

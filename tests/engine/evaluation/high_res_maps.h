@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/error.h"
-#include "engine/core/ground_truth.h"
+#include "engine/core/scene.h"
 #include "tests/engine/evaluation/judged_maps.h"
 
 #include <functional>

@@ -3,7 +3,7 @@
 
 #include "engine/core/scene.h"
 #include "engine/io/base/hdf5_file.h"
-#include "engine/io/models/order/view_order.h"
+#include "engine/io/models/order/view_axes.h"
 
 #include <functional>
 

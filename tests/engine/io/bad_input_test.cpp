@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/pfm.h"
-#include "engine/io/base/ply.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/open.h"
@@ -17,11 +16,11 @@
 
 #include <QTemporaryDir>
 
+#include <sys/resource.h>
+#include <unistd.h>
 #include <csignal>
 #include <fstream>
 #include <functional>
-#include <sys/resource.h>
-#include <unistd.h>
 
 namespace episcope::in_bad_input_test {
 

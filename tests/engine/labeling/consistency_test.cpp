@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/consistency.h"
+#include "engine/labeling/label_review.h"
 
 #include "engine/core/error.h"
 #include "engine/labeling/edge_probability.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/scene.h"
-#include "engine/labeling/label_probabilities.h"
+#include "engine/labeling/ray_labeling.h"
 
 #include <algorithm>
 #include <cstdint>

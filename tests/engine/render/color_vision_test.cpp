@@ -2,7 +2,7 @@
 // Whether colors can be told apart by those who lack a kind of cones: simulation of Machado,
 // Oliveira, Fernandes 2009 (severity 1) on linear RGB, distances ΔE*ab of CIE 1976. A distance of
 // about 2.3 is just noticeable side by side; areas that lie apart need several times that.
-#include "engine/core/label_info.h"
+#include "engine/core/scene.h"
 #include "engine/render/shade.h"
 #include "tests/test_main.h"
 

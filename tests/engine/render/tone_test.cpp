@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/render/tone.h"
 
 #include "engine/render/shade.h"
 #include "tests/test_main.h"

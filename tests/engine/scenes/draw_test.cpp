@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/scenes/draw.h"
+#include "engine/scenes/stage.h"
 #include "tests/test_main.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/progress.h"
-#include "engine/scenes/caster.h"
+#include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 
 #include <cmath>

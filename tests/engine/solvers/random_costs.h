@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/image.h"
-#include "engine/core/volume.h"
 #include "engine/solvers/lifted_labeling.h"
 #include "engine/solvers/pair_limits.h"
 #include "engine/solvers/simplex_labeling.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/solvers/tgv_l2.h"
+#include "engine/solvers/tv_l2.h"
 #include "tests/test_main.h"
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/cloud/point_cloud_panel.h"
-#include "widgets/controls/job_panel.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/tool_button.h"
 #include "widgets/panels/color_bar.h"

@@ -5,11 +5,9 @@
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/image_orientation.h"
+#include "engine/io/models/load_views.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/names/view_folders.h"
-#include "engine/io/models/names/view_names.h"
-#include "engine/io/models/open_options.h"
 #include "engine/io/models/order/list_layout.h"
 #include "engine/io/models/poses.h"
 

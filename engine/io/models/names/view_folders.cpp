@@ -4,9 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
-#include "engine/io/models/names/name_parts.h"
-#include "engine/io/models/names/view_names.h"
-#include "engine/io/models/open_options.h"
+#include "engine/io/models/names/index_fields.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 
 #include <fmt/format.h>
@@ -18,7 +16,6 @@
 #include <set>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace episcope::io {
 

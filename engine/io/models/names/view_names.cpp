@@ -5,9 +5,6 @@
 #include "engine/core/text.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/names/index_fields.h"
-#include "engine/io/models/names/name_parts.h"
-#include "engine/io/models/names/name_pattern.h"
-#include "engine/io/models/names/view_files.h"
 
 #include <fmt/format.h>
 

@@ -53,11 +53,10 @@ inline constexpr const char* kPatternAdvice =
     "name the numbers by --pattern, as in --pattern 'view_{row}_{col}.png'";
 
 /// Finds the views among the images of a folder by their names alone. Names that differ in numbers
-/// only form a group (name_parts.h); the views are the group with the largest grid
-/// (index_fields.h). Groups named like companions of views (label, depth, …) come last. Ties go to
-/// the group of the largest images, then of color, then of names without words, then of a lossless
-/// format. Throws IoError that names the option `pattern` if there is no group, or if two are
-/// equal.
+/// only form a group (index_fields.h); the views are the group with the largest grid. Groups named
+/// like companions of views (label, depth, …) come last. Ties go to the group of the largest
+/// images, then of color, then of names without words, then of a lossless format. Throws IoError
+/// that names the option `pattern` if there is no group, or if two are equal.
 [[nodiscard]] ViewNames find_view_names(const std::filesystem::path& folder,
                                         const std::vector<std::filesystem::path>& images);
 

@@ -2,7 +2,6 @@
 #include "engine/io/models/order/line_matches.h"
 
 #include "engine/core/image.h"
-#include "engine/io/models/order/grey_picture.h"
 #include "engine/io/models/order/warp_check.h"
 
 #include <algorithm>

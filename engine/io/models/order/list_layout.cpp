@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/core/text_table.h"
-#include "engine/io/models/order/grey_picture.h"
 #include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/order/warp_check.h"
 

@@ -2,7 +2,6 @@
 #include "engine/io/models/sidecar_maps/disparity_units.h"
 
 #include "engine/core/numbers.h"
-#include "engine/io/models/order/sign_check.h"
 #include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>
@@ -13,7 +12,6 @@
 #include <optional>
 #include <random>
 #include <utility>
-#include <vector>
 
 namespace episcope::io {
 

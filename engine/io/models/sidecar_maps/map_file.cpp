@@ -11,9 +11,9 @@
 #include "engine/io/models/array_maps.h"
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/external_result.h"
-#include "engine/io/models/label_list.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/numpy_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,6 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "engine/core/disparity_field.h"
 #include "engine/core/image.h"
-#include "engine/core/label_info.h"
+#include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
 
 #include <cstdint>

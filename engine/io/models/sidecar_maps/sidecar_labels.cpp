@@ -3,11 +3,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text.h"
-#include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/models/array_maps.h"
-#include "engine/io/models/label_list.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,6 @@
 #include <map>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 namespace episcope::io {
 namespace {

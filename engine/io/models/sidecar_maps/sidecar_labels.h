@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/label_info.h"
 #include "engine/core/progress.h"
+#include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
 #include "engine/io/models/sidecar_maps/find_maps.h"
-#include "engine/io/models/sidecar_maps/map_sets.h"
 
 #include <cstdint>
 #include <optional>

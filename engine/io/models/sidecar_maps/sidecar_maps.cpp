@@ -5,9 +5,7 @@
 #include "engine/core/text_table.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/array_maps.h"
-#include "engine/io/models/sidecar_maps/disparity_units.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
-#include "engine/io/models/sidecar_maps/map_sets.h"
 #include "engine/io/models/sidecar_maps/sidecar_labels.h"
 
 #include <fmt/format.h>
@@ -16,7 +14,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>

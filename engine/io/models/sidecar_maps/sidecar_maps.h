@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/core/progress.h"
-#include "engine/io/models/file_usage.h"
+#include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
-#include "engine/io/models/sidecar_maps/map_sets.h"
+#include "engine/io/models/sidecar_maps/find_maps.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/benchmark.h"
 
-#include "app/benchmark/html_page.h"
 #include "app/benchmark/report.h"
 #include "app/benchmark/run_log.h"
 #include "app/session/judge.h"

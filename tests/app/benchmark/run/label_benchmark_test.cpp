@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/benchmark.h"
-#include "app/benchmark/html_page.h"
 #include "app/benchmark/report.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"

@@ -2,7 +2,6 @@
 #include "app/benchmark/plan.h"
 
 #include "app/benchmark/run_log.h"
-#include "app/benchmark/task.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "tests/app/session/tiny_scene.h"

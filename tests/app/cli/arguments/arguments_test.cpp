@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
 
-#include "app/cli/help_text.h"
 #include "app/cli/parameter_options.h"
 #include "app/session/command_line.h"
 #include "engine/disparity/estimator.h"

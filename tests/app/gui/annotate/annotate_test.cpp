@@ -2,7 +2,6 @@
 // Paints with the mouse and the keys on the window that ships.
 #include "app/gui/annotate/annotate_controller.h"
 
-#include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/shell/commands.h"
 #include "app/session/session.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a killed window had painted is offered by the next one.
 #include "app/gui/annotate/label_controller.h"
-#include "app/gui/annotate/recovery_controller.h"
 
 #include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/annotation_files.h"

@@ -7,7 +7,7 @@
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/shell/commands.h"
 #include "engine/io/formats/write_scene.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/app/gui/held_lane.h"
 #include "tests/window_test_main.h"

@@ -2,7 +2,7 @@
 // What is read and computed for the Capture tab while other light fields are opened and closed.
 #include "app/gui/capture/capture_controller.h"
 #include "app/gui/capture/photographs.h"
-#include "app/session/gantry_scene.h"
+#include "app/session/load_scene.h"
 #include "engine/capture/demo_folder.h"
 #include "tests/app/gui/capture/capturing.h"
 #include "tests/app/gui/held_lane.h"

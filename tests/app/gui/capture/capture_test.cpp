@@ -4,7 +4,7 @@
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/session/session.h"
-#include "engine/capture/pose_file.h"
+#include "engine/capture/solve_pose.h"
 #include "engine/io/open.h"
 #include "tests/app/gui/capture/capturing.h"
 #include "tests/window_test_main.h"

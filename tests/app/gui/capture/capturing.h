@@ -3,8 +3,7 @@
 
 #include "app/gui/capture/capture_controller.h"
 #include "engine/capture/mesh_file.h"
-#include "engine/capture/pose_file.h"
-#include "engine/capture/scan_mesh.h"
+#include "engine/capture/solve_pose.h"
 #include "tests/app/gui/window_fixture.h"
 #include "widgets/controls/labels.h"
 

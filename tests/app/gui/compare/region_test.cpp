@@ -8,8 +8,8 @@
 #include "tests/app/gui/compare/compared.h"
 #include "widgets/controls/line_plot.h"
 #include "widgets/controls/message_bar.h"
-#include "widgets/panels/compare_bar.h"
 #include "widgets/panels/metric_table.h"
+#include "widgets/panels/overlay_bar.h"
 
 #include <QComboBox>
 #include <QImage>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What was computed is not lost by mistake.
 #include "app/gui/estimate/estimate_controller.h"
-#include "app/gui/files/project_guard.h"
+#include "app/gui/files/project_controller.h"
 #include "app/gui/scene/scene_switcher.h"
 #include "app/session/project_file.h"
 #include "engine/io/models/result_file.h"

@@ -2,7 +2,7 @@
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/scene/scene_switcher.h"
-#include "engine/io/base/pfm.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/result_file.h"

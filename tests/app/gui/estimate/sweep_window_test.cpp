@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps, driven in the window that ships.
 #include "app/gui/files/project_controller.h"
-#include "app/gui/files/project_guard.h"
 #include "app/gui/scene/scene_switcher.h"
 #include "app/gui/shell/jobs.h"
 #include "tests/app/gui/window_fixture.h"

@@ -3,7 +3,6 @@
 #include "tests/app/gui/files/working.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/controls/job_panel.h"
 #include "widgets/controls/labels.h"
 #include "widgets/controls/message_bar.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/files/session_recovery.h"
-#include "app/session/workspace.h"
+#include "app/gui/files/autosave.h"
+#include "app/session/project_store.h"
 #include "tests/app/gui/files/working.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"

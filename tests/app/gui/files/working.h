@@ -4,7 +4,6 @@
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/files/autosave.h"
 #include "app/gui/files/project_controller.h"
-#include "app/gui/files/project_guard.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/scene_switcher.h"
 #include "tests/app/gui/window_fixture.h"

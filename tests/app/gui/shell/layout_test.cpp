@@ -4,7 +4,6 @@
 #include "tests/window_test_main.h"
 #include "widgets/canvas/canvas_geometry.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/controls/job_panel.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/panels/value_bar.h"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/capture_document.h"
 #include "app/session/capture_work.h"
 #include "engine/core/error.h"
 #include "tests/test_main.h"

@@ -3,7 +3,7 @@
 
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
-#include "engine/io/base/pfm.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/models/result_file.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"

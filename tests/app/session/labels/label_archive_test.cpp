@@ -2,8 +2,8 @@
 #include "app/session/labeling_inputs.h"
 
 #include "engine/core/error.h"
-#include "engine/io/formats/companions.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/formats/archive_reader.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/labeling/labeler.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"

@@ -2,7 +2,6 @@
 #include "app/session/project_file.h"
 
 #include "app/session/project_store.h"
-#include "app/session/workspace.h"
 #include "engine/core/error.h"
 #include "tests/test_main.h"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/gantry_scene.h"
 #include "app/session/load_scene.h"
 
 #include "app/session/collections.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/point_clouds.h"
+#include "app/session/picture.h"
 #include "engine/capture/mesh_file.h"
 #include "engine/core/error.h"
 #include "tests/app/session/tiny_scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An estimate that is made in blocks equals the one that is made at once bit by bit, however it is
 // cut and wherever it was interrupted: data-driven over the methods that can.
-#include "engine/disparity/run_blocks.h"
+#include "engine/disparity/estimator.h"
 
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"

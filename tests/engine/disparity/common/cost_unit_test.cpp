@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/cost_volume.h"
+#include "engine/disparity/visible_costs.h"
 
-#include "engine/core/volume.h"
+#include "engine/core/image.h"
 #include "engine/disparity/registry.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"

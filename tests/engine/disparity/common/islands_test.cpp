@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/islands.h"
+#include "engine/disparity/denoise.h"
 
 #include "tests/test_main.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/base/append_log.h"
+#include "engine/io/base/atomic_file.h"
 #include "tests/test_main.h"
 
 #include <QFile>
 #include <QTemporaryDir>
 
-#include <csignal>
 #include <sys/resource.h>
+#include <csignal>
 
 namespace episcope::in_append_log_test {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/image_orientation.h"
+#include "engine/io/models/load_views.h"
 #include "tests/engine/io/models/sidecar_maps/layered_folder.h"
 #include "tests/test_main.h"
 
 #include <fmt/format.h>
+#include <zlib.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <zlib.h>
 
 #include <cmath>
 #include <fstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/base/pfm.h"
+#include "engine/io/base/exchange_files.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

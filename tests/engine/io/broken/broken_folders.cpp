@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/base/append_log.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/pfm.h"
 #include "engine/io/formats/write_scene.h"
 #include "tests/engine/io/broken/broken.h"
 #include "tests/engine/io/synthetic_scene.h"

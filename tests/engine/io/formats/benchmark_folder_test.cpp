@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/pfm.h"
 #include "engine/io/open.h"
 #include "tests/engine/io/models/sidecar_maps/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"

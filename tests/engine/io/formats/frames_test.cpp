@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/base/append_log.h"
+#include "engine/io/base/atomic_file.h"
 #include "engine/io/formats/frames_reader.h"
 #include "engine/io/formats/movie.h"
 #include "engine/io/open.h"

@@ -3,7 +3,7 @@
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/formats/write_scene.h"
-#include "engine/io/models/file_usage.h"
+#include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/open.h"
 #include "tests/engine/io/synthetic_scene.h"

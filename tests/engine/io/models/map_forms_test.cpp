@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/csv_map.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/models/external_result.h"

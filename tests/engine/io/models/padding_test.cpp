@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/models/padding.h"
 #include "engine/core/error.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/models/external_result.h"
+#include "engine/io/models/map_reading.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

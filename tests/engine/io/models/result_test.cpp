@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/core/version.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/pfm.h"
-#include "engine/io/base/ply.h"
 #include "engine/io/models/result_file.h"
 #include "tests/test_main.h"
 
@@ -350,7 +349,8 @@ class ResultTest : public QObject {
     const io::Hdf5Input file(path("r.h5"));
 
     for (const char* map : {"estimate/disparity", "estimate/valid"}) {
-      QVERIFY(file.texts(map, "DIMENSION_LABELS") == (std::vector<std::string>{"v", "u", "y", "x"}));
+      QVERIFY(file.texts(map, "DIMENSION_LABELS") ==
+              (std::vector<std::string>{"v", "u", "y", "x"}));
       QVERIFY(file.has_attribute(map, "DIMENSION_LIST"));
     }
     std::int32_t places[2] = {};

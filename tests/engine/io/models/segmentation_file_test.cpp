@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/io/base/hdf5_file.h"
-#include "engine/io/models/segmentation_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

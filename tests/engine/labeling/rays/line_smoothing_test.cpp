@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/regularizer.h"
 
-#include "engine/labeling/consistency.h"
+#include "engine/labeling/label_review.h"
 #include "tests/engine/labeling/rays/noisy_case.h"
 #include "tests/test_main.h"
 

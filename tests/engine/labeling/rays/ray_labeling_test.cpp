@@ -2,10 +2,9 @@
 #include "engine/labeling/regularizer.h"
 
 #include "engine/core/error.h"
-#include "engine/labeling/consistency.h"
 #include "engine/labeling/edge_probability.h"
+#include "engine/labeling/label_review.h"
 #include "engine/labeling/ray_labeling.h"
-#include "engine/labeling/ray_targets.h"
 #include "engine/labeling/solve_views.h"
 #include "engine/scenes/builtin.h"
 #include "tests/cpu_time.h"

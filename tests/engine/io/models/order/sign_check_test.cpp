@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/models/order/sign_check.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/order/line_matches.h"
+#include "engine/io/models/order/order_check.h"
 #include "tests/engine/io/models/order/layered_scene.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
-#include "engine/io/base/pfm.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/models/sidecar_maps/sidecar_labels.h"
 #include "engine/io/open.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
-#include "engine/io/models/order/view_order.h"
+#include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
 #include "engine/io/open.h"
 #include "tests/engine/io/models/order/layered_scene.h"

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/base/exchange_files.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+constexpr int kLargestPfmSide = 1 << 16;
+
+struct Header {
+  int channels = 1;
+  int width = 0;
+  int height = 0;
+  double scale = 0;
+};
+
+/// The next word of the header; `#` starts a comment that ends with the line. One white-space
+/// character after the word is consumed, so that samples begin right after the last word.
+std::string next_word(std::istream& in) {
+  std::string word;
+  for (int c = in.get(); c != EOF; c = in.get()) {
+    if (c == '#') {
+      while (c != '\n' && c != EOF) c = in.get();
+      if (!word.empty()) return word;
+    } else if (!std::isspace(c)) {
+      word += static_cast<char>(c);
+      if (word.size() > 64) return {};
+    } else if (!word.empty()) {
+      return word;
+    }
+  }
+  return word;
+}
+
+Header read_header(const std::filesystem::path& path, std::istream& in) {
+  const std::string magic = next_word(in);
+  if (magic != "Pf" && magic != "PF") {
+    throw IoError(path, "this is not a PFM file, which begins with Pf or PF; choose another file");
+  }
+  Header header;
+  header.channels = magic == "PF" ? 3 : 1;
+  try {
+    header.width = std::stoi(next_word(in));
+    header.height = std::stoi(next_word(in));
+    header.scale = std::stod(next_word(in));
+  } catch (const std::logic_error&) {
+    throw IoError(path, "the header of the PFM file lacks width, height or scale; write it again");
+  }
+  const bool has_size = header.width > 0 && header.height > 0 && header.width <= kLargestPfmSide &&
+                        header.height <= kLargestPfmSide;
+  if (!has_size || header.scale == 0 || !std::isfinite(header.scale)) {
+    throw IoError(path, fmt::format("the header of the PFM file says {}×{} px and scale {:f}, "
+                                    "which is not valid; write it again",
+                                    header.width, header.height, header.scale));
+  }
+  return header;
+}
+
+/// Where samples begin after the header: after the line feed of a file whose lines end as in
+/// Windows, which leaves one byte too many. −1 where the header is all there is.
+std::streamoff begin_of_samples(std::istream& in, std::uintmax_t bytes, std::uintmax_t needed) {
+  const std::streamoff begin = in.tellg();
+  if (begin < 1 || bytes - static_cast<std::uintmax_t>(begin) <= needed) return begin;
+  in.seekg(begin - 1);
+  const bool is_windows_line = in.get() == '\r' && in.peek() == '\n';
+  if (is_windows_line) in.get();
+  return in.tellg();
+}
+
+void swap_bytes(float* row, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto bits = std::bit_cast<std::uint32_t>(row[i]);
+    row[i] = std::bit_cast<float>(__builtin_bswap32(bits));
+  }
+}
+
+}  // namespace
+
+Image<float> read_pfm_map(const std::filesystem::path& path) {
+  Image<float> map = read_pfm(path);
+  if (map.channels() == 1) return map;
+  Image<float> first(map.height(), map.width());
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      const float value = map.at(y, x, 0);
+      const bool is_gray =
+          std::isnan(value) || (map.at(y, x, 1) == value && map.at(y, x, 2) == value);
+      if (!is_gray) {
+        throw IoError(path,
+                      "this map has 3 channels that differ, but 1 is expected; remove or replace "
+                      "it");
+      }
+      first.at(y, x) = value;
+    }
+  }
+  return first;
+}
+
+Image<float> read_pfm(const std::filesystem::path& path) {
+  require_readable_file(path);
+  std::ifstream in(path, std::ios::binary);
+  const Header header = read_header(path, in);
+  const std::size_t count = static_cast<std::size_t>(header.width) * header.channels;
+  const std::uintmax_t bytes = std::filesystem::file_size(path);
+  const std::streamoff begin = begin_of_samples(in, bytes, 4 * count * header.height);
+  const std::uintmax_t present =
+      begin < 0 ? 0 : (bytes - static_cast<std::uintmax_t>(begin)) / (4 * count);
+  if (present < static_cast<std::uintmax_t>(header.height)) {
+    throw IoError(
+        path,
+        fmt::format("the PFM file is truncated: {} of {} rows are present; copy or write it again",
+                    present, header.height));
+  }
+  Image<float> image(header.height, header.width, header.channels);
+  const bool is_little = header.scale < 0;
+  const auto scale = static_cast<float>(std::abs(header.scale));
+  for (int y = header.height - 1; y >= 0; --y) {
+    float* row = image.row(y);
+    if (!in.read(reinterpret_cast<char*>(row), static_cast<std::streamsize>(count * 4))) {
+      throw IoError(path, "the PFM file cannot be read to its end; copy it again");
+    }
+    if (is_little != (std::endian::native == std::endian::little)) swap_bytes(row, count);
+    if (scale != 1) {
+      for (std::size_t i = 0; i < count; ++i) row[i] *= scale;
+    }
+  }
+  return image;
+}
+
+void write_pfm(const std::filesystem::path& path, ImageView<const float> image) {
+  if (image.empty() || (image.channels != 1 && image.channels != 3)) {
+    throw InvalidInput(
+        fmt::format("a PFM file holds 1 or 3 channels, but the map has {}", image.channels));
+  }
+  const std::string header = fmt::format("{}\n{} {}\n-1.0\n", image.channels == 3 ? "PF" : "Pf",
+                                         image.width, image.height);
+  const std::size_t count = static_cast<std::size_t>(image.width) * image.channels;
+  std::vector<std::uint8_t> bytes(header.size() + count * 4 * image.height);
+  std::memcpy(bytes.data(), header.data(), header.size());
+  std::uint8_t* out = bytes.data() + header.size();
+  std::vector<float> row(count);
+  for (int y = image.height - 1; y >= 0; --y, out += count * 4) {
+    std::memcpy(row.data(), image.row(y), count * 4);
+    if constexpr (std::endian::native == std::endian::big) swap_bytes(row.data(), count);
+    std::memcpy(out, row.data(), count * 4);
+  }
+  write_atomically(path, bytes);
+}
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+/// What parts the cells of a line: the rarer character, since spaces may stand beside it.
+std::string_view separators_of(std::string_view line) {
+  for (const std::string_view one : {";", ",", "\t"}) {
+    if (line.find(one) != std::string_view::npos) return one;
+  }
+  return kBlanks;
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  const std::string_view separators = separators_of(line);
+  std::vector<std::string_view> cells;
+  for (;;) {
+    const std::size_t end = line.find_first_of(separators);
+    cells.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return cells;
+    // Several spaces are one.
+    const std::size_t next = separators == kBlanks ? line.find_first_not_of(kBlanks, end) : end + 1;
+    line.remove_prefix(next);
+  }
+}
+
+/// Empty for a word that is no number.
+std::optional<float> value_of(std::string_view cell) {
+  const std::string word = lower_case(std::string(cell));
+  const std::string size = word.substr(word.find_first_not_of("+-") == 1 ? 1 : 0);
+  for (const char* missing : {"", "nan", "na", "null", "inf", "infinity"}) {
+    if (size == missing) return std::numeric_limits<float>::quiet_NaN();
+  }
+  const auto number = parse_number(word);
+  return number ? std::optional(static_cast<float>(*number)) : std::nullopt;
+}
+
+}  // namespace
+
+Image<float> read_csv_map(const std::filesystem::path& path) {
+  require_readable_file(path);
+  std::ifstream in(path);
+  std::vector<float> values;
+  std::size_t width = 0, height = 0, number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    const std::string_view text = trimmed(line);
+    if (text.empty() || text.starts_with('#')) continue;
+    const std::vector<std::string_view> cells = cells_of(text);
+    if (height++ == 0) width = cells.size();
+    if (cells.size() != width) {
+      throw IoError(path, fmt::format("line {} has {} values, but the first row has {}; a map has "
+                                      "as many in every row",
+                                      number, cells.size(), width));
+    }
+    for (const std::string_view cell : cells) {
+      const auto value = value_of(cell);
+      if (!value) {
+        throw IoError(path, fmt::format("line {} holds '{}', which is no number; a map is numbers "
+                                        "alone, without names of rows or columns",
+                                        number, cell.substr(0, 40)));
+      }
+      values.push_back(*value);
+    }
+  }
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  if (values.empty() || width > most || height > most) {
+    throw IoError(path, "holds no rows of numbers; export the map again");
+  }
+  Image<float> map(static_cast<int>(height), static_cast<int>(width));
+  std::ranges::copy(values, map.data());
+  return map;
+}
+
+void write_csv_map(const std::filesystem::path& path, ImageView<const float> map) {
+  std::string text;
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (x > 0) text += ',';
+      const float value = map.at(y, x);
+      if (std::isfinite(value)) {
+        fmt::format_to(std::back_inserter(text), "{}", value);
+      } else {
+        text += "nan";
+      }
+    }
+    text += '\n';
+  }
+  write_atomically(path, text);
+}
+
+namespace {
+
+using Position = std::array<float, 3>;
+using Color = std::array<std::uint8_t, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr std::uint8_t kCorners = 3;
+
+std::string header(const PointCloud& cloud, PlyForm form) {
+  const char* binary =
+      std::endian::native == std::endian::little ? "binary_little_endian" : "binary_big_endian";
+  std::string text =
+      "ply\nformat " + std::string(form == PlyForm::Binary ? binary : "ascii") +
+      " 1.0\ncomment Episcope, x to the right, y upwards, the viewer looks along -z\n"
+      "element vertex " +
+      std::to_string(cloud.positions.size()) +
+      "\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (!cloud.triangles.empty()) {
+    text += "element face " + std::to_string(cloud.triangles.size()) +
+            "\nproperty list uchar int vertex_indices\n";
+  }
+  return text + "end_header\n";
+}
+
+template <class T>
+void append_bytes(std::string& out, const T& value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void append(std::string& out, const Position& place, const Color& color, PlyForm form) {
+  if (form == PlyForm::Binary) {
+    append_bytes(out, place);
+    append_bytes(out, color);
+    return;
+  }
+  char line[128];
+  const int length = std::snprintf(line, sizeof line, "%.9g %.9g %.9g %d %d %d\n", place[0],
+                                   place[1], place[2], color[0], color[1], color[2]);
+  out.append(line, static_cast<std::size_t>(length));
+}
+
+void append(std::string& out, const Triangle& triangle, PlyForm form) {
+  if (form == PlyForm::Binary) {
+    append_bytes(out, kCorners);
+    append_bytes(out, triangle);
+    return;
+  }
+  char line[64];
+  const int length =
+      std::snprintf(line, sizeof line, "3 %u %u %u\n", triangle[0], triangle[1], triangle[2]);
+  out.append(line, static_cast<std::size_t>(length));
+}
+
+}  // namespace
+
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud, PlyForm form) {
+  if (cloud.positions.empty()) {
+    throw InvalidInput("no pixel of the disparity is valid, so there is no point to write");
+  }
+  std::string text = header(cloud, form);
+  const bool is_binary = form == PlyForm::Binary;
+  text.reserve(text.size() + cloud.positions.size() * (is_binary ? 15 : 48) +
+               cloud.triangles.size() * (is_binary ? 13 : 24));
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
+    append(text, cloud.positions[i], cloud.colors[i], form);
+  }
+  for (const Triangle& triangle : cloud.triangles) append(text, triangle, form);
+  write_atomically(path, text);
+}
+
+}  // namespace episcope::io
