@@ -394,8 +394,8 @@ std::vector<LabelInfo> labels_of(const std::vector<Rgb>& colors, const PixelCens
 std::vector<LabelInfo> distinct(std::vector<LabelInfo> labels) {
   std::erase_if(labels, [](const LabelInfo& label) { return label.id == 0; });
   std::ranges::stable_sort(labels, {}, &LabelInfo::id);
-  const auto repeated = std::ranges::unique(labels, {}, &LabelInfo::id);
-  labels.erase(repeated.begin(), repeated.end());
+  const auto is_same = [](const LabelInfo& a, const LabelInfo& b) { return a.id == b.id; };
+  labels.erase(std::unique(labels.begin(), labels.end(), is_same), labels.end());
   return labels;
 }
 
