@@ -57,14 +57,6 @@ class HelpFormatter : public CLI::Formatter {
 constexpr const char* kReadingHint =
     "How INPUT is read can be stated, too: see 'episcope-cli help reading'.\n";
 
-/// Each line by two spaces.
-std::string indented(const std::string& text) {
-  std::string all = "  ";
-  for (const char letter : text)
-    all += letter == '\n' ? std::string("\n  ") : std::string(1, letter);
-  return all;
-}
-
 /// In our words, where the library speaks of types and counts.
 std::string sentence_of(const CLI::ParseError& error, const CLI::App& app) {
   const std::string text = one_line(error.what());
@@ -208,7 +200,7 @@ struct Arguments::State {
 
   [[nodiscard]] std::string help() {
     app.footer((has_reading() ? wrapped(kReadingHint, help_columns()) : std::string()) +
-               std::string("Example:\n") + indented(example));
+               std::string("Example:\n  ") + example);
     return app.help();
   }
 

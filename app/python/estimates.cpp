@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 namespace episcope::python {
@@ -71,9 +72,6 @@ void require_replaceable(const std::filesystem::path& path, MapForm form) {
   throw IoError(path, "exists and is not a result; choose another name or remove it first");
 }
 
-/// How a file that is there is replaced.
-constexpr const char* kByArgument = "pass overwrite=True";
-
 void save_estimate(const FoundEstimate& found, const py::object& given_path, const py::object& view,
                    bool is_overwriting) {
   const std::filesystem::path path = path_from(given_path);
@@ -119,6 +117,20 @@ EstimatePtr judged_estimate(const py::object& map, const LightField& lf) {
   return std::make_shared<const Estimate>(result_from_maps(lf, std::move(field), "array"));
 }
 
+/// As `evaluate --json` tells it.
+py::dict better_reading_dict(const io::BetterReading& found) {
+  py::dict told;
+  told["options"] = map_options_text(found.reading).substr(1);
+  const auto add = [&told](const char* key, std::optional<double> value) {
+    if (value) told[key] = *value;
+  };
+  add("mse_100", found.better.mse_100);
+  add("mse_100_as_read", found.as_read.mse_100);
+  add("grey_levels", found.better.grey_levels);
+  add("grey_levels_as_read", found.as_read.grey_levels);
+  return told;
+}
+
 py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Protocol protocol,
                    bool has_all_views) {
   py::dict scores;
@@ -143,12 +155,17 @@ py::dict score_scene(const py::object& map, const OpenedScene& opened, Evaluatio
   const LightField& lf = opened.light_field();
   const EstimatePtr estimate = judged_estimate(map, lf);
   const ViewIndex at = view_from(view, lf.grid()).value_or(judged_view(*opened.scene));
-  const Evaluation evaluation = result_of_job(py::none(), 0, [&](const Progress& job) {
+  std::optional<io::BetterReading> better;
+  Evaluation evaluation = result_of_job(py::none(), 0, [&](const Progress& job) {
     options.progress = job;
-    return judge(*estimate, *opened.scene, options, at);
+    Evaluation judged = judge(*estimate, *opened.scene, options, at);
+    better = find_better_reading(*estimate, *opened.scene);
+    return judged;
   });
+  if (better) evaluation.notes.push_back(better_reading_finding(*better));
   const bool has_all_views = estimate->field.disparity.grid() == lf.grid();
   py::dict scores = scores_of(*estimate, evaluation, options.protocol, has_all_views);
+  if (better) scores["better_reading"] = better_reading_dict(*better);
   scores["truth"] = opened.input;
   scores["view"] = view_tuple(at);
   return scores;

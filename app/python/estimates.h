@@ -9,6 +9,9 @@
 
 namespace episcope::python {
 
+/// How a file that is there is replaced.
+inline constexpr const char* kByArgument = "pass overwrite=True";
+
 /// A result as Python sees it. Immutable but for what is kept of arrays that took a copy.
 struct FoundEstimate {
   EstimatePtr estimate;

@@ -6,6 +6,7 @@
 #include "app/python/light_fields.h"
 #include "app/session/label_review.h"
 #include "app/session/labeling_inputs.h"
+#include "app/session/replace_file.h"
 #include "app/session/result_files.h"
 #include "app/session/segmentation.h"
 #include "engine/core/error.h"
@@ -121,16 +122,15 @@ FoundLabels label(const OpenedScene& opened, const py::object& painted, const py
   return {std::move(labels), opened};
 }
 
-void save_labels(const FoundLabels& found, const py::object& given_path, bool probabilities) {
+void save_labels(const FoundLabels& found, const py::object& given_path, bool probabilities,
+                 bool is_overwriting) {
   const std::filesystem::path path = path_from(given_path);
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored) && !io::is_segmentation_file(path)) {
-    throw IoError(path,
-                  "exists and is not a file of labels; choose another name or remove it first");
-  }
+  const Segmentation& made = found.segmentation;
+  check_labeling_output(path, {{}, made.parameters, found.of.input, made.reading.options},
+                        is_overwriting ? Overwrite::Yes : Overwrite::No, kByArgument);
   const auto stored = probabilities ? StoredProbabilities::All : StoredProbabilities::None;
   run_job(py::none(), 0, [&](const Progress& job) {
-    write_segmentation(path, found.segmentation, found.of.input, stored, job);
+    write_segmentation(path, made, found.of.input, stored, job);
   });
 }
 
@@ -165,11 +165,13 @@ void add_labels(py::module_& module) {
 accuracy_all_views; without true labels only consistency along the rays.)")
       .def_property_readonly("notes", notes_of, "A sentence each.")
       .def("save", save_labels, py::arg("path"), py::kw_only(), py::arg("probabilities") = false,
-           R"(save(path, *, probabilities=False)
+           py::arg("overwrite") = false,
+           R"(save(path, *, probabilities=False, overwrite=False)
 --
 
-Writes an HDF5 file of labels; with probabilities, four bytes more for each ray and label. A file of
-labels of that name is replaced, nothing else.)");
+Writes an HDF5 file of labels; with probabilities, four bytes more for each ray and label. Labels of
+that name are replaced if they were made with the same parameters from the same light field, others
+only with overwrite=True; what is no file of labels, never.)");
   module.def("label", label, py::arg("light_field"), py::arg("scribbles") = py::none(),
              py::kw_only(), py::arg("disparity") = py::none(), py::arg("device") = "auto",
              py::arg("threads") = 0, py::arg("progress") = py::none(),

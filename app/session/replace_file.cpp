@@ -170,7 +170,8 @@ void check_result_output(const fs::path& path, const IntendedRun& run, Overwrite
                     difference_of(stored, path, run, find_estimator(run.method).parameters), how);
 }
 
-void check_labeling_output(const fs::path& path, const IntendedRun& run, Overwrite overwrite) {
+void check_labeling_output(const fs::path& path, const IntendedRun& run, Overwrite overwrite,
+                           const std::string& how) {
   if (!holds_something(path)) return;
   if (!is_sound_labeling(path)) {
     throw IoError(path,
@@ -179,7 +180,7 @@ void check_labeling_output(const fs::path& path, const IntendedRun& run, Overwri
   if (overwrite == Overwrite::Yes) return;
   const StoredRun stored = stored_run(path, "/");
   refuse_difference(path, "labels",
-                    difference_of(stored, path, run, labeler_schema().descriptions()), kByOption);
+                    difference_of(stored, path, run, labeler_schema().descriptions()), how);
 }
 
 namespace {

@@ -36,9 +36,9 @@ void check_result_output(const std::filesystem::path& path, const IntendedRun& r
                          Overwrite overwrite, const std::string& how = kByOption);
 
 /// Refuses to replace anything but a file of labels that `label` wrote, and one as above. Throws
-/// IoError.
+/// IoError, which says `how` to ask for it.
 void check_labeling_output(const std::filesystem::path& path, const IntendedRun& run,
-                           Overwrite overwrite);
+                           Overwrite overwrite, const std::string& how = kByOption);
 
 /// Writes a file by `write`, to which it passes the path. Unless `overwrite` says otherwise, a file
 /// that is there stays: one of the same bytes as it is, one of others makes this throw IoError,

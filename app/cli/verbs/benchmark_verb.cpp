@@ -254,8 +254,8 @@ bool parse_benchmark(const VerbArguments& arguments, BenchmarkRequest& request) 
        "command resumes where it was stopped. The exit code is 1 if anything failed; the\n"
        "tables are written anyway.",
        "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search\n"
-       "episcope-cli benchmark demo:edge demo:bars --labeling --features image -o tables\n"
-       "episcope-cli benchmark scenes --methods all --search -o tables --slurm "
+       "  episcope-cli benchmark demo:edge demo:bars --labeling --features image -o tables\n"
+       "  episcope-cli benchmark scenes --methods all --search -o tables --slurm "
        "\"--time=1:00:00\""});
   declare_what(parser, request);
   declare_tasks(parser, request);
@@ -503,11 +503,12 @@ void require_success(const BenchmarkReport& report, const std::string& folder) {
   throw Error(first + more + "; the tables of the others are in " + folder);
 }
 
-/// What a benchmark writes into its folder beside pictures and maps (write_report).
+/// What a benchmark writes into its folder (write_report); pictures and maps are in scenes.
 std::vector<std::string> written_tables(const std::string& folder) {
   std::vector<std::string> files;
   for (const char* name :
-       {"index.html", "results.csv", "results.json", "tables.csv", "tables.tex"}) {
+       {"index.html", "log.jsonl", "results.csv", "results.json", "scenes", "tables.csv",
+        "tables.tex"}) {
     files.push_back((fs::path(folder) / name).string());
   }
   return files;

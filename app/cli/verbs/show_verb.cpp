@@ -151,12 +151,13 @@ ShownKind kind_of(const ShowRequest& request) {
 /// "disparity" and "labels" are those of what is shown: true ones of a light field.
 Quantity quantity_of(const ShowRequest& request) {
   const ShownKind kind = request.map.kind;
+  const bool is_behind = request.layer == Layer::Background;
   if (request.what.id.empty()) {
     if (kind == ShownKind::Labels) return Quantity::Segmentation;
-    return kind == ShownKind::Result ? Quantity::Disparity : Quantity::View;
+    if (kind == ShownKind::LightField) return Quantity::View;
+    return is_behind ? Quantity::Background : Quantity::Disparity;
   }
   const Quantity named = request.what.quantity;
-  const bool is_behind = request.layer == Layer::Background;
   if (named == Quantity::TrueLabels && kind == ShownKind::Labels) return Quantity::Segmentation;
   const bool is_true =
       named == Quantity::Truth || (named == Quantity::Disparity && kind == ShownKind::LightField);

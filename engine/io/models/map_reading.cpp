@@ -34,9 +34,10 @@ constexpr int kWidestBorder = 1 << 12;
 constexpr double kMostPoints = 10000;
 constexpr int kRowStride = 4;  ///< Of the rows that are warped.
 
-/// Integers that stand for fractions of a pixel: decimal, and fixed-point numbers of matchers.
-constexpr double kMapScales[] = {0.1,       0.01,      0.001,       1.0 / 16, 1.0 / 64,
-                                 1.0 / 255, 1.0 / 256, 1.0 / 65535, 10,       100};
+/// Integers that stand for fractions of a pixel: decimal, and fixed-point numbers of matchers. And
+/// maps of half or twice the resolution that were resized with their values as they were.
+constexpr double kMapScales[] = {0.1,       0.01,        0.001, 1.0 / 16, 1.0 / 64, 1.0 / 255,
+                                 1.0 / 256, 1.0 / 65535, 10,    100,      2,        0.5};
 /// Depth in m, mm or cm where the camera has another of these units.
 constexpr double kDepthScales[] = {1, 0.001, 1000, 0.01, 100};
 

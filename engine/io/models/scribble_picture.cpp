@@ -350,6 +350,13 @@ std::vector<LabelInfo> usual_labels() {
   return labels;
 }
 
+/// What colors without a table stand for: labels of the light field, else the usual ones.
+std::optional<std::vector<LabelInfo>> known_labels(const std::vector<Rgb>& colors,
+                                                   const PictureLabels& labels) {
+  const auto found = all_known(colors, labels.known);
+  return found ? found : all_known(colors, usual_labels());
+}
+
 /// The color that is unpainted; none where pixels are transparent, where the table names it, and
 /// where every color is one of a known label.
 std::optional<Rgb> find_ground(const PixelCensus<Rgb>& census, const PictureLabels& labels) {
@@ -358,9 +365,7 @@ std::optional<Rgb> find_ground(const PixelCensus<Rgb>& census, const PictureLabe
   if (census.transparent > 0 || has_zero || census.counts.empty()) return std::nullopt;
   std::vector<Rgb> colors;
   for (const auto& [color, count] : census.counts) colors.push_back(color);
-  const bool are_known =
-      table.empty() && (all_known(colors, labels.known) || all_known(colors, usual_labels()));
-  if (are_known) return std::nullopt;
+  if (table.empty() && known_labels(colors, labels)) return std::nullopt;
   const Rgb most = std::ranges::max_element(census.counts, {}, [](const auto& each) {
                      return each.second;
                    })->first;
@@ -380,8 +385,7 @@ std::vector<LabelInfo> labels_of(const std::vector<Rgb>& colors, const PixelCens
                                     census.counts.at(*missing), color_text(*missing), (*missing)[0],
                                     (*missing)[1], (*missing)[2]));
   }
-  if (const auto found = all_known(colors, labels.known)) return *found;
-  if (const auto found = all_known(colors, usual_labels())) return *found;
+  if (const auto found = known_labels(colors, labels)) return *found;
   std::vector<LabelInfo> counted;
   for (const Rgb& color : colors) {
     const int id = static_cast<int>(counted.size()) + 1;
@@ -435,6 +439,11 @@ PictureStrokes strokes_of_colors(const std::vector<ReadPicture>& pictures,
   strokes.notes = {
       name + "a label is a color: " + joined(strokes.scribbles.labels, ", ", label_text),
       name + ground_text(ground_of(census, ids), census.transparent, census.all())};
+  if (labels.table.empty() && !known_labels(colors, labels)) {
+    strokes.notes.push_back(name +
+                            "the numbers of its labels follow the codes of the colors, which may "
+                            "not be those of other labels; a table of colors states them");
+  }
   return strokes;
 }
 

@@ -3,6 +3,7 @@ import numpy
 import pytest
 
 import episcope
+from conftest import SCENE
 
 
 @pytest.fixture(scope="module")
@@ -55,9 +56,13 @@ def test_scores_are_those_of_the_command_line(tmp_path, cli):
         assert answer[key] == share, key
 
 
-def test_labels_are_saved_and_replace_nothing_else(labeling, tmp_path):
+def test_labels_are_saved_and_replace_nothing_else(strokes, labeling, tmp_path):
     for _ in range(2):
         labeling.save(tmp_path / "labels.h5")
+    others = episcope.label(episcope.demo(SCENE), {(2, 2): strokes}, features="image", trees=8)
+    with pytest.raises(episcope.IoError, match="with --trees 16; choose another name, or pass overwrite=True"):
+        others.save(tmp_path / "labels.h5")
+    others.save(tmp_path / "labels.h5", overwrite=True)
     (tmp_path / "other.h5").write_text("mine")
     with pytest.raises(episcope.IoError, match="not a file of labels"):
         labeling.save(tmp_path / "other.h5")

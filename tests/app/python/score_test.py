@@ -44,6 +44,17 @@ def test_scores_of_an_array_are_those_of_its_file(scene, result, invalid, tmp_pa
     assert of_python(episcope.score(map, scene, invalid=invalid)) == expected
 
 
+def test_array_that_was_stored_otherwise_is_told_as_by_the_command_line(scene, result, tmp_path, cli):
+    turned = result.disparity[2, 2].T.copy()
+    numpy.save(tmp_path / "mine.npy", turned)
+    expected = of_command_line(cli, "mine.npy")
+    scores = of_python(episcope.score(turned, scene))
+    assert expected["better_reading"]["options"] == "--map-transpose"
+    assert len(scores.pop("notes")) == len(expected.pop("notes"))
+    assert scores == expected
+    assert "better_reading" not in episcope.score(result, scene)
+
+
 def test_array_of_all_views_is_judged_in_the_center(scene, result):
     whole = episcope.score(result.disparity, scene)
     assert whole["mse_100"] == episcope.score(result, scene)["mse_100"]

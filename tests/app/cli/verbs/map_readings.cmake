@@ -47,6 +47,18 @@ foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
   expect("show ${file} as told" 0 ARGS show ${file} --truth lf.h5 -o told_${file}.png ${option})
 endforeach()
 
+# Resized from another resolution, with the values as they were.
+expect("seven views" 0 ARGS synthesize objects -o seven.h5 --views 7x7 --size 64x64)
+expect("their truth as a map" 0 ARGS convert seven.h5 seven.pfm)
+foreach(row "2;0.5" "0.5;2")
+  list(GET row 0 was)
+  list(GET row 1 factor)
+  expect("resized, ${was}" 0 ARGS convert seven.pfm resized.npy --map-scale ${was} --overwrite)
+  expect("evaluate it, ${was}" 0 ERR "far better" ARGS evaluate resized.npy --truth seven.h5 --json)
+  json_is("${out}" "--map-scale=${factor}" results 0 better_reading options)
+  json_near("${out}" 0 0.0001 results 0 better_reading mse_100)
+endforeach()
+
 # A submission says so in its tables.
 file(MAKE_DIRECTORY "${WORK}/theirs" "${WORK}/objects")
 file(COPY_FILE "${WORK}/negated.pfm" "${WORK}/theirs/objects.pfm")
