@@ -230,7 +230,7 @@ A light field: views on a regular grid of cameras.
 
 array: [v, u, y, x, c], or [v, u, y, x] of gray views; whole numbers or floats. Other orders by the
 option axes, such as axes='yxvuc'. Samples are copied, and checked as those of a file are. reading:
-the options of 'episcope-cli info --help', with _ for -.)");
+the options of 'episcope-cli help reading', with _ for -.)");
   light_field.def(py::init(&scene_of_array), py::arg("array"), py::kw_only(),
                   py::arg("name") = "array");
   add_properties(light_field);
@@ -247,7 +247,7 @@ the options of 'episcope-cli info --help', with _ for -.)");
 Opens a light field: a file or a folder of any form, 'demo', or 'demo:SCENE'.
 
 truth: whether truth and labels are wanted. progress: called as progress(fraction, step). reading:
-the options of 'episcope-cli info --help', with _ for -, such as flip='u' or grid='9x9'.
+the options of 'episcope-cli help reading', with _ for -, such as flip='u' or grid='9x9'.
 Raises IoError for what cannot be read, InvalidInput for an option that does not fit.)");
   module.def(
       "demo",

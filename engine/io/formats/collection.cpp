@@ -10,13 +10,17 @@
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
+#include "engine/io/models/choose_layout.h"
+#include "engine/io/models/mat5.h"
 #include "engine/io/models/names/view_folders.h"
+#include "engine/io/models/numpy_file.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -419,6 +423,25 @@ bool is_array_name(const fs::path& path) {
   return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
 }
 
+/// Whether all that could be a light field of a NumPy or MATLAB file is a map of gray views by its
+/// name: what `estimate` writes of all views.
+bool holds_maps_alone(const fs::path& path) {
+  try {
+    std::unique_ptr<const ArrayFile> file;
+    if (is_numpy_file(path)) file = std::make_unique<const NumpyFile>(path);
+    if (suffix_of(path) == ".mat") file = open_matlab_file(path);
+    if (!file) return false;
+    const auto is_map = [](const ArrayEntry* entry) {
+      constexpr std::size_t kAxesOfMaps = 4;
+      return entry->shape.size() == kAxesOfMaps && has_other_name(*entry);
+    };
+    const std::vector<const ArrayEntry*> fields = light_fields_of(*file, {});
+    return !fields.empty() && std::ranges::all_of(fields, is_map);
+  } catch (const Error&) {
+    return false;  // damaged: an entry with a problem
+  }
+}
+
 std::optional<ListedResult> result_in(const fs::path& path) {
   if (!has_hdf5_signature(path)) return std::nullopt;
   try {
@@ -488,7 +511,7 @@ void add_array_entries(const FolderListing& listing, FolderRecord& record) {
   for (const ListedFile& file : listing.files) {
     const bool is_result =
         std::ranges::find(record.results, file.path, &ListedResult::path) != record.results.end();
-    if (is_result || !is_array_name(file.path)) continue;
+    if (is_result || !is_array_name(file.path) || holds_maps_alone(file.path)) continue;
     auto entry = scan_file(file.path);
     if (!entry) continue;
     if (file.path.filename() == "lf.h5") {  // opened by its folder, with what lies beside it

@@ -110,3 +110,10 @@ expect("make the second, with labels inside" 0 ERR "scribbles are in pair/b.h5 i
 expect("info of two in a folder" 1 ERR "pair: this folder .* holds 2" ARGS info pair)
 expect("estimate two in a folder" 0 ARGS estimate epi_l pair -o of_pair --views center -q)
 expect_files(of_pair a_epi_l.h5 b_epi_l.h5)
+
+# Maps of all views are no light fields, whatever form they were written in.
+foreach(form npz mat)
+  file(MAKE_DIRECTORY "${WORK}/maps_${form}")
+  expect("maps as ${form}" 0 ARGS estimate epi_l c/a -o maps_${form}/m.${form} --views all -q)
+  expect("list of maps as ${form}" 1 ERR "no light field in this folder" ARGS list maps_${form})
+endforeach()
