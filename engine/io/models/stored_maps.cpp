@@ -197,6 +197,14 @@ std::string named_axes(const std::vector<std::string>& names) {
   return letters;
 }
 
+/// Whether Octave saved it with -hdf5: the group of a variable is marked, and axes are reversed as
+/// by MATLAB.
+bool is_octave_variable(const Hdf5Input& file, const std::string& dataset) {
+  const std::size_t end = dataset.rfind('/');
+  return end != std::string::npos &&
+         file.has_attribute(dataset.substr(0, end), "OCTAVE_NEW_FORMAT");
+}
+
 }  // namespace
 
 ArrayLayout stated_map_layout(const Hdf5Input& file, const Hdf5Dataset& dataset) {
@@ -206,7 +214,8 @@ ArrayLayout stated_map_layout(const Hdf5Input& file, const Hdf5Dataset& dataset)
                                     named_axes(file.scale_names(dataset.name))}) {
     if (std::ranges::is_permutation(stated, usual)) return {dataset.shape, stated};
   }
-  const IndexOrder order = is_matlab_hdf5(file) ? IndexOrder::Fortran : IndexOrder::C;
+  const bool is_reversed = is_matlab_hdf5(file) || is_octave_variable(file, dataset.name);
+  const IndexOrder order = is_reversed ? IndexOrder::Fortran : IndexOrder::C;
   return {dataset.shape, in_index_order(usual, order)};
 }
 

@@ -80,3 +80,17 @@ def test_octave_reads_maps_and_axes(result):
     assert sizes == [64, 64, 3, 3, 0, 63]
     expected = episcope.estimate(episcope.demo(SCENE), "epi_two_layer").disparity[1, 2, 10, 20]
     assert value == pytest.approx(expected, rel=1e-7, nan_ok=True)
+
+
+@pytest.mark.parametrize("form", ["-hdf5", "-v6", "-v7"])
+def test_maps_that_octave_saved_are_read_in_its_order(result, form, cli):
+    if not shutil.which("octave-cli"):
+        pytest.skip("there is no Octave")
+    code = ("disparity = load('-hdf5', 'center.h5').estimate.disparity';"
+            f"save('{form}', 'mine.bin', 'disparity');")
+    subprocess.run(["octave-cli", "--norc", "--eval", code], cwd=result, check=True, capture_output=True)
+    (result / "mine.bin").rename(result / ("mine.h5" if form == "-hdf5" else "mine.mat"))
+    judged = []
+    for name in ["center.h5", "mine.h5" if form == "-hdf5" else "mine.mat"]:
+        judged.append(cli("evaluate", name, "--truth", "demo:" + SCENE, "--json", "--quiet")["results"][0])
+    assert judged[1]["mse_100"] == pytest.approx(judged[0]["mse_100"], rel=1e-6)
