@@ -48,13 +48,14 @@ foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
 endforeach()
 
 # Resized from another resolution, with the values as they were.
-expect("seven views" 0 ARGS synthesize objects -o seven.h5 --views 7x7 --size 64x64)
-expect("their truth as a map" 0 ARGS convert seven.h5 seven.pfm)
+file(MAKE_DIRECTORY "${WORK}/seven")
+expect("seven views" 0 ARGS synthesize objects -o seven/lf.h5 --views 7x7 --size 64x64)
+expect("their truth as a map" 0 ARGS convert seven/lf.h5 seven.pfm)
 foreach(row "2;0.5" "0.5;2")
   list(GET row 0 was)
   list(GET row 1 factor)
   expect("resized, ${was}" 0 ARGS convert seven.pfm resized.npy --map-scale ${was} --overwrite)
-  expect("evaluate it, ${was}" 0 ERR "far better" ARGS evaluate resized.npy --truth seven.h5 --json)
+  expect("evaluate it, ${was}" 0 ERR "far better" ARGS evaluate resized.npy --truth seven/lf.h5 --json)
   json_is("${out}" "--map-scale=${factor}" results 0 better_reading options)
   json_near("${out}" 0 0.0001 results 0 better_reading mse_100)
 endforeach()
