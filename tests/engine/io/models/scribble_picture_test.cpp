@@ -223,6 +223,7 @@ class ScribblePictureTest : public QObject {
     QCOMPARE(id_at(strokes, 0), 0);
     const std::string notes = told(strokes);
     QVERIFY2(notes.find("1 = #0000c8, 2 = #00ff00") != std::string::npos, notes.c_str());
+    QVERIFY2(notes.find("a table of colors states them") != std::string::npos, notes.c_str());
     QVERIFY2(notes.find(is_clear ? "transparent pixels (87.5 %" : "#ffffff (87.5 %") !=
                  std::string::npos,
              notes.c_str());
@@ -237,6 +238,7 @@ class ScribblePictureTest : public QObject {
     QCOMPARE(id_at(strokes, 3), 5);
     QCOMPARE(id_at(strokes, 9), 3);
     QVERIFY(strokes.scribbles.labels == known);
+    QVERIFY2(told(strokes).find("a table of colors") == std::string::npos, told(strokes).c_str());
   }
 
   void aDrawingOfKnownColorsAlone_hasNoGround() {
