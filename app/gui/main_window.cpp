@@ -319,7 +319,8 @@ MainWindow::MainWindow(QWidget* parent)
   setCentralWidget(&bench.frame);
   bench.frame.setViewerArea(&bench.viewer_area);
   show_jobs(bench.jobs, bench.job_cancel, bench.frame, bench.messages);
-  connect(&bench.document, &DocumentController::problem, &bench.messages, &Messages::warn);
+  connect(&bench.document, &DocumentController::problem, &bench.messages,
+          qOverload<const QString&>(&Messages::warn));
   connect(&bench.opener, &SceneOpener::failureIsOver, &bench.messages, &Messages::retract);
   bench.cancels.add(CancelRank::Job,
                     [&cancel = bench.job_cancel] { return cancel.cancelNewest(); });

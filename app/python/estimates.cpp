@@ -223,8 +223,10 @@ py::dict score(const py::object& map, const py::object& truth, const std::string
   return score_scene(map, py::cast<const OpenedScene&>(truth), options, view);
 }
 
-void add_result(py::module_& module) {
-  py::class_<FoundEstimate>(module, "Result", "A disparity estimate of a light field.")
+using ResultClass = py::class_<FoundEstimate>;
+
+void add_maps(ResultClass& result) {
+  result
       .def_property_readonly(
           "disparity", disparity_of,
           R"(float32, px per view step, positive nearer than the plane of zero disparity; NaN
@@ -249,7 +251,11 @@ where it is not known. [v, u, y, x], or [y, x] if one view was estimated. Read-o
           [](const FoundEstimate& found) {
             return disparity_array(found.estimate->second, found.estimate);
           },
-          "Another disparity that a pixel may have, of net for one view; NaN where there is none.")
+          "Another disparity that a pixel may have, of net for one view; NaN where there is none.");
+}
+
+void add_record(ResultClass& result) {
+  result
       .def_property_readonly("view", single_view_of, "(v, u) if one view was estimated; else None.")
       .def_property_readonly("method",
                              [](const FoundEstimate& found) { return found.estimate->method; })
@@ -267,7 +273,14 @@ where it is not known. [v, u, y, x], or [y, x] if one view was estimated. Read-o
           "Wall-clock time.")
       .def_property_readonly(
           "notes", [](const FoundEstimate& found) { return found.estimate->notes; },
-          "What one should know of this run, a sentence each.")
+          "What one should know of this run, a sentence each.");
+}
+
+void add_result(py::module_& module) {
+  ResultClass result(module, "Result", "A disparity estimate of a light field.");
+  add_maps(result);
+  add_record(result);
+  result
       .def("save", save_estimate, py::arg("path"), py::kw_only(), py::arg("view") = py::none(),
            py::arg("overwrite") = false,
            R"(save(path, *, view=None, overwrite=False)
@@ -283,10 +296,7 @@ only with overwrite=True; what is no result, never.)")
       });
 }
 
-}  // namespace
-
-void add_estimates(py::module_& module) {
-  add_result(module);
+void add_estimate(py::module_& module) {
   module.def("estimate", estimate_scene, py::arg("light_field"), py::arg("method"), py::kw_only(),
              py::arg("views") = py::none(), py::arg("device") = "auto", py::arg("threads") = 0,
              py::arg("progress") = py::none(),
@@ -301,6 +311,9 @@ method: an id of methods(). views: 'all' or 'center'; by default all, if the met
 progress(fraction, step); what it raises ends the estimate, as Ctrl+C does. parameters: those of the
 method, such as range=(-2, 2); lambda_ for lambda.
 Raises InvalidInput for a bad parameter, Unavailable for an unknown method or a missing device.)");
+}
+
+void add_score(py::module_& module) {
   module.def("score", score, py::arg("map"), py::arg("truth"), py::kw_only(),
              py::arg("protocol") = "vmv2013", py::arg("invalid") = "bad",
              py::arg("view") = py::none(),
@@ -315,6 +328,14 @@ map: a Result, the path of a result, or an array in px per view step, [y, x] of 
 [v, u, y, x]. protocol: 'vmv2013' or 'benchmark2016'. invalid: how missing values count, 'bad' or
 'compatible'. view: (v, u), by default the center.
 Raises InvalidInput where sizes differ or there is no truth.)");
+}
+
+}  // namespace
+
+void add_estimates(py::module_& module) {
+  add_result(module);
+  add_estimate(module);
+  add_score(module);
   module.def(
       "methods",
       [] {

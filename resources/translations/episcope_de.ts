@@ -4653,8 +4653,12 @@ s</translation>
         <translation>%1 wurde aus anderen Samples als denen dieses Lichtfelds geschätzt: seine Fehler sind womöglich bedeutungslos.</translation>
     </message>
     <message>
-        <source>%1: %2 to episcope-cli convert, and open the file that it writes.</source>
-        <translation>%1: Geben Sie episcope-cli convert %2 mit, und öffnen Sie die Datei, die es schreibt.</translation>
+        <source>%1: %2. If the file is stored so, apply it.</source>
+        <translation>%1: %2. Wenn die Datei so gespeichert ist, wenden Sie es an.</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>Anwenden</translation>
     </message>
 </context>
 <context>

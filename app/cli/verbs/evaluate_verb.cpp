@@ -72,6 +72,20 @@ bool has_runtime_classes(const EvaluateRequest& request) {
   return request.protocol == Protocol::Vmv2013;
 }
 
+void declare_judging(Arguments& parser, EvaluateRequest& request) {
+  parser.option("--view", request.view, view_value(),
+                "Camera row and column of the view that is judged; by default the center, or the "
+                "first with truth");
+  parser.option("--metrics", request.metrics, words_value("KEY,..."),
+                "Metrics to tell, in this order, such as mse_100,density; by default all");
+  parser.option("--protocol", request.protocol, choice_of<Protocol>(),
+                "Metrics of the 2013 paper or of the 2016 benchmark (default vmv2013)");
+  parser.option("--invalid", request.invalid, choice_of<InvalidEstimates>(),
+                "Missing values (NaN): bad counts them as the farthest true disparity and as bad "
+                "pixels; compatible as good pixels that means leave out, as the 2016 tool does "
+                "(default bad)");
+}
+
 bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
   Arguments parser(
       "evaluate",
@@ -91,17 +105,7 @@ bool parse(const VerbArguments& arguments, EvaluateRequest& request) {
       "--truth", request.truth, text_value("INPUT"),
       "The light field with its ground truth, or a folder of such; by default the one that "
       "a result names");
-  parser.option("--view", request.view, view_value(),
-                "Camera row and column of the view that is judged; by default the center, or the "
-                "first with truth");
-  parser.option("--metrics", request.metrics, words_value("KEY,..."),
-                "Metrics to tell, in this order, such as mse_100,density; by default all");
-  parser.option("--protocol", request.protocol, choice_of<Protocol>(),
-                "Metrics of the 2013 paper or of the 2016 benchmark (default vmv2013)");
-  parser.option("--invalid", request.invalid, choice_of<InvalidEstimates>(),
-                "Missing values (NaN): bad counts them as the farthest true disparity and as bad "
-                "pixels; compatible as good pixels that means leave out, as the 2016 tool does "
-                "(default bad)");
+  declare_judging(parser, request);
   parser.flag("--json", request.format, Format::Json, "Print one JSON object");
   parser.flag("--csv", request.format, Format::Csv, "Print comma-separated values");
   parser.flag("--latex", request.format, Format::Latex, "Print a LaTeX tabular");
