@@ -265,19 +265,25 @@ FileInfo describe_pose(const std::string& file) {
   json["rotation"] = std::vector<double>(solved.pose.rotation.begin(), solved.pose.rotation.end());
   json["translation"] =
       std::vector<double>(solved.pose.translation.begin(), solved.pose.translation.end());
-  json["reprojection_error_px"] = solved.reprojection_error_px;
-  json["delta_tz"] = solved.delta_tz;
-  json["pairs"] = story.pairs.size();
-  json["outliers"] = outliers;
+  if (!story.pairs.empty()) {
+    json["reprojection_error_px"] = solved.reprojection_error_px;
+    json["delta_tz"] = solved.delta_tz;
+    json["pairs"] = story.pairs.size();
+    json["outliers"] = outliers;
+  }
   json["date"] = time_text(written_at(file));
   const auto text = [](double value) { return fmt::format("{:.4g}", value); };
   info.lines = {{"pose", "of " + story.mesh.string() + (has_mesh ? "" : ", which is not there")},
                 {"source", story.light_field},
-                {"place", joined(solved.pose.translation, ", ", text) + " (X, Y, Z)"},
-                {"pairs", fmt::format("{}, {} of them wrong picks", story.pairs.size(), outliers)},
-                {"error", fmt::format("{:.3f} px, depth {:.3g} (unit of the mesh)",
-                                      solved.reprojection_error_px, solved.delta_tz)},
-                {"date", time_text(written_at(file))}};
+                {"place", joined(solved.pose.translation, ", ", text) + " (X, Y, Z)"}};
+  if (!story.pairs.empty()) {
+    info.lines.emplace_back(
+        "pairs", fmt::format("{}, {} of them wrong picks", story.pairs.size(), outliers));
+    info.lines.emplace_back("error",
+                            fmt::format("{:.3f} px, depth {:.3g} (unit of the mesh)",
+                                        solved.reprojection_error_px, solved.delta_tz));
+  }
+  info.lines.emplace_back("date", time_text(written_at(file)));
   return info;
 }
 

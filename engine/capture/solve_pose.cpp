@@ -561,6 +561,31 @@ void write_pose(const std::filesystem::path& path, const PoseStory& story) {
   io::write_atomically(path, text);
 }
 
+namespace {
+
+double number_or_zero(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? found->get<double>() : 0;
+}
+
+/// The pairs and how well they fit, as far as the file has them.
+void read_evidence(const Json& json, PoseStory& story) {
+  story.solved.reprojection_error_px = number_or_zero(json, "reprojection_error_px");
+  story.solved.delta_tz = number_or_zero(json, "delta_tz");
+  const auto pairs = json.find("pairs");
+  if (pairs == json.end() || !pairs->is_array()) return;
+  for (const Json& each : *pairs) {
+    const Point3 point{number_or_zero(each, "X"), number_or_zero(each, "Y"),
+                       number_or_zero(each, "Z")};
+    story.pairs.push_back({each.value("name", ""), number_or_zero(each, "x_px"),
+                           number_or_zero(each, "y_px"), point, each.value("locked", false)});
+    story.solved.pairs.push_back(
+        {number_or_zero(each, "residual_px"), each.value("outlier", false)});
+  }
+}
+
+}  // namespace
+
 PoseStory read_pose(const std::filesystem::path& path) {
   if (!std::ifstream(path)) {
     throw IoError(path, "this file cannot be read; make one with episcope-cli pose");
@@ -572,6 +597,7 @@ PoseStory read_pose(const std::filesystem::path& path) {
     json.at("rotation").get_to(story.solved.pose.rotation);
     json.at("translation").get_to(story.solved.pose.translation);
     story.light_field = json.value("light_field", "");
+    read_evidence(json, story);
   } catch (const Json::exception&) {
     throw no_pose(path);
   } catch (const InvalidInput&) {

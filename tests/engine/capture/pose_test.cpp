@@ -199,6 +199,9 @@ class PoseTest : public QObject {
     const PoseStory again = read_pose(folder.filePath("pose.json").toStdString());
     QVERIFY(again.solved.pose.rotation == story.solved.pose.rotation);
     QVERIFY(again.solved.pose.translation == story.solved.pose.translation);
+    QVERIFY(again.pairs == story.pairs);
+    QCOMPARE(again.solved.reprojection_error_px, story.solved.reprojection_error_px);
+    QCOMPARE(again.solved.pairs.at(3).residual_px, story.solved.pairs.at(3).residual_px);
     QCOMPARE(again.mesh.filename().string(), std::string("scan.ply"));
   }
 

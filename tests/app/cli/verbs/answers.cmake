@@ -187,6 +187,10 @@ expect("a pose as JSON" 0 ARGS info pose.json --json)
 json_is("${out}" pose kind)
 json_is("${out}" OFF mesh_exists)
 json_is("${out}" 2.0 translation 2)
+json_absent("${out}" reprojection_error_px)
+file(WRITE "${WORK}/pairs.json" "{\"mesh\": \"head.ply\", \"rotation\": [1,0,0,0,1,0,0,0,1], \"translation\": [0.5,0,2], \"reprojection_error_px\": 0.5, \"delta_tz\": 3, \"pairs\": [{\"name\": \"a\", \"outlier\": true}, {\"name\": \"b\"}]}")
+expect("a pose with its pairs" 0 OUT "pairs +2, 1 of them wrong picks\nerror +0.500 px, depth 3 "
+       ARGS info pairs.json)
 
 # A result says what made it, on what, and of which samples.
 expect("a result that is whole" 0 ARGS estimate epi_l scenes/bars -o whole.h5 --views center)
