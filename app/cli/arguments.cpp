@@ -213,7 +213,7 @@ struct Arguments::State {
   std::vector<Json> options;
   std::map<std::string, bool> takes_value;
   std::map<std::string, std::string> earlier;  ///< Present names of options by earlier ones.
-  std::set<std::string> takes_any;  ///< Options whose values may begin with a dash.
+  std::set<std::string> takes_any;             ///< Options whose values may begin with a dash.
 
   /// An option with a value, or a flag that stands for one.
   struct Given {

@@ -279,9 +279,8 @@ FileInfo describe_pose(const std::string& file) {
   if (!story.pairs.empty()) {
     info.lines.emplace_back(
         "pairs", fmt::format("{}, {} of them wrong picks", story.pairs.size(), outliers));
-    info.lines.emplace_back("error",
-                            fmt::format("{:.3f} px, depth {:.3g} (unit of the mesh)",
-                                        solved.reprojection_error_px, solved.delta_tz));
+    info.lines.emplace_back("error", fmt::format("{:.3f} px, depth {:.3g} (unit of the mesh)",
+                                                 solved.reprojection_error_px, solved.delta_tz));
   }
   info.lines.emplace_back("date", time_text(written_at(file)));
   return info;

@@ -506,9 +506,8 @@ void require_success(const BenchmarkReport& report, const std::string& folder) {
 /// What a benchmark writes into its folder (write_report); pictures and maps are in scenes.
 std::vector<std::string> written_tables(const std::string& folder) {
   std::vector<std::string> files;
-  for (const char* name :
-       {"index.html", "log.jsonl", "results.csv", "results.json", "scenes", "tables.csv",
-        "tables.tex"}) {
+  for (const char* name : {"index.html", "log.jsonl", "results.csv", "results.json", "scenes",
+                           "tables.csv", "tables.tex"}) {
     files.push_back((fs::path(folder) / name).string());
   }
   return files;
