@@ -117,20 +117,6 @@ EstimatePtr judged_estimate(const py::object& map, const LightField& lf) {
   return std::make_shared<const Estimate>(result_from_maps(lf, std::move(field), "array"));
 }
 
-/// As `evaluate --json` tells it.
-py::dict better_reading_dict(const io::BetterReading& found) {
-  py::dict told;
-  told["options"] = map_options_text(found.reading).substr(1);
-  const auto add = [&told](const char* key, std::optional<double> value) {
-    if (value) told[key] = *value;
-  };
-  add("mse_100", found.better.mse_100);
-  add("mse_100_as_read", found.as_read.mse_100);
-  add("grey_levels", found.better.grey_levels);
-  add("grey_levels_as_read", found.as_read.grey_levels);
-  return told;
-}
-
 py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Protocol protocol,
                    bool has_all_views) {
   py::dict scores;
@@ -165,7 +151,7 @@ py::dict score_scene(const py::object& map, const OpenedScene& opened, Evaluatio
   if (better) evaluation.notes.push_back(better_reading_finding(*better));
   const bool has_all_views = estimate->field.disparity.grid() == lf.grid();
   py::dict scores = scores_of(*estimate, evaluation, options.protocol, has_all_views);
-  if (better) scores["better_reading"] = better_reading_dict(*better);
+  if (better) scores["better_reading"] = object_from(better_reading_json(*better));
   scores["truth"] = opened.input;
   scores["view"] = view_tuple(at);
   return scores;

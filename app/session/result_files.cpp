@@ -23,6 +23,7 @@
 #include "engine/render/shade.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -239,6 +240,19 @@ std::string better_reading_text(const io::BetterReading& found) {
   const char* remedy =
       found.is_contradicted() ? ": check the truth, or add" : "; if it is stored so, add";
   return better_reading_finding(found) + remedy + map_options_text(found.reading);
+}
+
+nlohmann::ordered_json better_reading_json(const io::BetterReading& found) {
+  nlohmann::ordered_json json;
+  json["options"] = map_options_text(found.reading).substr(1);
+  const auto add = [&json](const char* key, std::optional<double> value) {
+    if (value) json[key] = *value;
+  };
+  add("mse_100", found.better.mse_100);
+  add("mse_100_as_read", found.as_read.mse_100);
+  add("grey_levels", found.better.grey_levels);
+  add("grey_levels_as_read", found.as_read.grey_levels);
+  return json;
 }
 
 void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file) {

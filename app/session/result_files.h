@@ -8,6 +8,8 @@
 #include "engine/io/models/map_reading.h"
 #include "engine/io/models/open_options.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -53,6 +55,9 @@ namespace episcope {
 
 /// The same with the options that apply it: "…; if it is stored so, add --map-transpose".
 [[nodiscard]] std::string better_reading_text(const io::BetterReading& found);
+
+/// Both numbers, as read and by the options that would fit better, as programs read them.
+[[nodiscard]] nlohmann::ordered_json better_reading_json(const io::BetterReading& found);
 
 /// Throws InvalidInput, naming `file`, if an estimate that was read from there has not the size and
 /// views of the light field.

@@ -301,7 +301,7 @@ def main():
     for pair in filter(None, a.set.split(',')):
         name, value = pair.split('=')
         setattr(network, name, json.loads(value))
-    held_out = procedural(999000 + a.seed)
+    held_out = procedural(999000 + a.seed) if RANK == 0 else []
     t = Trainer(a)
     watched = scenes.read_all(a.scenes) if a.scenes and RANK == 0 else []
     print(torch.cuda.get_device_name(), {n: sum(p.numel() for p in getattr(t.net, n).parameters()) for n in PARTS},

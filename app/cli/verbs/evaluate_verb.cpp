@@ -151,20 +151,6 @@ const char* missing_rule(InvalidEstimates invalid) {
                                           : "good, and left out of means";
 }
 
-/// Both numbers, as read and by the options that would fit better.
-Json better_reading_json(const io::BetterReading& found) {
-  Json json;
-  json["options"] = map_options_text(found.reading).substr(1);
-  const auto add = [&json](const char* key, std::optional<double> value) {
-    if (value) json[key] = *value;
-  };
-  add("mse_100", found.better.mse_100);
-  add("mse_100_as_read", found.as_read.mse_100);
-  add("grey_levels", found.better.grey_levels);
-  add("grey_levels_as_read", found.as_read.grey_levels);
-  return json;
-}
-
 Json row_json(const EvaluateRequest& request, const Row& row) {
   Json result;
   result["file"] = row.file;
