@@ -21,7 +21,7 @@ import kernels
 import network
 import views
 
-VERSION = 2
+VERSION = 3
 CONV, NORM = (nn.Conv2d, nn.Conv3d), (nn.BatchNorm2d, nn.BatchNorm3d)
 
 
