@@ -38,8 +38,11 @@ run_command_line() {
   echo "No display: working on the command line."
   # shellcheck disable=SC2086 # One word a package.
   install_missing $ENGINE_PACKAGES
-  build headless episcope-cli
-  cli="$here/build/headless/app/cli/episcope-cli"
+  # A build with the window has the command line, too.
+  preset=headless
+  [ ! -f "$here/build/release/build.ninja" ] || preset=release
+  build $preset episcope-cli
+  cli="$here/build/$preset/app/cli/episcope-cli"
   name=$(basename "$input" | tr -c 'A-Za-z0-9._\n-' '_')
   out="$here/out/$name"
   mkdir -p "$out"

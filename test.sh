@@ -81,11 +81,12 @@ install_missing $ENGINE_PACKAGES $WINDOW_PACKAGES $TEST_PACKAGES ${packages:+$PA
 # run.sh leaves the tests out of a build that it configures, and joins sources.
 # Packages are for machines without CUDA; and one of the presets proves that all is well without.
 check_preset release -DEPISCOPE_TESTS=ON -DEPISCOPE_BENCH=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_CUDA_ARCHITECTURES=80 ${packages:+-DEPISCOPE_CUDA=OFF}
-# What opens without Qt is built as a newcomer builds it, and does what run.sh shows.
+note command_line env -u DISPLAY -u WAYLAND_DISPLAY ./run.sh
+# What opens without Qt is configured, and with --all built and tested.
 if [ -n "$all" ]; then
   check_preset headless -DEPISCOPE_TESTS=ON -DEPISCOPE_CUDA=OFF -DCMAKE_UNITY_BUILD=ON
 else
-  note command_line env -u DISPLAY -u WAYLAND_DISPLAY ./run.sh
+  note headless cmake --preset headless -B build/configured -DEPISCOPE_CUDA=OFF
 fi
 if [ -n "$sanitize" ]; then
   check_preset dev
