@@ -54,7 +54,7 @@ Schema<JumpLabelingParameters> jump_labeling_schema() {
              "A pair of neighbors is weighted by exp(−β·|difference of their colors|)"},
             {0, 100})
       .real("least_weight", &P::least_weight,
-            {"Least weight", "The least weight of a pair of neighbors"}, {0, 1})
+            {"Minimum weight", "The smallest weight of a pair of neighbors"}, {0, 1})
       .integer("passes", &P::passes, {"Passes", "Iterations of the labeling"}, {1, 200, true});
 }
 

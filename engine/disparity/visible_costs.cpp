@@ -149,11 +149,11 @@ Schema<VisibilityParameters> visibility_schema() {
             {"Tolerance", "A surface nearer than a point by more than this occludes it", "px"},
             {0, 2})
       .real("least_trust", &P::least_trust,
-            {"Least confidence",
+            {"Minimum confidence",
              "A surface whose confidence is below this, mean over its surroundings, occludes "
              "nothing"},
             {0, 1})
-      .real("cap_share", &P::cap_share, {"Least cap", "The least cap of a pixel, as a share of ε"},
+      .real("cap_share", &P::cap_share, {"Minimum cap", "The smallest cap of a pixel, as a share of ε"},
             {0, 10})
       .real("cap_offset", &P::cap_offset,
             {"Cap offset",

@@ -211,7 +211,7 @@
 <context>
     <name>episcope::AnnotationBar</name>
     <message>
-        <source>Carry to all views by</source>
+        <source>Propagate to all views by</source>
         <translation>In alle Ansichten übertragen mit</translation>
     </message>
     <message>
@@ -227,7 +227,7 @@
         <translation>der Referenz</translation>
     </message>
     <message>
-        <source>Disparity along which scribbles are carried</source>
+        <source>Disparity along which scribbles are propagated</source>
         <translation>Disparität, mit der Striche übertragen werden</translation>
     </message>
 </context>
@@ -1058,7 +1058,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>nichts weiter</translation>
     </message>
     <message>
-        <source>the truth</source>
+        <source>the ground truth</source>
         <translation>die Referenz</translation>
     </message>
     <message>
@@ -1547,11 +1547,11 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>gemessen</translation>
     </message>
     <message>
-        <source>truth behind</source>
+        <source>ground truth behind</source>
         <translation>Referenz dahinter</translation>
     </message>
     <message>
-        <source>truth</source>
+        <source>ground truth</source>
         <translation>Referenz</translation>
     </message>
     <message>
@@ -1617,7 +1617,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Um mehr als %1 px falsch [%]</translation>
     </message>
     <message>
-        <source>No pixel of the %1 is judged.</source>
+        <source>No pixel of the %1 can be evaluated.</source>
         <translation>Kein Pixel wird bewertet: %1.</translation>
     </message>
     <message>
@@ -1906,7 +1906,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Lichtfeld speichern als</translation>
     </message>
     <message>
-        <source>Writes the light field, its truth and its labels in another form</source>
+        <source>Writes the light field, its ground truth and its labels in another form</source>
         <translation>Schreibt das Lichtfeld, seine Referenz und seine Labels in anderer Form</translation>
     </message>
     <message>
@@ -2319,7 +2319,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1 px angewandt</translation>
     </message>
     <message>
-        <source>Truth</source>
+        <source>Ground truth</source>
         <translation>Referenz</translation>
     </message>
     <message>
@@ -3166,7 +3166,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Disparitätsbereich des nächsten Laufs: %1 … %2 px</translation>
     </message>
     <message>
-        <source>Range begins at the chosen measurement</source>
+        <source>Use the chosen measurement as minimum</source>
         <translation>Bereich beginnt an der gewählten Messung</translation>
     </message>
     <message>
@@ -3174,7 +3174,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Macht die gewählte gemessene Linie zum unteren Ende des Disparitätsbereichs des Verfahrens</translation>
     </message>
     <message>
-        <source>Range ends at the chosen measurement</source>
+        <source>Use the chosen measurement as maximum</source>
         <translation>Bereich endet an der gewählten Messung</translation>
     </message>
     <message>
@@ -3273,7 +3273,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
 <context>
     <name>episcope::Messages</name>
     <message>
-        <source>Written: %1</source>
+        <source>Saved: %1</source>
         <translation>Geschrieben: %1</translation>
     </message>
 </context>
@@ -3369,7 +3369,7 @@ s</translation>
         <translation>Benötigte Sekunden</translation>
     </message>
     <message>
-        <source>Judged</source>
+        <source>Evaluated on</source>
         <translation>Bewertet</translation>
     </message>
     <message>
@@ -4413,11 +4413,11 @@ s</translation>
         <translation>Die Pixel, auf die sich Tabelle und Diagramm beziehen</translation>
     </message>
     <message>
-        <source>Judged part of the view</source>
+        <source>Part of the view to evaluate on</source>
         <translation>Bewerteter Teil der Ansicht</translation>
     </message>
     <message>
-        <source>Judged:</source>
+        <source>Evaluate on:</source>
         <translation>Bewertet:</translation>
     </message>
 </context>
@@ -4680,7 +4680,7 @@ s</translation>
         <translation>NumPy-Array</translation>
     </message>
     <message>
-        <source>NumPy arrays with truth and labels</source>
+        <source>NumPy arrays with ground truth and labels</source>
         <translation>NumPy-Arrays mit Referenz und Labels</translation>
     </message>
     <message>
@@ -4716,7 +4716,7 @@ s</translation>
         <translation>%1 wird geschrieben</translation>
     </message>
     <message>
-        <source>Written: %1.</source>
+        <source>Saved: %1.</source>
         <translation>Geschrieben: %1.</translation>
     </message>
 </context>
@@ -4809,7 +4809,7 @@ s</translation>
         <translation>Sortierung</translation>
     </message>
     <message>
-        <source>Filter: name, form, truth …</source>
+        <source>Filter: name, form, ground truth …</source>
         <translation>Filter: Name, Form, Referenz …</translation>
     </message>
     <message>
@@ -4829,7 +4829,7 @@ s</translation>
         <translation>Größe</translation>
     </message>
     <message>
-        <source>Truth</source>
+        <source>Ground truth</source>
         <translation>Referenz</translation>
     </message>
     <message>
@@ -5287,15 +5287,15 @@ s</translation>
         <translation>Zweifelhafte Labels bleiben, wo die entrauschten Pixel höchstens um diesen Wert abweichen</translation>
     </message>
     <message>
-        <source>Least cap</source>
+        <source>Minimum cap</source>
         <translation>Kleinste Kappung</translation>
     </message>
     <message>
-        <source>Least confidence</source>
+        <source>Minimum confidence</source>
         <translation>Kleinste Konfidenz</translation>
     </message>
     <message>
-        <source>Least weight</source>
+        <source>Minimum weight</source>
         <translation>Kleinstes Gewicht</translation>
     </message>
     <message>
@@ -5627,11 +5627,11 @@ s</translation>
         <translation>Das Labeling endet, sobald seine Energie nachweislich höchstens um diesen Bruchteil über dem Minimum liegt</translation>
     </message>
     <message>
-        <source>The least cap of a pixel, as a share of ε</source>
+        <source>The smallest cap of a pixel, as a share of ε</source>
         <translation>Kleinste Kappung eines Pixels, als Anteil von ε</translation>
     </message>
     <message>
-        <source>The least weight of a pair of neighbors</source>
+        <source>The smallest weight of a pair of neighbors</source>
         <translation>Kleinstes Gewicht eines Paars von Nachbarn</translation>
     </message>
     <message>
@@ -6394,7 +6394,7 @@ s</translation>
 <context>
     <name>episcope::ScribbleController</name>
     <message>
-        <source>Carry to all views</source>
+        <source>Propagate to all views</source>
         <translation>In alle Ansichten übertragen</translation>
     </message>
     <message>
@@ -6402,7 +6402,7 @@ s</translation>
         <translation>Zeigt die Striche jeder Ansicht in allen anderen</translation>
     </message>
     <message>
-        <source>Carrying scribbles needs a disparity: run a method in the Estimate tab.</source>
+        <source>Propagating scribbles needs a disparity: run a method in the Estimate tab.</source>
         <translation>Striche zu übertragen erfordert eine Disparität: im Reiter Schätzen ein Verfahren ausführen.</translation>
     </message>
     <message>
@@ -6879,7 +6879,7 @@ s</translation>
         <translation>Pixel mit größerem Fehler gelten als schlecht, in der Karte der schlechten Pixel und hier</translation>
     </message>
     <message>
-        <source>Bad if off by more than</source>
+        <source>Bad-pixel threshold</source>
         <translation>Schlecht über</translation>
     </message>
     <message>
@@ -7348,11 +7348,11 @@ s</translation>
         <translation>grau %1</translation>
     </message>
     <message>
-        <source>truth %1</source>
+        <source>ground truth %1</source>
         <translation>Referenz %1</translation>
     </message>
     <message>
-        <source>no truth here</source>
+        <source>no ground truth here</source>
         <translation>hier keine Referenz</translation>
     </message>
     <message>
@@ -7571,7 +7571,7 @@ s</translation>
         <translation>Zeigt, wo eine Fläche sichtbar ist und wo zwei</translation>
     </message>
     <message>
-        <source>Truth</source>
+        <source>Ground truth</source>
         <translation>Referenz</translation>
     </message>
     <message>
@@ -7647,7 +7647,7 @@ s</translation>
         <translation>wahrer Hintergrund</translation>
     </message>
     <message>
-        <source>truth</source>
+        <source>ground truth</source>
         <translation>Referenz</translation>
     </message>
     <message>

@@ -334,8 +334,8 @@ void EpiPane::paintLabels(QPainter& painter) const {
     QColor color;
   };
   const Legend legends[] = {{measured_px_, tr("measured"), theme::kMeasured},
-                            {background_truth_px_, tr("truth behind"), theme::kTruth},
-                            {truth_px_, tr("truth"), theme::kTruth},
+                            {background_truth_px_, tr("ground truth behind"), theme::kTruth},
+                            {truth_px_, tr("ground truth"), theme::kTruth},
                             {background_estimate_px_, tr("estimate behind"), theme::kEstimate},
                             {estimate_px_, tr("estimate"), theme::kEstimate}};
   // From the lower right corner: leftwards in a wide pane, upwards in a tall one.

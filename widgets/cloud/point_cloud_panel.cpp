@@ -200,7 +200,7 @@ void CloudControls::addCompanion(QGridLayout& grid) {
   companion_->setToolTip(tr("Shown together with the result"));
   companion_->setAccessibleName(tr("Shown with the result"));
   companion_->addItem(tr("nothing else"), static_cast<int>(CloudCompanion::None));
-  companion_->addItem(tr("the truth"), static_cast<int>(CloudCompanion::Truth));
+  companion_->addItem(tr("the ground truth"), static_cast<int>(CloudCompanion::Truth));
   companion_->addItem(tr("B"), static_cast<int>(CloudCompanion::Other));
   companion_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   companion_->setMinimumContentsLength(8);

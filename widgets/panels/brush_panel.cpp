@@ -183,7 +183,7 @@ double BrushPanel::scribbleOpacity() const {
 
 AnnotationBar::AnnotationBar(QWidget* parent)
     : QWidget(parent),
-      carried_(new QCheckBox(tr("Carry to all views by"), this)),
+      carried_(new QCheckBox(tr("Propagate to all views by"), this)),
       by_(new QComboBox(this)),
       carry_state_(new ElidedLabel(this)),
       file_state_(new ElidedLabel(this, Qt::ElideMiddle)),
@@ -197,7 +197,7 @@ AnnotationBar::AnnotationBar(QWidget* parent)
   by_->addItem(tr("the shown estimate"), static_cast<int>(CarriedBy::Estimate));
   by_->addItem(tr("the ground truth"), static_cast<int>(CarriedBy::Truth));
   by_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  by_->setToolTip(tr("Disparity along which scribbles are carried"));
+  by_->setToolTip(tr("Disparity along which scribbles are propagated"));
   carry_state_->setObjectName("carry.state");
   file_state_->setObjectName("annotation.file");
   auto* carry = new QHBoxLayout;

@@ -264,9 +264,9 @@ RegionBar::RegionBar(QWidget* parent)
   setObjectName("regionBar");
   part_->setObjectName("region.part");
   part_->setToolTip(tr("Pixels that the table and the plot evaluate"));
-  part_->setAccessibleName(tr("Judged part of the view"));
+  part_->setAccessibleName(tr("Part of the view to evaluate on"));
   summary_->setObjectName("region.summary");
-  auto* label = new QLabel(tr("Judged:"), this);
+  auto* label = new QLabel(tr("Evaluate on:"), this);
   label->setBuddy(part_);
   layout_->setContentsMargins(0, theme::kSpacing, 0, 0);
   layout_->setSpacing(theme::kSpacing);

@@ -183,14 +183,14 @@ ScenePanel::ScenePanel(SceneList* list, QWidget* parent)
   view_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   view_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   filter_->setObjectName("scenes.filter");
-  filter_->setPlaceholderText(tr("Filter: name, form, truth …"));
+  filter_->setPlaceholderText(tr("Filter: name, form, ground truth …"));
   filter_->setClearButtonEnabled(true);
   order_->setObjectName("scenes.order");
   order_->setToolTip(tr("Order of the list"));
   order_->addItem(tr("Name"), Qt::DisplayRole);
   order_->addItem(tr("Form"), SceneList::kForm);
   order_->addItem(tr("Size"), SceneList::kSamples);
-  order_->addItem(tr("Truth"), SceneList::kHasTruth);
+  order_->addItem(tr("Ground truth"), SceneList::kHasTruth);
   hint_->setObjectName("scenes.hint");
   hint_->setAlignment(Qt::AlignCenter);
   hint_->setWordWrap(true);

@@ -77,7 +77,7 @@ void StatisticsPanel::addThreshold(QGridLayout& layout) {
   threshold_->setSuffix(tr(" px"));
   const QString tip = tr("Pixels whose error is larger are bad, on the map of bad pixels and here");
   threshold_->setToolTip(tip);
-  auto* label = new QLabel(tr("Bad if off by more than"), this);
+  auto* label = new QLabel(tr("Bad-pixel threshold"), this);
   label->setBuddy(threshold_);
   label->setToolTip(tip);
   values_[kBad]->setToolTip(tr("Visible evaluated pixels that are off by more than the threshold"));

@@ -49,8 +49,8 @@ QStringList reading_parts(const PixelReading& reading) {
     parts << (is_rgb ? ValueBar::tr("rgb %1") : ValueBar::tr("grey %1")).arg(reading.samples);
   }
   if (reading.has_truth) {
-    parts << (reading.truth_px ? ValueBar::tr("truth %1").arg(number_text(*reading.truth_px))
-                               : ValueBar::tr("no truth here"));
+    parts << (reading.truth_px ? ValueBar::tr("ground truth %1").arg(number_text(*reading.truth_px))
+                               : ValueBar::tr("no ground truth here"));
     if (reading.background_truth_px) {
       parts.back() += ValueBar::tr(", behind %1").arg(number_text(*reading.background_truth_px));
     }

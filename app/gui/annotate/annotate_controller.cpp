@@ -496,7 +496,7 @@ ScribbleController::ScribbleController(const Workbench& bench, AnnotationBar* ba
 void ScribbleController::addCommand() {
   bench_.commands.add({.id = "annotate.carry",
                        .menu = Menu::Annotate,
-                       .text = tr("Carry to all views"),
+                       .text = tr("Propagate to all views"),
                        .tip = tr("Shows the scribbles of every view on all others"),
                        .icon = "carry",
                        .keys = {Qt::Key_C},
@@ -560,7 +560,7 @@ void ScribbleController::setCarried(bool is_carried) {
     show();
   } else if (session_.scene() && !field()) {
     bench_.messages.hint(
-        tr("Carrying scribbles needs a disparity: run a method in the Estimate tab."));
+        tr("Propagating scribbles needs a disparity: run a method in the Estimate tab."));
   }
   carry();
   bench_.commands.refresh();

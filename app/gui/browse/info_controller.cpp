@@ -431,7 +431,7 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
          InfoPanelText::tr("%1 px applied").arg(number_text(convention.focus_px, 2)),
          InfoPanelText::tr("All views but the center one are interpolated.")});
   }
-  info.rows.push_back({InfoPanelText::tr("Truth"), truth_text(*scene.truth, grid), {}});
+  info.rows.push_back({InfoPanelText::tr("Ground truth"), truth_text(*scene.truth, grid), {}});
   add_conventions(info, light_field.info().camera, convention);
   if (const QString names = names_text(light_field.info().reading); !names.isEmpty()) {
     info.rows.push_back({InfoPanelText::tr("Names"), names, {}, "names"});

@@ -122,7 +122,7 @@ void MetricController::fillTable() {
   const auto add_text = [&columns](const QString& key, const QString& label) {
     columns.push_back({key, label, {}, 0, BestValue::None, false});
   };
-  add_text("region", tr("Judged"));
+  add_text("region", tr("Evaluated on"));
   add_text("scene", tr("Scene"));
   add_text("method_id", tr("Method"));
   add_text("parameters", tr("Parameters"));

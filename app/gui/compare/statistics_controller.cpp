@@ -264,7 +264,7 @@ void ErrorPlotController::start(const std::vector<Judged>& results) {
         Plot bad{x, {tr("Off by more than %1 px [%]").arg(number_text(threshold_px, 2))}, {}};
         std::size_t pixels = 0;
         for (const ErrorBin& bin : profiles.front()) pixels += bin.pixels;
-        if (pixels == 0) return panel_->clear(tr("No pixel of the %1 is judged.").arg(part));
+        if (pixels == 0) return panel_->clear(tr("No pixel of the %1 can be evaluated.").arg(part));
         for (std::size_t i = 0; i < results.size(); ++i) {
           squares.series.push_back(series_of(results[i].name, profiles[i], &ErrorBin::mse_100));
           bad.series.push_back(series_of(results[i].name, profiles[i], &ErrorBin::bad_percent));

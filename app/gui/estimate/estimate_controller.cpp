@@ -482,12 +482,12 @@ void add_measured_range(const Workbench& bench, MethodPanel* panel) {
     RangeEnd end;
   };
   for (const Row& row : std::initializer_list<Row>{
-           {"estimate.range_from", MeasuredRangeText::tr("Range begins at the chosen measurement"),
+           {"estimate.range_from", MeasuredRangeText::tr("Use the chosen measurement as minimum"),
             MeasuredRangeText::tr(
                 "Makes the chosen measured line the lower end of the disparity range of the "
                 "method"),
             RangeEnd::Lower},
-           {"estimate.range_to", MeasuredRangeText::tr("Range ends at the chosen measurement"),
+           {"estimate.range_to", MeasuredRangeText::tr("Use the chosen measurement as maximum"),
             MeasuredRangeText::tr(
                 "Makes the chosen measured line the upper end of the disparity range of the "
                 "method"),

@@ -237,7 +237,7 @@ void FileController::addSaveCommand() {
       {.id = "file.save_as",
        .menu = Menu::File,
        .text = tr("Save light field as"),
-       .tip = tr("Writes the light field, its truth and its labels in another form"),
+       .tip = tr("Writes the light field, its ground truth and its labels in another form"),
        .section = section::kExport,
        .enabled = [this] { return bench_.session.scene() != nullptr; },
        .submenu = make_save_menu(bench_)});
@@ -406,7 +406,7 @@ QString title_of(const io::Writer& writer) {
       {"benchmark", SaveFormsText::tr("Folder of the 2016 benchmark")},
       {"grid", SaveFormsText::tr("Folder of images")},
       {"npy", SaveFormsText::tr("NumPy array")},
-      {"npz", SaveFormsText::tr("NumPy arrays with truth and labels")},
+      {"npz", SaveFormsText::tr("NumPy arrays with ground truth and labels")},
       {"mat", SaveFormsText::tr("MATLAB file of the Light Field Toolbox")},
       {"eslf", SaveFormsText::tr("Picture of lenslets (ESLF)")}};
   for (const auto& [id, title] : titles) {
@@ -489,7 +489,7 @@ void save_light_field(const Workbench& bench, const io::Writer& writer, const QS
       },
       [&messages = bench.messages, path](const std::vector<std::string>& losses) {
         if (losses.empty()) return messages.written(path);
-        messages.hint(joined_sentences(SaveFormsText::tr("Written: %1.").arg(path), losses));
+        messages.hint(joined_sentences(SaveFormsText::tr("Saved: %1.").arg(path), losses));
       });
 }
 

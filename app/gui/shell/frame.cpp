@@ -317,7 +317,7 @@ void Messages::fail(const QString& sentence) {
 }
 
 void Messages::written(const QString& path) {
-  success(tr("Written: %1").arg(path));
+  success(tr("Saved: %1").arg(path));
 }
 
 void Messages::offer(const QString& sentence, const QString& button, std::function<void()> run) {

@@ -150,7 +150,7 @@ class Messages : public QObject {
   /// The same with a button that remedies it.
   void warn(const QString& sentence, const QString& button, std::function<void()> run);
   void fail(const QString& sentence);
-  /// Shows "Written: …".
+  /// Shows "Saved: …".
   void written(const QString& path);
   /// Reports an action, with a button that reacts to it.
   void offer(const QString& sentence, const QString& button, std::function<void()> run);

@@ -263,9 +263,8 @@ std::string crop_text(const ViewCrop& crop, const ViewBrightness& brightness) {
     ++count;
   }
   return fmt::format(
-      "{} of {} views kept, rows {} to {} and columns {} to {} from 0: {} outer views are dark "
-      "(mean "
-      "{} % of the center's); --crop all keeps them.",
+      "Using the inner {} of {} views, rows {} to {} and columns {} to {} from 0: {} outer views are "
+      "dark (mean {} % of the center's); --crop all keeps them.",
       grid_text(crop.kept), grid_text(crop.stored), crop.first.v, crop.first.v + crop.kept.v - 1,
       crop.first.u, crop.first.u + crop.kept.u - 1, count,
       std::lround(100 * sum / std::max(count, 1)));

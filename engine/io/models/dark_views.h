@@ -47,7 +47,7 @@ enum class BrightnessRows { EverySecond, Few };
 /// among other views causes no crop.
 [[nodiscard]] ViewCrop filled_crop(const ViewBrightness& brightness);
 
-/// "12×12 of 14×14 views kept: outer views are dark (mean 2 % of the center's); --crop all keeps
+/// "Using the inner 12×12 of 14×14 views …: 52 outer views are dark (mean 2 % of the center's); --crop all keeps
 /// them", for the report.
 [[nodiscard]] std::string crop_text(const ViewCrop& crop, const ViewBrightness& brightness);
 

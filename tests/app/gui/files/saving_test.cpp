@@ -45,7 +45,7 @@ void SavingTest::everyForm_isWritten() {
 
   emit dialog->fileSelected(name);
 
-  QTRY_VERIFY2_WITH_TIMEOUT(message(f).startsWith("Written: "), qPrintable(message(f)), kPatience);
+  QTRY_VERIFY2_WITH_TIMEOUT(message(f).startsWith("Saved: "), qPrintable(message(f)), kPatience);
   const Scene scene = io::open_scene(name.toStdString(), {}, Progress());
   QCOMPARE(scene.light_field->sample_hash(), f.window.bench().session.light_field()->sample_hash());
   const auto losses = io::unsupported_parts(writer, *f.window.bench().session.scene());
@@ -63,7 +63,7 @@ void SavingTest::whatIsPainted_isSaved() {
 
   save_light_field(f.window.bench(), *io::writer_named("archive"), f.path("saved.h5"));
 
-  QTRY_VERIFY2_WITH_TIMEOUT(message(f).startsWith("Written: "), qPrintable(message(f)), kPatience);
+  QTRY_VERIFY2_WITH_TIMEOUT(message(f).startsWith("Saved: "), qPrintable(message(f)), kPatience);
   const Scene scene = io::open_scene(f.path("saved.h5").toStdString(), {}, Progress());
   QCOMPARE(scene.scribbles.views.size(), std::size_t{1});
   QVERIFY(scene.scribbles.views.front().labels.at(20, 30) != 0);
