@@ -146,9 +146,11 @@ py::dict score_scene(const py::object& map, const OpenedScene& opened, Evaluatio
     options.progress = job;
     Evaluation judged = judge(*estimate, *opened.scene, options, at);
     better = find_better_reading(*estimate, *opened.scene);
+    const std::string doubt =
+        better ? better_reading_finding(*better) : poor_fit_text(*estimate, *opened.scene);
+    if (!doubt.empty()) judged.notes.push_back(doubt);
     return judged;
   });
-  if (better) evaluation.notes.push_back(better_reading_finding(*better));
   const bool has_all_views = estimate->field.disparity.grid() == lf.grid();
   py::dict scores = scores_of(*estimate, evaluation, options.protocol, has_all_views);
   if (better) scores["better_reading"] = object_from(better_reading_json(*better));

@@ -46,6 +46,12 @@ namespace episcope {
 [[nodiscard]] std::optional<io::BetterReading> find_better_reading(const Estimate& estimate,
                                                                    const Scene& scene);
 
+/// Says with both numbers that a result explains little of the truth (io::find_poor_fit), in the
+/// same view: "the map explains little of the truth: …"; else empty. Results that were estimated
+/// from the samples of the light field are not doubted. For results that no other reading explains
+/// better.
+[[nodiscard]] std::string poor_fit_text(const Estimate& estimate, const Scene& scene);
+
 /// Options that read a map so, as on the command line: " --map-transpose --map-scale=0.01".
 [[nodiscard]] std::string map_options_text(const io::MapReading& reading);
 

@@ -55,6 +55,16 @@ def test_array_that_was_stored_otherwise_is_told_as_by_the_command_line(scene, r
     assert "better_reading" not in episcope.score(result, scene)
 
 
+def test_map_that_explains_little_is_told(scene, result, tmp_path, cli):
+    noise = numpy.random.default_rng(1).uniform(-1, 1, scene.truth.shape[2:]).astype("float32")
+    numpy.save(tmp_path / "mine.npy", noise)
+    expected = of_command_line(cli, "mine.npy")
+    scores = of_python(episcope.score(noise, scene))
+    assert "explains little of the truth" in scores["notes"][0]
+    assert scores == expected
+    assert "notes" not in episcope.score(result, scene)
+
+
 def test_array_of_all_views_is_judged_in_the_center(scene, result):
     whole = episcope.score(result.disparity, scene)
     assert whole["mse_100"] == episcope.score(result, scene)["mse_100"]
