@@ -216,12 +216,9 @@ ReadEstimate read_estimate(const Scene& scene, const std::string& path,
   std::optional<io::BetterReading> better;
   if (reading == io::MapReading()) better = find_better_reading(*estimate, scene);
   std::string poor_fit = better ? std::string() : poor_fit_text(*estimate, scene);
-  return {{std::move(estimate), range},
-          is_of_others && !is_moved,
-          std::move(options),
-          better,
-          std::move(poor_fit),
-          stamp};
+  return {{std::move(estimate), range}, is_of_others && !is_moved,
+          std::move(options),           better,
+          std::move(poor_fit),          stamp};
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ def test_map_that_explains_little_is_told(scene, result, tmp_path, cli):
     assert "explains little of the truth" in scores["notes"][0]
     assert scores == expected
     assert "notes" not in episcope.score(result, scene)
+    assert episcope.score(noise, scene.truth)["notes"] == scores["notes"]
 
 
 def test_array_of_all_views_is_judged_in_the_center(scene, result):
@@ -86,6 +87,16 @@ def test_truth_may_be_an_array(scene, result):
     assert episcope.score(result.disparity[2, 2], scene.truth)["mse_100"] == expected
     with pytest.raises(episcope.InvalidInput, match="of arrays, give the maps of the view"):
         episcope.score(result, scene.truth, view=(0, 0))
+
+
+def test_truth_may_be_a_path(scene, result, tmp_path):
+    expected = episcope.score(result, scene)
+    result.save(tmp_path / "r.h5")
+    assert episcope.score(result, scene.source) == expected
+    by_paths = episcope.score(tmp_path / "r.h5", scene.source, view=(2, 2))
+    assert by_paths == expected
+    with pytest.raises(episcope.IoError, match="no_such"):
+        episcope.score(result, tmp_path / "no_such")
 
 
 def test_truth_has_no_error(scene):
