@@ -86,9 +86,10 @@ class Workload {
 void check_submission(const std::filesystem::path& folder);
 
 /// The map for the light field of a scene, empty if the submission has none. Its notes tell whether
-/// another reading fits far better (find_better_reading), or else whether values lie beyond ±20 px,
-/// which no densely sampled light field has. Throws IoError, InvalidInput if it cannot be read, if
-/// there are several, if size or views do not fit, or if the view holds no finite value.
+/// another reading fits far better (find_better_reading), or else whether it explains little of the
+/// truth (poor_fit_text), and whether values lie beyond ±20 px, which no densely sampled light
+/// field has. Throws IoError, InvalidInput if it cannot be read, if there are several, if size or
+/// views do not fit, or if the view holds no finite value.
 [[nodiscard]] std::optional<Estimate> read_submission(const std::filesystem::path& folder,
                                                       const Scene& scene,
                                                       const io::MapReading& reading = {});

@@ -348,7 +348,11 @@ std::optional<Pair<Number>> pair_in(const std::string& text, const std::string& 
 }  // namespace
 
 OptionValue<std::string> text_value(const std::string& name) {
-  return {name, [](const std::string&, const std::string& text) { return text; }};
+  return {
+      name, [](const std::string& option, const std::string& text) {
+        if (text != "-" || option == "--output") return text;
+        throw UsageError(option + " takes no -, which is standard input or output; name a file");
+      }};
 }
 
 OptionValue<int> integer_value(const std::string& name, int min, int max) {
@@ -517,8 +521,33 @@ std::string wrapped(std::string_view text, int columns) {
   return result;
 }
 
+namespace {
+
+/// "--what a|b|c", with its choices in lines below each other where one is too short.
+std::string broken_choices(const std::string& name, std::size_t columns) {
+  if (character_count(name) <= columns) return name;
+  const std::string begin = name.substr(0, name.rfind(' ') + 1);
+  std::string lines = begin;
+  std::size_t used = character_count(begin);
+  for (std::size_t from = begin.size(); from < name.size();) {
+    const std::size_t bar = std::min(name.find('|', from), name.size() - 1);
+    const std::string choice = name.substr(from, bar + 1 - from);
+    const std::size_t length = character_count(choice);
+    if (used + length > columns && used > begin.size()) {
+      lines += '\n' + std::string(begin.size(), ' ');
+      used = begin.size();
+    }
+    lines += choice;
+    used += length;
+    from = bar + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
 std::string help_entry(const std::string& name, const std::string& text, int indent, int columns) {
-  const std::string begin = "  " + name;
+  const std::string begin = broken_choices("  " + name, static_cast<std::size_t>(columns));
   const auto at = static_cast<std::size_t>(indent);
   const std::size_t used = character_count(begin);
   const std::string lines = paragraph(text, at, at, static_cast<std::size_t>(columns));

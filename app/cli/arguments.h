@@ -25,7 +25,7 @@ struct OptionValue {
       false;  ///< What follows is the value, even if it looks like an option.
 };
 
-/// Any text: the name of a file, of an INPUT.
+/// Any text: the name of a file, of an INPUT. Only for "--output" it may be "-".
 [[nodiscard]] OptionValue<std::string> text_value(const std::string& name);
 /// A whole number or a number in [min, max].
 [[nodiscard]] OptionValue<int> integer_value(const std::string& name, int min, int max);
@@ -201,7 +201,7 @@ class UsageError : public Error {
 [[nodiscard]] std::string wrapped(std::string_view text, int columns);
 
 /// An entry of a list: `name` two in, and `text` from column `indent` on, on the next line if the
-/// name is too long.
+/// name is too long. Choices (a|b|c) that are wider than the columns continue in further lines.
 [[nodiscard]] std::string help_entry(const std::string& name, const std::string& text, int indent,
                                      int columns);
 

@@ -90,6 +90,12 @@ void require_no_map_options(const ParameterOptions& options, const std::string& 
                    " is none; leave it out");
 }
 
+void require_result_for(const std::string& truth, const std::string& input) {
+  if (truth.empty() || !names_light_field_only(input)) return;
+  throw UsageError("--truth names the light field of a RESULT, but " + input +
+                   " is a light field itself; leave it out");
+}
+
 void check_builtin_scene(const std::string& id) {
   std::vector<std::string> ids;
   for (const auto& scene : builtin_inputs()) ids.push_back(scene.id);
@@ -107,6 +113,7 @@ void check_input(const std::string& input) {
   std::error_code ignored;
   if (!builtin.empty()) return check_builtin_scene(builtin);
   if (std::filesystem::exists(input, ignored)) return;
+  if (input == "-") throw UsageError("standard input (-) is not read here; name a file or folder");
   throw IoError(input, "there is no such file or folder; check the path");
 }
 

@@ -44,6 +44,9 @@ void declare_map_options(Arguments& arguments, ParameterOptions& options);
 /// Throws UsageError if such an option is given to what is no RESULT.
 void require_no_map_options(const ParameterOptions& options, const std::string& input);
 
+/// Throws UsageError if `truth`, the light field of a RESULT, is given to what is a light field.
+void require_result_for(const std::string& truth, const std::string& input);
+
 /// Throws UsageError for an unknown id, naming the nearest.
 void check_builtin_scene(const std::string& id);
 

@@ -65,10 +65,14 @@ std::string help_text(const ParameterDescription& parameter) {
 }  // namespace
 
 void ParameterOptions::declare(Arguments& arguments,
-                               const std::vector<ParameterDescription>& parameters) {
+                               const std::vector<ParameterDescription>& parameters,
+                               const std::map<std::string, std::string>& names) {
   for (const auto& parameter : parameters) {
     keys_.push_back(parameter.key);
-    const std::string name = "--" + option_name(parameter.key);
+    const std::string by_key = "--" + option_name(parameter.key);
+    const auto other = names.find(parameter.key);
+    const std::string name = other == names.end() ? by_key : other->second;
+    if (name != by_key) arguments.earlier_name(by_key, name);
     std::optional<ParameterValue>& value = values_[parameter.key];
     if (parameter.is_toggle) {
       arguments.flag(name, value, std::optional<ParameterValue>(true), parameter.help);

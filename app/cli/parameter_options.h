@@ -15,8 +15,10 @@ class Arguments;
 /// Options generated from a schema: `--<key> VALUE`, and `--<key>` alone for toggles.
 class ParameterOptions {
  public:
-  /// Under the present heading of the arguments; the object must outlive the parsing.
-  void declare(Arguments& arguments, const std::vector<ParameterDescription>& parameters);
+  /// Under the present heading of the arguments; the object must outlive the parsing. `names` has
+  /// options of another name than their key, which stays valid as an earlier name.
+  void declare(Arguments& arguments, const std::vector<ParameterDescription>& parameters,
+               const std::map<std::string, std::string>& names = {});
   /// Values of the options that were given, in the order of declaration.
   [[nodiscard]] ParameterSet values() const;
   [[nodiscard]] bool is_given(const std::string& key) const;

@@ -152,7 +152,9 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   if (scene) {
     note_other_source(*estimate, *scene->light_field, job);
     const auto better = find_better_reading(*estimate, *scene);
-    if (better) job.note(shown.subject + ": " + better_reading_text(*better));
+    const std::string doubt =
+        better ? better_reading_text(*better) : poor_fit_text(*estimate, *scene);
+    if (!doubt.empty()) job.note(shown.subject + ": " + doubt);
     take_scene(shown, std::move(*scene), loaded);
   }
   if (shown.quantity == Quantity::Difference) load_other(shown, *estimate, loaded, job);

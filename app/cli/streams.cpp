@@ -94,6 +94,13 @@ void InputStream::require_light_field() const {
                 ".npy, .npz, .mat and TIFF; name its file or folder instead");
 }
 
+void require_no_other_source(const fs::path& output, Overwrite overwrite) {
+  if (overwrite == Overwrite::Yes || !holds_something(output)) return;
+  throw IoError(output, std::string("exists and does not tell whether it is of what is piped; "
+                                    "choose another name, or ") +
+                            kByOption);
+}
+
 OutputStream::OutputStream(std::string& name, const std::string& suffix) {
   if (name != kStream && !name.ends_with(":-")) return;
   const std::string form = name == kStream ? suffix : "." + name.substr(0, name.size() - 2);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/replace_file.h"
+
 #include <filesystem>
 #include <stop_token>
 #include <string>
@@ -46,6 +48,10 @@ class InputStream {
   StreamFolder folder_;
   std::string file_;
 };
+
+/// Throws IoError if `output` exists, since it does not tell whether it is of what is piped, unless
+/// it may be replaced.
+void require_no_other_source(const std::filesystem::path& output, Overwrite overwrite);
 
 /// A file that goes to standard output, for what writes files.
 class OutputStream {

@@ -4,6 +4,7 @@
 #include "app/python/job.h"
 #include "app/session/command_line.h"
 #include "app/session/judge.h"
+#include "app/session/load_scene.h"
 #include "app/session/replace_file.h"
 #include "app/session/result_files.h"
 #include "app/session/run_estimator.h"
@@ -12,6 +13,7 @@
 #include "engine/disparity/registry.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/external_result.h"
+#include "engine/io/models/result_file.h"
 
 #include <pybind11/stl.h>
 #include <nlohmann/json.hpp>
@@ -34,9 +36,10 @@ std::optional<ViewSelection> selection_from(const py::object& views) {
   return value_named<ViewSelection>(py::cast<std::string>(py::str(views)));
 }
 
-FoundEstimate estimate_scene(const OpenedScene& opened, const std::string& method,
+FoundEstimate estimate_scene(const py::object& light_field, const std::string& method,
                              const py::object& views, const std::string& device, int threads,
                              const py::object& progress, const py::kwargs& parameters) {
+  const OpenedScene& opened = scene_from(light_field);
   const Estimator& estimator = find_estimator(method);
   const ParameterSet values = parameters_from(parameters, estimator.parameters);
   RunOptions options = run_options(device, threads);
@@ -109,7 +112,7 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path, con
 /// What is judged: a result, the name of its file, or an array of maps.
 EstimatePtr judged_estimate(const py::object& map, const LightField& lf) {
   if (py::isinstance<FoundEstimate>(map)) return py::cast<const FoundEstimate&>(map).estimate;
-  if (py::isinstance<py::str>(map) || py::hasattr(map, "__fspath__")) {
+  if (names_path(map)) {
     return std::make_shared<const Estimate>(read_result_of(lf, path_from(map)));
   }
   DisparityField field;
@@ -146,9 +149,11 @@ py::dict score_scene(const py::object& map, const OpenedScene& opened, Evaluatio
     options.progress = job;
     Evaluation judged = judge(*estimate, *opened.scene, options, at);
     better = find_better_reading(*estimate, *opened.scene);
+    const std::string doubt =
+        better ? better_reading_finding(*better) : poor_fit_text(*estimate, *opened.scene);
+    if (!doubt.empty()) judged.notes.push_back(doubt);
     return judged;
   });
-  if (better) evaluation.notes.push_back(better_reading_finding(*better));
   const bool has_all_views = estimate->field.disparity.grid() == lf.grid();
   py::dict scores = scores_of(*estimate, evaluation, options.protocol, has_all_views);
   if (better) scores["better_reading"] = object_from(better_reading_json(*better));
@@ -183,8 +188,10 @@ py::dict score_array(const py::object& judged, const py::object& truth,
   estimate.field = field_from(map, grid, "the maps");
   estimate.method = "array";
   const ViewIndex center = grid.center();
-  const Evaluation evaluation =
-      evaluate(estimate.field.view(center), known.view(center), {}, options);
+  const DisparityView one = estimate.field.view(center);
+  Evaluation evaluation = evaluate(one, known.view(center), {}, options);
+  const std::string doubt = poor_fit_text(one, known.view(center));
+  if (!doubt.empty()) evaluation.notes.push_back(doubt);
   return scores_of(estimate, evaluation, options.protocol, estimate.field.disparity.grid() == grid);
 }
 
@@ -196,17 +203,34 @@ E choice_named(const std::string& argument, const std::string& name) {
   throw InvalidInput(argument + " is '" + name + "'; use " + joined(names, " or "));
 }
 
+/// The light field of a path, read as a result says that its own was, as by `evaluate --truth`.
+OpenedScene scene_at(const std::string& input, const py::object& map) {
+  Reading reading;
+  std::string result = "the result";
+  if (py::isinstance<FoundEstimate>(map)) {
+    reading = py::cast<const FoundEstimate&>(map).estimate->reading;
+  } else if (names_path(map)) {
+    result = path_from(map);
+    reading = io::read_reading(result);
+  }
+  const io::OpenOptions options = options_for_result(result, reading, input, {});
+  return {std::make_shared<const Scene>(result_of_job(
+              py::none(), 0,
+              [&](const Progress& job) { return open_input(input, options, true, job); })),
+          input};
+}
+
 py::dict score(const py::object& map, const py::object& truth, const std::string& protocol,
                const std::string& invalid, const py::object& view) {
   const EvaluationOptions options{choice_named<Protocol>("protocol", protocol),
                                   choice_named<InvalidEstimates>("invalid", invalid),
                                   {}};
-  if (!py::isinstance<OpenedScene>(truth)) {
-    if (view.is_none()) return score_array(map, truth, options);
-    throw InvalidInput(
-        "view chooses a view of a light field; of arrays, give the maps of the view");
+  if (py::isinstance<OpenedScene>(truth)) {
+    return score_scene(map, py::cast<const OpenedScene&>(truth), options, view);
   }
-  return score_scene(map, py::cast<const OpenedScene&>(truth), options, view);
+  if (names_path(truth)) return score_scene(map, scene_at(path_from(truth), map), options, view);
+  if (view.is_none()) return score_array(map, truth, options);
+  throw InvalidInput("view chooses a view of a light field; of arrays, give the maps of the view");
 }
 
 using ResultClass = py::class_<FoundEstimate>;
@@ -310,8 +334,8 @@ Compares disparity with the truth; a dict with the keys of 'episcope-cli evaluat
 mse_100 and density.
 
 map: a Result, the path of a result, or an array in px per view step, [y, x] of the center view or
-[v, u, y, x] of all, NaN where there is no value. truth: a LightField, or an array, [y, x] or
-[v, u, y, x]. protocol: 'vmv2013' or 'benchmark2016'. invalid: how missing values count, 'bad' or
+[v, u, y, x] of all, NaN where there is no value. truth: a LightField, the path of one, or an array,
+[y, x] or [v, u, y, x]. protocol: 'vmv2013' or 'benchmark2016'. invalid: how missing values count, 'bad' or
 'compatible'. view: (v, u), by default the center.
 Raises InvalidInput where sizes differ or there is no truth.)");
 }

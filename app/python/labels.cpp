@@ -107,14 +107,23 @@ ScoredLabels label_scene(const Scene& scene, const Scribbles& scribbles,
   return found;
 }
 
-FoundLabels label(const OpenedScene& opened, const py::object& painted, const py::object& disparity,
-                  const std::string& device, int threads, const py::object& progress,
-                  const py::kwargs& given) {
+EstimatePtr estimate_from(const py::object& disparity) {
+  if (disparity.is_none()) return nullptr;
+  if (py::isinstance<FoundEstimate>(disparity)) {
+    return py::cast<const FoundEstimate&>(disparity).estimate;
+  }
+  throw py::type_error("disparity must be a Result of episcope.estimate, not " +
+                       py::cast<std::string>(py::type::of(disparity).attr("__name__")));
+}
+
+FoundLabels label(const py::object& light_field, const py::object& painted,
+                  const py::object& disparity, const std::string& device, int threads,
+                  const py::object& progress, const py::kwargs& given) {
+  const OpenedScene& opened = scene_from(light_field);
   const auto schema = labeler_schema();
   const LabelerParameters parameters = schema.parse(parameters_from(given, schema.descriptions()));
   const Scribbles scribbles = scribbles_from(painted, *opened.scene);
-  const EstimatePtr estimate =
-      disparity.is_none() ? nullptr : py::cast<const FoundEstimate&>(disparity).estimate;
+  const EstimatePtr estimate = estimate_from(disparity);
   const Device on = run_options(device, threads).device;
   ScoredLabels labels = result_of_job(progress, threads, [&](const Progress& job) {
     return label_scene(*opened.scene, scribbles, parameters, estimate, on, job);

@@ -154,15 +154,25 @@ std::string text_of(const OpenedScene& opened) {
          std::to_string(lf.height()) + " px>";
 }
 
-py::array epi_of(const OpenedScene& opened, const py::object& row, const py::object& column,
+/// Number of a line of pixels.
+int line_from(const char* name, const py::object& line) {
+  try {
+    return py::cast<int>(line);
+  } catch (const py::cast_error&) {
+    throw InvalidInput(std::string(name) + " is " + py::cast<std::string>(py::repr(line)) +
+                       ", but must be a whole number from 0");
+  }
+}
+
+py::array epi_of(const py::object& light_field, const py::object& row, const py::object& column,
                  const py::object& view, double focus) {
   if (row.is_none() == column.is_none()) {
     throw InvalidInput("an EPI is of a row or of a column; give row=… or column=…");
   }
-  const LightField& lf = opened.light_field();
+  const LightField& lf = scene_from(light_field).light_field();
   const ViewIndex at = view_from(view, lf.grid()).value_or(lf.center());
-  if (column.is_none()) return array_of(horizontal_epi(lf, at, py::cast<int>(row), focus));
-  return array_of(vertical_epi(lf, at, py::cast<int>(column), focus));
+  if (column.is_none()) return array_of(horizontal_epi(lf, at, line_from("row", row), focus));
+  return array_of(vertical_epi(lf, at, line_from("column", column), focus));
 }
 
 void add_camera(py::module_& module) {
@@ -355,12 +365,20 @@ template <class T>
 OrderedArray<T> numbers_from(const py::object& array, const std::string& what) {
   constexpr bool is_whole = std::is_integral_v<T>;
   const std::string kinds = is_whole ? "biu" : "biuf";
+  const std::string numbers = is_whole ? "whole numbers" : "numbers";
+  if (names_path(array)) {
+    throw InvalidInput("an array of " + numbers + " is expected for " + what + ", not the path '" +
+                       path_from(array) + "'; read the file first");
+  }
   const auto given = py::array::ensure(array);
   if (given && kinds.find(given.dtype().kind()) != std::string::npos) {
     return OrderedArray<T>(given);
   }
-  throw InvalidInput(what + " are no array of " + (is_whole ? "whole numbers" : "numbers") +
-                     "; give one, such as of type " + (is_whole ? "int32" : "float32"));
+  const bool is_array = py::isinstance<py::array>(array);
+  const py::object found = is_array ? array.attr("dtype") : py::type::of(array).attr("__name__");
+  throw InvalidInput("an array of " + numbers + " is expected for " + what + ", not " +
+                     (is_array ? "of " : "") + py::cast<std::string>(py::str(found)) +
+                     "; give one of " + (is_whole ? "int32" : "float32"));
 }
 
 template OrderedArray<std::int32_t> numbers_from(const py::object&, const std::string&);
@@ -470,6 +488,7 @@ py::tuple view_tuple(ViewIndex view) {
 std::optional<ViewIndex> view_from(const py::object& view, GridShape grid) {
   if (view.is_none()) return std::nullopt;
   try {
+    if (!py::isinstance<py::sequence>(view)) throw py::cast_error();
     const auto [v, u] = pair_from<int>(view);
     if (grid.contains({v, u})) return ViewIndex{v, u};
   } catch (const py::cast_error&) {  // told below
@@ -481,6 +500,17 @@ std::optional<ViewIndex> view_from(const py::object& view, GridShape grid) {
 
 py::tuple interval_tuple(const Interval& interval) {
   return py::make_tuple(interval.min, interval.max);
+}
+
+const OpenedScene& scene_from(const py::object& light_field) {
+  if (py::isinstance<OpenedScene>(light_field)) return py::cast<const OpenedScene&>(light_field);
+  throw py::type_error("light_field must be a LightField, not " +
+                       py::cast<std::string>(py::type::of(light_field).attr("__name__")) +
+                       "; episcope.open(path) and episcope.LightField(array) make one");
+}
+
+bool names_path(const py::object& object) {
+  return py::isinstance<py::str>(object) || py::hasattr(object, "__fspath__");
 }
 
 std::string path_from(const py::object& path) {

@@ -72,6 +72,8 @@ template <class T>
 /// (min, max).
 [[nodiscard]] py::tuple interval_tuple(const Interval& interval);
 
+/// Whether this is a path, as text or as os.PathLike.
+[[nodiscard]] bool names_path(const py::object& object);
 /// A path given as text or as os.PathLike.
 [[nodiscard]] std::string path_from(const py::object& path);
 
@@ -86,6 +88,9 @@ struct OpenedScene {
   /// What a user should know of how it was read, a sentence each.
   [[nodiscard]] std::vector<std::string> notes() const;
 };
+
+/// Throws TypeError, saying how to make one, for another object than a LightField.
+[[nodiscard]] const OpenedScene& scene_from(const py::object& light_field);
 
 /// Adds the class LightField, and `open`, `demo`, `epi`.
 void add_light_fields(py::module_& module);

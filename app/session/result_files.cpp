@@ -150,11 +150,25 @@ void find_border_of(Estimate& estimate, const LightField& light_field) {
 
 }  // namespace
 
+namespace {
+
+bool is_hdf5_light_field(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored) && io::has_hdf5_signature(path) &&
+         holds_light_field(io::Hdf5Input(path)) && !io::is_result_file(path);
+}
+
+}  // namespace
+
+bool names_light_field_only(const std::string& path) {
+  std::error_code ignored;
+  return !builtin_scene_id(path).empty() || fs::is_directory(path, ignored) ||
+         is_hdf5_light_field(path);
+}
+
 Estimate read_result_of(const LightField& light_field, const fs::path& path,
                         const io::MapReading& reading) {
-  std::error_code ignored;
-  const bool is_hdf5 = fs::is_regular_file(path, ignored) && io::has_hdf5_signature(path);
-  if (is_hdf5 && holds_light_field(io::Hdf5Input(path)) && !io::is_result_file(path)) {
+  if (is_hdf5_light_field(path)) {
     throw IoError(path,
                   "holds a light field or true depth and no estimated disparity; name a result");
   }
@@ -186,21 +200,52 @@ Estimate read_result_alone(const fs::path& path, const io::MapReading& reading) 
   return estimate;
 }
 
-std::optional<io::BetterReading> find_better_reading(const Estimate& estimate, const Scene& scene) {
+namespace {
+
+/// The view in which a result is compared with truth and views; none if it does not fit.
+std::optional<ViewIndex> compared_view(const Estimate& estimate, const Scene& scene) {
   const LightField& light_field = *scene.light_field;
-  const DisparityField& truth = scene.truth->field;
   const ViewStack<float>& maps = estimate.field.disparity;
   const ViewIndex judged = judged_view(scene);
   const ViewIndex view = estimate.field.contains(judged) ? judged : maps.first();
   const bool fits = maps.height() == light_field.height() && maps.width() == light_field.width() &&
                     light_field.grid().contains(view) && estimate.layered.foreground.empty();
-  const bool has_truth = truth.contains(view);
-  if (!fits || (!has_truth && !estimate.version.empty())) return std::nullopt;
-  io::MapEvidence evidence{light_field, view};
-  if (!has_truth) return io::find_better_reading(estimate.field.view(view), evidence);
-  const ShownDisparity shown(truth.view(view), light_field.valid_of(view));
+  return fits ? std::optional(view) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<io::BetterReading> find_better_reading(const Estimate& estimate, const Scene& scene) {
+  const LightField& light_field = *scene.light_field;
+  const DisparityField& truth = scene.truth->field;
+  const auto view = compared_view(estimate, scene);
+  if (!view) return std::nullopt;
+  const bool has_truth = truth.contains(*view);
+  if (!has_truth && !estimate.version.empty()) return std::nullopt;
+  io::MapEvidence evidence{light_field, *view};
+  if (!has_truth) return io::find_better_reading(estimate.field.view(*view), evidence);
+  const ShownDisparity shown(truth.view(*view), light_field.valid_of(*view));
   evidence.truth = shown.view();
-  return io::find_better_reading(estimate.field.view(view), evidence);
+  return io::find_better_reading(estimate.field.view(*view), evidence);
+}
+
+std::string poor_fit_text(const Estimate& estimate, const Scene& scene) {
+  const auto view = compared_view(estimate, scene);
+  if (!view || !scene.truth->field.contains(*view)) return {};
+  const ShownDisparity shown(scene.truth->field.view(*view), scene.light_field->valid_of(*view));
+  const std::string text = poor_fit_text(estimate.field.view(*view), shown.view());
+  const bool is_own = !text.empty() && estimate.source_hash != 0 &&
+                      !is_of_other_samples(estimate, *scene.light_field);
+  return is_own ? std::string() : text;
+}
+
+std::string poor_fit_text(const DisparityView& map, const DisparityView& truth) {
+  const auto fit = io::find_poor_fit(map, truth);
+  if (!fit) return {};
+  return fmt::format(
+      "the map explains little of the truth: MSE×100 {:.3g} against {:.3g} of the best constant "
+      "map; check its scale, units and view",
+      fit->mse_100, fit->constant_mse_100);
 }
 
 namespace {

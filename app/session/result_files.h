@@ -22,6 +22,10 @@ namespace episcope {
 /// HDF5 file.
 [[nodiscard]] bool names_result(const std::string& path);
 
+/// Whether a path can name a light field only: a built-in scene, a folder, an HDF5 file with
+/// samples or true depth that is no result file. Throws IoError if that is damaged.
+[[nodiscard]] bool names_light_field_only(const std::string& path);
+
 /// Reads a result of this light field, as a user says (`reading`) beyond what its file states.
 /// Throws IoError, also for a file that holds a light field or depth, which would else be judged as
 /// disparity, and for maps whose rows and columns are exchanged for those of the views;
@@ -45,6 +49,14 @@ namespace episcope {
 /// this program are not looked at. Empty if there is none, or the result does not fit.
 [[nodiscard]] std::optional<io::BetterReading> find_better_reading(const Estimate& estimate,
                                                                    const Scene& scene);
+
+/// Says with both numbers that a result explains little of the truth (io::find_poor_fit), in the
+/// same view: "the map explains little of the truth: …"; else empty. Results that were estimated
+/// from the samples of the light field are not doubted. For results that no other reading explains
+/// better.
+[[nodiscard]] std::string poor_fit_text(const Estimate& estimate, const Scene& scene);
+/// Says so of a map of any origin; else empty.
+[[nodiscard]] std::string poor_fit_text(const DisparityView& map, const DisparityView& truth);
 
 /// Options that read a map so, as on the command line: " --map-transpose --map-scale=0.01".
 [[nodiscard]] std::string map_options_text(const io::MapReading& reading);

@@ -207,7 +207,7 @@ fs::path folder_of(const LabelInfo& label, const fs::path& folder) {
 void write_list(const fs::path& folder, const std::vector<LabelInfo>& labels) {
   std::string text;
   for (const LabelInfo& label : labels) text += fmt::format("{}\t{}\n", label.id, label.name);
-  io::write_atomically(folder / "labels.txt", text);
+  io::write_atomically(folder / kListOfMasks, text);
 }
 
 }  // namespace

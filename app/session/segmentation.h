@@ -112,6 +112,9 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
 /// or view, IoError.
 [[nodiscard]] LabelingPtr read_archive_probabilities(const Scene& scene, ViewIndex view);
 
+/// List of the labels beside their masks.
+inline constexpr const char* kListOfMasks = "labels.txt";
+
 /// Writes a mask of every label in every view that the segmentation covers, as 8-bit gray PNG, 255
 /// where the pixel has the label, else 0: `folder/01_wall/mask_04_07.png` for label 1, “wall”, in
 /// view (4, 7), row and column counted from 0. `labels.txt` beside them lists ids and names. Makes

@@ -374,6 +374,7 @@ void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   ConvertRequest request;
   if (!parse(arguments, request)) return;
   const InputStream from(request.input, stop);
+  require_result_for(request.truth, request.input);
   const OutputStream to(request.output, ".npy");
   to.require_alone(request.is_json);
   request.is_piped = to.is_meant();

@@ -39,7 +39,7 @@ struct EstimateArguments {
   Overwrite overwrite = Overwrite::No;
   bool is_json = false;
   io::Hdf5Storage floats = io::Hdf5Storage::Plain;  ///< Of a result file.
-  std::size_t memory = 0;  ///< 0: two thirds of what is free.
+  std::size_t memory = 0;                           ///< 0: two thirds of what is free.
   JobOptions job;
   ReadOptions read;
 };
@@ -252,12 +252,12 @@ class Runner {
     } else if (!request_.is_submission) {
       check_output_file(task.output);
     }
-    const bool is_unknown = is_map || from_.is(task.input);
-    if (is_unknown && request_.overwrite == Overwrite::No && holds_something(task.output)) {
-      const char* what = is_map ? "which method made it" : "whether it is of what is piped";
-      throw IoError(task.output, std::string("exists and does not tell ") + what +
-                                     "; choose another name, or " + kByOption);
+    if (is_map && request_.overwrite == Overwrite::No && holds_something(task.output)) {
+      throw IoError(task.output, std::string("exists and does not tell which method made it; "
+                                             "choose another name, or ") +
+                                     kByOption);
     }
+    if (from_.is(task.input)) require_no_other_source(task.output, request_.overwrite);
     protect_input(task.output, task.input);
   }
 

@@ -347,7 +347,9 @@ class Judge {
     if (!io::is_result_file(file.result)) {
       row.notes.insert(row.notes.begin(), estimate->notes.begin(), estimate->notes.end());
     }
-    if (row.better) row.notes.push_back(better_reading_text(*row.better));
+    const std::string doubt =
+        row.better ? better_reading_text(*row.better) : poor_fit_text(*estimate, scene);
+    if (!doubt.empty()) row.notes.push_back(doubt);
     for (const std::string& sentence : row.notes) job_.note(file.result + ": " + sentence);
     write_error_map(error_map, {.view = view, .estimate = estimate, .evaluation = evaluation});
     return row;

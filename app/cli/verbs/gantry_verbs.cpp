@@ -2,6 +2,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
 #include "app/cli/output.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/capture_work.h"
 #include "engine/capture/mesh_file.h"
@@ -21,6 +22,8 @@
 
 namespace episcope::cli {
 namespace {
+
+constexpr const char* kPipedForms = "; - is one on standard input: HDF5, .npy, .npz, .mat or TIFF";
 
 struct RectifyRequest {
   std::string input;
@@ -43,7 +46,8 @@ bool parse(const VerbArguments& arguments, RectifyRequest& request) {
        "aligned, and shifted so that the scene lies at disparity 0. Each sample is interpolated\n"
        "once.",
        "episcope-cli rectify photographs/ --camera camera.yml --step 12 -o lf.h5"});
-  parser.positional("FOLDER", request.input, "The photographs, or any light field");
+  parser.positional("FOLDER", request.input,
+                    std::string("The photographs, or any light field") + kPipedForms);
   parser.required_option("--camera", request.camera, text_value("CAMERA.yml"),
                          "The camera, as calibrate writes it");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
@@ -115,6 +119,8 @@ void check_outputs(const RectifyRequest& request) {
 void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
   RectifyRequest request;
   if (!parse(arguments, request)) return;
+  const InputStream from(request.input, stop);
+  from.require_light_field();
   check_outputs(request);
   const capture::LensCamera camera = capture::read_camera(request.camera);
   std::vector<capture::PointPair> picks;
@@ -160,7 +166,8 @@ bool parse(const VerbArguments& arguments, PoseRequest& request) {
        "PAIRS.csv is name,x_px,y_px,X,Y,Z; a trailing ,1 locks a pair, which then never counts\n"
        "as a wrong pick.",
        "episcope-cli pose lf.h5 --mesh scan.ply --pairs pairs.csv -o pose.json"});
-  parser.positional("INPUT", request.input, "A light field, as rectify writes it");
+  parser.positional("INPUT", request.input,
+                    std::string("A light field, as rectify writes it") + kPipedForms);
   parser.required_option("--mesh", request.mesh, text_value("MESH"), "Mesh as PLY, OBJ or STL");
   parser.required_option("--pairs", request.pairs, text_value("PAIRS.csv"), "The pairs");
   parser.required_option("-o,--output", request.output, text_value("POSE.json"), "Pose to write");
@@ -210,13 +217,15 @@ void print(const capture::PoseStory& story, const std::string& output) {
 void run_pose(const VerbArguments& arguments, std::stop_token stop) {
   PoseRequest request;
   if (!parse(arguments, request)) return;
+  const InputStream from(request.input, stop);
+  from.require_light_field();
   check_output_file(request.output);
   for (const std::string& each : {request.input, request.mesh, request.pairs}) {
     protect_input(request.output, each);
   }
   capture::PoseStory story;
   story.mesh = request.mesh;
-  story.light_field = request.input;
+  if (!from.is(request.input)) story.light_field = request.input;
   story.pairs = capture::read_pairs(request.pairs);
   Job job(std::move(stop), request.job);
   const Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.5));
@@ -258,7 +267,8 @@ bool parse(const VerbArguments& arguments, GroundTruthRequest& request) {
        "of the polygon with the largest visible area. Silhouettes, discontinuities and holes are\n"
        "masked; labels tell the meshes apart.",
        "episcope-cli ground-truth raw.h5 --pose head.json --pose box.json -o lf.h5"});
-  parser.positional("INPUT", request.input, "A light field, as rectify writes it");
+  parser.positional("INPUT", request.input,
+                    std::string("A light field, as rectify writes it") + kPipedForms);
   parser.list_option("--pose", request.poses, "POSE.json", "Pose of a mesh, as pose writes it");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "Light field to write, with GT_DEPTH, its mask and labels");
@@ -332,6 +342,8 @@ void run_ground_truth(const VerbArguments& arguments, std::stop_token stop) {
   GroundTruthRequest request;
   if (!parse(arguments, request)) return;
   if (request.poses.empty()) throw UsageError("name at least one pose: --pose POSE.json");
+  const InputStream from(request.input, stop);
+  from.require_light_field();
   check_hdf5_output("ground-truth", request.output);
   protect_input(request.output, request.input);
   check_light_field_output(request.output, request.overwrite);

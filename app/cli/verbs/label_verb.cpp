@@ -3,15 +3,18 @@
 #include "app/cli/input.h"
 #include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
+#include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/label_review.h"
 #include "app/session/labeling_inputs.h"
+#include "app/session/replace_file.h"
 #include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
 #include "engine/core/text.h"
 #include "engine/disparity/estimator.h"
 #include "engine/io/base/json.h"
+#include "engine/io/formats/archive_reader.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/models/scribble_picture.h"
 
@@ -53,7 +56,8 @@ bool parse(const VerbArguments& arguments, LabelRequest& request) {
                 "writes a file of labels.",
                 "episcope-cli label demo -o labels.h5 --features image\n"
                 "  episcope-cli label demo --scribbles strokes.png --colors colors.csv -o l.h5"});
-  parser.positional("INPUT", request.input, "The light field");
+  parser.positional("INPUT", request.input,
+                    "The light field; - is one on standard input: HDF5, .npy, .npz, .mat or TIFF");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "File of labels to write");
   parser.option("--scribbles", request.scribbles, text_value("LABELS.h5|PICTURE"),
@@ -81,13 +85,15 @@ bool parse(const VerbArguments& arguments, LabelRequest& request) {
               "Write labels only, as is the default");
   parser.exclude_each_other({"--write-probabilities", "--no-probabilities"});
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
-              "Replace labels made with other parameters or of another light field");
+              "Replace labels made with other parameters or of another light field, and files in "
+              "the folders of --write-archive and --write-masks");
   request.job.run.declare(parser, {run_schema().description("device")});
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
   const Schema<LabelerParameters> schema = labeler_schema();
   ParameterOptions options;
   parser.heading("Parameters");
-  options.declare(parser, schema.descriptions());
+  // --smoothness is a parameter of methods.
+  options.declare(parser, schema.descriptions(), {{"smoothness", "--boundary-cost"}});
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   request.parameters = schema.parse(options.values());
   parser.check_uses({{{"--colors"},
@@ -108,7 +114,26 @@ void check_device(Device device) {
   require_device(device, label);
 }
 
-void check_output(const LabelRequest& request) {
+/// Refuses to replace files of the folders, which do not tell what they were made by.
+void check_folders(const LabelRequest& request) {
+  namespace fs = std::filesystem;
+  using enum CompanionKind;
+  std::vector<fs::path> files;
+  if (!request.masks.empty()) files.push_back(fs::path(request.masks) / kListOfMasks);
+  for (const CompanionKind kind :
+       {EdgeProbabilities, ImageProbabilities, DepthProbabilities, TrueDepthProbabilities}) {
+    if (request.archive.empty()) break;
+    files.push_back(fs::path(request.archive) / io::companion_file(kind));
+  }
+  for (const fs::path& file : files) {
+    if (request.overwrite == Overwrite::Yes || !holds_something(file)) continue;
+    throw IoError(file, std::string("exists and does not tell what it was made by; choose another "
+                                    "folder, or ") +
+                            kByOption);
+  }
+}
+
+void check_output(const LabelRequest& request, const InputStream& from) {
   check_hdf5_output("label", request.output);
   const ParameterSet reading =
       io::given_options(io::open_schema().parse(request.read.options.values()));
@@ -119,6 +144,8 @@ void check_output(const LabelRequest& request) {
   for (const std::string& file : {request.scribbles, request.disparity, request.given}) {
     if (!file.empty()) protect_input(request.output, file);
   }
+  if (from.is(request.input)) require_no_other_source(request.output, request.overwrite);
+  check_folders(request);
 }
 
 Scribbles load_pictures(const LabelRequest& request, const Scene& scene, Job& job) {
@@ -138,7 +165,7 @@ Scribbles load_scribbles(const LabelRequest& request, Scene& scene, Job& job) {
   }
   if (scene.scribbles.empty() && !request.given.empty() && request.archive.empty()) return {};
   if (scene.scribbles.empty()) {
-    throw InvalidInput(request.input +
+    throw InvalidInput(scene.light_field->info().name +
                        " has no scribbles next to it; name a file of scribbles with --scribbles");
   }
   return std::move(scene.scribbles);
@@ -257,8 +284,10 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   if (!parse(arguments, request)) return;
   const Device device = request.job.run_options().device;
   check_device(device);
+  const InputStream from(request.input, stop);
+  from.require_light_field();
   check_input(request.input);
-  check_output(request);
+  check_output(request, from);
 
   Job job(std::move(stop), request.job);
   const Progress& progress = job.progress();
@@ -278,12 +307,12 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const double seconds = watch.seconds();
   if (!labeling->note.empty()) job.note(labeling->note);
   progress.step("writing " + request.output);
-  Segmentation segmentation;
-  segmentation.labeling = labeling;
-  segmentation.labels = scribbles.labels;
-  segmentation.parameters = labeler_schema().values(request.parameters);
-  segmentation.reading = scene.light_field->info().reading;
-  write_segmentation(request.output, segmentation, request.input, request.probabilities,
+  const Segmentation segmentation{.labeling = labeling,
+                                  .labels = scribbles.labels,
+                                  .parameters = labeler_schema().values(request.parameters),
+                                  .reading = scene.light_field->info().reading};
+  write_segmentation(request.output, segmentation,
+                     from.is(request.input) ? std::string() : request.input, request.probabilities,
                      progress.part(0.95, 1));
   LabelAnswer answer{*labeling, {}, seconds, {request.output}};
   std::ranges::move(write_archive(scene, scribbles, request, disparity, job),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
+#include "app/cli/input.h"
 #include "app/cli/job.h"
 #include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
@@ -157,6 +158,7 @@ Json entry_json(const io::CollectionEntry& entry) {
 void run_list(const VerbArguments& arguments, std::stop_token stop) {
   ListRequest request;
   if (!parse(arguments, request)) return;
+  for (const std::string& folder : request.folders) check_input(folder);
   Job job(std::move(stop), request.job);
   const std::vector<io::CollectionEntry> entries = list_all(request, job);
   job.finish();

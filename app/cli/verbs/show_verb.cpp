@@ -207,6 +207,7 @@ void complete(ShowRequest& request, const std::stop_token& stop) {
   if (request.what.id.empty() && (request.row || request.column)) request.what = epi();
   if (request.what.movie) request.movie.kind = request.what.movie;
   if (is_movie(request) && !request.movie.kind) request.movie.kind = MovieKind::Parallax;
+  require_result_for(request.map.truth, request.map.subject);
   request.map.needs_light_field = request.opacity.has_value();
   request.map.kind = kind_of(request);
   request.map.quantity = quantity_of(request);

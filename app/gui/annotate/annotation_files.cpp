@@ -129,14 +129,22 @@ void AnnotationFiles::saveAsDialog() {
 
 void AnnotationFiles::askForPlace(std::function<void()> then) {
   if (!document_.document()) return;
-  ask_where_to_save(&bench_.window,
-                    {.name = "save_scribbles",
-                     .title = tr("Save scribbles"),
-                     .filter = tr("Archive labels (*.h5)"),
-                     .proposal = suggestion(),
-                     // What else a file of labels holds stays as it is.
-                     .confirms_overwrite = false},
-                    [this, then = std::move(then)](const QString& path) { saveTo(path, then); });
+  ask_where_to_save(
+      &bench_.window,
+      {.name = "save_scribbles",
+       .title = tr("Save scribbles"),
+       .filter = tr("Archive labels (*.h5)"),
+       .proposal = suggestion(),
+       .confirms_overwrite = false},
+      [this, then = std::move(then)](const QString& path) { saveToChosen(path, then); });
+}
+
+void AnnotationFiles::saveToChosen(const QString& path, std::function<void()> then) {
+  if (path == place() || !QFileInfo::exists(path)) return saveTo(path, std::move(then));
+  confirm_replacing(&bench_.window,
+                    tr("%1 exists. Replace its labels and scribbles? What else it holds stays.")
+                        .arg(QFileInfo(path).fileName()),
+                    [this, path, then = std::move(then)] { saveTo(path, then); });
 }
 
 void AnnotationFiles::saveAs(const QString& path) {
@@ -406,7 +414,7 @@ void ask_to_export_masks(const Workbench& bench, const SegmentController& segmen
                         : SegmentationExportText::tr("Folder for the masks of this view; segment "
                                                      "all views first to save all masks")},
       [bench, &segment](const QString& folder) {
-        confirm_replacing(&bench.window, QDir(folder).entryList({"labels.txt"}, QDir::Files),
+        confirm_replacing(&bench.window, QDir(folder).entryList({kListOfMasks}, QDir::Files),
                           [bench, &segment, folder] { export_masks(bench, segment, folder); });
       });
 }

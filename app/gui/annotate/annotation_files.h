@@ -67,6 +67,8 @@ class AnnotationFiles : public QObject {
   /// Saves, then calls `then` on success.
   void saveAndThen(std::function<void()> then);
   void askForPlace(std::function<void()> then);
+  /// Asks first if this is another file that exists.
+  void saveToChosen(const QString& path, std::function<void()> then);
   [[nodiscard]] std::function<Scribbles()> snapshot();
   [[nodiscard]] QString suggestion() const;
 

@@ -196,6 +196,7 @@ struct ReadEstimate : FinishedEstimate {
   bool is_of_others = false;
   std::string differing_options;
   std::optional<io::BetterReading> better;
+  std::string poor_fit;
   FileStamp stamp;
 };
 
@@ -214,8 +215,10 @@ ReadEstimate read_estimate(const Scene& scene, const std::string& path,
   std::string options = differing_options(*estimate, light_field);
   std::optional<io::BetterReading> better;
   if (reading == io::MapReading()) better = find_better_reading(*estimate, scene);
-  return {
-      {std::move(estimate), range}, is_of_others && !is_moved, std::move(options), better, stamp};
+  std::string poor_fit = better ? std::string() : poor_fit_text(*estimate, scene);
+  return {{std::move(estimate), range}, is_of_others && !is_moved,
+          std::move(options),           better,
+          std::move(poor_fit),          stamp};
 }
 
 }  // namespace
@@ -257,6 +260,8 @@ void ResultOpener::openAs(const QString& path, const io::MapReading& reading, in
               tr("%1 was estimated from different samples than those of this light field: "
                  "its errors may be meaningless.")
                   .arg(name));
+        } else if (!read.poor_fit.empty()) {
+          messages_.warn(QString("%1: %2.").arg(name, QString::fromStdString(read.poor_fit)));
         }
       });
 }

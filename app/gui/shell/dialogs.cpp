@@ -147,14 +147,17 @@ QString listed(const QStringList& names) {
 
 void confirm_replacing(QWidget* window, const QStringList& existing, std::function<void()> go_on) {
   if (existing.isEmpty()) return go_on();
-  auto* box = new_question_box(
-      window,
-      {.name = "replace_files",
-       .icon = QMessageBox::Warning,
-       .title = QuestionBoxText::tr("Replace files"),
-       .text =
-           QuestionBoxText::tr("The folder already holds %1. Replace it?").arg(listed(existing)),
-       .buttons = QMessageBox::Yes | QMessageBox::Cancel});
+  confirm_replacing(
+      window, QuestionBoxText::tr("The folder already holds %1. Replace it?").arg(listed(existing)),
+      std::move(go_on));
+}
+
+void confirm_replacing(QWidget* window, const QString& text, std::function<void()> go_on) {
+  auto* box = new_question_box(window, {.name = "replace_files",
+                                        .icon = QMessageBox::Warning,
+                                        .title = QuestionBoxText::tr("Replace files"),
+                                        .text = text,
+                                        .buttons = QMessageBox::Yes | QMessageBox::Cancel});
   box->setDefaultButton(QMessageBox::Cancel);
   QObject::connect(box->button(QMessageBox::Yes), &QAbstractButton::clicked, box, std::move(go_on));
   box->open();

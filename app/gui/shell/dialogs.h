@@ -41,6 +41,8 @@ void ask_for_files(QWidget* window, const FileQuestion& question,
 void ask_for_folder(QWidget* window, const FileQuestion& question, Answer answer);
 void ask_where_to_save(QWidget* window, const FileQuestion& question, Answer answer);
 
+/// Asks whether to replace what `text` names, and calls `go_on` on Yes.
+void confirm_replacing(QWidget* window, const QString& text, std::function<void()> go_on);
 /// Calls `go_on` at once if there are no such files; else asks whether to replace them, and calls
 /// it on Yes. For exports into folders; dialogs for files ask by themselves.
 void confirm_replacing(QWidget* window, const QStringList& existing, std::function<void()> go_on);

@@ -118,7 +118,7 @@ def estimate(
 ) -> Result: ...
 def score(
     map: Union[Result, Path, npt.ArrayLike],
-    truth: Union[LightField, npt.ArrayLike],
+    truth: Union[LightField, Path, npt.ArrayLike],
     *,
     protocol: str = ...,
     invalid: str = ...,

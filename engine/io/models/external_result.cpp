@@ -72,8 +72,8 @@ std::size_t meant_map(const fs::path& path, const std::vector<std::string>& name
       names.empty() ? "none was found"
                     : fmt::format("{} were found ({})", names.size(), joined(names, ", "));
   throw IoError(path, fmt::format("one {} with 2 or 4 axes is expected, but {}; store the "
-                                  "disparity alone",
-                                  what, found));
+                                  "disparity {}",
+                                  what, found, names.empty() ? "as one" : "alone"));
 }
 
 /// The one dataset of an HDF5 file that can be a disparity map.

@@ -22,6 +22,10 @@ namespace {
 /// reading explains a map far better.
 constexpr double kFarBetterByTruth = 0.5;
 constexpr double kFarBetterByViews = 0.6;
+/// Share of the error of a map that says nothing above which a map explains little, and the error
+/// that is small in any scene.
+constexpr double kPoor = 0.5;
+constexpr double kSmallError_px = 0.1;
 /// A reading that changes more must beat one that changes less by this.
 constexpr double kClearlyBetter = 0.9;
 /// Of the pixels that could be compared, those that must be.
@@ -464,6 +468,29 @@ std::optional<BetterReading> find_better_reading(const DisparityView& map,
     return errors;
   };
   return BetterReading{*found, errors_of({}), errors_of(*found)};
+}
+
+std::optional<PoorFit> find_poor_fit(const DisparityView& map, const DisparityView& truth) {
+  const MapTarget target{truth.disparity.height, truth.disparity.width};
+  const TruthPoints points(truth);
+  const double error = points.error(map, {}, target);
+  const double limit = std::max(kSmallError_px, kPoor * points.constant_error());
+  if (!std::isfinite(error) || error <= limit) return std::nullopt;
+  double sum = 0, squares = 0, errors = 0, count = 0;
+  for (int y = 0; y < target.height; ++y) {
+    for (int x = 0; x < target.width; ++x) {
+      if (!truth.is_valid(y, x) || !map.is_valid(y, x)) continue;
+      const double known = truth.disparity.at(y, x);
+      const double difference = map.disparity.at(y, x) - known;
+      if (!std::isfinite(difference)) continue;
+      sum += known;
+      squares += known * known;
+      errors += difference * difference;
+      ++count;
+    }
+  }
+  const PoorFit fit{100 * errors / count, 100 * (squares - sum * sum / count) / count};
+  return fit.mse_100 > kPoor * fit.constant_mse_100 ? std::optional(fit) : std::nullopt;
 }
 
 namespace {

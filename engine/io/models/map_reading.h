@@ -86,6 +86,19 @@ struct BetterReading {
 [[nodiscard]] std::optional<BetterReading> find_better_reading(const DisparityView& map,
                                                                const MapEvidence& evidence);
 
+/// Errors of a map that explains little of the truth.
+struct PoorFit {
+  double mse_100 = 0;
+  double constant_mse_100 = 0;  ///< Of the best map of one value, over the same pixels.
+};
+
+/// Compares a map with the best map of one value. It explains little if both its mean absolute and
+/// its mean squared error are more than half of that one's, and the former is above 0.1 px.
+/// Returns nothing otherwise, and if the map has values at few of the pixels. Linear in the pixels.
+/// Precondition: map and truth have one size.
+[[nodiscard]] std::optional<PoorFit> find_poor_fit(const DisparityView& map,
+                                                   const DisparityView& truth);
+
 /// Crops maps that networks have padded to the size of the views. The padding must be evident:
 /// equal on all sides, or right and below, and in every map of one value or invalid. Returns a
 /// sentence about what was cut off; empty if the maps fit already or the padding is not evident.

@@ -78,7 +78,8 @@ std::vector<fs::path> write_scribble_pictures(const fs::path& folder, const Scri
 }
 
 bool holds_scribble_pictures(const fs::path& path) {
-  constexpr std::array kSuffixes{".png", ".bmp", ".tif", ".tiff", ".pgm"};
+  // JPEG to say why it is refused.
+  constexpr std::array kSuffixes{".png", ".bmp", ".tif", ".tiff", ".pgm", ".jpg", ".jpeg"};
   std::error_code ignored;
   return fs::is_directory(path, ignored) ||
          std::ranges::find(kSuffixes, suffix_of(path)) != kSuffixes.end();
@@ -191,7 +192,18 @@ ViewIndex require_view(const fs::path& path, ViewIndex view, GridShape grid) {
                           "); choose pictures of this light field");
 }
 
+/// JPEG mixes the colors of strokes with those beside them.
+void require_exact_colors(const fs::path& path) {
+  constexpr std::array<char, 3> kJpeg{'\xFF', '\xD8', '\xFF'};
+  std::array<char, 3> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  if (begin != kJpeg) return;
+  throw IoError(path,
+                "is a JPEG picture, which changes the colors of strokes; save the drawing as PNG");
+}
+
 ReadPicture read_picture(const fs::path& path, ViewIndex view, const FieldShape& shape) {
+  require_exact_colors(path);
   ReadPicture read{path, require_view(path, view, shape.grid), decode_label_picture(path)};
   const LabelPicture& picture = read.picture;
   if (picture.height() == shape.height && picture.width() == shape.width) return read;

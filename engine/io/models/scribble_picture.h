@@ -52,8 +52,8 @@ inline constexpr std::size_t kMostStrokeColors = 64;
 /// `known`, or else `label_color`, give if they give one to each color; else counted from 1 in the
 /// order of the colors, red first.
 /// Throws IoError if there is no picture, if one lies outside the grid or has another size, if
-/// nothing is painted, if there are more than `kMostStrokeColors`, and for a color that a given
-/// table lacks.
+/// nothing is painted, for JPEG, which changes colors, if there are more than `kMostStrokeColors`,
+/// and for a color that a given table lacks.
 [[nodiscard]] PictureStrokes read_scribble_pictures(const std::filesystem::path& path,
                                                     const FieldShape& shape,
                                                     const PictureLabels& labels = {});

@@ -66,10 +66,24 @@ def test_light_field_without_truth_is_not_judged(scene):
 
 
 def test_array_of_texts_is_refused(scene):
-    with pytest.raises(episcope.InvalidInput, match="no array of numbers"):
+    with pytest.raises(episcope.InvalidInput, match="array of numbers is expected for the maps, not of <U1"):
         episcope.score(numpy.array([["a"]]), scene)
     with pytest.raises(episcope.InvalidInput, match="light field has whole numbers or floats"):
         episcope.LightField(numpy.full((3, 3, 8, 8, 3), "a"))
+
+
+@pytest.mark.parametrize(
+    "map, truth, sentence",
+    [
+        (None, None, "expected for the truth, not NoneType"),
+        (None, numpy.zeros((8, 8)), "expected for the maps, not NoneType"),
+        ("mine.npy", numpy.zeros((8, 8)), "not the path 'mine.npy'; read the file first"),
+        (numpy.zeros((8, 8)), {}, "expected for the truth, not dict"),
+    ],
+)
+def test_what_is_no_array_is_named(map, truth, sentence):
+    with pytest.raises(episcope.InvalidInput, match=sentence):
+        episcope.score(map, truth)
 
 
 def test_strokes_of_fractions_are_refused(scene):
@@ -82,8 +96,27 @@ def test_epi_is_of_a_row_or_a_column(scene):
         episcope.epi(scene)
     with pytest.raises(episcope.InvalidInput):
         episcope.epi(scene, row=64)
-    with pytest.raises(episcope.InvalidInput, match="5×5"):
-        episcope.epi(scene, row=0, view=(5, 0))
+    for view in [(5, 0), 3, (0.5, 1)]:
+        with pytest.raises(episcope.InvalidInput, match="5×5"):
+            episcope.epi(scene, row=0, view=view)
+    for row in ["a", 1.5]:
+        with pytest.raises(episcope.InvalidInput, match=f"row is {row!r}, but must be a whole number"):
+            episcope.epi(scene, row=row)
+
+
+def test_a_path_is_no_light_field():
+    for use in [
+        lambda lf: episcope.estimate(lf, "epi_l"),
+        lambda lf: episcope.label(lf),
+        lambda lf: episcope.epi(lf, row=0),
+    ]:
+        with pytest.raises(TypeError, match="must be a LightField, not str; episcope.open"):
+            use("scene")
+
+
+def test_disparity_of_labels_is_a_result(scene):
+    with pytest.raises(TypeError, match="must be a Result of episcope.estimate, not ndarray"):
+        episcope.label(scene, disparity=numpy.zeros((64, 64)))
 
 
 def test_nothing_but_a_result_is_replaced(scene, tmp_path):

@@ -55,6 +55,17 @@ def test_array_that_was_stored_otherwise_is_told_as_by_the_command_line(scene, r
     assert "better_reading" not in episcope.score(result, scene)
 
 
+def test_map_that_explains_little_is_told(scene, result, tmp_path, cli):
+    noise = numpy.random.default_rng(1).uniform(-1, 1, scene.truth.shape[2:]).astype("float32")
+    numpy.save(tmp_path / "mine.npy", noise)
+    expected = of_command_line(cli, "mine.npy")
+    scores = of_python(episcope.score(noise, scene))
+    assert "explains little of the truth" in scores["notes"][0]
+    assert scores == expected
+    assert "notes" not in episcope.score(result, scene)
+    assert episcope.score(noise, scene.truth)["notes"] == scores["notes"]
+
+
 def test_array_of_all_views_is_judged_in_the_center(scene, result):
     whole = episcope.score(result.disparity, scene)
     assert whole["mse_100"] == episcope.score(result, scene)["mse_100"]
@@ -76,6 +87,16 @@ def test_truth_may_be_an_array(scene, result):
     assert episcope.score(result.disparity[2, 2], scene.truth)["mse_100"] == expected
     with pytest.raises(episcope.InvalidInput, match="of arrays, give the maps of the view"):
         episcope.score(result, scene.truth, view=(0, 0))
+
+
+def test_truth_may_be_a_path(scene, result, tmp_path):
+    expected = episcope.score(result, scene)
+    result.save(tmp_path / "r.h5")
+    assert episcope.score(result, scene.source) == expected
+    by_paths = episcope.score(tmp_path / "r.h5", scene.source, view=(2, 2))
+    assert by_paths == expected
+    with pytest.raises(episcope.IoError, match="no_such"):
+        episcope.score(result, tmp_path / "no_such")
 
 
 def test_truth_has_no_error(scene):

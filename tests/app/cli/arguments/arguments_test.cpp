@@ -62,6 +62,10 @@ class ArgumentsTest : public QObject {
     QCOMPARE(help_entry("-o", "to write", 8, 80), std::string("  -o    to write\n"));
     QCOMPARE(help_entry("--output", "to write", 4, 9),
              std::string("  --output\n    to\n    write\n"));
+    QCOMPARE(help_entry("--what one|two|three|four", "to show", 8, 17),
+             std::string("  --what one|two|\n         three|\n         four\n        to show\n"));
+    QCOMPARE(help_entry("--a-long-name-alone", "x", 8, 16),
+             std::string("  --a-long-name-alone\n        x\n"));
   }
 
   void values_stayWhereNothingIsGiven() {

@@ -156,6 +156,10 @@ piped("one of several" "cat scenes/bars/lf.h5 | '${CLI}' estimate epi_l scenes/e
       "\"input\": \"-\"")
 expect_file(both/stdin_epi_l.h5 ${hdf5})
 piped("its info" "'${CLI}' info - --json < scenes/bars/lf.h5" "\"input\": \"-\"")
+file(MAKE_DIRECTORY "${WORK}/strokes")
+expect("strokes to pipe for" 0 ARGS synthesize objects -o strokes/lf.h5 --grid 3x3 --size 48x48)
+set(labeled "'${CLI}' label - -o labeled.h5 --scribbles strokes/labels.h5 --features image --trees 4 < strokes/lf.h5")
+piped("labels" "${labeled}" "^labeled.h5: 3 labels in 9 views")
 expect("of no file" 2 ERR "piped.h5 does not tell its light field" ARGS evaluate piped.h5)
 function(piped_fails name code command expected)
   execute_process(COMMAND sh -c "${command}" WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE exit_code
@@ -166,6 +170,8 @@ function(piped_fails name code command expected)
 endfunction()
 piped_fails("a result of something piped" 1 "'${CLI}' estimate epi_l - -o piped.h5 < scenes/edge/lf.h5"
             "piped.h5: exists and does not tell whether it is of what is piped; .*--overwrite")
+piped_fails("labels of something piped" 1 "${labeled}"
+            "labeled.h5: exists and does not tell whether it is of what is piped; .*--overwrite")
 piped_fails("a map" 1 "'${CLI}' estimate epi_l - -o x.h5 < r.pfm" "-: standard input holds no light field.*HDF5")
 piped_fails("nothing" 1 "'${CLI}' estimate epi_l - -o x.h5 < /dev/null" "-: standard input is empty")
 piped_fails("twice" 2 "'${CLI}' estimate epi_l - - -o x < scenes/bars/lf.h5" "standard input can be read only once")

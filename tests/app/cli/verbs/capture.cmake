@@ -51,6 +51,16 @@ expect("pose of pairs that are none" 1 ERR "line 1" ARGS pose raw.h5 --mesh rig/
 expect("pose without a pinhole" 1 ERR "pinhole" ARGS pose demo:edge --mesh rig/mesh.ply
        --pairs pairs.csv -o other.json --quiet)
 
+execute_process(COMMAND "${CLI}" pose - --mesh rig/mesh.ply --pairs pairs.csv -o piped.json -q
+                WORKING_DIRECTORY "${WORK}" INPUT_FILE "${WORK}/raw.h5" RESULT_VARIABLE code
+                OUTPUT_QUIET)
+file(MAKE_DIRECTORY "${WORK}/piped")
+execute_process(COMMAND "${CLI}" ground-truth - --pose piped.json -o piped/lf.h5 -q
+                WORKING_DIRECTORY "${WORK}" INPUT_FILE "${WORK}/raw.h5" RESULT_VARIABLE and_code
+                OUTPUT_VARIABLE out)
+if(NOT code EQUAL 0 OR NOT and_code EQUAL 0 OR NOT out MATCHES "depth of 9 views from 1 mesh")
+  fail_case("the light field is not read from standard input: ${code}, ${and_code}, ${out}")
+endif()
 expect(ground-truth 0 OUT "depth of 9 views from 1 mesh"
        ARGS ground-truth raw.h5 --pose pose.json -o lf.h5 --quiet)
 expect("ground-truth as JSON" 0

@@ -27,6 +27,11 @@ json_near("${out}" 0.95 1 consistency)
 set(other label lf.h5 -o l.h5 --features image --regularizer none --trees 8 --write-probabilities)
 expect("labels of other parameters" 1 ERR "l.h5: exists and holds labels with --features image.truth.*--overwrite"
        ARGS ${other})
+expect("its smoothness by both names" 0 ARGS label lf.h5 -o smooth.h5 --features image --trees 4
+       --boundary-cost 7 --quiet)
+expect("the earlier name" 0 ARGS label lf.h5 -o smooth.h5 --features image --trees 4 --smoothness 7
+       --json)
+json_is("${out}" 7.0 parameters smoothness)
 expect("label again, over its own result" 0 OUT "3 labels in 9 views.*consistency along rays.*accuracy of all views"
        ARGS ${other} --overwrite)
 expect("the same again" 0 ARGS ${other} --quiet)
@@ -79,6 +84,17 @@ expect("a result of other views" 1 ERR "covers 1 of 9"
 expect("an unknown set" 2 ERR "features" ARGS label lf.h5 -o no.h5 --features color)
 expect("truth and a result" 2 ERR "no effect"
        ARGS label lf.h5 -o no.h5 --features image+truth --disparity l.h5)
+
+# Masks and files of the archive do not tell what they were made by.
+set(folders label lf.h5 --features image --regularizer none --trees 4 -q)
+expect("masks" 0 ARGS ${folders} -o m.h5 --write-masks masks)
+expect("other masks" 1 ERR "masks/labels.txt: exists and does not tell what it was made by; .*--overwrite"
+       ARGS ${folders} -o n.h5 --seed 2 --write-masks masks)
+expect("other masks as told" 0 ARGS ${folders} -o n.h5 --seed 2 --write-masks masks --overwrite)
+file(MAKE_DIRECTORY "${WORK}/archive")
+file(WRITE "${WORK}/archive/edge_weights.h5" "of others")
+expect("the archive's own" 1 ERR "edge_weights.h5: exists and does not tell" ARGS ${folders} -o a.h5
+       --write-archive archive)
 
 # Drawings in colors: a label is a color, and what is not painted is said.
 expect("draw the labels" 0 ARGS show lf.h5 -o drawing.png --what labels)

@@ -47,6 +47,24 @@ foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
   expect("show ${file} as told" 0 ARGS show ${file} --truth lf.h5 -o told_${file}.png ${option})
 endforeach()
 
+# Of another scene: no reading helps, and both numbers say so. What was estimated from these samples
+# is not doubted.
+expect("another scene" 0 ARGS synthesize edge -o edge.h5 --views 3x3 --size 64x64)
+expect("its truth" 0 ARGS convert edge.h5 edge.pfm)
+set(little "the map explains little of the truth: MSE×100 [0-9.]+ against [0-9.]+ of the best constant map; check its scale, units and view")
+expect("evaluate it" 0 ERR "edge.pfm: ${little}\n$" ARGS evaluate edge.pfm --truth lf.h5 --json)
+string(JSON note GET "${out}" results 0 notes 0)
+if(NOT note MATCHES "^${little}$")
+  fail_case("the answer does not tell of a map of another scene:\n${out}")
+endif()
+json_absent("${out}" results 0 better_reading)
+expect("show it" 0 ERR "edge.pfm: ${little}\n" ARGS show edge.pfm --truth lf.h5 -o edge.png)
+expect("a poor estimate" 0 ARGS estimate epi_l lf.h5 -o poor.h5 --range 3,4 --views center -q)
+expect("evaluate it" 0 ARGS evaluate poor.h5 --truth lf.h5 -q --json)
+if(out MATCHES "explains little")
+  fail_case("an estimate of these samples is doubted:\n${out}")
+endif()
+
 # Resized from another resolution, with the values as they were.
 file(MAKE_DIRECTORY "${WORK}/seven")
 expect("seven views" 0 ARGS synthesize objects -o seven/lf.h5 --views 7x7 --size 64x64)
@@ -74,6 +92,10 @@ expect("benchmark it as told" 0 ARGS ${benchmark} --map-scale -1)
 if(out MATCHES "far better")
   fail_case("the benchmark tells of a map that is right:\n${out}")
 endif()
+
+file(COPY_FILE "${WORK}/edge.pfm" "${WORK}/theirs/objects.pfm")
+expect("benchmark a map of another scene" 0 ERR "objects.pfm: ${little}"
+       ARGS ${benchmark})
 
 # Oblong views leave no doubt.
 file(MAKE_DIRECTORY "${WORK}/wide")

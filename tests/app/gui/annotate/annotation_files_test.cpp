@@ -14,6 +14,8 @@
 #include "widgets/controls/message_bar.h"
 
 #include <QDir>
+#include <QFile>
+#include <QFileDialog>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -35,6 +37,7 @@ class AnnotationFilesTest : public QObject {
   void fileChangedOnDisk_isNotOverwrittenSilently_data();
   void fileChangedOnDisk_isNotOverwrittenSilently();
   void ownSave_isNoChangeOnDisk();
+  void anotherFile_isReplacedWhenConfirmed();
 };
 
 void AnnotationFilesTest::failedSave_keepsTheDocument() {
@@ -164,6 +167,32 @@ void AnnotationFilesTest::ownSave_isNoChangeOnDisk() {
     QTRY_VERIFY_WITH_TIMEOUT(!f.window.isWindowModified(), kPatience);
   }
   QVERIFY(!f.window.findChild<QMessageBox*>("changed_file"));
+}
+
+void AnnotationFilesTest::anotherFile_isReplacedWhenConfirmed() {
+  Annotating f;
+  const QString other = f.path("other.h5");
+  std::filesystem::copy_file(f.path("edge/labels.h5").toStdString(), other.toStdString());
+  const auto bytes = [&other] {
+    QFile file(other);
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+  };
+  const QByteArray before = bytes();
+  f.drag({40, 20}, {40, 60});
+
+  f.trigger("file.save_scribbles_as");
+  auto* dialog = f.window.findChild<QFileDialog*>("save_scribbles");
+  QVERIFY(dialog);
+  emit dialog->fileSelected(other);
+  auto* box = f.window.findChild<QMessageBox*>("replace_files");
+  QVERIFY(box);
+  QVERIFY(box->text().contains("other.h5"));
+  QCOMPARE(bytes(), before);
+  box->button(QMessageBox::Yes)->click();
+
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.isWindowModified(), kPatience);
+  QVERIFY(bytes() != before);
+  dialog->reject();
 }
 
 void AnnotationFilesTest::openAnother_keepsUnsavedChanges() {

@@ -155,6 +155,37 @@ class MapReadingTest : public QObject {
     QVERIFY(!better(estimate, false));
   }
 
+  void mapsThatExplainLittle_areTold_data() {
+    QTest::addColumn<int>("kind");
+    QTest::addColumn<bool>("is_poor");
+    QTest::newRow("good") << 0 << false;
+    QTest::newRow("constant") << 1 << true;
+    QTest::newRow("of another scene") << 2 << true;
+    QTest::newRow("of an unusual scale") << 3 << true;
+    QTest::newRow("a little too flat") << 4 << false;
+    QTest::newRow("good, few outliers") << 5 << false;
+    QTest::newRow("missing in most pixels") << 6 << false;
+  }
+  void mapsThatExplainLittle_areTold() {
+    QFETCH(int, kind);
+    QFETCH(bool, is_poor);
+    Estimate estimate = map_of([&](int y, int x) {
+      if (kind == 1) return 0.3;
+      if (kind == 2) return 0.02 * ((13 * x + 29 * y) % 101);
+      if (kind == 3) return 3.7 * good(y, x);
+      if (kind == 4) return 0.3 + 0.7 * (good(y, x) - 0.3);
+      return good(y, x) + (kind == 5 && (x + y) % 50 == 0 ? 9 : 0);
+    });
+    if (kind == 6) {
+      estimate.field.valid = ViewStack<std::uint8_t>({1, 1}, kSide, kSide, 1, center());
+    }
+
+    const auto fit = io::find_poor_fit(estimate.field.view(center()), truth());
+
+    QCOMPARE(fit.has_value(), is_poor);
+    QVERIFY(!fit || fit->mse_100 > 0.5 * fit->constant_mse_100);
+  }
+
   /// Where truth and views do not agree, the truth may be the one that is wrong.
   void views_speakAgainstAWrongTruth() {
     const Estimate right = spoilt({});

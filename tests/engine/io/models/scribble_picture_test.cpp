@@ -277,6 +277,21 @@ class ScribblePictureTest : public QObject {
     QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_scribble_pictures(file, kShape));
   }
 
+  void jpeg_isRefused() {
+    for (const char* name : {"strokes.jpg", "strokes.png"}) {
+      const std::filesystem::path file = folder_->filePath(name).toStdString();
+      std::ofstream(file, std::ios::binary) << "\xFF\xD8\xFF\xE0 and so on";
+
+      QVERIFY(io::holds_scribble_pictures(file));
+      try {
+        (void)io::read_scribble_pictures(file, kShape);
+        QFAIL("a JPEG picture is read");
+      } catch (const IoError& error) {
+        QVERIFY(QString(error.what()).contains("JPEG") && QString(error.what()).contains("PNG"));
+      }
+    }
+  }
+
   void grayInColor_isOfNumbers() {
     const auto file = write(drawing({0, 0, 0, 255}, {1, 1, 1, 255}, {2, 2, 2, 255}, 3));
 
