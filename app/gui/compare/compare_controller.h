@@ -27,7 +27,7 @@ struct TileRequest {
   ViewIndex view;
   std::optional<MapSource> source;
   render::Shading shading;
-  double opacity = 1;  ///< Opacity of the map.
+  OverlayLook look{};  ///< Of the map.
   render::Tone tone{};
 };
 /// Whether two requests give the same picture.
