@@ -474,17 +474,27 @@ void RecoveryController::offerNext() {
   if (left_.empty()) return;
   const RecoverableJournal journal = left_.back();
   left_.pop_back();
+  offer(journal);
+}
+
+void RecoveryController::offer(const RecoverableJournal& journal) {
   bar_->showMessage(Severity::Warning,
                     tr("Episcope ended unexpectedly while “%1” was being annotated (%2). Your work "
                        "can be recovered.")
                         .arg(name_of(journal), short_text(journal.last_change)),
                     {tr("Recover"), [this, journal] { recover(journal); }},
-                    {tr("Discard"), [this, journal] { discard(journal); }});
+                    {tr("Discard…"), [this, journal] { discard(journal); }});
 }
 
 void RecoveryController::discard(const RecoverableJournal& journal) {
-  discard_journal(journal.path);
-  offerNext();
+  confirm_discarding(
+      &bench_.window,
+      tr("This deletes the scribbles on “%1” that were not saved.").arg(name_of(journal)),
+      [this, journal] {
+        discard_journal(journal.path);
+        offerNext();
+      },
+      [this, journal] { offer(journal); });
 }
 
 void RecoveryController::recover(const RecoverableJournal& journal) {

@@ -160,6 +160,21 @@ void confirm_replacing(QWidget* window, const QStringList& existing, std::functi
   box->open();
 }
 
+void confirm_discarding(QWidget* window, const QString& text, std::function<void()> discard,
+                        std::function<void()> keep) {
+  auto* box = new_question_box(window, {.name = "discard_work",
+                                        .icon = QMessageBox::Warning,
+                                        .title = QuestionBoxText::tr("Discard earlier work"),
+                                        .text = text,
+                                        .buttons = QMessageBox::Discard | QMessageBox::Cancel});
+  box->setDefaultButton(QMessageBox::Cancel);
+  QObject::connect(box, &QDialog::finished, box,
+                   [discard = std::move(discard), keep = std::move(keep)](int answer) {
+                     answer == QMessageBox::Discard ? discard() : keep();
+                   });
+  box->open();
+}
+
 namespace {
 
 struct ChangedFileText {

@@ -45,6 +45,11 @@ void ask_where_to_save(QWidget* window, const FileQuestion& question, Answer ans
 /// it on Yes. For exports into folders; dialogs for files ask by themselves.
 void confirm_replacing(QWidget* window, const QStringList& existing, std::function<void()> go_on);
 
+/// Asks whether work that a crash left may be deleted, as `text` says; calls `discard` on Discard,
+/// else `keep`.
+void confirm_discarding(QWidget* window, const QString& text, std::function<void()> discard,
+                        std::function<void()> keep);
+
 /// Whether `path` has one of the suffixes; tells the user if not.
 [[nodiscard]] bool has_suffix(const QString& path, const QStringList& suffixes, Messages& messages);
 
