@@ -110,7 +110,7 @@ QString AnnotationFiles::suggestion() const {
   const QString known = place();
   if (!known.isEmpty()) return known;
   const QString name = QString::fromStdString(session_.light_field()->info().name);
-  return QDir::home().filePath(name + "_labels.h5");
+  return name + "_labels.h5";
 }
 
 void AnnotationFiles::save() {
@@ -129,7 +129,7 @@ void AnnotationFiles::saveAsDialog() {
 
 void AnnotationFiles::askForPlace(std::function<void()> then) {
   if (!document_.document()) return;
-  ask_where_to_save(&bench_.window,
+  ask_where_to_save(bench_,
                     {.name = "save_scribbles",
                      .title = tr("Save scribbles"),
                      .filter = tr("Archive labels (*.h5)"),
@@ -364,7 +364,7 @@ void ask_to_export_segmentation(const Workbench& bench, const SegmentController&
   }
   const bool has_all = segmentation->labeling->labels.grid().count() > 1;
   ask_where_to_save(
-      &bench.window,
+      bench,
       {.name = "export_segmentation",
        .title = SegmentationExportText::tr("Export the segmentation"),
        .filter =

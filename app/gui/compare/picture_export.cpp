@@ -54,7 +54,7 @@ QString scene_name(const Session& session) {
 }
 
 void ask_for_picture(const Workbench& bench) {
-  ask_where_to_save(&bench.window,
+  ask_where_to_save(bench,
                     {.name = "save_picture",
                      .title = PictureExportText::tr("Save the picture"),
                      .filter = PictureExportText::tr("PNG (*.png)"),
@@ -69,7 +69,7 @@ void ask_for_map(const Workbench& bench) {
     return;
   }
   const char* quantity = render::info_of(bench.overlay.choice().quantity).id;
-  ask_where_to_save(&bench.window,
+  ask_where_to_save(bench,
                     {.name = "save_map",
                      .title = PictureExportText::tr("Save the map"),
                      .filter = PictureExportText::tr("PNG (*.png)"),
@@ -213,7 +213,7 @@ void MovieExport::open() {
 
 void MovieExport::ask() {
   ask_where_to_save(
-      &bench_.window,
+      bench_,
       {.name = "save_movie_file",
        .title = tr("Save the movie"),
        .filter = tr("MP4 (*.mp4);;WebM (*.webm);;GIF (*.gif)"),
