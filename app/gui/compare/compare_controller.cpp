@@ -342,10 +342,10 @@ void CompareController::addOverlayCommands() {
        .text = tr("Colored view under maps"),
        .tip = tr("Keeps the colors of the view under maps; without, it is grey, so that only the "
                  "map has colors"),
+       .icon = "color",
        .run = [this] { overlay_.setViewColored(!overlay_.isViewColored()); },
        .section = compare_section::kMaps,
        .checked = [this] { return overlay_.isViewColored(); }});
-  color->setIconText(tr("Color"));
   bench_.viewer_area.overlayBar()->addOpacityAction(color);
 }
 
