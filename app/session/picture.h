@@ -30,7 +30,7 @@ using RgbaImage = Image<std::uint8_t>;
 
 /// How a map lies over a view.
 struct OverlayLook {
-  double opacity = 1;           ///< Of its opaque pixels, in [0, 1].
+  double opacity = 1;            ///< Of its opaque pixels, in [0, 1].
   bool is_view_colored = false;  ///< Also under colors that stand for numbers.
 
   bool operator==(const OverlayLook&) const = default;

@@ -378,8 +378,7 @@ bool is_same_input(const std::string& a, const std::string& b) {
 namespace {
 
 std::uint64_t stated_hash(const fs::path& result) {
-  return hash_from_digits(
-      io::Hdf5Input(result).text(io::kResultGroup, "source_hash").value_or(""));
+  return hash_from_digits(io::Hdf5Input(result).text(io::kResultGroup, "source_hash").value_or(""));
 }
 
 }  // namespace

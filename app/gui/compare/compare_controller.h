@@ -3,9 +3,9 @@
 
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
-#include "app/session/quantity_map.h"
 #include "app/session/open_scene.h"
 #include "app/session/picture.h"
+#include "app/session/quantity_map.h"
 #include "app/session/session.h"
 #include "engine/core/progress.h"
 #include "widgets/controls/theme.h"

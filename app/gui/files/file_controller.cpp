@@ -324,10 +324,9 @@ void FileController::askWhereItBelongs(const QString& path, const ResultOwner& o
   box->setDefaultButton(open);
   connect(open, &QPushButton::clicked, this, [this, path, owner] { openOwner(path, owner); });
   if (bench_.session.scene()) {
-    auto* add =
-        box->addButton(tr("Add to “%1”").arg(QString::fromStdString(
-                           bench_.session.light_field()->info().name)),
-                       QMessageBox::DestructiveRole);
+    auto* add = box->addButton(
+        tr("Add to “%1”").arg(QString::fromStdString(bench_.session.light_field()->info().name)),
+        QMessageBox::DestructiveRole);
     add->setObjectName("result_owner.add");
     connect(add, &QPushButton::clicked, this, [this, path] {
       if (bench_.session.scene()) bench_.results.openForeign(path);
@@ -344,11 +343,10 @@ void FileController::openOwner(const QString& path, const ResultOwner& owner) {
   const std::string input = known == scenes.end() ? owner.input : (*known)->input;
   bench_.opener.open(QString::fromStdString(input), [this, path, is_stated = owner.is_stated] {
     if (is_stated) return bench_.results.open(path);
-    bench_.messages.offer(
-        tr("%1 can be added to the results.").arg(QFileInfo(path).fileName()), tr("Add"),
-        [this, path] {
-          if (bench_.session.scene()) bench_.results.open(path);
-        });
+    bench_.messages.offer(tr("%1 can be added to the results.").arg(QFileInfo(path).fileName()),
+                          tr("Add"), [this, path] {
+                            if (bench_.session.scene()) bench_.results.open(path);
+                          });
   });
 }
 

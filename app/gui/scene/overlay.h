@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/gui/scene/viewer_area.h"
-#include "app/session/quantity_map.h"
 #include "app/session/picture.h"
+#include "app/session/quantity_map.h"
 #include "app/session/session.h"
 #include "engine/core/jobs.h"
 #include "engine/core/light_field.h"

@@ -243,10 +243,8 @@ void ResultOpener::openAs(const Request& request) {
   const QString name = QFileInfo(request.path).fileName();
   jobs_.start<ReadEstimate>(
       Lane::Load, tr("Opening %1").arg(name),
-      [scene = session_.scene(), path = request.path.toStdString(),
-       reading = request.reading](const Progress& progress) {
-        return read_estimate(*scene, path, reading, progress);
-      },
+      [scene = session_.scene(), path = request.path.toStdString(), reading = request.reading](
+          const Progress& progress) { return read_estimate(*scene, path, reading, progress); },
       [this, generation = session_.generation(), name, request](const ReadEstimate& read) {
         const std::filesystem::path path = request.path.toStdString();
         files_.note(path, read.stamp);

@@ -87,11 +87,11 @@ void OverlayTest::colorsOfErrors_areThoseOfTheLegend() {
   auto* canvas = f.window.bench().viewer_area.canvas();
   canvas->setCrossHair(std::nullopt);
   const QImage shown = canvas->grab().toImage();
-  ColorRamp legend;  // as the one in the window, but with a pixel a color
+  ColorRamp legend;  // as the one in the window, but with room for every color
   legend.setShading(f.window.findChild<ColorRamp*>()->shading());
   const Interval range = legend.shading().range;
-  const int colors = static_cast<int>(legend.shading().map.colors.size());
-  legend.resize(colors + 1, 16);
+  const int length = 2 * static_cast<int>(legend.shading().map.colors.size());
+  legend.resize(length + 1, 16);
   const QImage ramp = legend.grab().toImage();
 
   int compared = 0;
@@ -99,9 +99,9 @@ void OverlayTest::colorsOfErrors_areThoseOfTheLegend() {
     const auto error = overlay.valueAt({i, i});
     if (!error || std::abs(*error) >= range.max) continue;  // the ends lie under the frame
     const QRgb color = shown.pixel(f.at({i, i}));
-    const int place = static_cast<int>((*error - range.min) / range.length() * colors);
+    const int place = static_cast<int>((*error - range.min) / range.length() * length);
     bool is_there = false;
-    for (int x = place - 1; x <= place + 1; ++x) is_there |= ramp.pixel(x, 8) == color;
+    for (int x = place - 2; x <= place + 2; ++x) is_there |= ramp.pixel(x, 8) == color;
     QVERIFY2(is_there, qPrintable(QString("%1 px is %2").arg(*error).arg(color, 0, 16)));
     ++compared;
   }
@@ -220,10 +220,10 @@ void OverlayTest::compareTab_showsTheMainMetricsWithoutScrolling() {
   f.runAndWait();
   f.trigger("tab.compare");
   const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
-  QTRY_VERIFY_WITH_TIMEOUT(
-      table->isVisible() && table->columnCount() > 7 &&  // scored in the background
-          table->horizontalHeaderItem(2)->text() == "2016\nMSE×100",
-      kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(table->isVisible() &&
+                               table->columnCount() > 7 &&  // scored in the background
+                               table->horizontalHeaderItem(2)->text() == "2016\nMSE×100",
+                           kPatience);
 
   const QStringList wanted = {"Result",        "2013\nMSE×100", "2016\nMSE×100", "2016\nbad .07",
                               "2016\nbad .03", "2016\nbad .01", "2016\nQ25"};

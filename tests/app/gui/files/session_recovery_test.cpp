@@ -185,7 +185,7 @@ void SessionRecoveryTest::sceneThatWasOnlyLookedAt_comesBackClean() {
     QVERIFY(QDir(state.path() + "/journals").isEmpty());
     f.window.bench().document.edit([](AnnotationDocument&) {});  // a journal without work
     QVERIFY(!QDir(state.path() + "/journals").isEmpty());
-    QVERIFY(f.autosave().isIdle());
+    QTRY_VERIFY(f.autosave().isIdle());
   }  // nobody decided about it
 
   Recovering f(state.path());
