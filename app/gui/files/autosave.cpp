@@ -235,7 +235,7 @@ void SessionRecovery::askToDiscard(const OrphanedWorkspace& left) {
   }
   confirm_discarding(
       &bench_.window,
-      tr("This deletes results that are saved nowhere else: %1. The light fields were: %2.")
+      tr("This deletes the results that the earlier session kept: %1. Its light fields were: %2.")
           .arg(result_count(left.project))
           .arg(listed(names)),
       [this, left] {
