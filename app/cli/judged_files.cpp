@@ -5,10 +5,8 @@
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
-#include "engine/io/base/hdf5_file.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/reader.h"
-#include "engine/io/models/result_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -60,16 +58,11 @@ std::vector<std::string> expanded(const std::vector<std::string>& results) {
   return files;
 }
 
-/// The light field that a result names; empty if it names none.
-std::string source_of(const std::string& result) {
-  if (!io::is_result_file(result)) return {};
-  return io::Hdf5Input(result).text(io::kResultGroup, "source").value_or("");
-}
-
-/// The same; empty for a damaged file, since judging it says what is wrong.
+/// The light field that a result names; empty for a damaged file, since judging it says what is
+/// wrong.
 std::string known_source_of(const std::string& result) {
   try {
-    return source_of(result);
+    return stated_source(result);
   } catch (const IoError&) {
     return {};
   }
@@ -80,7 +73,7 @@ JudgedFile by_own_source(const std::string& result) {
   if (!fs::exists(result, ignored)) {
     throw IoError(result, "there is no such file or folder; check the path");
   }
-  const std::string source = source_of(result);
+  const std::string source = stated_source(result);
   if (source.empty()) {
     throw UsageError("evaluate: " + result +
                      " does not tell its light field; name it with --truth INPUT");
@@ -98,15 +91,6 @@ JudgedFile by_own_source_of_several(const std::string& result) {
   } catch (const IoError& error) {
     return {.result = result, .truth = {}, .problem = error.what()};
   }
-}
-
-/// Whether two inputs are one light field; its folder stands for an lf.h5.
-bool is_same_input(const std::string& a, const std::string& b) {
-  const auto place = [](const fs::path& path) {
-    return path.filename() == "lf.h5" ? path.parent_path() : path;
-  };
-  std::error_code ignored;
-  return a == b || fs::equivalent(place(a), place(b), ignored);
 }
 
 /// How many letters of its name a result shares with a scene: all of that, followed by an end or a

@@ -62,6 +62,11 @@ class AnnotationJournal {
 struct RecoveredAnnotation {
   JournalOwner owner;
   AnnotationDocument document;  ///< With its history.
+
+  /// Whether the document is as it was opened, so that it holds no work.
+  [[nodiscard]] bool is_untouched() const {
+    return document.history().applied_count() == 0 && !document.has_unsaved_changes();
+  }
 };
 
 /// Reads a journal: the document after the last complete step. Throws IoError if not even the

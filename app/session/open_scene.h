@@ -62,7 +62,9 @@ struct EstimateEntry {
   bool is_saved = false;   ///< A file of the user's holds it.
   std::filesystem::path kept{};  ///< The file that keeps it for the project; empty = none yet.
   std::string note{};            ///< What the user wrote about it; may have several lines.
-  PixelRect part{};              ///< The pixels that were estimated; empty = all.
+  /// File that it was read from although it belongs to another light field; empty = it does not.
+  std::filesystem::path foreign_file{};
+  PixelRect part{};  ///< The pixels that were estimated; empty = all.
 };
 
 /// How results are arranged for comparison.

@@ -63,9 +63,26 @@ RgbaImage map_picture(const QuantityMap& map, const render::Shading& shading) {
   });
 }
 
-RgbaImage blended(const RgbaImage& under, const RgbaImage& over, double opacity) {
-  RgbaImage picture = under;
-  const int weight = static_cast<int>(std::lround(opacity * 256));
+namespace {
+
+// The weights of qGray, as the canvas has them.
+void make_grey(RgbaImage& picture) {
+  for (int y = 0; y < picture.height(); ++y) {
+    std::uint8_t* pixel = picture.row(y);
+    for (int x = 0; x < picture.width(); ++x, pixel += 4) {
+      std::fill_n(pixel, kAlpha,
+                  static_cast<std::uint8_t>((11 * pixel[0] + 16 * pixel[1] + 5 * pixel[2]) / 32));
+    }
+  }
+}
+
+}  // namespace
+
+RgbaImage over_view(RgbaImage picture, const QuantityMap& map, const render::Shading& shading,
+                    const OverlayLook& look) {
+  if (map.labels.empty() && !look.is_view_colored) make_grey(picture);
+  const RgbaImage over = overlay_picture(map, shading);
+  const int weight = static_cast<int>(std::lround(look.opacity * 256));
   for (int y = 0; y < picture.height(); ++y) {
     std::uint8_t* below = picture.row(y);
     const std::uint8_t* above = over.row(y);

@@ -28,8 +28,18 @@ using RgbaImage = Image<std::uint8_t>;
 /// without a label are transparent.
 [[nodiscard]] RgbaImage map_picture(const QuantityMap& map, const render::Shading& shading);
 
-/// `over` on `under`, both of one size; its opaque pixels count `opacity`, in [0, 1], others less.
-[[nodiscard]] RgbaImage blended(const RgbaImage& under, const RgbaImage& over, double opacity);
+/// How a map lies over a view.
+struct OverlayLook {
+  double opacity = 1;            ///< Of its opaque pixels, in [0, 1].
+  bool is_view_colored = false;  ///< Also under colors that stand for numbers.
+
+  bool operator==(const OverlayLook&) const = default;
+};
+
+/// A map in its colors over a view of its size, which is grey where the colors stand for numbers,
+/// unless `look` keeps it colored. Labels always lie over the colored view.
+[[nodiscard]] RgbaImage over_view(RgbaImage view, const QuantityMap& map,
+                                  const render::Shading& shading, const OverlayLook& look);
 
 /// An EPI through a pixel of a view, every row of it `kEpiRowHeight` pixels high. A horizontal one
 /// has x to the right and u downwards; a vertical one stands upright, y downwards and v to the

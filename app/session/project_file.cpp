@@ -165,6 +165,7 @@ Json result_json(const ProjectResult& result, const fs::path& project) {
             {"shown", result.is_shown},
             {"compared", result.is_compared}};
   if (!result.note.empty()) json["note"] = result.note;
+  if (!result.foreign_file.empty()) json["foreign_file"] = result.foreign_file.string();
   return json;
 }
 
@@ -214,7 +215,8 @@ ProjectResult result_of(const Json& json, const fs::path& project) {
           .display_range = interval_of(json.at("display_range")),
           .is_shown = json.at("shown"),
           .is_compared = json.at("compared"),
-          .note = json.value("note", "")};
+          .note = json.value("note", ""),
+          .foreign_file = json.value("foreign_file", "")};
 }
 
 std::uint64_t hash_of(const std::string& text) {

@@ -20,7 +20,8 @@ struct ProjectResult {
   Interval display_range{};    ///< EstimateEntry::display_range.
   bool is_shown = false;
   bool is_compared = false;
-  std::string note{};      ///< EstimateEntry::note.
+  std::string note{};                    ///< EstimateEntry::note.
+  std::filesystem::path foreign_file{};  ///< EstimateEntry::foreign_file.
   int id = 0;              ///< EstimateEntry::id. Not part of a project file, as what follows.
   bool is_unread = false;  ///< In OpenScene::unread.
   /// In memory; null if it is in its file only.

@@ -166,6 +166,7 @@ ProjectResult result_of(const EstimateEntry& entry) {
           .file = entry.kept,
           .display_range = entry.display_range,
           .note = entry.note,
+          .foreign_file = entry.foreign_file,
           .id = entry.id,
           .estimate = entry.estimate};
 }
@@ -223,7 +224,8 @@ OpenScene scene_of(const ProjectScene& scene, bool is_saved) {
                               .display_range = result.display_range,
                               .is_saved = is_saved,
                               .kept = result.file,
-                              .note = result.note});
+                              .note = result.note,
+                              .foreign_file = result.foreign_file});
     if (result.is_shown) open.shown = id;
     if (result.is_compared) {
       open.compared = id;

@@ -6,6 +6,7 @@
 #include "app/session/load_scene.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/error.h"
+#include "engine/core/hash.h"
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
 #include "engine/io/base/exchange_files.h"
@@ -18,6 +19,7 @@
 #include "engine/io/formats/mosaic_reader.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/models/external_result.h"
+#include "engine/io/models/reader.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/stored_maps.h"
 #include "engine/render/shade.h"
@@ -403,6 +405,37 @@ std::string existing_source(const std::string& source, const fs::path& result) {
   const fs::path path = result.parent_path() / source;
   std::error_code ignored;
   return fs::exists(path, ignored) ? path.string() : std::string();
+}
+
+std::string stated_source(const fs::path& result) {
+  if (!io::is_result_file(result)) return {};
+  return io::Hdf5Input(result).text(io::kResultGroup, "source").value_or("");
+}
+
+bool is_same_input(const std::string& a, const std::string& b) {
+  const auto place = [](const fs::path& path) {
+    return path.filename() == "lf.h5" ? path.parent_path() : path;
+  };
+  std::error_code ignored;
+  return a == b || fs::equivalent(place(a), place(b), ignored);
+}
+
+namespace {
+
+std::uint64_t stated_hash(const fs::path& result) {
+  return hash_from_digits(io::Hdf5Input(result).text(io::kResultGroup, "source_hash").value_or(""));
+}
+
+}  // namespace
+
+ResultOwner owner_of_result(const fs::path& result, const LightField* front) {
+  if (io::is_result_file(result)) {
+    const bool is_of_front = front && stated_hash(result) == front->sample_hash();
+    return {is_of_front ? "" : existing_source(stated_source(result), result), true};
+  }
+  const fs::path folder = fs::absolute(result).parent_path();
+  const bool has_light_field = io::find_reader(folder, {}).reader != nullptr;
+  return {has_light_field ? folder.string() : "", false};
 }
 
 namespace {

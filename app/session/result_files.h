@@ -109,6 +109,24 @@ void bring_to_focus(Estimate& estimate, const LightField& light_field, const Pro
 [[nodiscard]] std::string existing_source(const std::string& source,
                                           const std::filesystem::path& result);
 
+/// The `source` that a result file states; empty for other files. Throws IoError if it is an HDF5
+/// file and damaged.
+[[nodiscard]] std::string stated_source(const std::filesystem::path& result);
+
+/// Whether two inputs are one light field; its folder stands for an lf.h5.
+[[nodiscard]] bool is_same_input(const std::string& a, const std::string& b);
+
+/// Light field that a result belongs to.
+struct ResultOwner {
+  std::string input{};     ///< What opens it; empty = unknown.
+  bool is_stated = false;  ///< By the file; else it lies in the folder of the light field.
+};
+
+/// Finds the light field of a result or map. Where the file states samples that are those of
+/// `front`, which may be null, none is named. Throws IoError for a damaged file.
+[[nodiscard]] ResultOwner owner_of_result(const std::filesystem::path& result,
+                                          const LightField* front);
+
 /// Forms of a disparity map, told by the suffix of its file.
 enum class MapForm {
   Result,     ///< .h5, .hdf5: all views, confidence, provenance.

@@ -130,6 +130,13 @@ void Session::set_note(int id, const std::string& note) {
   changed(Part::Estimates);
 }
 
+void Session::set_foreign_file(int id, const std::filesystem::path& file) {
+  OpenScene* scene = scene_with(id);
+  if (!scene) return;
+  std::ranges::find(scene->estimates, id, &EstimateEntry::id)->foreign_file = file;
+  changed(Part::Estimates);
+}
+
 void Session::mark_saved(int id) {
   for (const auto& scene : scenes_) {
     const auto found = std::ranges::find(scene->estimates, id, &EstimateEntry::id);

@@ -89,6 +89,8 @@ class Session {
   void rename_estimate(int id, const std::string& name);
   /// What the user writes about an estimate of any open scene. Unknown ids are ignored.
   void set_note(int id, const std::string& note);
+  /// Notes the file of an estimate that belongs to another light field. Unknown ids are ignored.
+  void set_foreign_file(int id, const std::filesystem::path& file);
   /// Notes that a file of the user's holds an estimate of any open scene. Unknown ids are ignored.
   void mark_saved(int id);
   [[nodiscard]] const std::vector<EstimateEntry>& estimates() const { return now_->estimates; }

@@ -33,6 +33,7 @@ void ViewCanvas::setPicture(const QImage& picture) {
   }
   const bool is_new_size = picture.size() != picture_.size();
   picture_ = picture;
+  makeGrey();
   if (state_ != State::Picture) setAccessibleDescription({});
   state_ = State::Picture;
   if (is_new_size) {
@@ -51,6 +52,31 @@ void ViewCanvas::setOverlay(const QImage& overlay) {
 void ViewCanvas::setOverlayOpacity(double opacity) {
   overlay_opacity_ = std::clamp(opacity, 0.0, 1.0);
   update();
+}
+
+void ViewCanvas::setGreyUnderOverlay(bool is_grey) {
+  if (std::exchange(is_grey_under_overlay_, is_grey) == is_grey) return;
+  makeGrey();
+  update();
+}
+
+void ViewCanvas::makeGrey() {
+  if (!is_grey_under_overlay_ || picture_.isNull()) {
+    grey_picture_ = {};
+    return;
+  }
+  grey_picture_ = picture_.convertToFormat(QImage::Format_ARGB32_Premultiplied);
+  for (int y = 0; y < grey_picture_.height(); ++y) {
+    auto* row = reinterpret_cast<QRgb*>(grey_picture_.scanLine(y));
+    std::transform(row, row + grey_picture_.width(), row, [](QRgb pixel) {
+      const int grey = qGray(pixel);
+      return qRgba(grey, grey, grey, qAlpha(pixel));
+    });
+  }
+}
+
+const QImage& ViewCanvas::pictureUnder(const QImage& overlay) const {
+  return overlay.isNull() || grey_picture_.isNull() ? picture_ : grey_picture_;
 }
 
 void ViewCanvas::setCrossHair(std::optional<PixelIndex> pixel) {

@@ -43,6 +43,8 @@ class ViewCanvas : public QWidget {
   /// Sets the overlay, stretched to the picture; null = none.
   void setOverlay(const QImage& overlay);
   void setOverlayOpacity(double opacity);
+  /// Draws the picture grey wherever an overlay lies over it, as qGray has it.
+  void setGreyUnderOverlay(bool is_grey);
   void setCrossHair(std::optional<PixelIndex> pixel);
   void setPixelText(PixelText text);
   /// Caption in the upper left corner, e.g. "view (4, 4)", after the badge of a side; empty = none.
@@ -167,6 +169,8 @@ class ViewCanvas : public QWidget {
   void showMessage(State state, const QString& text);
   [[nodiscard]] double dividerX() const;
   [[nodiscard]] bool isOnDivider(QPointF position) const;
+  void makeGrey();
+  [[nodiscard]] const QImage& pictureUnder(const QImage& overlay) const;
   void paintPicture(QPainter& painter, const QRect& exposed, const QImage& overlay) const;
   void paintWipe(QPainter& painter, const QRect& exposed) const;
   void paintPixelTexts(QPainter& painter, const QRect& exposed) const;
@@ -189,6 +193,8 @@ class ViewCanvas : public QWidget {
   QImage wipe_overlay_;
   QString wipe_caption_;
   QImage picture_;
+  QImage grey_picture_;  // null while none is wanted
+  bool is_grey_under_overlay_ = false;
   QImage overlay_;
   double overlay_opacity_ = 0.7;
   QImage scribbles_;

@@ -68,7 +68,7 @@ void ViewCanvas::paintPicture(QPainter& painter, const QRect& exposed,
                       transform_.to_widget(source.bottomRight(), size()));
   painter.setRenderHint(QPainter::SmoothPixmapTransform,
                         transform_.scale * devicePixelRatioF() < 1);
-  painter.drawImage(target, picture_, source);
+  painter.drawImage(target, pictureUnder(overlay), source);
   if (!overlay.isNull() && overlay_opacity_ > 0) {
     const double across = 1.0 * overlay.width() / picture_.width();
     const double down = 1.0 * overlay.height() / picture_.height();
@@ -125,7 +125,7 @@ void ViewCanvas::paintPixelTexts(QPainter& painter, const QRect& exposed) const 
       const QStringList lines = pixel_text_(y, x);
       if (lines.isEmpty()) continue;
       // What is on screen decides between dark and light letters.
-      QColor shown = picture_.pixelColor(x, y);
+      QColor shown = pictureUnder(overlay_).pixelColor(x, y);
       if (overlay_.size() == picture_.size()) {
         const QColor above = overlay_.pixelColor(x, y);
         shown = theme::blend(shown, above, overlay_opacity_ * above.alphaF());

@@ -136,6 +136,11 @@ void OverlayBar::setFocusRange(Interval range_px) {
   focus_slider_->setPageStep(10);
 }
 
+void OverlayBar::addOpacityAction(QAction* action) {
+  row_->insertWidget(row_->indexOf(opacity_) + 1,
+                     make_action_button(action, "button." + action->objectName(), this));
+}
+
 void OverlayBar::addFocusAction(QAction* action) {
   row_->insertWidget(row_->count() - 1,
                      make_action_button(action, "button." + action->objectName(), this));

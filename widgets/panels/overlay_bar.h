@@ -40,6 +40,8 @@ class OverlayBar : public QWidget {
   /// kFarthestFocus and extends the slider.
   void setFocusRange(Interval range_px);
   void setFocus(double focus_px);
+  /// Adds a button for an action on the look of the overlay, beside its opacity.
+  void addOpacityAction(QAction* action);
   /// Adds a button for a focus plane action, beside its controls.
   void addFocusAction(QAction* action);
 

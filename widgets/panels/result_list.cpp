@@ -134,11 +134,11 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
     item->setText(kMethod, result.method);
     item->setText(kMse, result.mse_100 ? number_text(*result.mse_100, 2) : "–");
     item->setText(kSeconds, seconds_text(result.seconds));
+    QStringList aside{result.parameters};
     // Of a note, the first line.
-    item->setText(kParameters,
-                  result.note.isEmpty()
-                      ? result.parameters
-                      : tr("“%1” · %2").arg(result.note.section('\n', 0, 0), result.parameters));
+    if (!result.note.isEmpty()) aside.prepend(tr("“%1”").arg(result.note.section('\n', 0, 0)));
+    if (!result.warning.isEmpty()) aside.prepend(tr("⚠ %1").arg(result.warning));
+    item->setText(kParameters, aside.join(tr(" · ")));
     item->setTextAlignment(kMse, Qt::AlignRight | Qt::AlignVCenter);
     item->setTextAlignment(kSeconds, Qt::AlignRight | Qt::AlignVCenter);
     QStringList tip{result.method, result.note, result.parameters, result.detail};

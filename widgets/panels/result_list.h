@@ -20,8 +20,9 @@ struct ResultRow {
   QString parameters;  ///< Summary; the whole of it is the tool tip.
   double seconds = 0;  ///< 0 = unknown.
   std::optional<double> mse_100;
-  QString detail;  ///< Further tool tip: source, notes.
-  QString note{};  ///< The user's note.
+  QString detail;     ///< Further tool tip: source, notes.
+  QString note{};     ///< The user's note.
+  QString warning{};  ///< Shown with a warning sign before the parameters.
 };
 
 /// Results of this light field, newest last, with A (shown) and B (compared) marked. Choosing a row

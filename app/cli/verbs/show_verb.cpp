@@ -135,6 +135,7 @@ struct ShowRequest {
   ParameterOptions maps;          ///< Of a result.
   int longest_px = 0;             ///< Of a picture; 0 = as large as what it shows.
   std::optional<double> opacity;  ///< Over the view; empty = the map by itself.
+  bool is_view_colored = false;   ///< Under the map.
   bool has_legend = false;        ///< Beside a picture.
   Overwrite overwrite = Overwrite::No;
   bool is_json = false;
@@ -243,6 +244,9 @@ std::vector<Arguments::Use> uses_of(const ShowRequest& request) {
           {{"--layer"}, has_layers, what},
           {{"--range", "--colormap"}, is_map && render::info_of(quantity).has_scale(), what},
           {{"--over-view"}, is_map, what},
+          {{"--color-view"},
+           request.opacity && render::info_of(quantity).has_scale(),
+           request.opacity ? what : "without --over-view"},
           {{"--legend"}, is_map && !movie && has_numbers(quantity), movie ? "on a movie" : what},
           {{"--threshold"}, quantity == Quantity::BadPixels, what + "; say --what bad_pixels"},
           {{"--fit"}, !movie, "on a movie, whose size is --width"},
@@ -293,6 +297,9 @@ bool parse(const VerbArguments& arguments, const std::stop_token& stop, ShowRequ
                 "For a difference: the result to subtract; for a flip: the other result");
   parser.option("--over-view", request.opacity, real_value("OPACITY", 0, 1),
                 "Overlay the map on the view, with an opacity from 0 to 1");
+  parser.flag("--color-view", request.is_view_colored,
+              "Keep the colors of the view under a map; without, it is grey where the colors of "
+              "the map stand for numbers");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace another picture");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_movie_options(parser, request.movie);
@@ -316,8 +323,8 @@ RgbaImage picture_of(const ShowRequest& request, const LoadedMap& loaded, const 
   const auto shading = shading_of(source.quantity, loaded.disparity_range, request.shading);
   const QuantityMapPtr map = make_map(source);
   if (!request.opacity) return map_picture(*map, shading);
-  return blended(render::shade_view(*source.light_field, source.view),
-                 overlay_picture(*map, shading), *request.opacity);
+  return over_view(render::shade_view(*source.light_field, source.view), *map, shading,
+                   {*request.opacity, request.is_view_colored});
 }
 
 /// What was drawn: for people, and as keys of JSON.

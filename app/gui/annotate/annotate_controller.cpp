@@ -123,10 +123,7 @@ void AnnotateController::showSizeKeys() {
 void AnnotateController::setAnnotating(bool is_annotating) {
   if (is_annotating && !isTabShown()) bench_.frame.showTab("annotate");
   if (std::exchange(is_annotating_, is_annotating) == is_annotating) return;
-  if (is_annotating) {
-    document_.keepJournal();
-    bench_.viewer_area.requestSingleView();
-  }
+  if (is_annotating) bench_.viewer_area.requestSingleView();
   showMode();
 }
 

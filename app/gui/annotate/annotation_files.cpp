@@ -110,7 +110,7 @@ QString AnnotationFiles::suggestion() const {
   const QString known = place();
   if (!known.isEmpty()) return known;
   const QString name = QString::fromStdString(session_.light_field()->info().name);
-  return QDir::home().filePath(name + "_labels.h5");
+  return name + "_labels.h5";
 }
 
 void AnnotationFiles::save() {
@@ -129,14 +129,13 @@ void AnnotationFiles::saveAsDialog() {
 
 void AnnotationFiles::askForPlace(std::function<void()> then) {
   if (!document_.document()) return;
-  ask_where_to_save(
-      &bench_.window,
-      {.name = "save_scribbles",
-       .title = tr("Save scribbles"),
-       .filter = tr("Archive labels (*.h5)"),
-       .proposal = suggestion(),
-       .confirms_overwrite = false},
-      [this, then = std::move(then)](const QString& path) { saveToChosen(path, then); });
+  ask_where_to_save(bench_,
+                    {.name = "save_scribbles",
+                     .title = tr("Save scribbles"),
+                     .filter = tr("Archive labels (*.h5)"),
+                     .proposal = suggestion(),
+                     .confirms_overwrite = false},
+                    [this, then = std::move(then)](const QString& path) { saveToChosen(path, then); });
 }
 
 void AnnotationFiles::saveToChosen(const QString& path, std::function<void()> then) {
@@ -372,7 +371,7 @@ void ask_to_export_segmentation(const Workbench& bench, const SegmentController&
   }
   const bool has_all = segmentation->labeling->labels.grid().count() > 1;
   ask_where_to_save(
-      &bench.window,
+      bench,
       {.name = "export_segmentation",
        .title = SegmentationExportText::tr("Export the segmentation"),
        .filter =
@@ -482,17 +481,27 @@ void RecoveryController::offerNext() {
   if (left_.empty()) return;
   const RecoverableJournal journal = left_.back();
   left_.pop_back();
+  offer(journal);
+}
+
+void RecoveryController::offer(const RecoverableJournal& journal) {
   bar_->showMessage(Severity::Warning,
                     tr("Episcope ended unexpectedly while “%1” was being annotated (%2). Your work "
                        "can be recovered.")
                         .arg(name_of(journal), short_text(journal.last_change)),
                     {tr("Recover"), [this, journal] { recover(journal); }},
-                    {tr("Discard"), [this, journal] { discard(journal); }});
+                    {tr("Discard…"), [this, journal] { discard(journal); }});
 }
 
 void RecoveryController::discard(const RecoverableJournal& journal) {
-  discard_journal(journal.path);
-  offerNext();
+  confirm_discarding(
+      &bench_.window,
+      tr("This deletes the scribbles on “%1” that were not saved.").arg(name_of(journal)),
+      [this, journal] {
+        discard_journal(journal.path);
+        offerNext();
+      },
+      [this, journal] { offer(journal); });
 }
 
 void RecoveryController::recover(const RecoverableJournal& journal) {

@@ -110,6 +110,7 @@ class RecoveryController : public QObject {
  private:
   [[nodiscard]] bool isOpen(const JournalOwner& owner) const;
   void offerNext();
+  void offer(const RecoverableJournal& journal);
   void recover(const RecoverableJournal& journal);
   void open(const JournalOwner& owner);
   void discard(const RecoverableJournal& journal);

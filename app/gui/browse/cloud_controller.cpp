@@ -236,7 +236,7 @@ QString CloudController::summary(const Made& made) const {
 
 void CloudController::askToExport() const {
   const std::string& scene = session_.light_field()->info().name;
-  ask_where_to_save(&bench_.window,
+  ask_where_to_save(bench_,
                     {.name = "export_cloud",
                      .title = tr("Save the 3D view"),
                      .filter = tr("Point cloud or surface (*.ply)"),

@@ -246,11 +246,11 @@ void MeasureController::copy() {
 }
 
 void MeasureController::save() {
-  ask_where_to_save(&bench_.window,
+  ask_where_to_save(bench_,
                     {.name = "save_measurements",
                      .title = tr("Save the measurements"),
                      .filter = tr("CSV (*.csv)"),
-                     .proposal = "measurements.csv"},
+                     .proposal = named_after_front(bench_, "measurements.csv")},
                     [this, text = QString::fromStdString(csv())](const QString& path) {
                       write_in_background(
                           bench_.jobs, bench_.messages, path,

@@ -286,19 +286,19 @@ void CaptureController::goTo(const capture::PointPair& pair) {
 void CaptureController::connectResults() {
   connect(panel_, &CapturePanel::showRequested, results_, &MeshResults::showOverView);
   connect(panel_, &CapturePanel::savePoseRequested, this, [this] {
-    ask_where_to_save(&bench_.window,
+    ask_where_to_save(bench_,
                       {.name = "save_pose",
                        .title = tr("Save the pose"),
                        .filter = tr("Pose (*.json)"),
-                       .proposal = "pose.json"},
+                       .proposal = named_after_front(bench_, "pose.json")},
                       [this](const QString& path) { savePose(path); });
   });
   connect(panel_, &CapturePanel::writeTruthRequested, this, [this] {
-    ask_where_to_save(&bench_.window,
+    ask_where_to_save(bench_,
                       {.name = "write_truth",
                        .title = tr("Write the light field with its ground truth"),
                        .filter = tr("Light field (*.h5)"),
-                       .proposal = "lf.h5"},
+                       .proposal = named_after_front(bench_, "truth.h5")},
                       [this](const QString& path) { writeTruth(path); });
   });
 }
@@ -322,11 +322,11 @@ void CaptureController::connectFiles() {
         [this](const QString& path) { importPairs(path); });
   });
   connect(panel_, &CapturePanel::exportRequested, this, [this] {
-    ask_where_to_save(&bench_.window,
+    ask_where_to_save(bench_,
                       {.name = "export_pairs",
                        .title = tr("Export pairs"),
                        .filter = tr("Pairs (*.csv)"),
-                       .proposal = "pairs.csv"},
+                       .proposal = named_after_front(bench_, "pairs.csv")},
                       [this](const QString& path) { exportPairs(path); });
   });
 }

@@ -134,11 +134,11 @@ void Photographs::attach(PhotographSteps* steps) {
                  [this](const QString& path) { openCamera(path); });
   });
   connect(steps, &PhotographSteps::saveCameraRequested, this, [this] {
-    ask_where_to_save(&bench_.window,
+    ask_where_to_save(bench_,
                       {.name = "save_camera",
                        .title = tr("Save the camera"),
                        .filter = tr("Camera (*.yml)"),
-                       .proposal = "camera.yml"},
+                       .proposal = named_after_front(bench_, "camera.yml")},
                       [this](const QString& path) { saveCamera(path); });
   });
   connect(steps, &PhotographSteps::demoRequested, this, [this] {
@@ -172,11 +172,11 @@ void Photographs::askForRectified() {
     documents_.change([&](CaptureDocument& document) {
       document.set_rectify(capture::rectify_schema().parse(values));
     });
-    ask_where_to_save(&bench_.window,
+    ask_where_to_save(bench_,
                       {.name = "save_rectified",
                        .title = tr("Save the rectified light field"),
                        .filter = tr("Light field (*.h5)"),
-                       .proposal = "rectified.h5",
+                       .proposal = named_after_front(bench_, "rectified.h5"),
                        .confirms_overwrite = false},
                       [this](const QString& path) { rectify(path); });
   };

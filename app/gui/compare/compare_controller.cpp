@@ -193,11 +193,11 @@ void CompareController::showWipe() {
 }
 
 TileRequest CompareController::request(const std::optional<MapChoice>& choice) const {
-  TileRequest made{session_.light_field(), session_.view(), {}, {}, 1, session_.place().tone};
+  TileRequest made{session_.light_field(), session_.view(), {}, {}, {}, session_.place().tone};
   if (!choice) return made;
   made.source = overlay_.sourceOf(*choice);
   made.shading = overlay_.shadingOf(choice->quantity);
-  made.opacity = bench_.viewer_area.overlayBar()->opacity();
+  made.look = overlay_.lookOf(choice->quantity);
   return made;
 }
 
@@ -336,6 +336,17 @@ void CompareController::addOverlayCommands() {
          .enabled = [this, quantity] { return overlay_.isAvailable(quantity); },
          .checked = [this, quantity] { return overlay_.quantity() == quantity; }});
   }
+  QAction* color = bench_.commands.add(
+      {.id = "overlay.color",
+       .menu = Menu::Compare,
+       .text = tr("Colored view under maps"),
+       .tip = tr("Keeps the colors of the view under maps; without, it is grey, so that only the "
+                 "map has colors"),
+       .icon = "color",
+       .run = [this] { overlay_.setViewColored(!overlay_.isViewColored()); },
+       .section = compare_section::kMaps,
+       .checked = [this] { return overlay_.isViewColored(); }});
+  bench_.viewer_area.overlayBar()->addOpacityAction(color);
 }
 
 void CompareController::addChoiceCommands() {
@@ -433,7 +444,7 @@ void CompareController::addCommands() {
 
 bool is_same(const TileRequest& a, const TileRequest& b) {
   return a.light_field == b.light_field && a.view == b.view && a.source == b.source &&
-         render::is_same(a.shading, b.shading) && a.opacity == b.opacity && a.tone == b.tone;
+         render::is_same(a.shading, b.shading) && a.look == b.look && a.tone == b.tone;
 }
 
 std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requests,
@@ -447,7 +458,7 @@ std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requ
     if (request.source) picture.map = make_map(*request.source);
     RgbaImage drawn = render::shade_view(*request.light_field, request.view, tone.get());
     if (picture.map) {
-      drawn = blended(drawn, overlay_picture(*picture.map, request.shading), request.opacity);
+      drawn = over_view(std::move(drawn), *picture.map, request.shading, request.look);
     }
     picture.picture = to_qimage(std::move(drawn)).convertToFormat(QImage::Format_RGB32);
   });

@@ -3,9 +3,9 @@
 
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
-#include "app/session/quantity_map.h"
 #include "app/session/open_scene.h"
 #include "app/session/picture.h"
+#include "app/session/quantity_map.h"
 #include "app/session/session.h"
 #include "engine/core/progress.h"
 #include "widgets/controls/theme.h"
@@ -27,7 +27,7 @@ struct TileRequest {
   ViewIndex view;
   std::optional<MapSource> source;
   render::Shading shading;
-  double opacity = 1;  ///< Opacity of the map.
+  OverlayLook look{};  ///< Of the map.
   render::Tone tone{};
 };
 /// Whether two requests give the same picture.

@@ -34,14 +34,19 @@ struct PictureExportText {
 struct DrawnMap {
   MapSource source;
   render::Shading shading;
+  OverlayLook look;
 };
+
+DrawnMap drawn_as_shown(const Overlay& overlay, MapSource source) {
+  const render::Quantity quantity = source.quantity;
+  return {std::move(source), overlay.shadingOf(quantity), overlay.lookOf(quantity)};
+}
 
 // The overlay's map; none without an overlay.
 std::optional<DrawnMap> drawn_map(const Overlay& overlay) {
-  const MapChoice choice = overlay.choice();
-  auto source = overlay.sourceOf(choice);
+  auto source = overlay.sourceOf(overlay.choice());
   if (!source) return std::nullopt;
-  return DrawnMap{std::move(*source), overlay.shadingOf(choice.quantity)};
+  return drawn_as_shown(overlay, std::move(*source));
 }
 
 QString scene_name(const Session& session) {
@@ -49,7 +54,7 @@ QString scene_name(const Session& session) {
 }
 
 void ask_for_picture(const Workbench& bench) {
-  ask_where_to_save(&bench.window,
+  ask_where_to_save(bench,
                     {.name = "save_picture",
                      .title = PictureExportText::tr("Save the picture"),
                      .filter = PictureExportText::tr("PNG (*.png)"),
@@ -64,7 +69,7 @@ void ask_for_map(const Workbench& bench) {
     return;
   }
   const char* quantity = render::info_of(bench.overlay.choice().quantity).id;
-  ask_where_to_save(&bench.window,
+  ask_where_to_save(bench,
                     {.name = "save_map",
                      .title = PictureExportText::tr("Save the map"),
                      .filter = PictureExportText::tr("PNG (*.png)"),
@@ -100,11 +105,12 @@ void save_picture(const Workbench& bench, const QString& path) {
   if (picture->empty() || !has_suffix(path, {"png"}, bench.messages)) return;
   write_in_background(
       bench.jobs, bench.messages, path,
-      [file = std::filesystem::path(path.toStdString()), picture, drawn = drawn_map(bench.overlay),
-       opacity = bench.viewer_area.canvas()->overlayOpacity()](const Progress&) {
+      [file = std::filesystem::path(path.toStdString()), picture,
+       drawn = drawn_map(bench.overlay)](const Progress&) {
         if (!drawn) return io::write_picture(file, picture->view());
-        const RgbaImage over = overlay_picture(*make_map(drawn->source), drawn->shading);
-        io::write_picture(file, blended(*picture, over, opacity).view());
+        io::write_picture(
+            file,
+            over_view(*picture, *make_map(drawn->source), drawn->shading, drawn->look).view());
       });
 }
 
@@ -126,15 +132,14 @@ using render::Quantity;
 // How maps are drawn over views; held by the job that writes the movie.
 struct Look {
   std::shared_ptr<const Scene> scene;
-  std::map<Quantity, render::Shading> shadings;
-  double opacity = 1;
+  std::map<Quantity, DrawnMap> maps;
   std::shared_ptr<const render::ToneTable> tone;
 
   [[nodiscard]] RgbaImage draw(const MapSource& source) const {
     RgbaImage view = render::shade_view(*scene->light_field, source.view, tone.get());
     if (source.quantity == Quantity::View) return view;
-    const RgbaImage over = overlay_picture(*make_map(source), shadings.at(source.quantity));
-    return blended(view, over, opacity);
+    const DrawnMap& drawn = maps.at(source.quantity);
+    return over_view(std::move(view), *make_map(source), drawn.shading, drawn.look);
   }
 };
 
@@ -148,11 +153,10 @@ MapSource source_of(const Workbench& bench, const MapChoice& choice) {
 std::shared_ptr<const Look> look_of(const Workbench& bench, const MovieSubject& subject) {
   auto look = std::make_shared<Look>();
   look->scene = bench.session.scene();
-  look->opacity = bench.viewer_area.canvas()->overlayOpacity();
   look->tone = render::table_of(bench.session.place().tone);
   for (const auto* source : {&subject.source, subject.other ? &*subject.other : nullptr}) {
     if (!source || source->quantity == Quantity::View) continue;
-    look->shadings.try_emplace(source->quantity, bench.overlay.shadingOf(source->quantity));
+    look->maps.try_emplace(source->quantity, drawn_as_shown(bench.overlay, *source));
   }
   return look;
 }
@@ -209,7 +213,7 @@ void MovieExport::open() {
 
 void MovieExport::ask() {
   ask_where_to_save(
-      &bench_.window,
+      bench_,
       {.name = "save_movie_file",
        .title = tr("Save the movie"),
        .filter = tr("MP4 (*.mp4);;WebM (*.webm);;GIF (*.gif)"),

@@ -280,6 +280,11 @@ void EstimateController::listResults() {
     row.seconds = estimate.seconds;
     row.detail = detail_text(estimate);
     row.note = QString::fromStdString(entry.note);
+    if (!entry.foreign_file.empty()) {
+      row.warning = QString::fromStdString(entry.foreign_file.filename().string());
+      row.detail += '\n' + tr("Belongs to another light field: %1. Its errors may be meaningless.")
+                               .arg(QString::fromStdString(entry.foreign_file.string()));
+    }
     const EvaluationKey key{entry.id, judged_view(*session_.scene()), Protocol::Vmv2013};
     if (const auto evaluation = session_.evaluation(key)) {
       row.mse_100 = find_metric(evaluation->metrics, "mse_100");

@@ -70,7 +70,7 @@ void write_result(const Workbench& bench, const EstimateEntry& entry, const QStr
 void ask_to_export(const Workbench& bench, const EstimateEntry& entry) {
   const std::string& scene = bench.session.light_field()->info().name;
   ask_where_to_save(
-      &bench.window,
+      bench,
       {.name = "export_result",
        .title = ResultExportText::tr("Export %1").arg(QString::fromStdString(entry.name)),
        .filter = ResultExportText::tr(

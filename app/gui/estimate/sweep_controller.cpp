@@ -452,7 +452,7 @@ void SweepController::save() {
   const QString text = QString::fromStdString(table_to_csv(
       sweep_table(sweep.scenes, {{"method", sweep.base.method}, {"parameters", parameters}})));
   const std::string stem = sweep.scenes.size() == 1 ? sweep.scenes.front().name + "_" : "";
-  ask_where_to_save(&bench_.window,
+  ask_where_to_save(bench_,
                     {.name = "save_sweep",
                      .title = tr("Save the sweep"),
                      .filter = tr("CSV (*.csv)"),

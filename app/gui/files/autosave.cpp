@@ -167,8 +167,10 @@ std::size_t result_count(const Project& project) {
 void name_journals(ReadProject& read, const std::filesystem::path& folder) {
   for (const OrphanedJournal& journal : orphaned_journals(folder)) {
     try {
-      const JournalOwner owner = read_journal(journal.path).owner;
-      const auto scene = std::ranges::find(read.project.scenes, owner.source, &ProjectScene::input);
+      const RecoveredAnnotation found = read_journal(journal.path);
+      if (found.is_untouched()) continue;
+      const auto scene =
+          std::ranges::find(read.project.scenes, found.owner.source, &ProjectScene::input);
       if (scene != read.project.scenes.end() && scene->strokes.empty()) {
         scene->strokes = journal.path;
       }
@@ -211,6 +213,10 @@ void SessionRecovery::offerNext() {
   }
   const OrphanedWorkspace left = left_.back();
   left_.pop_back();
+  offer(left);
+}
+
+void SessionRecovery::offer(const OrphanedWorkspace& left) {
   bar_->showMessage(
       Severity::Warning,
       tr("Episcope ended unexpectedly (%1). What was open can be recovered: light fields: %2, "
@@ -218,10 +224,25 @@ void SessionRecovery::offerNext() {
           .arg(short_text(left.last_change))
           .arg(left.project.scenes.size())
           .arg(result_count(left.project)),
-      {tr("Recover"), [this, left] { recover(left); }}, {tr("Discard"), [this, left] {
-                                                           discard_workspace(left.folder);
-                                                           offerNext();
-                                                         }});
+      {tr("Recover"), [this, left] { recover(left); }},
+      {tr("Discard…"), [this, left] { askToDiscard(left); }});
+}
+
+void SessionRecovery::askToDiscard(const OrphanedWorkspace& left) {
+  QStringList names;
+  for (const ProjectScene& scene : left.project.scenes) {
+    names << QString::fromStdString(scene.name);
+  }
+  confirm_discarding(
+      &bench_.window,
+      tr("This deletes the results that the earlier session kept: %1. Its light fields were: %2.")
+          .arg(result_count(left.project))
+          .arg(listed(names)),
+      [this, left] {
+        discard_workspace(left.folder);
+        offerNext();
+      },
+      [this, left] { offer(left); });
 }
 
 void SessionRecovery::recover(const OrphanedWorkspace& left) {

@@ -95,6 +95,8 @@ class SessionRecovery : public QObject {
 
  private:
   void offerNext();
+  void offer(const OrphanedWorkspace& left);
+  void askToDiscard(const OrphanedWorkspace& left);
   void recover(const OrphanedWorkspace& left);
   void takeOver(const OrphanedWorkspace& left);
 

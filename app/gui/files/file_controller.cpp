@@ -11,6 +11,7 @@
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/load_scene.h"
+#include "app/session/result_files.h"
 #include "app/session/session.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/parameter_form.h"
@@ -27,6 +28,7 @@
 #include <QLabel>
 #include <QListWidget>
 #include <QMenu>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
 #include <QSettings>
@@ -191,18 +193,12 @@ void FileController::addOpenCommands() {
                    .section = section::kOpen};
   };
   Command open =
-      add("file.open", tr("Open file…"), tr("Opens a light field, a result or a project"),
-          {QKeySequence::Open}, &FileController::askForFile);
+      add("file.open", tr("Open…"),
+          tr("Opens a file or a folder: a light field, a folder of several, a result or a project"),
+          {QKeySequence::Open, tr("Ctrl+Shift+O")}, &FileController::ask);
   open.icon = "open";
   open.bar = BarSection::Files;
   bench_.commands.add(std::move(open));
-  Command folder =
-      add("file.open_folder", tr("Open folder…"),
-          tr("Opens a folder: an archive scene, a benchmark scene, an image grid, or a "
-             "folder of several"),
-          {tr("Ctrl+Shift+O")}, &FileController::askForFolder);
-  folder.icon = "open";
-  bench_.commands.add(std::move(folder));
   Command again =
       add("file.read_again", tr("Read again"),
           tr("Reads the open light field again, with what a program has added to its file since"),
@@ -261,19 +257,12 @@ void FileController::addLeaveCommands() {
                        .section = section::kLeave});
 }
 
-void FileController::askForFile() {
-  ask_for_file(&bench_.window,
-               {.name = "open_file",
-                .title = tr("Open a light field"),
-                .filter = tr("Light fields, results and projects (*.h5 *.hdf5 *.pfm *.tif *.tiff "
-                             "*.episcope);;All files (*)")},
-               [this](const QString& path) { openAny(path); });
-}
-
-void FileController::askForFolder() {
-  ask_for_folder(&bench_.window,
-                 {.name = "open_folder", .title = tr("Open the folder of a light field")},
-                 [this](const QString& path) { bench_.opener.open(path); });
+// Without a filter: too many forms can be opened for a list of suffixes.
+void FileController::ask() {
+  ask_for_file_or_folder(
+      &bench_.window,
+      {.name = "open_file", .title = tr("Open a light field, a result or a project")},
+      [this](const QString& path) { openAny(path); });
 }
 
 void FileController::readAgain() {
@@ -284,10 +273,9 @@ void FileController::askForResult() {
   ask_for_file(&bench_.window,
                {.name = "open_result",
                 .title = tr("Open a result"),
-                .filter = tr("Results (*.h5 *.hdf5 *.pfm *.tif *.tiff);;All files (*)")},
-               [this](const QString& path) {
-                 bench_.session.scene() ? bench_.results.open(path) : bench_.opener.open(path);
-               });
+                .filter = tr("Results (*.h5 *.hdf5 *.pfm *.tif *.tiff *.npy *.npz *.mat "
+                             "*.csv);;All files (*)")},
+               [this](const QString& path) { openResult(path); });
 }
 
 void FileController::askForBuiltin() {
@@ -299,11 +287,67 @@ void FileController::askForBuiltin() {
 }
 
 void FileController::openAny(const QString& path) {
-  if (bench_.session.scene() && is_result(path)) {
-    bench_.results.open(path);
-  } else {
-    bench_.opener.open(path);  // says what is wrong with a result that nothing is open for
+  is_result(path) ? openResult(path) : bench_.opener.open(path);
+}
+
+void FileController::openResult(const QString& path) {
+  bench_.jobs.start<ResultOwner>(
+      Lane::Load, tr("Opening %1").arg(QFileInfo(path).fileName()),
+      [path = path.toStdString(), front = bench_.session.light_field()](const Progress&) {
+        return owner_of_result(path, front.get());
+      },
+      [this, path](const ResultOwner& owner) {
+        const bool is_of_front =
+            owner.input.empty() || is_same_input(owner.input, bench_.session.input());
+        if (!is_of_front) {
+          askWhereItBelongs(path, owner);
+        } else if (bench_.session.scene()) {
+          bench_.results.open(path);
+        } else {
+          bench_.opener.open(path);  // says what is wrong
+        }
+      });
+}
+
+void FileController::askWhereItBelongs(const QString& path, const ResultOwner& owner) {
+  const QString name = QFileInfo(path).fileName();
+  const QString input = QString::fromStdString(owner.input);
+  auto* box = new_question_box(
+      &bench_.window,
+      {.name = "result_owner",
+       .title = tr("Result of another light field"),
+       .text = (owner.is_stated ? tr("%1 was estimated from the light field %2.")
+                                : tr("%1 lies in the folder of the light field %2."))
+                   .arg(name, input)});
+  auto* open = box->addButton(tr("Open that light field"), QMessageBox::AcceptRole);
+  open->setObjectName("result_owner.open");
+  box->setDefaultButton(open);
+  connect(open, &QPushButton::clicked, this, [this, path, owner] { openOwner(path, owner); });
+  if (bench_.session.scene()) {
+    auto* add = box->addButton(
+        tr("Add to “%1”").arg(QString::fromStdString(bench_.session.light_field()->info().name)),
+        QMessageBox::DestructiveRole);
+    add->setObjectName("result_owner.add");
+    connect(add, &QPushButton::clicked, this, [this, path] {
+      if (bench_.session.scene()) bench_.results.openForeign(path);
+    });
   }
+  box->open();
+}
+
+// A map beside views may be their truth, which is read with them.
+void FileController::openOwner(const QString& path, const ResultOwner& owner) {
+  const auto scenes = bench_.session.scenes();
+  const auto known = std::ranges::find_if(
+      scenes, [&](const OpenScene* each) { return is_same_input(each->input, owner.input); });
+  const std::string input = known == scenes.end() ? owner.input : (*known)->input;
+  bench_.opener.open(QString::fromStdString(input), [this, path, is_stated = owner.is_stated] {
+    if (is_stated) return bench_.results.open(path);
+    bench_.messages.offer(tr("%1 can be added to the results.").arg(QFileInfo(path).fileName()),
+                          tr("Add"), [this, path] {
+                            if (bench_.session.scene()) bench_.results.open(path);
+                          });
+  });
 }
 
 // Opens one after the other, since each replaces the one being opened; results last, since they
@@ -317,7 +361,7 @@ void FileController::openAll(QStringList paths, const QStringList& failures) {
   }
   const QString path = paths.takeFirst();
   if (bench_.session.scene() && is_result(path)) {
-    openAny(path);
+    openResult(path);
     openAll(paths, failures);
   } else {
     const auto go_on = [this, paths, failures](const QString& failure) {
@@ -456,7 +500,7 @@ void ask_to_save_light_field(const Workbench& bench, const io::Writer& writer) {
   const QString name = QString::fromStdString(light_field->info().name);
   const QString suffix = writer.writes_folder() ? QString() : QString(writer.suffixes.front());
   ask_where_to_save(
-      &bench.window,
+      bench,
       {.name = "save_light_field",
        .title = SaveFormsText::tr("Save %1: %2").arg(name, title_of(writer)),
        .filter = writer.writes_folder() ? SaveFormsText::tr("New folders (*)")

@@ -12,6 +12,8 @@ class QMenu;
 
 namespace episcope {
 
+struct ResultOwner;
+
 /// Opens light fields and results that the user chooses or drops, and lists the recent ones.
 class FileController : public QObject {
   Q_OBJECT
@@ -26,13 +28,15 @@ class FileController : public QObject {
   void addOpenCommands();
   void addSaveCommand();
   void addLeaveCommands();
-  void askForFile();
-  void askForFolder();
+  void ask();
   void readAgain();
   void askForResult();
   void askForBuiltin();
-  /// Adds a result to the open light field; opens anything else.
   void openAny(const QString& path);
+  /// Adds a result to the light field in front, unless it belongs to another one: then asks.
+  void openResult(const QString& path);
+  void askWhereItBelongs(const QString& path, const ResultOwner& owner);
+  void openOwner(const QString& path, const ResultOwner& owner);
   /// Reports earlier failures once all paths were tried.
   void openAll(QStringList paths, const QStringList& failures);
   void remember(const QString& input);

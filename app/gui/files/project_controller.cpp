@@ -146,8 +146,8 @@ void ProjectController::read(const QString& path) {
 
 QString ProjectController::suggestion() const {
   if (!file().isEmpty()) return file();
-  const auto scenes = bench_.session.scenes();
-  return QString::fromStdString(scenes.empty() ? "project" : scenes.front()->name) + kProjectSuffix;
+  const OpenScene* front = bench_.session.find_scene(bench_.session.generation());
+  return QString::fromStdString(front ? front->name : "project") + kProjectSuffix;
 }
 
 void ProjectController::save(std::function<void()> then) {
@@ -155,7 +155,7 @@ void ProjectController::save(std::function<void()> then) {
 }
 
 void ProjectController::saveAs(std::function<void()> then) {
-  ask_where_to_save(&bench_.window,
+  ask_where_to_save(bench_,
                     {.name = "save_project",
                      .title = tr("Save project"),
                      .filter = tr("Projects (*.episcope)"),

@@ -69,8 +69,6 @@ class DocumentController : public QObject {
   /// Adds recovered scribbles to a scene that is not shown. `stored`: project file that holds them,
   /// or empty. Returns whether they have a journal again.
   bool bring(std::uint64_t scene, RecoveredAnnotation found, std::filesystem::path stored);
-  /// Ensures that the next strokes survive a crash; returns whether they do.
-  bool keepJournal();
 
   /// Applies an edit; reports what it throws as a problem. Returns whether the document changed.
   bool edit(const std::function<void(AnnotationDocument&)>& change);
@@ -125,6 +123,8 @@ class DocumentController : public QObject {
   void markSaved(Open& open, std::uint64_t state);
   /// Document of a scene that is not shown; null if there is none.
   [[nodiscard]] Open* findAside(std::uint64_t scene);
+  /// Ensures that the next strokes survive a crash; returns whether they do.
+  bool keepJournal();
   bool keepJournal(Open& open);
   void tell(const DocumentChange& change);
   void tellUnsaved();

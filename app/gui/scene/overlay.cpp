@@ -28,6 +28,11 @@ Quantity range_key(Quantity quantity) {
   return is_disparity ? Quantity::Disparity : quantity;
 }
 
+bool is_error(Quantity quantity) {
+  const Subject subject = render::info_of(quantity).subject;
+  return subject == Subject::Error || subject == Subject::ResultPair;
+}
+
 bool is_of_results(Quantity quantity) {
   const Subject subject = render::info_of(quantity).subject;
   return subject == Subject::Result || subject == Subject::Error;
@@ -51,7 +56,7 @@ void Overlay::connectStage() {
   ColorBar* scale = viewer_area_.colorBar();
   ViewCanvas* canvas = viewer_area_.canvas();
   connect(bar, &OverlayBar::quantitySelected, this, &Overlay::setQuantity);
-  connect(bar, &OverlayBar::opacityChanged, canvas, &ViewCanvas::setOverlayOpacity);
+  connect(bar, &OverlayBar::opacityChanged, this, &Overlay::setOpacity);
   connect(scale, &ColorBar::rangeEdited, this, [this](Interval range) { setRange(range); });
   connect(scale, &ColorBar::ownRangeRequested, this, [this] { setRange(std::nullopt); });
   connect(canvas, &ViewCanvas::cursorMoved, this, [this, scale](std::optional<PixelIndex> pixel) {
@@ -61,7 +66,7 @@ void Overlay::connectStage() {
     scale->setMarker(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   });
   connect(&viewer_area_, &ViewerArea::previewChanged, this, &Overlay::draw);
-  canvas->setOverlayOpacity(bar->opacity());
+  opacity_ = bar->opacity();
 }
 
 void Overlay::setProvider(Subject subject, const MapProvider* provider) {
@@ -193,6 +198,34 @@ render::Shading Overlay::shadingOf(Quantity quantity) const {
       {.range = edited == edited_ranges_.end() ? std::nullopt : std::optional(edited->second)});
 }
 
+Quantity Overlay::chosenQuantity() const {
+  return shows_difference_ && session_.side_b() ? Quantity::Difference : quantity_;
+}
+
+OverlayLook Overlay::lookOf(Quantity quantity) const {
+  return {is_error(quantity) ? error_opacity_ : opacity_, is_view_colored_};
+}
+
+void Overlay::setOpacity(double opacity) {
+  (is_error(chosenQuantity()) ? error_opacity_ : opacity_) = opacity;
+  showLook();
+}
+
+void Overlay::setViewColored(bool is_colored) {
+  is_view_colored_ = is_colored;
+  draw();
+  emit choiceChanged();
+}
+
+void Overlay::showLook() {
+  const Quantity quantity = chosenQuantity();
+  const OverlayLook look = lookOf(quantity);
+  viewer_area_.overlayBar()->setOpacity(look.opacity);
+  viewer_area_.canvas()->setOverlayOpacity(look.opacity);
+  viewer_area_.canvas()->setGreyUnderOverlay(render::info_of(quantity).has_scale() &&
+                                             !look.is_view_colored);
+}
+
 std::optional<MapSource> Overlay::sourceOf(const MapChoice& choice) const {
   const auto provider = providers_.find(render::info_of(choice.quantity).subject);
   return provider == providers_.end()
@@ -205,6 +238,7 @@ void Overlay::draw() {
   const MapChoice drawn_choice = choice();
   drawMap(drawn_choice);
   viewer_area_.canvas()->setOverlay(picture_);
+  showLook();
   showScale(drawn_choice);
   if (session_.scene()) showCaption(drawn_choice);
   if (session_.scene() && scene_ == session_.generation()) {

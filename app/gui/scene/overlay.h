@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/gui/scene/viewer_area.h"
-#include "app/session/quantity_map.h"
 #include "app/session/picture.h"
+#include "app/session/quantity_map.h"
 #include "app/session/session.h"
 #include "engine/core/jobs.h"
 #include "engine/core/light_field.h"
@@ -111,6 +111,12 @@ class Overlay : public QObject {
   [[nodiscard]] QString describeB() const;
   /// Current colors, with edited ranges.
   [[nodiscard]] render::Shading shadingOf(render::Quantity quantity) const;
+  /// How a quantity lies over the view. Each of the two kinds of maps keeps its opacity: errors and
+  /// differences begin opaque, so that their colors are those of the legend.
+  [[nodiscard]] OverlayLook lookOf(render::Quantity quantity) const;
+  /// Sets whether the view keeps its colors under colors that stand for numbers.
+  void setViewColored(bool is_colored);
+  [[nodiscard]] bool isViewColored() const { return is_view_colored_; }
   /// Source of a choice's map in the current view; none if there is none, or not yet.
   [[nodiscard]] std::optional<MapSource> sourceOf(const MapChoice& choice) const;
   /// Picture of a choice in the current view, null if there is none. None while it is being made;
@@ -139,6 +145,9 @@ class Overlay : public QObject {
   [[nodiscard]] bool isTruthWithoutError(const MapChoice& choice) const;
   [[nodiscard]] bool isAwaited(render::Quantity quantity) const;
   void connectStage();
+  [[nodiscard]] render::Quantity chosenQuantity() const;
+  void setOpacity(double opacity);
+  void showLook();
   void update(Parts parts);
   void beginScene();
   void showAvailable();
@@ -154,6 +163,9 @@ class Overlay : public QObject {
   bool shows_difference_ = false;
   bool is_flipped_ = false;
   bool is_up_to_date_ = true;
+  bool is_view_colored_ = false;
+  double opacity_ = 1;
+  double error_opacity_ = 1;
   std::size_t known_estimates_ = 0;
   std::uint64_t scene_ = 0;                             // that is drawn
   std::map<render::Quantity, Interval> edited_ranges_;  // all disparities under one

@@ -235,26 +235,31 @@ ResultOpener::ResultOpener(Session& session, Jobs& jobs, Messages& messages, QOb
     : QObject(parent), session_(session), jobs_(jobs), messages_(messages) {}
 
 void ResultOpener::open(const QString& path) {
-  openAs(path, {});
+  openAs({.path = path});
 }
 
-void ResultOpener::openAs(const QString& path, const io::MapReading& reading, int misread) {
-  const QString name = QFileInfo(path).fileName();
+void ResultOpener::openForeign(const QString& path) {
+  openAs({.path = path, .is_foreign = true});
+}
+
+void ResultOpener::openAs(const Request& request) {
+  const QString name = QFileInfo(request.path).fileName();
   jobs_.start<ReadEstimate>(
       Lane::Load, tr("Opening %1").arg(name),
-      [scene = session_.scene(), path = path.toStdString(), reading](const Progress& progress) {
-        return read_estimate(*scene, path, reading, progress);
-      },
-      [this, generation = session_.generation(), name, path, misread](const ReadEstimate& read) {
-        files_.note(path.toStdString(), read.stamp);
-        session_.remove_estimate(misread);
+      [scene = session_.scene(), path = request.path.toStdString(), reading = request.reading](
+          const Progress& progress) { return read_estimate(*scene, path, reading, progress); },
+      [this, generation = session_.generation(), name, request](const ReadEstimate& read) {
+        const std::filesystem::path path = request.path.toStdString();
+        files_.note(path, read.stamp);
+        session_.remove_estimate(request.misread);
         const int id = session_.add_estimate(read.estimate, read.display_range, generation);
+        if (request.is_foreign || read.is_of_others) session_.set_foreign_file(id, path);
         if (!read.differing_options.empty()) {
           messages_.warn(tr("%1 was estimated with%2: its errors may be meaningless. Choose the "
                             "same values in Conventions…")
                              .arg(name, QString::fromStdString(read.differing_options)));
         } else if (read.better) {
-          offerReading(path, *read.better, id);
+          offerReading(request, *read.better, id);
         } else if (read.is_of_others) {
           messages_.warn(
               tr("%1 was estimated from different samples than those of this light field: "
@@ -266,16 +271,21 @@ void ResultOpener::openAs(const QString& path, const io::MapReading& reading, in
       });
 }
 
-void ResultOpener::offerReading(const QString& path, const io::BetterReading& better, int misread) {
+void ResultOpener::offerReading(const Request& request, const io::BetterReading& better,
+                                int misread) {
   const QString finding = QString::fromStdString(better_reading_finding(better));
-  messages_.warn(
-      tr("%1: %2. If the file is stored so, apply it.").arg(QFileInfo(path).fileName(), finding),
-      tr("Apply"), [this, path, misread, reading = better.reading] {
-        // Of the light field that is open, and not removed meanwhile.
-        const auto& entries = session_.estimates();
-        const bool is_there = std::ranges::count(entries, misread, &EstimateEntry::id) > 0;
-        if (is_there) openAs(path, reading, misread);
-      });
+  const QString name = QFileInfo(request.path).fileName();
+  Request again = request;
+  again.reading = better.reading;
+  again.misread = misread;
+  messages_.warn(tr("%1: %2. If the file is stored so, apply it.").arg(name, finding), tr("Apply"),
+                 [this, again] {
+                   // Of the light field that is open, and not removed meanwhile.
+                   const auto& entries = session_.estimates();
+                   const bool is_there =
+                       std::ranges::count(entries, again.misread, &EstimateEntry::id) > 0;
+                   if (is_there) openAs(again);
+                 });
 }
 
 }  // namespace episcope

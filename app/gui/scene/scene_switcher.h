@@ -88,14 +88,22 @@ class ResultOpener : public QObject {
 
   /// Precondition: a light field is open.
   void open(const QString& path);
+  /// Adds a result that is known to belong to another light field, and marks it. Precondition: a
+  /// light field is open.
+  void openForeign(const QString& path);
   /// Files that results were read from or written to.
   [[nodiscard]] KnownFiles& files() { return files_; }
 
  private:
-  /// `misread`: the result of the same file that this reading replaces; 0 = none.
-  void openAs(const QString& path, const io::MapReading& reading, int misread = 0);
+  struct Request {
+    QString path;
+    io::MapReading reading{};
+    int misread = 0;  ///< The result of the same file that this reading replaces; 0 = none.
+    bool is_foreign = false;
+  };
+  void openAs(const Request& request);
   /// Offers to read a file so that was read into the result `misread`.
-  void offerReading(const QString& path, const io::BetterReading& better, int misread);
+  void offerReading(const Request& request, const io::BetterReading& better, int misread);
 
   Session& session_;
   Jobs& jobs_;

@@ -3,11 +3,15 @@
 
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
+#include "app/gui/shell/workbench.h"
+#include "app/session/load_scene.h"
+#include "app/session/session.h"
 #include "engine/core/error.h"
 #include "widgets/controls/text.h"
 
 #include <QCoreApplication>
 #include <QDateTime>
+#include <QDialogButtonBox>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -16,29 +20,74 @@
 #include <QSaveFile>
 #include <QSettings>
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <chrono>
+#include <future>
+#include <memory>
+#include <thread>
 #include <utility>
 
 namespace episcope {
 namespace {
 
-constexpr const char* kLastFolder = "last_folder";  // key of the settings
+// Keys of the settings.
+constexpr const char* kOpenFolder = "last_folder";
+constexpr const char* kSaveFolder = "save_folder";
+
+constexpr std::chrono::milliseconds kAnswerTime{300};
 
 struct DialogsText {
   Q_DECLARE_TR_FUNCTIONS(episcope::Dialogs)
 };
 
-QFileDialog* make_dialog(QWidget* window, const FileQuestion& question) {
-  auto* dialog = new QFileDialog(window, question.title, QString(), question.filter);
+/// Whether a folder is there and permits what `mode` asks of access(2). A network disk that is gone
+/// may never answer: a thread of its own asks, so that the window does not wait for it.
+bool permits(const QString& folder, int mode) {
+  const auto asked = std::make_shared<std::promise<bool>>();
+  std::future<bool> answer = asked->get_future();
+  std::thread([asked, mode, path = folder.toStdString() + "/."] {
+    asked->set_value(::access(path.c_str(), mode) == 0);
+  }).detach();
+  return answer.wait_for(kAnswerTime) == std::future_status::ready && answer.get();
+}
+
+/// The first folder that permits it, else home.
+QString first_of(const QStringList& folders, int mode) {
+  const auto found = std::ranges::find_if(folders, [mode](const QString& folder) {
+    return !folder.isEmpty() && permits(folder, mode);
+  });
+  return found == folders.end() ? QDir::homePath() : *found;
+}
+
+QString remembered(const char* key) {
+  return QSettings().value(key).toString();
+}
+
+/// Empty for built-in scenes, and without a light field.
+QString folder_of_front(const Session& session) {
+  const std::string& input = session.input();
+  if (input.empty() || !builtin_scene_id(input).empty()) return {};
+  return QFileInfo(QString::fromStdString(input)).absolutePath();
+}
+
+// The folder is given at once, since the dialog would else look into the one it remembers itself.
+QFileDialog* make_dialog(QWidget* window, const FileQuestion& question, const QString& folder) {
+  auto* dialog = new QFileDialog(window, question.title, folder, question.filter);
   dialog->setObjectName(question.name);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setDirectory(QSettings().value(kLastFolder, QDir::homePath()).toString());
+  return dialog;
+}
+
+QFileDialog* make_open_dialog(QWidget* window, const FileQuestion& question) {
+  auto* dialog = make_dialog(window, question, first_of({remembered(kOpenFolder)}, R_OK | X_OK));
   QObject::connect(dialog, &QFileDialog::fileSelected, dialog, &begin_dialogs_beside);
   return dialog;
 }
 
-QFileDialog* make_dialog(QWidget* window, const FileQuestion& question, Answer answer) {
-  QFileDialog* dialog = make_dialog(window, question);
+QFileDialog* make_open_dialog(QWidget* window, const FileQuestion& question, Answer answer) {
+  QFileDialog* dialog = make_open_dialog(window, question);
   QObject::connect(dialog, &QFileDialog::fileSelected, window, std::move(answer));
   return dialog;
 }
@@ -58,41 +107,68 @@ std::filesystem::path path_of(const QString& path) {
 }
 
 void begin_dialogs_beside(const QString& path) {
-  QSettings().setValue(kLastFolder, QFileInfo(path).absolutePath());
+  QSettings().setValue(kOpenFolder, QFileInfo(path).absolutePath());
 }
 
 void ask_for_file(QWidget* window, const FileQuestion& question, Answer answer) {
-  QFileDialog* dialog = make_dialog(window, question, std::move(answer));
+  QFileDialog* dialog = make_open_dialog(window, question, std::move(answer));
   dialog->setFileMode(QFileDialog::ExistingFile);
+  dialog->open();
+}
+
+void ask_for_file_or_folder(QWidget* window, const FileQuestion& question, Answer answer) {
+  QFileDialog* dialog = make_open_dialog(window, question, std::move(answer));
+  dialog->setOption(QFileDialog::DontUseNativeDialog);  // those take either files or folders
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  auto* buttons = dialog->findChild<QDialogButtonBox*>();
+  QPushButton* button =
+      buttons->addButton(DialogsText::tr("Open this folder"), QDialogButtonBox::ActionRole);
+  button->setObjectName(question.name + ".folder");
+  button->setAutoDefault(false);
+  QObject::connect(button, &QPushButton::clicked, dialog, [dialog] {
+    emit dialog->fileSelected(dialog->directory().absolutePath());
+    dialog->reject();
+  });
   dialog->open();
 }
 
 void ask_for_files(QWidget* window, const FileQuestion& question,
                    std::function<void(const QStringList&)> answer) {
-  QFileDialog* dialog = make_dialog(window, question);
+  QFileDialog* dialog = make_open_dialog(window, question);
   QObject::connect(dialog, &QFileDialog::filesSelected, window, std::move(answer));
   dialog->setFileMode(QFileDialog::ExistingFiles);
   dialog->open();
 }
 
 void ask_for_folder(QWidget* window, const FileQuestion& question, Answer answer) {
-  QFileDialog* dialog = make_dialog(window, question, std::move(answer));
+  QFileDialog* dialog = make_open_dialog(window, question, std::move(answer));
   dialog->setFileMode(QFileDialog::Directory);
   dialog->setOption(QFileDialog::ShowDirsOnly);
   dialog->open();
 }
 
-void ask_where_to_save(QWidget* window, const FileQuestion& question, Answer answer) {
-  QFileDialog* dialog = make_dialog(window, question, std::move(answer));
+void ask_where_to_save(const Workbench& bench, const FileQuestion& question, Answer answer) {
+  const QFileInfo proposal(question.proposal);
+  const QString proposed = proposal.isAbsolute() ? proposal.absolutePath() : QString();
+  QFileDialog* dialog = make_dialog(
+      &bench.window, question,
+      first_of({proposed, folder_of_front(bench.session), remembered(kSaveFolder)}, W_OK | X_OK));
+  QObject::connect(dialog, &QFileDialog::fileSelected, dialog, [](const QString& path) {
+    QSettings().setValue(kSaveFolder, QFileInfo(path).absolutePath());
+  });
+  QObject::connect(dialog, &QFileDialog::fileSelected, &bench.window, std::move(answer));
   dialog->setAcceptMode(QFileDialog::AcceptSave);
   dialog->setOption(QFileDialog::DontConfirmOverwrite, !question.confirms_overwrite);
-  dialog->setDefaultSuffix(QFileInfo(question.proposal).suffix());
-  const QFileInfo proposal(question.proposal);
-  if (proposal.isAbsolute()) dialog->setDirectory(proposal.absolutePath());
-  dialog->selectFile(question.proposal);
+  dialog->setDefaultSuffix(proposal.suffix());
+  dialog->selectFile(proposal.fileName());
   QObject::connect(dialog, &QFileDialog::filterSelected, dialog,
                    [dialog](const QString& chosen) { follow_filter(dialog, chosen); });
   dialog->open();
+}
+
+QString named_after_front(const Workbench& bench, const QString& name) {
+  const LightFieldPtr light_field = bench.session.light_field();
+  return light_field ? QString::fromStdString(light_field->info().name) + '_' + name : name;
 }
 
 bool has_suffix(const QString& path, const QStringList& suffixes, Messages& messages) {
@@ -160,6 +236,21 @@ void confirm_replacing(QWidget* window, const QString& text, std::function<void(
                                         .buttons = QMessageBox::Yes | QMessageBox::Cancel});
   box->setDefaultButton(QMessageBox::Cancel);
   QObject::connect(box->button(QMessageBox::Yes), &QAbstractButton::clicked, box, std::move(go_on));
+  box->open();
+}
+
+void confirm_discarding(QWidget* window, const QString& text, std::function<void()> discard,
+                        std::function<void()> keep) {
+  auto* box = new_question_box(window, {.name = "discard_work",
+                                        .icon = QMessageBox::Warning,
+                                        .title = QuestionBoxText::tr("Discard earlier work"),
+                                        .text = text,
+                                        .buttons = QMessageBox::Discard | QMessageBox::Cancel});
+  box->setDefaultButton(QMessageBox::Cancel);
+  QObject::connect(box, &QDialog::finished, box,
+                   [discard = std::move(discard), keep = std::move(keep)](int answer) {
+                     answer == QMessageBox::Discard ? discard() : keep();
+                   });
   box->open();
 }
 

@@ -15,9 +15,10 @@ namespace episcope {
 class Jobs;
 class Messages;
 class Progress;
+struct Workbench;
 
-/// Question of a file dialog, which begins in the folder used last. Dialogs do not block: they call
-/// `answer` with the chosen path, or never.
+/// Question of a file dialog. One that opens begins in the folder used last, else at home. Dialogs
+/// do not block: they call `answer` with the chosen path, or never.
 struct FileQuestion {
   QString name;  ///< Object name of the dialog.
   QString title;
@@ -35,17 +36,29 @@ using Answer = std::function<void(const QString& path)>;
 void begin_dialogs_beside(const QString& path);
 
 void ask_for_file(QWidget* window, const FileQuestion& question, Answer answer);
+/// Asks for a file, or for the folder that the dialog shows, which has a button.
+void ask_for_file_or_folder(QWidget* window, const FileQuestion& question, Answer answer);
 /// Asks for one or more files.
 void ask_for_files(QWidget* window, const FileQuestion& question,
                    std::function<void(const QStringList& paths)> answer);
 void ask_for_folder(QWidget* window, const FileQuestion& question, Answer answer);
-void ask_where_to_save(QWidget* window, const FileQuestion& question, Answer answer);
+/// Begins in the folder of the proposal; if it is only a name, in the first of these where files
+/// can be made: beside the light field in front, where a file was saved last, at home.
+void ask_where_to_save(const Workbench& bench, const FileQuestion& question, Answer answer);
+
+/// A name to propose: that of the light field in front, then `name`: "still_life_metrics.csv".
+[[nodiscard]] QString named_after_front(const Workbench& bench, const QString& name);
 
 /// Asks whether to replace what `text` names, and calls `go_on` on Yes.
 void confirm_replacing(QWidget* window, const QString& text, std::function<void()> go_on);
 /// Calls `go_on` at once if there are no such files; else asks whether to replace them, and calls
 /// it on Yes. For exports into folders; dialogs for files ask by themselves.
 void confirm_replacing(QWidget* window, const QStringList& existing, std::function<void()> go_on);
+
+/// Asks whether work that a crash left may be deleted, as `text` says; calls `discard` on Discard,
+/// else `keep`.
+void confirm_discarding(QWidget* window, const QString& text, std::function<void()> discard,
+                        std::function<void()> keep);
 
 /// Whether `path` has one of the suffixes; tells the user if not.
 [[nodiscard]] bool has_suffix(const QString& path, const QStringList& suffixes, Messages& messages);

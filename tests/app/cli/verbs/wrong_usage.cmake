@@ -67,6 +67,7 @@ wrong("show: --label has no effect on --what view" show lf.h5 -o x.png --label 2
 wrong("show: --range has no effect on --what view" show lf.h5 -o x.png --range 0,1)
 wrong("show: --colormap has no effect on --what labels" show lf.h5 -o x.png --what labels --colormap turbo)
 wrong("show: --over-view has no effect on --what epi" show lf.h5 -o x.png --row 3 --over-view 1)
+wrong("show: --color-view has no effect without --over-view" show r.h5 -o x.png --color-view)
 wrong("show: --minus has no effect on --what disparity" show r.h5 -o x.png --minus r.h5)
 wrong("show: --layer has no effect" show r.h5 -o x.png --what confidence --layer background)
 expect("no second layer" 1 ERR "background" ARGS show r.h5 -o x.png --layer background)

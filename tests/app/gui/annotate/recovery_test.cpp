@@ -115,6 +115,10 @@ void RecoveryTest::discardedJournal_isGone() {
   QTRY_VERIFY(f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
 
   button(f, "message.other")->click();
+  auto* box = f.window.findChild<QMessageBox*>("discard_work");
+  QVERIFY(box);
+  QCOMPARE(recoverable_journals(f.window.bench().document.journalFolder()).size(), 1U);
+  box->button(QMessageBox::Discard)->click();
 
   QVERIFY(!f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
   QVERIFY(recoverable_journals(f.window.bench().document.journalFolder()).empty());

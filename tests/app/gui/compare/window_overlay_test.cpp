@@ -12,6 +12,7 @@
 #include <QFile>
 #include <QGuiApplication>
 #include <QLabel>
+#include <QSlider>
 #include <QTabBar>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -36,6 +37,8 @@ class OverlayTest : public QObject {
  private slots:
   void errorOverlay_isOneClickAway();
   void rangeOfASignedMap_hasZeroInTheMiddle();
+  void colorsOfErrors_areThoseOfTheLegend();
+  void view_isGreyUnderNumbersUntilColorIsAskedFor();
   void heldTab_flips();
   void hugeTruth_leavesTheLayoutAlone();
   void savedPicture_isTheShownOne();
@@ -72,6 +75,65 @@ void OverlayTest::rangeOfASignedMap_hasZeroInTheMiddle() {
   const Interval range = f.window.bench().overlay.shadingOf(render::Quantity::SignedError).range;
   QCOMPARE(range.max, 0.75);
   QCOMPARE(range.min, -0.75);
+}
+
+void OverlayTest::colorsOfErrors_areThoseOfTheLegend() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  click_action(f.window, "overlay.error");
+  const Overlay& overlay = f.window.bench().overlay;
+  QTRY_VERIFY_WITH_TIMEOUT(overlay.isUpToDate() && overlay.map(), kPatience);
+  auto* canvas = f.window.bench().viewer_area.canvas();
+  canvas->setCrossHair(std::nullopt);
+  const QImage shown = canvas->grab().toImage();
+  ColorRamp legend;  // as the one in the window, but with room for every color
+  legend.setShading(f.window.findChild<ColorRamp*>()->shading());
+  const Interval range = legend.shading().range;
+  const int length = 2 * static_cast<int>(legend.shading().map.colors.size());
+  legend.resize(length + 1, 16);
+  const QImage ramp = legend.grab().toImage();
+
+  int compared = 0;
+  for (int i = 30; i < 66; ++i) {
+    const auto error = overlay.valueAt({i, i});
+    if (!error || std::abs(*error) >= range.max) continue;  // the ends lie under the frame
+    const QRgb color = shown.pixel(f.at({i, i}));
+    const int place = static_cast<int>((*error - range.min) / range.length() * length);
+    bool is_there = false;
+    for (int x = place - 2; x <= place + 2; ++x) is_there |= ramp.pixel(x, 8) == color;
+    QVERIFY2(is_there, qPrintable(QString("%1 px is %2").arg(*error).arg(color, 0, 16)));
+    ++compared;
+  }
+  QVERIFY(compared > 10);
+}
+
+void OverlayTest::view_isGreyUnderNumbersUntilColorIsAskedFor() {
+  WindowFixture f;
+  f.openSmall();
+  auto* canvas = f.window.bench().viewer_area.canvas();
+  canvas->setCrossHair(std::nullopt);
+  const PixelIndex pixel{20, 70};
+  const QColor view = canvas->picture().pixelColor(pixel.x, pixel.y);
+  const auto shown = [&] { return canvas->grab().toImage().pixelColor(f.at(pixel)); };
+  f.window.findChild<QSlider*>("overlay.opacity")->setValue(0);
+
+  click_action(f.window, "overlay.labels");
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
+  QCOMPARE(shown(), view);
+  click_action(f.window, "overlay.truth");
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.isUpToDate(), kPatience);
+  const int grey = qGray(view.rgb());
+  QVERIFY(view != QColor(grey, grey, grey));
+  QCOMPARE(shown(), QColor(grey, grey, grey));
+  save_picture(f.window.bench(), f.path("truth.png"));
+  QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("truth.png")), kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
+  QCOMPARE(QImage(f.path("truth.png")).pixelColor(pixel.x, pixel.y), QColor(grey, grey, grey));
+
+  f.click("button.overlay.color");
+
+  QCOMPARE(shown(), view);
 }
 
 void OverlayTest::heldTab_flips() {

@@ -256,6 +256,8 @@ void ResultsTest::resultOfOtherSamples_isOpenedWithAWarning() {
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("different samples"),
                             qPrintable(messages->text()), kPatience);
   QCOMPARE(messages->severity(), Severity::Warning);
+  QCOMPARE(f.window.bench().session.estimates()[1].foreign_file.filename().string(),
+           std::string("foreign.h5"));
 }
 
 // Its true depth would be taken for disparity.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/estimate/result_export.h"
 #include "app/gui/files/file_controller.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/load_scene.h"
@@ -22,7 +23,9 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QMimeData>
+#include <QPushButton>
 #include <QSignalSpy>
 #include <QTreeWidget>
 #include <QUrl>
@@ -40,6 +43,22 @@ void drop(MainWindow& window, const QStringList& files) {
   QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QCoreApplication::sendEvent(&window, &enter);
   QCoreApplication::sendEvent(&window, &drop);
+}
+
+constexpr int kParametersColumn = 4;
+
+void exportShown(WindowFixture& f, const QString& file) {
+  export_result(f.window.bench(), *f.window.bench().session.shown(), file);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kScenePatience);
+  QVERIFY(QFile::exists(file));
+}
+
+void choose(WindowFixture& f, const QString& file) {
+  f.trigger("file.open");
+  auto* dialog = f.window.findChild<QFileDialog*>("open_file");
+  emit dialog->fileSelected(file);
+  dialog->reject();
+  QTRY_VERIFY(!f.window.findChild<QFileDialog*>("open_file"));
 }
 
 }  // namespace
@@ -63,6 +82,11 @@ class OpeningTest : public QObject {
   void firstDialog_beginsAtHome();
   void dialog_beginsBesideWhatWasOpened();
   void dialog_remembersItsFolder();
+  void dialogForFiles_hidesNoForm();
+  void dialogForFiles_opensAFolder();
+  void mapBesideViews_offersItsLightField();
+  void resultOfAnotherLightField_isAddedAtWishAndMarked();
+  void resultOfAnotherLightField_opensThatWithTheResult();
   void droppedFile_isOpened();
   void droppedFiles_areAllOpened();
   void droppedFiles_areOpenedBesideABrokenOne();
@@ -280,6 +304,87 @@ void OpeningTest::dialog_remembersItsFolder() {
 
   f.trigger("file.open");
   QCOMPARE(f.window.findChild<QFileDialog*>()->directory().path(), QFileInfo(scene).path());
+}
+
+// It once showed HDF5, PFM and TIFF only.
+void OpeningTest::dialogForFiles_hidesNoForm() {
+  WindowFixture f;
+  f.trigger("file.open");
+
+  auto* dialog = f.window.findChild<QFileDialog*>("open_file");
+  QVERIFY(dialog);
+  QVERIFY2(dialog->selectedNameFilter().contains("(*)"), qPrintable(dialog->selectedNameFilter()));
+  dialog->reject();
+}
+
+void OpeningTest::dialogForFiles_opensAFolder() {
+  WindowFixture f;
+  f.writeScene("edge", WindowFixture::smallOptions());
+  f.trigger("file.open");
+  auto* dialog = f.window.findChild<QFileDialog*>("open_file");
+  dialog->setDirectory(f.path("edge"));
+
+  QTest::mouseClick(dialog->findChild<QPushButton*>("open_file.folder"), Qt::LeftButton);
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene(), kScenePatience);
+  QCOMPARE(f.window.bench().session.light_field()->info().name, std::string("edge"));
+}
+
+// The only file that the dialog once listed in a folder of the benchmark became a result of the
+// demo without a word.
+void OpeningTest::mapBesideViews_offersItsLightField() {
+  WindowFixture f;
+  f.writeScene("edge", WindowFixture::smallOptions());
+  f.openSmall("slant");
+  f.runAndWait();
+  exportShown(f, f.path("edge/map.pfm"));
+
+  choose(f, f.path("edge/map.pfm"));
+  QTRY_VERIFY(f.window.findChild<QMessageBox*>("result_owner"));
+  QCOMPARE(f.window.bench().session.estimates().size(), 1U);
+  f.click("result_owner.open");
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.light_field()->info().name,
+                            std::string("edge"), kScenePatience);
+  QVERIFY(f.window.bench().session.estimates().empty());
+  choose(f, f.path("edge/map.pfm"));  // it belongs to the light field in front now
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 1U, kScenePatience);
+  QVERIFY(f.window.bench().session.estimates()[0].foreign_file.empty());
+}
+
+void OpeningTest::resultOfAnotherLightField_isAddedAtWishAndMarked() {
+  WindowFixture f;
+  f.writeScene("edge", WindowFixture::smallOptions());
+  f.openSmall("slant");
+  f.runAndWait();
+  exportShown(f, f.path("edge/map.pfm"));
+  choose(f, f.path("edge/map.pfm"));
+  QTRY_VERIFY(f.window.findChild<QMessageBox*>("result_owner"));
+
+  f.click("result_owner.add");
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 2U, kScenePatience);
+  const auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
+  QTRY_COMPARE(tree->topLevelItemCount(), 2);
+  const auto row = [tree](int i) { return tree->topLevelItem(i)->text(kParametersColumn); };
+  QTRY_VERIFY2(row(1).startsWith("⚠ map.pfm"), qPrintable(row(1)));
+  QVERIFY2(!row(0).contains("⚠"), qPrintable(row(0)));
+}
+
+void OpeningTest::resultOfAnotherLightField_opensThatWithTheResult() {
+  WindowFixture f;
+  f.openSmall("slant");
+  f.runAndWait();
+  exportShown(f, f.path("result.h5"));
+  f.openSmall("edge");
+  choose(f, f.path("result.h5"));
+  QTRY_VERIFY(f.window.findChild<QMessageBox*>("result_owner"));
+
+  f.click("result_owner.open");
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 2U, kScenePatience);
+  QCOMPARE(f.window.bench().session.light_field()->info().name, std::string("slant"));
+  QVERIFY(f.window.bench().session.estimates()[1].foreign_file.empty());
 }
 
 // It has the signature of HDF5, and ends there.

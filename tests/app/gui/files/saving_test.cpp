@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/files/file_controller.h"
+#include "app/gui/shell/dialogs.h"
 #include "engine/io/open.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/metric_table.h"
 
 #include <QAction>
+#include <QDir>
 #include <QFile>
 #include <QFileDialog>
 
@@ -24,6 +27,8 @@ class SavingTest : public QObject {
   void everyForm_isWritten();
   void whatIsPainted_isSaved();
   void openLightField_isNotWrittenOver();
+  void saveDialogs_beginBesideTheLightFieldInFrontWithItsName();
+  void saveDialogs_beginWhereFilesCanBeMade();
   void withoutScene_nothingCanBeSaved();
 };
 
@@ -83,6 +88,53 @@ void SavingTest::openLightField_isNotWrittenOver() {
   QVERIFY2(message(f).contains("belongs to the light field that is open"), qPrintable(message(f)));
   QVERIFY(file.open(QIODevice::ReadOnly));
   QVERIFY(file.readAll() == before);
+}
+
+void SavingTest::saveDialogs_beginBesideTheLightFieldInFrontWithItsName() {
+  WindowFixture f;
+  f.openSmall("slant");
+  f.openSmall("edge");
+  f.runAndWait();
+  begin_dialogs_beside(f.path("elsewhere/result.h5"));
+  struct Asked {
+    const char* command;
+    const char* dialog;
+  };
+  for (const auto& [command, name] :
+       {Asked{"file.save_picture", "save_picture"}, Asked{"file.save_map", "save_map"},
+        Asked{"file.save_project", "save_project"},
+        Asked{"file.save_scribbles_as", "save_scribbles"}, Asked{"file.export", "export_result"},
+        Asked{nullptr, "save_table"}}) {
+    command ? f.trigger(command) : find<MetricTable>(f.window).saveRequested("csv", "");
+    auto* dialog = f.window.findChild<QFileDialog*>(name);
+    QVERIFY2(dialog, name);
+    QVERIFY2(dialog->directory() == QDir(f.path("edge")),
+             qPrintable(name + (": " + dialog->directory().path())));
+    const QString file = QFileInfo(dialog->selectedFiles().value(0)).fileName();
+    QVERIFY2(file.startsWith("edge") || file == "labels.h5", qPrintable(name + (": " + file)));
+    dialog->reject();
+  }
+}
+
+// A folder where a file could not be written was once proposed ever after.
+void SavingTest::saveDialogs_beginWhereFilesCanBeMade() {
+  WindowFixture f;
+  f.openSmall();
+  QDir(f.path("edge")).removeRecursively();
+  const auto folder = [&f](const QString& chosen) {
+    f.trigger("file.save_picture");
+    auto* dialog = f.window.findChild<QFileDialog*>("save_picture");
+    const QDir found = dialog->directory();
+    if (!chosen.isEmpty()) emit dialog->fileSelected(chosen);
+    dialog->reject();
+    QTest::qWait(0);  // it deletes itself
+    return found;
+  };
+  QDir().mkpath(f.path("there"));
+
+  QCOMPARE(folder(f.path("gone/a.png")), QDir::home());
+  QCOMPARE(folder(f.path("there/a.png")), QDir::home());
+  QCOMPARE(folder({}), QDir(f.path("there")));
 }
 
 void SavingTest::withoutScene_nothingCanBeSaved() {

@@ -6,6 +6,7 @@
 #include "widgets/controls/message_bar.h"
 
 #include <QDir>
+#include <QMessageBox>
 #include <QProcess>
 #include <QPushButton>
 
@@ -52,6 +53,13 @@ Told work_and_kill(const WindowFixture& f, const QString& state, unsigned seed) 
   return told_in(output + program.readAllStandardOutput());
 }
 
+void answer(const WindowFixture& f, QMessageBox::StandardButton button) {
+  auto* box = f.window.findChild<QMessageBox*>("discard_work");
+  QVERIFY(box);
+  box->button(button)->click();
+  QTRY_VERIFY(!f.window.findChild<QMessageBox*>("discard_work"));
+}
+
 class Recovering : public Working {
  public:
   explicit Recovering(const QString& state) {
@@ -90,6 +98,7 @@ class SessionRecoveryTest : public QObject {
   void killedSession_losesNothingThatWasKept();
   void recoveredSession_isKeptAgain();
   void discardedSession_isGone();
+  void sceneThatWasOnlyLookedAt_comesBackClean();
   void leftWindow_leavesNothingBehind();
   void runningSession_isNotOffered();
 };
@@ -152,9 +161,37 @@ void SessionRecoveryTest::discardedSession_isGone() {
   f.window.bench().frame.start();
   QTRY_VERIFY(f.bar()->isVisible());
 
-  f.bar()->findChild<QPushButton*>("message.other")->click();
+  const std::filesystem::path sessions = (state.path() + "/sessions").toStdString();
 
-  QVERIFY(orphaned_workspaces((state.path() + "/sessions").toStdString()).empty());
+  f.bar()->findChild<QPushButton*>("message.other")->click();
+  answer(f, QMessageBox::Cancel);
+  QVERIFY(!orphaned_workspaces(sessions).empty());
+  QVERIFY(f.bar()->isVisible());
+  f.bar()->findChild<QPushButton*>("message.other")->click();
+  answer(f, QMessageBox::Discard);
+
+  QVERIFY(orphaned_workspaces(sessions).empty());
+}
+
+// An empty journal once came back as scribbles that are not saved.
+void SessionRecoveryTest::sceneThatWasOnlyLookedAt_comesBackClean() {
+  const QTemporaryDir state;
+  {
+    Recovering f(state.path());
+    f.openSmall("edge");
+    f.estimate();
+    f.trigger("annotate.mode");
+    QTRY_VERIFY(!f.session().estimates()[0].kept.empty());
+    QVERIFY(QDir(state.path() + "/journals").isEmpty());
+    f.window.bench().document.edit([](AnnotationDocument&) {});  // a journal without work
+    QVERIFY(!QDir(state.path() + "/journals").isEmpty());
+    QTRY_VERIFY(f.autosave().isIdle());
+  }  // nobody decided about it
+
+  Recovering f(state.path());
+  QVERIFY(f.recover());
+
+  QVERIFY(!f.window.bench().document.hasUnsavedChanges());
 }
 
 void SessionRecoveryTest::leftWindow_leavesNothingBehind() {

@@ -37,7 +37,8 @@ Project sample(const std::filesystem::path& folder) {
                     .file = folder / "work_files/a.h5",
                     .display_range = {-1, 2},
                     .is_shown = true,
-                    .note = "too smooth\nat “edges”"}};
+                    .note = "too smooth\nat “edges”",
+                    .foreign_file = "/elsewhere/map.pfm"}};
   scene.strokes = folder / "work_files/edge.strokes";
   scene.labels.file = folder / "work_files/edge_labels.h5";
   scene.labels.strokes = 0x123456789abcdef0;
@@ -109,6 +110,7 @@ void ProjectFileTest::project_readsBack() {
   QCOMPARE(scene.labels.strokes, before.labels.strokes);
   QCOMPARE(scene.results.at(0).name, std::string("mine"));
   QCOMPARE(scene.results[0].note, before.results[0].note);
+  QCOMPARE(scene.results[0].foreign_file, before.results[0].foreign_file);
   QVERIFY(scene.results[0].file == before.results[0].file);
   QCOMPARE(scene.results[0].display_range, (Interval{-1, 2}));
   QVERIFY(scene.results[0].is_shown && !scene.results[0].is_compared);
