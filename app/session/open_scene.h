@@ -63,6 +63,7 @@ struct EstimateEntry {
   std::filesystem::path kept{};  ///< The file that keeps it for the project; empty = none yet.
   std::string note{};            ///< What the user wrote about it; may have several lines.
   PixelRect part{};              ///< The pixels that were estimated; empty = all.
+  bool is_new = false;           ///< Came during a comparison and was not looked at since.
 };
 
 /// How results are arranged for comparison.
@@ -124,6 +125,7 @@ struct OpenScene {
   /// none.
   std::filesystem::path unread_strokes{};
   TrueLabelsPtr true_labels;
+  std::vector<LabelInfo> true_label_infos{};  ///< Names of them, as far as files tell.
   KeptLabels labels;
   ScenePlace place;
   std::uint64_t last_used = 0;  ///< Larger = later.
