@@ -349,8 +349,8 @@ void SegmentController::score() {
         static const ViewStack<std::int32_t> kNone;
         return matched(
             judge_labeling(finished_labels(*now.labeling, now.finish, progress.part(0, 0.3)),
-                           now.view, now.truth ? *now.truth : kNone, *scene->truth,
-                           disparity.get(), progress.part(0.3, 1)),
+                           now.view, now.truth ? *now.truth : kNone, *scene->truth, disparity.get(),
+                           progress.part(0.3, 1)),
             now.labels, infos);
       },
       [this](const LabelingScores& scores) { showScores(scores); });

@@ -356,9 +356,8 @@ void BrowseController::matchAt(PixelIndex pixel) {
   match_job_.start<std::optional<double>>(
       [light_field, view = session_.view(), pixel,
        known = session_.known_range()](const Progress& progress) {
-        const Interval range = known.length() > 0
-                                   ? known
-                                   : search_range(*light_field, IntervalOrAuto(), progress);
+        const Interval range =
+            known.length() > 0 ? known : search_range(*light_field, IntervalOrAuto(), progress);
         return matched_disparity(*light_field, view, pixel, range, progress);
       },
       [this](std::optional<double> disparity) {

@@ -295,8 +295,7 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
     for (const EstimateEntry& entry : scene->estimates) {
       const double seconds = entry.estimate ? entry.estimate->seconds : worth_keeping_s_;
       if (!entry.is_saved && (has_file || seconds >= worth_keeping_s_)) {
-        loss.results.push_back(
-            job_title(QString::fromStdString(entry.name), *scene).toStdString());
+        loss.results.push_back(job_title(QString::fromStdString(entry.name), *scene).toStdString());
       }
     }
   }

@@ -295,8 +295,8 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   LightField::Samples samples =
       read_archive_samples(file, layout, options, info, progress.part(0, 0.45));
   // Samples that stay in the file are read by the checks.
-  const bool is_mapped = std::visit(
-      [](const auto& stack) { return stack.kind() == LargeKind::File; }, samples);
+  const bool is_mapped =
+      std::visit([](const auto& stack) { return stack.kind() == LargeKind::File; }, samples);
   const double read = is_mapped ? 0.1 : 0.8;
   const Progress reading = progress.part(0, read);
   ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, reading.part(0.55, 0.6));

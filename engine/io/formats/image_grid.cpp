@@ -226,7 +226,8 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
     parts.truth.field = extras.read_truth(samples, info.camera, report);
   } else {
     progress.step("checking the order of views");
-    parts.swapped_axes = settle_axes(views, samples, info.positions, options, progress.part(0.7, 0.75));
+    parts.swapped_axes =
+        settle_axes(views, samples, info.positions, options, progress.part(0.7, 0.75));
     SidecarMaps beside =
         read_sidecar_maps({views, folder, samples, info.camera, options.map_views(),
                            options.needs_truth, grid.poses.are_used()},

@@ -117,9 +117,9 @@ void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionRep
                     const Progress& progress) {
   progress.step("checking the order of views");
   const bool are_axes_known = parts.expected.are_axes_known || are_axes_stated(options);
-  const std::string swapped = parts.swapped_axes
-                                  ? *parts.swapped_axes
-                                  : order_axes(parts, are_axes_known, report, progress.part(0, 0.4));
+  const std::string swapped =
+      parts.swapped_axes ? *parts.swapped_axes
+                         : order_axes(parts, are_axes_known, report, progress.part(0, 0.4));
   check_line(parts, report, progress.part(0.4, 0.5));
   put_in_order(parts, options.flip, report, progress.part(0.5, 1));
   complete_order(parts, swapped, report);

@@ -295,11 +295,10 @@ void EstimatorTest::progress_risesToOne() {
 
 void EstimatorTest::unevenViews_takeTheirShareOfTheProgress() {
   const Scene scene = render("edge", 96, 96, {5, 5});
-  const LightField uneven =
-      like(*scene.light_field, [&](ViewIndex view, int y, int x, int c) {
-        return (0.6F + 0.08F * static_cast<float>(view.u)) *
-               static_cast<float>(scene.light_field->view<std::uint8_t>(view).at(y, x, c)) / 255;
-      });
+  const LightField uneven = like(*scene.light_field, [&](ViewIndex view, int y, int x, int c) {
+    return (0.6F + 0.08F * static_cast<float>(view.u)) *
+           static_cast<float>(scene.light_field->view<std::uint8_t>(view).at(y, x, c)) / 255;
+  });
   double at_first_epis = -1;
   const Progress progress({}, [&](const ProgressState& state) {
     if (state.step == "horizontal EPIs" && at_first_epis < 0) at_first_epis = state.fraction;

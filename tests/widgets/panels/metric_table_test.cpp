@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/window_test_main.h"
 #include "widgets/panels/metric_table.h"
+#include "tests/window_test_main.h"
 
 #include <QClipboard>
 #include <QGuiApplication>

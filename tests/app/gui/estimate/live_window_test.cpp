@@ -49,8 +49,8 @@ class Trying : public WindowFixture {
   /// Whether what is looked at is the full map of what was asked for last.
   [[nodiscard]] bool isThere() {
     const EstimateEntry* tried = session().live();
-    return tried && live().stage() == LiveStage::Idle && live().map() &&
-           !live().map()->is_coarse && tried->estimate == live().map()->estimate;
+    return tried && live().stage() == LiveStage::Idle && live().map() && !live().map()->is_coarse &&
+           tried->estimate == live().map()->estimate;
   }
   void wait() { QTRY_VERIFY_WITH_TIMEOUT(isThere(), kScenePatience); }
   [[nodiscard]] double value(const std::string& key) {

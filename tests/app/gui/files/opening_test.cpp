@@ -86,9 +86,7 @@ void OpeningTest::epis_areDrawnBeforeTheChecksEnd() {
   WindowFixture f;
   const QString file = f.writeScene("edge", WindowFixture::smallOptions());
   const Workbench& bench = f.window.bench();
-  const auto is_drawn = [&bench](const EpiPane& pane) {
-    return pane.isVisible() && pane.hasEpi();
-  };
+  const auto is_drawn = [&bench](const EpiPane& pane) { return pane.isVisible() && pane.hasEpi(); };
   bool was_drawn = false;
   connect(&bench.jobs, &Jobs::removed, this, [&] {
     was_drawn |= bench.viewer_area.isPreviewing() && is_drawn(*bench.viewer_area.horizontalEpi()) &&

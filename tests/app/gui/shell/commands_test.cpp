@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/shell/appearance.h"
 #include "app/gui/shell/commands.h"
+#include "app/gui/shell/appearance.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
