@@ -27,6 +27,19 @@ LabelingScores judge_labeling(const ViewStack<std::int32_t>& labels, ViewIndex v
   return scores;
 }
 
+LabelingScores matched(LabelingScores scores, const std::vector<LabelInfo>& given,
+                       const std::vector<LabelInfo>& truth) {
+  const bool has_all = scores.all_views.all.judged() > 0;
+  const LabelMatch match =
+      match_labels(has_all ? scores.all_views.all : scores.view.all, given, truth);
+  for (LabelQuality* quality : {&scores.view, &scores.all_views}) {
+    quality->all = quality->all.matched(match);
+    quality->boundaries = quality->boundaries.matched(match);
+  }
+  scores.is_by_overlap = match.is_by_overlap;
+  return scores;
+}
+
 Metrics labeling_metrics(const LabelingScores& scores) {
   Metrics metrics;
   const auto add = [&metrics](const char* key, const std::optional<double>& share) {

@@ -24,6 +24,7 @@ struct LabelingScores {
   /// Share of rays that agree with the rays of the same scene point, in [0, 1]; none if one view
   /// alone is labeled or the rays are not known.
   std::optional<double> consistency;
+  bool is_by_overlap = false;  ///< Labels were matched by overlap (match_labels).
 };
 
 /// Judges labels against `truth`, which may be empty or hold one view alone. Rays are followed
@@ -34,6 +35,10 @@ struct LabelingScores {
                                             const GroundTruth& ground_truth,
                                             const DisparityField* disparity,
                                             const Progress& progress);
+
+/// Scores of labels whose numbers may be others than those of the truth (match_labels).
+[[nodiscard]] LabelingScores matched(LabelingScores scores, const std::vector<LabelInfo>& given,
+                                     const std::vector<LabelInfo>& truth);
 
 /// The scores that are known, by key: shares in [0, 1].
 [[nodiscard]] Metrics labeling_metrics(const LabelingScores& scores);

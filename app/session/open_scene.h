@@ -65,6 +65,7 @@ struct EstimateEntry {
   /// File that it was read from although it belongs to another light field; empty = it does not.
   std::filesystem::path foreign_file{};
   PixelRect part{};  ///< The pixels that were estimated; empty = all.
+  bool is_new = false;           ///< Came during a comparison and was not looked at since.
 };
 
 /// How results are arranged for comparison.
@@ -126,6 +127,7 @@ struct OpenScene {
   /// none.
   std::filesystem::path unread_strokes{};
   TrueLabelsPtr true_labels;
+  std::vector<LabelInfo> true_label_infos{};  ///< Names of them, as far as files tell.
   KeptLabels labels;
   ScenePlace place;
   std::uint64_t last_used = 0;  ///< Larger = later.

@@ -2,6 +2,7 @@
 #include "app/session/quantity_map.h"
 
 #include "engine/core/text.h"
+#include "engine/evaluation/label_quality.h"
 #include "engine/labeling/edge_probability.h"
 #include "engine/labeling/ray_labeling.h"
 
@@ -254,14 +255,23 @@ Image<float> edges_of(const MapSource& source) {
                           source.edge_disparity ? *source.edge_disparity : none, {});
 }
 
-void fill_wrong(ImageView<const std::int32_t> labels, ImageView<const std::int32_t> truth,
-                QuantityMap& made) {
+void fill_wrong(ImageView<const std::int32_t> labels, const MapSource& source, QuantityMap& made) {
+  const ImageView<const std::int32_t> truth = source.true_labels->view(source.view);
+  LabelMatch match;
+  if (source.true_label_infos) {
+    match = match_labels(judge_labels(labels, truth), source.label_infos, *source.true_label_infos);
+  }
+  const auto is_right = [&](std::int32_t given, std::int32_t right) {
+    if (!source.true_label_infos) return given == right;
+    const auto found = match.true_of.find(given);
+    return found != match.true_of.end() && found->second == right;
+  };
   made.computed = Image<float>(labels.height, labels.width);
   made.computed_valid = Image<std::uint8_t>(labels.height, labels.width);
   for (int y = 0; y < labels.height; ++y) {
     for (int x = 0; x < labels.width; ++x) {
       made.computed_valid.at(y, x) = truth.at(y, x) > 0;
-      made.computed.at(y, x) = labels.at(y, x) == truth.at(y, x) ? kGoodPixel : kBadPixel;
+      made.computed.at(y, x) = is_right(labels.at(y, x), truth.at(y, x)) ? kGoodPixel : kBadPixel;
     }
   }
   made.inside = made.computed_valid;
@@ -284,8 +294,7 @@ Map segmentation_map(const MapSource& source) {
     return made;
   }
   if (source.quantity == Quantity::WrongLabels) {
-    fill_wrong(finished_labels(labeling, source.finish, source.view),
-               source.true_labels->view(source.view), *made);
+    fill_wrong(finished_labels(labeling, source.finish, source.view), source, *made);
   } else if (source.quantity == Quantity::Probability) {
     made->computed = probability_of(source.label, labeling.probabilities.view(source.view).view(),
                                     labeling.probabilities.ids);

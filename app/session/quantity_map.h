@@ -41,6 +41,8 @@ struct MapSource {
   std::shared_ptr<const ViewStack<float>> edges{};
   std::shared_ptr<const DisparityField> edge_disparity{};
   TrueLabelsPtr true_labels{};
+  /// Names of true labels, for WrongLabels: numbers may differ (match_labels). None = they agree.
+  std::optional<std::vector<LabelInfo>> true_label_infos{};
   friend bool operator==(const MapSource&, const MapSource&) = default;
 };
 

@@ -44,7 +44,7 @@ FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
                                const Progress& progress) {
   const LightField& light_field = *scene.light_field;
   auto estimate = std::make_shared<Estimate>(
-      estimator.run(light_field, *scene.even, parameters, options, progress));
+      estimator.run(light_field, *scene.even, parameters, options, progress.part(0, 0.95)));
   estimate->source_hash = light_field.sample_hash();
   add_date(*estimate);
   if (progress.finish_requested() && estimator.info.iterative) {
@@ -53,6 +53,7 @@ FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
   progress.check();
   const Interval range = display_range(*estimate);
   std::string warning = range_warning(light_field, *estimate);
+  progress.report(1);
   return {std::move(estimate), range, std::move(warning)};
 }
 

@@ -57,16 +57,26 @@ int Session::add_estimate(EstimatePtr estimate, Interval display_range, std::uin
   OpenScene* scene = open_scene(generation);
   if (!scene || !estimate) return 0;
   const std::string name = new_name(scene->estimates, name_of_method(estimate->method));
+  const bool is_compared = is_comparing(*scene);
   scene->estimates.push_back({++last_id_, name, std::move(estimate), display_range});
   changed(Part::Scenes);
-  if (scene == now_) {
-    changed(Part::Estimates);
+  if (scene == now_) changed(Part::Estimates);
+  if (is_compared) {
+    scene->estimates.back().is_new = true;
+  } else if (scene == now_) {
     show_estimate(last_id_);
   } else {
     if (!scene->is_compared_chosen) scene->compared = scene->shown;
     scene->shown = last_id_;
   }
   return last_id_;
+}
+
+bool Session::is_comparing(const OpenScene& scene) const {
+  const Comparison& comparison = scene.place.comparison;
+  const std::size_t tried = &scene == now_ && live() ? 1 : 0;
+  return scene.estimates.size() + tried > 1 &&
+         (comparison.mode != CompareMode::Single || comparison.shows_difference);
 }
 
 void Session::remove_estimate(int id) {
@@ -180,8 +190,14 @@ const EstimateEntry* Session::side_b() const {
   return live() ? shown() : compared();
 }
 
+void Session::see(EstimateEntry& entry) {
+  if (std::exchange(entry.is_new, false)) changed(Part::Estimates);
+}
+
 void Session::show_estimate(int id) {
-  if (id == now_->shown || !entry_of(id)) return;
+  EstimateEntry* entry = entry_of(id);
+  if (id == now_->shown || !entry) return;
+  see(*entry);
   if (const EstimateEntry* other = compared();
       !now_->is_compared_chosen || (other && other->id == id)) {
     now_->compared = now_->shown;
@@ -191,8 +207,10 @@ void Session::show_estimate(int id) {
 }
 
 void Session::compare_with(int id) {
-  if (!entry_of(id)) return;
+  EstimateEntry* entry = entry_of(id);
+  if (!entry) return;
   if (live()) return show_estimate(id);
+  see(*entry);
   if (id == now_->shown) {
     const EstimateEntry* other = compared();
     if (!other) return;
@@ -240,8 +258,9 @@ void Session::set_bad_threshold(double threshold_px) {
   changed(Part::Evaluations);
 }
 
-void Session::set_true_labels(TrueLabelsPtr labels) {
+void Session::set_true_labels(TrueLabelsPtr labels, std::vector<LabelInfo> infos) {
   if (!now_->scene) return;
+  now_->true_label_infos = std::move(infos);
   now_->true_labels = std::move(labels);
   changed(Part::TrueLabels);
 }
@@ -384,6 +403,7 @@ void Session::add(std::shared_ptr<const Scene> scene, std::string input) {
   added->reading = light_field.info().reading.options;
   added->known_range = known_disparity_range(*scene);
   added->true_labels = true_labels_of(scene->truth);
+  added->true_label_infos = scene->scribbles.labels;
   added->place.view = light_field.center();
   added->place.cross_hair = {light_field.height() / 2, light_field.width() / 2};
   added->scene = std::move(scene);
@@ -467,6 +487,7 @@ void Session::load(std::uint64_t id, std::shared_ptr<const Scene> scene,
   if (!loaded || !scene) return;
   loaded->known_range = known_disparity_range(*scene);
   loaded->true_labels = true_labels_of(scene->truth);
+  loaded->true_label_infos = scene->scribbles.labels;
   loaded->place = within(*scene->light_field, loaded->place);
   loaded->scene = std::move(scene);
   for (EstimateEntry& entry : loaded->estimates) {

@@ -76,8 +76,9 @@ class Session {
   /// OpenScene::id: what was begun under another one belongs to another light field.
   [[nodiscard]] std::uint64_t generation() const { return now_->id; }
 
-  /// Adds an estimate to the open scene of this id and shows it there. Returns its id, or 0 if that
-  /// scene was closed: the estimate is dropped.
+  /// Adds an estimate to the open scene of this id and shows it there, unless two others are being
+  /// compared: it then is marked as new until it is chosen. Returns its id, or 0 if that scene was
+  /// closed: the estimate is dropped.
   int add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation);
   /// Shows the neighbor if the removed one was shown. Unknown ids are ignored.
   void remove_estimate(int id);
@@ -133,9 +134,12 @@ class Session {
   [[nodiscard]] double bad_threshold_px() const { return bad_threshold_px_; }
 
   /// Compares with other labels than those that came with the scene, until another is opened.
-  void set_true_labels(TrueLabelsPtr labels);
+  void set_true_labels(TrueLabelsPtr labels, std::vector<LabelInfo> infos);
   /// Null if there are none.
   [[nodiscard]] const TrueLabelsPtr& true_labels() const { return now_->true_labels; }
+  [[nodiscard]] const std::vector<LabelInfo>& true_label_infos() const {
+    return now_->true_label_infos;
+  }
 
   /// Disparities that pictures of this scene span: of the truth, else as the files promise, else of
   /// the first estimate. It does not change with the shown estimate.
@@ -190,6 +194,10 @@ class Session {
   void show_nothing();
   [[nodiscard]] OpenScene* open_scene(std::uint64_t id) const;
   [[nodiscard]] EstimateEntry* entry_of(int id);
+  /// Whether two results of the scene are on screen together.
+  [[nodiscard]] bool is_comparing(const OpenScene& scene) const;
+  /// The user has chosen it.
+  void see(EstimateEntry& entry);
   [[nodiscard]] OpenScene* scene_with(int estimate) const;
 
   JobRunner::Post post_;

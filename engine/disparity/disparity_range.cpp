@@ -243,17 +243,19 @@ constexpr float kContrast = 0.004F;
 // Costs of one row, `[label][x]`, averaged over the rows and columns around it.
 class WindowCosts {
  public:
-  WindowCosts(const LightField& lf, const std::vector<float>& labels)
-      : matching_(lf, lf.center(), {MatchedViews::CrossHair, Interpolation::Bilinear, kSupportCap},
+  WindowCosts(const LightField& lf, ViewIndex view, const std::vector<float>& labels,
+              int radius = kSupportRadius)
+      : matching_(lf, view, {MatchedViews::CrossHair, Interpolation::Bilinear, kSupportCap},
                   labels),
-        rows_(2 * kSupportRadius + 1, static_cast<int>(labels.size()), lf.width()),
+        radius_(radius),
+        rows_(2 * radius + 1, static_cast<int>(labels.size()), lf.width()),
         sums_(lf.width()),
         means_(static_cast<int>(labels.size()), lf.width()),
         height_(lf.height()) {}
 
   const Image<float>& compute(int y, const Progress& progress) {
-    const int count = std::min(2 * kSupportRadius + 1, height_);
-    const int first = std::clamp(y - kSupportRadius, 0, height_ - count);
+    const int count = std::min(2 * radius_ + 1, height_);
+    const int first = std::clamp(y - radius_, 0, height_ - count);
     VolumeView<float> costs = rows_.view();
     costs.height = count;
     matching_.compute(first, costs, progress);
@@ -265,13 +267,14 @@ class WindowCosts {
           sums_[x] += cost[x] / static_cast<float>(count);
         }
       }
-      box_mean_row(sums_.data(), means_.width(), kSupportRadius, means_.row(l));
+      box_mean_row(sums_.data(), means_.width(), radius_, means_.row(l));
     }
     return means_;
   }
 
  private:
   MatchingCostRows matching_;
+  int radius_;
   Volume<float> rows_;
   std::vector<float> sums_;
   Image<float> means_;
@@ -313,7 +316,7 @@ std::vector<double> label_support(const LightField& lf, const std::vector<float>
   const int rows = std::min(kRows, lf.height());
   std::vector<double> counts(static_cast<std::size_t>(rows) * count);
   parallel_for_workers(rows, progress, [&] {
-    return [&, costs = WindowCosts(lf, labels)](int i) mutable {
+    return [&, costs = WindowCosts(lf, lf.center(), labels)](int i) mutable {
       const int y = rows > 1 ? i * (lf.height() - 1) / (rows - 1) : 0;
       count_distinct(costs.compute(y, progress), labels, lf, y,
                      counts.data() + static_cast<std::size_t>(i) * count);
@@ -324,6 +327,27 @@ std::vector<double> label_support(const LightField& lf, const std::vector<float>
   const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
   for (double& share : shares) share /= std::max(total, 1.0);
   return shares;
+}
+
+std::optional<double> matched_disparity(const LightField& lf, ViewIndex view, PixelIndex pixel,
+                                        Interval range, const Progress& progress) {
+  constexpr double step = 0.1;
+  constexpr int radius = 3;
+  const int count = static_cast<int>(std::ceil(range.length() / step)) + 1;
+  const std::vector<float> labels = equidistant_labels(range, count);
+  WindowCosts windows(lf, view, labels, radius);
+  const Image<float>& costs = windows.compute(pixel.y, progress);
+  int best = 0;
+  for (int l = 1; l < count; ++l) {
+    if (costs.at(l, pixel.x) < costs.at(best, pixel.x)) best = l;
+  }
+  const float least = costs.at(best, pixel.x);
+  for (int l = 0; l < count; ++l) {
+    const float other = costs.at(l, pixel.x);
+    const bool competes = std::fabs(labels[l] - labels[best]) >= kApart;
+    if (competes && (least > kRatio * other || other - least < kContrast)) return {};
+  }
+  return labels[best];
 }
 
 namespace {

@@ -62,6 +62,14 @@ enum class ReducedViews { CrossHair, All };
                                                 const std::vector<float>& labels,
                                                 const Progress& progress);
 
+/// The disparity at which a block of 7×7 pixels around a pixel of a view matches the views of its
+/// row and column best, px per view step. None where nothing in `range` matches distinctly
+/// (label_support). A quick answer for one pixel: estimators do better. Throws Cancelled,
+/// InvalidInput for a single view.
+[[nodiscard]] std::optional<double> matched_disparity(const LightField& light_field, ViewIndex view,
+                                                      PixelIndex pixel, Interval range,
+                                                      const Progress& progress);
+
 /// Where a range to search comes from.
 enum class RangeSource { Given, Promised, Found };
 [[nodiscard]] RangeSource range_source(const LightField& light_field, const IntervalOrAuto& wanted);

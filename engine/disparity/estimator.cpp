@@ -191,8 +191,13 @@ using EvenLightFieldPtr = std::shared_ptr<const EvenLightField>;
 // What a method sees instead of the light field; null if it sees that.
 EvenLightFieldPtr equalized_for(const EstimatorInfo& info, const LightField& light_field,
                                 EvenViews& even, const Progress& progress) {
-  return info.sees_even_views ? even.of(light_field, progress) : nullptr;
+  if (!info.sees_even_views) return nullptr;
+  progress.step("comparing the brightness of views");
+  return even.of(light_field, progress);
 }
+
+// Share of a run that comparing and correcting brightness may take.
+constexpr double kEqualizing = 0.1;
 
 // A pass refers to the equalized light field, which lives as long as the pass, and of which it
 // holds nothing between blocks.
@@ -222,11 +227,12 @@ Estimate Estimator::run(const LightField& given, EvenViews& even, const Paramete
                         const RunOptions& options, const Progress& progress) const {
   require_device(options.device, info);
   const Progress limited = progress.limited_to(options.threads);
-  const EvenLightFieldPtr equalized = equalized_for(info, given, even, limited);
+  const EvenLightFieldPtr equalized =
+      equalized_for(info, given, even, limited.part(0, kEqualizing));
   const LightField& light_field = equalized ? equalized->light_field : given;
   const Stopwatch watch;
   Estimate result = estimate_on_device(options.device, info, [&](Device device) {
-    return estimate(light_field, values, options.views, limited, device);
+    return estimate(light_field, values, options.views, limited.part(kEqualizing, 1), device);
   });
   mark_invalid(light_field, result);
   complete_provenance(result, info.id, light_field, watch.seconds());
@@ -239,9 +245,9 @@ BlockwiseRun Estimator::in_blocks(const LightField& given, EvenViews& even,
                                   const Progress& progress) const {
   require_device(options.device, info);
   const Progress limited = progress.limited_to(options.threads);
-  const EvenLightFieldPtr equalized = equalized_for(info, given, even, limited);
+  const EvenLightFieldPtr equalized = equalized_for(info, given, even, limited.part(0, 0.5));
   const LightField& light_field = equalized ? equalized->light_field : given;
-  BlockwiseRun run = blocks(light_field, values, options.views, limited);
+  BlockwiseRun run = blocks(light_field, values, options.views, limited.part(0.5, 1));
   complete_provenance(run.provenance, info.id, light_field, 0);
   run.provenance.device = kCpu;
   if (!equalized) return run;

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
 namespace episcope {
 namespace {
@@ -84,6 +86,53 @@ std::optional<double> LabelAccuracy::mean_overlap() const {
 LabelAccuracy& LabelAccuracy::operator+=(const LabelAccuracy& other) {
   for (const auto& [pair, count] : other.confusion) confusion[pair] += count;
   return *this;
+}
+
+LabelAccuracy LabelAccuracy::matched(const LabelMatch& match) const {
+  constexpr std::int32_t kNoTrueLabel = -1;
+  LabelAccuracy renumbered;
+  for (const auto& [pair, count] : confusion) {
+    const auto found = match.true_of.find(pair.second);
+    const std::int32_t stands_for = found == match.true_of.end() ? kNoTrueLabel : found->second;
+    renumbered.confusion[{pair.first, stands_for}] += count;
+  }
+  return renumbered;
+}
+
+namespace {
+
+// Each of the two at most once.
+class OneToOne {
+ public:
+  void add(std::int32_t given, std::int32_t truth) {
+    if (true_of_.contains(given) || !taken_.insert(truth).second) return;
+    true_of_[given] = truth;
+  }
+  [[nodiscard]] const std::map<std::int32_t, std::int32_t>& pairs() const { return true_of_; }
+
+ private:
+  std::map<std::int32_t, std::int32_t> true_of_;
+  std::set<std::int32_t> taken_;
+};
+
+}  // namespace
+
+LabelMatch match_labels(const LabelAccuracy& accuracy, const std::vector<LabelInfo>& given,
+                        const std::vector<LabelInfo>& truth) {
+  OneToOne matches;
+  for (const LabelInfo& label : given) {
+    const auto same = std::ranges::find(truth, label.name, &LabelInfo::name);
+    if (same != truth.end()) matches.add(label.id, same->id);
+  }
+  const std::size_t named = matches.pairs().size();
+  using Overlap = std::pair<std::int64_t, std::pair<std::int32_t, std::int32_t>>;
+  std::vector<Overlap> overlaps;
+  for (const auto& [pair, count] : accuracy.confusion) overlaps.push_back({count, pair});
+  std::ranges::sort(overlaps, std::ranges::greater());
+  for (const auto& [count, pair] : overlaps) matches.add(pair.second, pair.first);
+  const bool keeps_numbers = std::ranges::all_of(
+      matches.pairs(), [](const auto& pair) { return pair.first == pair.second; });
+  return {matches.pairs(), matches.pairs().size() > named && !keeps_numbers};
 }
 
 LabelAccuracy judge_labels(ImageView<const std::int32_t> labels,

@@ -3,6 +3,7 @@
 
 #include "engine/core/image.h"
 #include "engine/core/progress.h"
+#include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
 
 #include <cstdint>
@@ -12,6 +13,12 @@
 #include <vector>
 
 namespace episcope {
+
+/// Which true label each given one stands for; others stand for none.
+struct LabelMatch {
+  std::map<std::int32_t, std::int32_t> true_of;
+  bool is_by_overlap = false;  ///< Whether numbers differ and names did not tell.
+};
 
 /// How often labels agree with the ground truth.
 struct LabelAccuracy {
@@ -35,7 +42,15 @@ struct LabelAccuracy {
   [[nodiscard]] std::vector<std::int32_t> labels() const;
 
   LabelAccuracy& operator+=(const LabelAccuracy& other);
+  /// With given labels replaced by the true ones that they stand for.
+  [[nodiscard]] LabelAccuracy matched(const LabelMatch& match) const;
 };
+
+/// Matches labels of two numberings one to one: those with the same name, then the others by the
+/// largest overlap. `accuracy`: of the numbers as they are.
+[[nodiscard]] LabelMatch match_labels(const LabelAccuracy& accuracy,
+                                      const std::vector<LabelInfo>& given,
+                                      const std::vector<LabelInfo>& truth);
 
 /// Judges one view. Pixels without a true label (0 or less) are not judged. Throws InvalidInput if
 /// the sizes differ.

@@ -133,6 +133,18 @@ class SidePanelsTest : public QObject {
     QVERIFY(!panel.findChild<QLabel*>("jobPanel.idle")->isHidden());
   }
 
+  void runningJob_isNeverAtTheEnd() {
+    JobPanel panel;
+    panel.addJob(7, "EPI_L");
+
+    panel.setProgress(7, 1, "vertical EPIs");
+
+    auto* stage = panel.findChild<ElidedLabel*>("job.7.stage");
+    QVERIFY2(stage->fullText().contains("99 %"), qPrintable(stage->fullText()));
+    const auto* bar = panel.findChild<QProgressBar*>("job.7.bar");
+    QVERIFY(bar->value() < bar->maximum());
+  }
+
   void manyJobs_areScrolledTo() {
     JobPanel panel;
     panel.resize(300, panel.sizeHint().height());

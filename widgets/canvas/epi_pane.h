@@ -28,6 +28,7 @@ class EpiPane : public QWidget {
   /// Picture with one row per view: `[u][x]` of `horizontal_epi` or `[v][y]` of `vertical_epi`, as
   /// `render::shade_samples` shows them. Null = none.
   void setEpi(const QImage& epi);
+  [[nodiscard]] bool hasEpi() const { return !epi_.isNull(); }
   /// Cross-hair: pixel along the image axis, and row (u or v) of the current view.
   void setCrossHair(std::optional<int> pixel, int row);
   /// Disparities at the cross-hair, drawn as lines through it; none = no line.

@@ -144,6 +144,10 @@ constexpr double kRowsInSight = 1.3;  // the top of the next tells that there is
 
 }  // namespace
 
+int percent_done(double fraction) {
+  return static_cast<int>(std::clamp(std::lround(100 * fraction), 0L, 99L));
+}
+
 QString time_left_text(double fraction, double seconds) {
   constexpr double kLeastFraction = 0.02;  // Before, one would guess wildly.
   constexpr double kLeastSeconds = 0.5;
@@ -228,9 +232,9 @@ void JobPanel::setProgress(quint64 id, double fraction, const QString& stage) {
     row->clock.start();
     row->finish->setVisible(row->is_iterative);
   }
-  row->bar->setValue(static_cast<int>(std::lround(kBarSteps * std::clamp(fraction, 0.0, 1.0))));
+  row->bar->setValue(static_cast<int>(std::lround(kBarSteps * std::clamp(fraction, 0.0, 0.99))));
   if (!row->finish->isEnabled()) return;  // It says how it is being ended.
-  QStringList parts{stage, tr("%1 %").arg(std::lround(100 * fraction)),
+  QStringList parts{stage, tr("%1 %").arg(percent_done(fraction)),
                     time_left_text(fraction, row->clock.elapsed() / 1000.0)};
   parts.removeAll({});
   row->stage->setFullText(parts.join(" · "));

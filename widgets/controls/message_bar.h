@@ -68,6 +68,9 @@ class MessageBar : public QWidget {
 
 class ElidedLabel;
 
+/// Whole percent of a job that has done `fraction`: below 100 as long as it runs.
+[[nodiscard]] int percent_done(double fraction);
+
 /// Remaining time of a job that has done `fraction` in `seconds`, e.g. "about 12 s left"; empty
 /// while unknown.
 [[nodiscard]] QString time_left_text(double fraction, double seconds);

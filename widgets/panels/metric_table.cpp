@@ -110,6 +110,9 @@ void MetricTable::setUpTable() {
   table_->horizontalHeader()->setFont(small);
   table_->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(table_, &QTableWidget::customContextMenuRequested, this, &MetricTable::showMenu);
+  table_->horizontalHeader()->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(table_->horizontalHeader(), &QHeaderView::customContextMenuRequested, this,
+          &MetricTable::showMenu);
   auto* copy = new QAction(tr("Copy"), this);
   copy->setShortcut(QKeySequence::Copy);
   copy->setShortcutContext(Qt::WidgetWithChildrenShortcut);
@@ -150,7 +153,7 @@ void MetricTable::fill() {
     header->setToolTip(columns_[i].help);
     header->setTextAlignment((i == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     table_->setHorizontalHeaderItem(static_cast<int>(i), header);
-    table_->setColumnHidden(static_cast<int>(i), !columns_[i].is_shown);
+    table_->setColumnHidden(static_cast<int>(i), !columns_[i].is_shown || isHidden(columns_[i]));
   }
   for (std::size_t i = 0; i < rows_.size(); ++i) fillRow(static_cast<int>(i), rows_[i]);
   stressBest();
@@ -250,7 +253,9 @@ void MetricTable::showMenu(const QPoint& position) {
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addAction(themed_icon("copy"), tr("Copy as CSV"), this, &MetricTable::copyCsv);
   menu->addAction(themed_icon("copy"), tr("Copy as LaTeX"), this, &MetricTable::copyLatex);
-  const auto* item = table_->itemAt(position);
+  addColumnsTo(*menu->addMenu(tr("Columns")));
+  const auto* item =
+      sender() == table_->horizontalHeader() ? nullptr : table_->itemAt(position);
   if (item) {
     const quint64 id = item->data(kIdRole).toULongLong();
     menu->addSeparator();
@@ -259,6 +264,28 @@ void MetricTable::showMenu(const QPoint& position) {
                     [this, id] { emit compareRequested(id); });
   }
   menu->popup(table_->viewport()->mapToGlobal(position));
+}
+
+void MetricTable::addColumnsTo(QMenu& menu) {
+  menu.setObjectName("metrics.columns");
+  for (std::size_t i = 1; i < columns_.size(); ++i) {  // names of results stay
+    const MetricColumn& column = columns_[i];
+    QAction* action = menu.addAction(QString(column.label).replace('\n', ' '));
+    action->setCheckable(true);
+    action->setChecked(!isHidden(column));
+    connect(action, &QAction::toggled, this, [this, key = column.key](bool is_wanted) {
+      if (is_wanted) {
+        hidden_.remove(key);
+      } else {
+        hidden_.insert(key);
+      }
+      fill();
+    });
+  }
+}
+
+bool MetricTable::isHidden(const MetricColumn& column) const {
+  return hidden_.contains(column.key);
 }
 
 QString MetricTable::toCsv() const {
@@ -276,12 +303,14 @@ QString MetricTable::toCsv() const {
 QString MetricTable::toLatex() const {
   TextTable text;
   for (const auto& column : columns_) {
+    if (isHidden(column)) continue;
     text.header.push_back(QString(column.label).replace('\n', ' ').toStdString());
   }
   for (int row = 0; row < table_->rowCount(); ++row) {
     auto& cells = text.rows.emplace_back();
     auto& stressed = text.stressed.emplace_back();
     for (int column = 0; column < table_->columnCount(); ++column) {
+      if (isHidden(columns_[static_cast<std::size_t>(column)])) continue;
       const auto* item = table_->item(row, column);
       cells.push_back(is_absent(item->data(kValueRole)) ? "--" : item->text().toStdString());
       stressed.push_back(item->font().bold());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QSet>
 #include <QString>
 #include <QStringList>
 #include <QVariant>
@@ -9,6 +10,7 @@
 #include <vector>
 
 class QLabel;
+class QMenu;
 class QTableWidget;
 class QToolButton;
 
@@ -36,7 +38,7 @@ struct MetricRow {
 
 /// Metrics of all results, sortable by any column (numbers as numbers, missing and NaN last), with
 /// the best of each column emphasized. Copies or saves the shown order as CSV or LaTeX; Ctrl+C
-/// copies CSV.
+/// copies CSV. A menu chooses the columns of table and LaTeX.
 class MetricTable : public QWidget {
   Q_OBJECT
 
@@ -53,7 +55,7 @@ class MetricTable : public QWidget {
   /// RFC 4180, full precision, decimal point, keys as header; missing values are empty.
   [[nodiscard]] QString toCsv() const;
   /// A `tabular` with the shown decimals and the best of each column in bold; missing values are
-  /// "--".
+  /// "--". Without columns that the user hid.
   [[nodiscard]] QString toLatex() const;
 
  public slots:
@@ -78,9 +80,12 @@ class MetricTable : public QWidget {
   void fitColumns();
   void stressBest();
   void showMenu(const QPoint& position);
+  void addColumnsTo(QMenu& menu);
+  [[nodiscard]] bool isHidden(const MetricColumn& column) const;
 
   std::vector<MetricColumn> columns_;
   std::vector<MetricRow> rows_;
+  QSet<QString> hidden_;  // keys of columns
   QTableWidget* table_;
   QLabel* empty_;
   QToolButton* copy_csv_;

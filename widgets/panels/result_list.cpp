@@ -20,6 +20,7 @@ namespace episcope {
 namespace {
 
 constexpr int kResultRowPadding = 6;
+constexpr int kMarkPadding = 8;
 constexpr int kWidestMethod = 150;
 constexpr int kNarrowestMethod = 80;
 constexpr int kMethodPadding = 14;
@@ -81,7 +82,7 @@ void ResultList::setUpColumns() {
   }
   // Columns take the size of their contents a little later.
   connect(tree_->header(), &QHeaderView::sectionResized, this, [this](int column) {
-    if (column == kMse || column == kSeconds) fitMethods();
+    if (column == kMark || column == kMse || column == kSeconds) fitMethods();
   });
 }
 
@@ -128,9 +129,14 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
     const ResultRow& result = results[i];
     auto* item = is_same ? tree_->topLevelItem(static_cast<int>(i)) : new QTreeWidgetItem(tree_);
     item->setData(kMark, Qt::UserRole, result.id);
-    if (!is_same) item->setFlags(item->flags() | Qt::ItemIsEditable);  // ends what is typed
+    if (!is_same && result.id != kLiveResult) {
+      item->setFlags(item->flags() | Qt::ItemIsEditable);  // ends what is typed
+    }
+    const QString mark = result.is_new ? tr("new") : QString();
+    item->setText(kMark, mark);
     // As tall as the row with the icon.
-    item->setSizeHint(kMark, {0, fontMetrics().height() + kResultRowPadding});
+    const int mark_width = mark.isEmpty() ? 0 : fontMetrics().horizontalAdvance(mark) + kMarkPadding;
+    item->setSizeHint(kMark, {mark_width, fontMetrics().height() + kResultRowPadding});
     item->setText(kMethod, result.method);
     item->setText(kMse, result.mse_100 ? number_text(*result.mse_100, 2) : "–");
     item->setText(kSeconds, seconds_text(result.seconds));
@@ -222,7 +228,8 @@ bool ResultList::eventFilter(QObject* watched, QEvent* event) {
     const QPoint position = mouse->position().toPoint();
     const auto* item = tree_->itemAt(position);
     const bool is_on_mark = tree_->header()->logicalIndexAt(position.x()) == kMark;
-    if (item && is_on_mark && mouse->button() == Qt::LeftButton && result_of(item) != shown_) {
+    const bool can_be_b = item && result_of(item) != shown_ && result_of(item) != kLiveResult;
+    if (can_be_b && is_on_mark && mouse->button() == Qt::LeftButton) {
       emit compareRequested(result_of(item));
       return true;
     }
@@ -238,7 +245,8 @@ std::optional<quint64> ResultList::selectedId() const {
 
 std::optional<quint64> ResultList::target() const {
   const auto selected = selectedId();
-  return selected || tree_->topLevelItemCount() == 0 ? selected : shown_;
+  const auto wanted = selected || tree_->topLevelItemCount() == 0 ? selected : shown_;
+  return wanted == kLiveResult ? std::nullopt : wanted;
 }
 
 void ResultList::editName(quint64 id) {
@@ -254,7 +262,7 @@ void ResultList::updateButtons() {
 
 void ResultList::showMenu(const QPoint& position) {
   const auto* item = tree_->itemAt(position);
-  if (!item) return;
+  if (!item || result_of(item) == kLiveResult) return;
   const quint64 id = result_of(item);
   auto* menu = new QMenu(this);
   menu->setObjectName("results.menu");

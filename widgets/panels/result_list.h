@@ -13,9 +13,11 @@ class QTreeWidget;
 
 namespace episcope {
 
+inline constexpr quint64 kLiveResult = 0;
+
 /// A row of the list of results.
 struct ResultRow {
-  quint64 id = 0;
+  quint64 id = 0;  ///< `kLiveResult`: an estimate that is not kept.
   QString method;
   QString parameters;  ///< Summary; the whole of it is the tool tip.
   double seconds = 0;  ///< 0 = unknown.
@@ -23,9 +25,11 @@ struct ResultRow {
   QString detail;     ///< Further tool tip: source, notes.
   QString note{};     ///< The user's note.
   QString warning{};  ///< Shown with a warning sign before the parameters.
+  bool is_new = false;  ///< It was not shown yet.
 };
 
-/// Results of this light field, newest last, with A (shown) and B (compared) marked. Choosing a row
+/// Results of this light field, newest last, with A (shown) and B (compared) marked, and those that
+/// were not shown yet. A live one can only be looked at. Choosing a row
 /// asks to show it; a click on its mark to compare with it; a double click on its name renames it.
 /// Other actions are in buttons and the context menu.
 class ResultList : public QWidget {

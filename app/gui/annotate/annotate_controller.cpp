@@ -393,7 +393,8 @@ void AnnotateController::addToolCommands() {
                              .run = [this, tool = row.tool] { setTool(tool); },
                              .section = annotate_section::kTools,
                              .enabled = [this] { return hasDocument(); },
-                             .checked = [this, tool = row.tool] { return tool_ == tool; }});
+                             .checked = [this, tool = row.tool] { return tool_ == tool; },
+                             .choice = "annotate.tool"});
     panel_->addAction(action, "button.annotate." + row.id);
   }
 }

@@ -11,6 +11,7 @@
 #include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/core/shear.h"
+#include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/models/scribble_picture.h"
@@ -309,15 +310,17 @@ void AnnotationFiles::compareDialog() {
 
 void AnnotationFiles::compareWith(const QString& path) {
   if (!session_.scene()) return;
-  bench_.jobs.start<TrueLabelsPtr>(
+  using Read = std::pair<TrueLabelsPtr, std::vector<LabelInfo>>;
+  bench_.jobs.start<Read>(
       Lane::Load, tr("Reading %1").arg(QFileInfo(path).fileName()),
-      [scene = session_.scene(), path](const Progress& progress) -> TrueLabelsPtr {
-        return std::make_shared<ViewStack<std::int32_t>>(
-            io::read_true_labels(path_of(path), *scene, progress));
+      [scene = session_.scene(), path](const Progress& progress) -> Read {
+        return {std::make_shared<ViewStack<std::int32_t>>(
+                    io::read_true_labels(path_of(path), *scene, progress)),
+                io::read_label_list(io::Hdf5Input(path_of(path)), io::kTrueLabels)};
       },
-      [this, path, generation = session_.generation()](const TrueLabelsPtr& labels) {
+      [this, path, generation = session_.generation()](const Read& read) {
         if (generation != session_.generation()) return;
-        session_.set_true_labels(labels);
+        session_.set_true_labels(read.first, read.second);
         bench_.messages.success(tr("Labels are now compared with %1").arg(path));
       });
 }

@@ -136,15 +136,20 @@ std::optional<MapSource> SegmentController::map_source(render::Quantity quantity
     return source;
   }
   source.labeling = live_.labeling(view);
-  if (quantity == render::Quantity::Segmentation) {
+  if (quantity == render::Quantity::Segmentation || quantity == render::Quantity::WrongLabels) {
     source.label_infos = document->labels().labels();
+  }
+  if (quantity == render::Quantity::Segmentation) {
     source.label_style = session_.label_style();
   }
   if (quantity == render::Quantity::Segmentation || quantity == render::Quantity::WrongLabels) {
     source.finish = finish();
   }
   if (quantity == render::Quantity::Probability) source.label = bench_.labels.current();
-  if (quantity == render::Quantity::WrongLabels) source.true_labels = session_.true_labels();
+  if (quantity == render::Quantity::WrongLabels) {
+    source.true_labels = session_.true_labels();
+    source.true_label_infos = session_.true_label_infos();
+  }
   if (!reason_against(source).empty()) return std::nullopt;
   return source;
 }
@@ -330,20 +335,23 @@ void SegmentController::showState() {
 }
 
 void SegmentController::score() {
+  const AnnotationDocument* document = std::as_const(document_).document();
   const Scored now{live_.labeling(session_.view()), session_.true_labels(), session_.view(),
-                   finish()};
+                   finish(), document ? document->labels().labels() : std::vector<LabelInfo>()};
   if (now == scored_) return;
   scored_ = now;
   scores_.clear();
   score_job_.drop();
   if (!now.labeling) return;
   score_job_.start<LabelingScores>(
-      [now, scene = session_.scene(),
+      [now, scene = session_.scene(), infos = session_.true_label_infos(),
        disparity = live_.input()->disparity](const Progress& progress) {
         static const ViewStack<std::int32_t> kNone;
-        return judge_labeling(finished_labels(*now.labeling, now.finish, progress.part(0, 0.3)),
-                              now.view, now.truth ? *now.truth : kNone, *scene->truth,
-                              disparity.get(), progress.part(0.3, 1));
+        return matched(
+            judge_labeling(finished_labels(*now.labeling, now.finish, progress.part(0, 0.3)),
+                           now.view, now.truth ? *now.truth : kNone, *scene->truth, disparity.get(),
+                           progress.part(0.3, 1)),
+            now.labels, infos);
       },
       [this](const LabelingScores& scores) { showScores(scores); });
 }
@@ -358,6 +366,7 @@ void SegmentController::showScores(const LabelingScores& scores) {
   if (near) parts << tr("%1 near boundaries").arg(percent(*near));
   if (overlap) parts << tr("mean IoU %1").arg(percent(*overlap));
   if (of_all) parts << tr("%1 of all").arg(percent(*of_all));
+  if (of_view && scores.is_by_overlap) parts << tr("labels matched by overlap");
   if (scores.consistency) parts << tr("consistent: %1").arg(percent(*scores.consistency));
   scores_ = parts.join(", ");
   showState();
@@ -565,7 +574,8 @@ void SegmentController::addOverlayCommands() {
              },
          .section = kSegmentMapSection,
          .enabled = [&overlay, quantity] { return overlay.isAvailable(quantity); },
-         .checked = [&overlay, quantity] { return overlay.quantity() == quantity; }});
+         .checked = [&overlay, quantity] { return overlay.quantity() == quantity; },
+         .choice = "overlay"});
     panel_->addOverlay(action, QString("button.%1").arg(row.id));
   }
 }

@@ -65,6 +65,7 @@ class SegmentController : public QObject, public MapProvider {
     TrueLabelsPtr truth;
     ViewIndex view;
     LabelFinish finish;
+    std::vector<LabelInfo> labels;
     friend bool operator==(const Scored&, const Scored&) = default;
   };
   struct State {

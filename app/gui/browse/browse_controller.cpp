@@ -10,6 +10,7 @@
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/disparity/disparity_range.h"
 #include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
@@ -85,7 +86,9 @@ BrowseController::BrowseController(const Workbench& bench)
       grid_(new ViewGrid(&bench.frame)),
       epi_job_(this),
       refocus_job_(this),
-      thumbnail_job_(this) {
+      thumbnail_job_(this),
+      range_job_(this),
+      match_job_(this) {
   grid_->setContentsMargins(theme::kSpacing, theme::kSpacing, theme::kSpacing, 0);
   bench.frame.addToColumn(grid_, false);
   connectCanvas();
@@ -173,6 +176,9 @@ void BrowseController::showScene() {
   grid_->setGrid(light_field ? light_field->grid() : GridShape{});
   markPainted();
   refocus_job_.drop();
+  range_job_.drop();
+  match_job_.drop();
+  found_range_ = {};
   if (!light_field) {
     thumbnail_job_.drop();
     viewer_area_.canvas()->setOverlay({});
@@ -182,17 +188,32 @@ void BrowseController::showScene() {
     return;
   }
   showFocusReach();
+  findRange();
   startThumbnails();
   viewer_area_.canvas()->zoomToFit();
 }
 
 void BrowseController::showFocusReach() {
-  const Interval range = session_.known_range();
+  const Interval known_range = session_.known_range();
+  const Interval range = known_range.length() > 0 ? known_range : found_range_;
   const double known = std::max(std::abs(range.min), std::abs(range.max));
   const double reach = range.length() > 0
                            ? std::ceil(std::clamp(known, 1.0, OverlayBar::kFarthestFocus))
                            : kUnknownReach;
   viewer_area_.overlayBar()->setFocusRange({-reach, reach});
+}
+
+void BrowseController::findRange() {
+  const LightFieldPtr light_field = session_.light_field();
+  if (session_.known_range().length() > 0 || light_field->grid().count() < 2) return;
+  range_job_.start<Interval>(
+      [light_field](const Progress& progress) {
+        return search_range(*light_field, IntervalOrAuto(), progress);
+      },
+      [this](Interval found) {
+        found_range_ = found;
+        showFocusReach();
+      });
 }
 
 void BrowseController::markPainted() {
@@ -325,9 +346,26 @@ void BrowseController::focusAt(PixelIndex pixel) {
   if (disparity) {
     session_.set_focus(*disparity);
   } else {
-    bench_.messages.hint(
-        tr("The disparity of this pixel is not known: run a method first, or move the slider."));
+    matchAt(pixel);
   }
+}
+
+void BrowseController::matchAt(PixelIndex pixel) {
+  const LightFieldPtr light_field = session_.light_field();
+  if (light_field->grid().count() < 2) return;
+  match_job_.start<std::optional<double>>(
+      [light_field, view = session_.view(), pixel,
+       known = session_.known_range()](const Progress& progress) {
+        const Interval range =
+            known.length() > 0 ? known : search_range(*light_field, IntervalOrAuto(), progress);
+        return matched_disparity(*light_field, view, pixel, range, progress);
+      },
+      [this](std::optional<double> disparity) {
+        if (disparity) return session_.set_focus(*disparity);
+        bench_.messages.hint(
+            tr("The disparity of this pixel cannot be found by itself: run a method first, or move "
+               "the slider."));
+      });
 }
 
 void BrowseController::step(int dv, int du) {

@@ -28,6 +28,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QString>
 #include <QStringList>
 #include <QTreeWidget>
@@ -360,6 +361,31 @@ QString names_text(const Reading& reading) {
   return InfoPanelText::tr("%1 (set by you)").arg(names);
 }
 
+// Options of the command line are named as “Conventions…” names them.
+QString in_window(const std::string& warning) {
+  static const QRegularExpression option("--([a-z-]*[a-z])( all| \\d\\S*)?");
+  QString text = QString::fromStdString(warning);
+  const auto schema = io::open_schema();
+  bool has_options = false;
+  for (auto match = option.match(text); match.hasMatch();) {
+    const std::string key = match.captured(1).toStdString();
+    const auto& options = schema.descriptions();
+    const auto known = std::ranges::find(options, key, &ParameterDescription::key);
+    qsizetype end = match.capturedEnd();
+    if (known != options.end()) {
+      const QString value = match.captured(2).trimmed();
+      const QString label = schema_text(known->label);
+      const QString name = value.isEmpty() ? InfoPanelText::tr("“%1”").arg(label)
+                                           : InfoPanelText::tr("“%1: %2”").arg(label, value);
+      text.replace(match.capturedStart(), match.capturedLength(), name);
+      end = match.capturedStart() + name.size();
+      has_options = true;
+    }
+    match = option.match(text, end);
+  }
+  return has_options ? InfoPanelText::tr("%1 See “Conventions…”.").arg(text) : text;
+}
+
 // The GPU that methods compute on, or why there is none.
 QString gpu_text(const CudaDevice& device) {
   const auto gibibytes = [](std::size_t bytes) {
@@ -447,7 +473,7 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
                        gpu ? gpu_text(*gpu) : InfoPanelText::tr("being looked for …"),
                        {},
                        "gpu"});
-  for (const std::string& warning : convention.warnings) info.warnings << utf8(warning);
+  for (const std::string& warning : convention.warnings) info.warnings << in_window(warning);
   return info;
 }
 

@@ -234,11 +234,15 @@ std::vector<CompareController::Entry> CompareController::everything() const {
                        request(MapChoice{Quantity::Truth, 0, 0}),
                        {}});
   }
-  const EstimateEntry* shown = session_.shown();
-  const EstimateEntry* compared = session_.compared();
+  const EstimateEntry* shown = session_.side_a();
+  const EstimateEntry* compared = session_.side_b();
   const Quantity quantity =
       is_of_result(overlay_.quantity()) ? overlay_.quantity() : Quantity::Disparity;
-  for (const EstimateEntry& entry : session_.estimates()) {
+  std::vector<const EstimateEntry*> results;
+  for (const EstimateEntry& entry : session_.estimates()) results.push_back(&entry);
+  if (const EstimateEntry* live = session_.live()) results.push_back(live);
+  for (const EstimateEntry* result : results) {
+    const EstimateEntry& entry = *result;
     const bool is_compared = compared && compared->id == entry.id;
     MapChoice choice{quantity, entry.id, 0};
     if (overlay_.showsDifference() && compared && !is_compared) {
@@ -306,8 +310,9 @@ void CompareController::fillWall() {
 
 void CompareController::open(quint64 tile) {
   if (mode_ == CompareMode::Sides) {
-    if (tile == static_cast<quint64>(Side::B) && session_.compared()) {
-      session_.show_estimate(session_.compared()->id);
+    const EstimateEntry* b = session_.side_b();
+    if (tile == static_cast<quint64>(Side::B) && b && !session_.live()) {
+      session_.show_estimate(b->id);
     }
   } else if (tile == kViewTile || tile == kTruthTile) {
     overlay_.setQuantity(tile == kViewTile ? Quantity::View : Quantity::Truth);
@@ -334,7 +339,8 @@ void CompareController::addOverlayCommands() {
          .section = compare_section::kMaps,
          .bar = info.has_button ? BarSection::Maps : BarSection::None,
          .enabled = [this, quantity] { return overlay_.isAvailable(quantity); },
-         .checked = [this, quantity] { return overlay_.quantity() == quantity; }});
+         .checked = [this, quantity] { return overlay_.quantity() == quantity; },
+         .choice = "overlay"});
   }
   QAction* color = bench_.commands.add(
       {.id = "overlay.color",
@@ -426,7 +432,8 @@ void CompareController::addModeCommands() {
                          .section = compare_section::kModes,
                          .bar = row.bar,
                          .enabled = [this, mode = row.mode] { return isAvailable(mode); },
-                         .checked = [this, mode = row.mode] { return mode_ == mode; }});
+                         .checked = [this, mode = row.mode] { return mode_ == mode; },
+                         .choice = "compare.mode"});
   }
 }
 

@@ -258,39 +258,49 @@ void EstimateController::update(Parts parts) {
     method_->setRunBlocked(session_.scene() ? QString() : tr("Open a light field first."));
     showRunning();
   }
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations | Part::View)) listResults();
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) showChoice();
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations | Part::View | Part::Live)) {
+    listResults();
+  }
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Live)) showChoice();
 }
 
 void EstimateController::showChoice() {
-  const auto id_of = [](const EstimateEntry* entry) {
-    return entry ? std::optional<quint64>(entry->id) : std::nullopt;
+  const auto row_of = [this](const EstimateEntry* entry) {
+    return entry ? std::optional(rowId(*entry)) : std::nullopt;
   };
-  results_->setShown(id_of(session_.shown()), id_of(session_.compared()));
+  results_->setShown(row_of(session_.side_a()), row_of(session_.side_b()));
+}
+
+quint64 EstimateController::rowId(const EstimateEntry& entry) const {
+  return &entry == session_.live() ? kLiveResult : static_cast<quint64>(entry.id);
+}
+
+ResultRow EstimateController::rowOf(const EstimateEntry& entry) const {
+  const Estimate& estimate = *entry.estimate;
+  ResultRow row;
+  row.id = rowId(entry);
+  row.method = QString::fromStdString(entry.name);
+  row.parameters = parameter_text(estimate);
+  row.seconds = estimate.seconds;
+  row.detail = detail_text(estimate);
+  row.note = QString::fromStdString(entry.note);
+  if (!entry.foreign_file.empty()) {
+    row.warning = QString::fromStdString(entry.foreign_file.filename().string());
+    row.detail += '\n' + tr("Belongs to another light field: %1. Its errors may be meaningless.")
+                             .arg(QString::fromStdString(entry.foreign_file.string()));
+  }
+  row.is_new = entry.is_new;
+  const EvaluationKey key{entry.id, judged_view(*session_.scene()), Protocol::Vmv2013};
+  if (const auto evaluation = session_.evaluation(key)) {
+    row.mse_100 = find_metric(evaluation->metrics, "mse_100");
+  }
+  return row;
 }
 
 void EstimateController::listResults() {
   std::vector<ResultRow> rows;
-  for (const EstimateEntry& entry : session_.estimates()) {
-    const Estimate& estimate = *entry.estimate;
-    ResultRow row;
-    row.id = static_cast<quint64>(entry.id);
-    row.method = QString::fromStdString(entry.name);
-    row.parameters = parameter_text(estimate);
-    row.seconds = estimate.seconds;
-    row.detail = detail_text(estimate);
-    row.note = QString::fromStdString(entry.note);
-    if (!entry.foreign_file.empty()) {
-      row.warning = QString::fromStdString(entry.foreign_file.filename().string());
-      row.detail += '\n' + tr("Belongs to another light field: %1. Its errors may be meaningless.")
-                               .arg(QString::fromStdString(entry.foreign_file.string()));
-    }
-    const EvaluationKey key{entry.id, judged_view(*session_.scene()), Protocol::Vmv2013};
-    if (const auto evaluation = session_.evaluation(key)) {
-      row.mse_100 = find_metric(evaluation->metrics, "mse_100");
-    }
-    rows.push_back(row);
-  }
+  for (const EstimateEntry& entry : session_.estimates()) rows.push_back(rowOf(entry));
+  if (const EstimateEntry* live = session_.live()) rows.push_back(rowOf(*live));
   results_->setResults(rows);
 }
 

@@ -15,6 +15,7 @@ namespace episcope {
 
 class MethodPanel;
 class ResultList;
+struct ResultRow;
 
 /// The tab of methods and results: runs methods in the background and lists results.
 class EstimateController : public QObject {
@@ -55,6 +56,8 @@ class EstimateController : public QObject {
   void showChoice();
   void showRunning();
   void listResults();
+  [[nodiscard]] ResultRow rowOf(const EstimateEntry& entry) const;
+  [[nodiscard]] quint64 rowId(const EstimateEntry& entry) const;
   void copyCommandOf(const EstimateEntry& entry);
   void copy(const std::string& command);
   void reuse(const EstimateEntry& entry);

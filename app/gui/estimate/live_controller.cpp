@@ -12,6 +12,7 @@
 #include "engine/disparity/registry.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/message_bar.h"
 #include "widgets/controls/text.h"
 #include "widgets/panels/method_panel.h"
 
@@ -31,6 +32,11 @@ constexpr int kRunSection = 0;  // of the menu Estimate
 QString time_text(double seconds) {
   return seconds < 1 ? LiveController::tr("%1 ms").arg(std::lround(1000 * seconds))
                      : LiveController::tr("%1 s").arg(number_text(seconds, 1));
+}
+
+QString live_name(const std::string& method) {
+  return LiveController::tr("Live %1").arg(
+      QString::fromStdString(find_estimator(method).info.name));
 }
 
 }  // namespace
@@ -119,8 +125,7 @@ void LiveController::show() {
     is_up_ = false;
   } else if (std::exchange(map_, map->estimate) != map->estimate) {
     EstimateEntry entry;
-    const QString method = QString::fromStdString(find_estimator(map->estimate->method).info.name);
-    entry.name = tr("Live %1").arg(method).toStdString();
+    entry.name = live_name(map->estimate->method).toStdString();
     entry.estimate = map->estimate;
     entry.display_range = map->display_range;
     entry.part = map->part;
@@ -144,7 +149,21 @@ void LiveController::giveBack() {
   }
 }
 
+void LiveController::showJob() {
+  Jobs& jobs = bench_.jobs;
+  if (!estimator_.is_running()) return jobs.release(std::exchange(job_, 0));
+  const QString title = job_title(live_name(method_.request().method), bench_.session);
+  const auto shown = jobs.find(job_);
+  if (!shown || shown->title != title) {
+    jobs.release(job_);
+    job_ = jobs.adopt(title, [this] { setOn(false); });
+    jobs.setScene(job_, bench_.session.generation());
+  }
+  jobs.tell(job_, {estimator_.fraction(), {}});
+}
+
 void LiveController::showStatus() {
+  showJob();
   method_.setLiveStatus(is_on_ ? status() : QString());
 }
 
@@ -156,7 +175,7 @@ QString LiveController::status() const {
   const auto coarse = estimator_.coarse_seconds();
   const QString begun = coarse ? tr("Live: coarse %1 / ").arg(time_text(*coarse)) : tr("Live: ");
   if (estimator_.is_running()) {
-    return begun + tr("%1 %").arg(std::lround(100 * estimator_.fraction()));
+    return begun + tr("%1 %").arg(percent_done(estimator_.fraction()));
   }
   if (!estimator_.full_seconds()) return tr("Live");
   const QString done = begun + tr("full %1").arg(time_text(*estimator_.full_seconds()));
@@ -193,7 +212,9 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
                              request.options, progress);
       },
       [this, id = scene.id](const FinishedEstimate& finished) {
-        bench_.session.add_estimate(finished.estimate, finished.display_range, id);
+        const int added =
+            bench_.session.add_estimate(finished.estimate, finished.display_range, id);
+        offerToShow(added);
         if (finished.warning.empty()) return;
         bench_.messages.warn(with_minus(QString::fromStdString(finished.warning)));
       });
@@ -201,6 +222,13 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
   bench_.jobs.setScene(job, scene.id);
   if (info.iterative) bench_.jobs.setIterative(job);
   emit changed();
+}
+
+void MethodRuns::offerToShow(int estimate) {
+  const EstimateEntry* entry = bench_.session.find_estimate(estimate);
+  if (!entry || !entry->is_new) return;
+  bench_.messages.offer(tr("New result: %1").arg(QString::fromStdString(entry->name)), tr("Show"),
+                        [this, estimate] { bench_.session.show_estimate(estimate); });
 }
 
 bool MethodRuns::isRunning(std::uint64_t scene) const {

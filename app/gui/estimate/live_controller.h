@@ -46,12 +46,15 @@ class LiveController : public QObject {
   /// Restores the previous overlay.
   void giveBack();
   void showStatus();
+  /// Shows the running estimate among the jobs.
+  void showJob();
   [[nodiscard]] QString status() const;
 
   Workbench bench_;
   MethodPanel& method_;
   bool is_on_ = false;
   bool is_up_ = false;
+  quint64 job_ = 0;
   EstimatePtr map_;                         // that the session has
   std::optional<render::Quantity> before_;  // drawn before the map was brought up
   LiveEstimator estimator_;
@@ -84,6 +87,8 @@ class MethodRuns : public QObject {
 
  private:
   void cancelClosed();
+  /// Tells of a result that came while others were compared.
+  void offerToShow(int estimate);
 
   Workbench bench_;
   std::map<quint64, std::uint64_t> runs_;  // jobs and the scenes they run on

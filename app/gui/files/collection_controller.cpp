@@ -208,6 +208,7 @@ void CollectionController::addCommands() {
 
 void CollectionController::openCollection(const QString& folder) {
   bench_.frame.showTab("collection");
+  bench_.viewer_area.canvas()->setEmptyHint(tr("Choose a scene in the list."));
   bench_.jobs.cancel(std::exchange(job_, 0));
   if (folder != folder_) {
     thumbnails_->clear();

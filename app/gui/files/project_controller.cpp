@@ -14,6 +14,7 @@
 #include "app/session/project_file.h"
 #include "app/session/project_store.h"
 #include "app/session/session.h"
+#include "widgets/controls/message_bar.h"
 
 #include <QAbstractButton>
 #include <QComboBox>
@@ -294,7 +295,7 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
     for (const EstimateEntry& entry : scene->estimates) {
       const double seconds = entry.estimate ? entry.estimate->seconds : worth_keeping_s_;
       if (!entry.is_saved && (has_file || seconds >= worth_keeping_s_)) {
-        loss.results.push_back(entry.name);
+        loss.results.push_back(job_title(QString::fromStdString(entry.name), *scene).toStdString());
       }
     }
   }
@@ -306,7 +307,12 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
           tr("sweep of %1").arg(QString::fromStdString(sweep.base.method)).toStdString());
     }
   }
-  loss.is_running = isRunning();
+  if (isRunning()) {
+    for (const Jobs::Running& each : bench_.jobs.running(Lane::Estimate)) {
+      loss.running.push_back(
+          tr("%1 (%2 %)").arg(each.title).arg(percent_done(each.fraction)).toStdString());
+    }
+  }
   if (what != Leaving::Session) return loss;
   loss.of_project = project_.hasChanged();
   for (const std::uint64_t id : bench_.document.unsavedScenes()) {
@@ -335,8 +341,8 @@ QString ProjectGuard::sentence(const Loss& loss) {
     sentences << tr("Unsaved measured lines: on %1.").arg(list_of(loss.measured));
   }
   if (loss.of_project && sentences.isEmpty()) sentences << tr("The project has changed.");
-  if (loss.is_running) {
-    sentences << tr("A method is still running; its result would be lost.");
+  if (!loss.running.empty()) {
+    sentences << tr("Still running, and would be lost: %1.").arg(list_of(loss.running));
   }
   return sentences.join(' ');
 }

@@ -79,8 +79,8 @@ class ProjectGuard : public QObject {
     std::vector<std::string> picked;     ///< of those with pairs for ground truth,
     std::vector<std::string> measured;   ///< and of those with lines kept of EPIs.
     bool of_project = false;             ///< Other changes of a project that has a file.
-    bool is_running = false;
-    [[nodiscard]] bool empty() const { return !has_unsaved() && !is_running; }
+    std::vector<std::string> running;    ///< Methods, with their progress.
+    [[nodiscard]] bool empty() const { return !has_unsaved() && running.empty(); }
     [[nodiscard]] bool has_unsaved() const {
       return !results.empty() || !scribbled.empty() || !picked.empty() || !measured.empty() ||
              of_project;

@@ -109,12 +109,12 @@ QString absolute(const QString& input) {
   return is_builtin(input) ? input : QFileInfo(input).absoluteFilePath();
 }
 
-RgbaImage rgba_of(const Image<std::uint8_t>& center) {
-  RgbaImage picture(center.height(), center.width(), 4, 255);
-  for (int y = 0; y < center.height(); ++y) {
-    for (int x = 0; x < center.width(); ++x) {
+RgbaImage rgba_of(const Image<std::uint8_t>& rgb) {
+  RgbaImage picture(rgb.height(), rgb.width(), 4, 255);
+  for (int y = 0; y < rgb.height(); ++y) {
+    for (int x = 0; x < rgb.width(); ++x) {
       for (int c = 0; c < 3; ++c) {
-        picture.at(y, x, c) = center.at(y, x, center.channels() == 3 ? c : 0);
+        picture.at(y, x, c) = rgb.at(y, x, rgb.channels() == 3 ? c : 0);
       }
     }
   }
@@ -166,6 +166,7 @@ ScenePtr read_as_remembered(const std::string& input, const LoadOptions& options
     LoadOptions automatic;
     automatic.cache_folder = options.cache_folder;
     automatic.open.on_center_view = options.open.on_center_view;
+    automatic.open.on_center_epis = options.open.on_center_epis;
     Scene scene = load_scene(input, automatic, progress);
     scene.convention.warnings.push_back(
         std::string("The conventions that you set for this file were not used: ") + error.what());
@@ -288,6 +289,16 @@ LoadOptions SceneOpener::loadOptions(quint64 number, const ParameterSet& given) 
       if (number != number_ || loading_job_ == 0) return;
       viewer_area_.showPreview(to_qimage(std::move(*picture)),
                                tr("%1 · reading all views …").arg(name));
+    });
+  };
+  options.open.on_center_epis = [this, number,
+                                 post = queued_post(&jobs_)](const io::CenterEpis& epis) {
+    auto horizontal = std::make_shared<RgbaImage>(rgba_of(epis.horizontal));
+    auto vertical = std::make_shared<RgbaImage>(rgba_of(epis.vertical));
+    post([this, number, horizontal, vertical] {
+      if (number != number_ || loading_job_ == 0) return;
+      viewer_area_.showPreviewEpis(to_qimage(std::move(*horizontal)),
+                                   to_qimage(std::move(*vertical)));
     });
   };
   return options;

@@ -208,11 +208,20 @@ void ViewerArea::showPreview(const QImage& picture, const QString& caption) {
   canvas_->setOverlay({});
   canvas_->setScribbles({});
   canvas_->setCrossHair(std::nullopt);
-  horizontal_epi_->setEpi({});
-  vertical_epi_->setEpi({});
+  for (EpiPane* pane : {horizontal_epi_, vertical_epi_}) {
+    pane->setEpi({});
+    pane->setCrossHair(std::nullopt, 0);
+    pane->clearMeasurement();
+  }
   canvas_->setPicture(picture);
   canvas_->setCaption(caption);
   if (!std::exchange(is_previewing_, true)) emit previewChanged(true);
+}
+
+void ViewerArea::showPreviewEpis(const QImage& horizontal, const QImage& vertical) {
+  if (!is_previewing_) return;
+  horizontal_epi_->setEpi(horizontal);
+  vertical_epi_->setEpi(vertical);
 }
 
 void ViewerArea::endPreview() {

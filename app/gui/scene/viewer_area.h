@@ -59,6 +59,8 @@ class ViewerArea : public QWidget {
 
   /// Shows a picture that is not part of the session yet; it cannot be browsed.
   void showPreview(const QImage& picture, const QString& caption);
+  /// Shows EPIs beside the preview; ignored without one.
+  void showPreviewEpis(const QImage& horizontal, const QImage& vertical);
   /// Returns to the session; listeners of `previewChanged` redraw it.
   void endPreview();
   [[nodiscard]] bool isPreviewing() const { return is_previewing_; }

@@ -144,7 +144,8 @@ void add_choice(Commands& commands, Messages& messages, const std::shared_ptr<QS
                 .text = text,
                 .tip = tip,
                 .run = choose,
-                .checked = [chosen, name] { return name == *chosen; }});
+                .checked = [chosen, name] { return name == *chosen; },
+                .choice = "language"});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "widgets/controls/tool_button.h"
 
 #include <QAction>
+#include <QActionGroup>
 #include <QCoreApplication>
 #include <QEvent>
 #include <QKeyEvent>
@@ -57,6 +58,12 @@ QAction* Commands::add(Command command) {
   action->setText(command.text);
   action->setStatusTip(command.tip);
   action->setCheckable(static_cast<bool>(command.checked));
+  if (!command.choice.isEmpty()) {
+    QActionGroup*& group = choices_[command.choice];
+    if (!group) group = new QActionGroup(this);
+    group->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
+    group->addAction(action);
+  }
   if (!command.icon.isEmpty()) action->setIcon(themed_icon(command.icon));
   const bool is_viewer = command.scope == KeyScope::Viewer;
   action->setShortcutContext(is_viewer ? Qt::WidgetWithChildrenShortcut : Qt::WindowShortcut);

@@ -13,6 +13,7 @@
 #include <vector>
 
 class QAction;
+class QActionGroup;
 class QKeyEvent;
 class QMenu;
 class QMenuBar;
@@ -98,6 +99,7 @@ struct Command {
   KeyScope scope = KeyScope::Window;
   std::function<bool()> enabled{};       ///< Empty = always.
   std::function<bool()> checked{};       ///< Makes it checkable.
+  QString choice{};                      ///< Name of the choices of which one at most is checked.
   std::function<bool()> visible{};       ///< Empty = always.
   std::function<QString()> live_text{};  ///< Current text; empty = `text`.
   std::function<void(bool)> hold{};      ///< For KeyScope::Held.
@@ -170,6 +172,7 @@ class Commands : public QObject {
   QWidget* viewer_;
   std::vector<Command> commands_;
   std::map<QString, QAction*> actions_;
+  std::map<QString, QActionGroup*> choices_;
   std::map<QString, QList<QKeySequence>> keys_;
   std::vector<std::pair<BarSection, QWidget*>> bar_widgets_;
   QString held_;  // id of the command whose key is down

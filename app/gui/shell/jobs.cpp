@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 namespace episcope {
@@ -28,7 +27,17 @@ Jobs::Jobs(QObject* parent) : QObject(parent) {
 
 Jobs::~Jobs() = default;
 
-quint64 Jobs::add(const QString& title, Lane lane) {
+quint64 Jobs::adopt(const QString& title, std::function<void()> cancel) {
+  const quint64 id = add(title, std::nullopt);
+  jobs_[id].cancel = std::move(cancel);
+  return id;
+}
+
+void Jobs::release(quint64 id) {
+  if (jobs_.erase(id) > 0) emit removed(id);
+}
+
+quint64 Jobs::add(const QString& title, std::optional<Lane> lane) {
   jobs_[++last_id_] = {.lane = lane, .title = title};
   emit added(last_id_, title);
   return last_id_;
@@ -70,15 +79,16 @@ void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
 void Jobs::cancel(quint64 id) {
   const auto found = jobs_.find(id);
   if (found == jobs_.end()) return;
+  if (const auto cancel = found->second.cancel) return cancel();
   found->second.is_cancelling = true;
-  runner(found->second.lane).cancel(found->second.runner_id);
+  runner(*found->second.lane).cancel(found->second.runner_id);
   emit cancelling(id);
 }
 
 void Jobs::finishEarly(quint64 id) {
   const auto found = jobs_.find(id);
-  if (found == jobs_.end()) return;
-  runner(found->second.lane).finish(found->second.runner_id);
+  if (found == jobs_.end() || !found->second.lane) return;
+  runner(*found->second.lane).finish(found->second.runner_id);
   emit finishing(id);
 }
 
@@ -103,9 +113,16 @@ std::optional<Jobs::Running> Jobs::newest(std::uint64_t scene) const {
   return found == jobs_.rend() ? std::nullopt : find(found->first);
 }
 
+std::vector<Jobs::Running> Jobs::running(Lane lane) const {
+  std::vector<Running> all;
+  for (const auto& [id, job] : jobs_) {
+    if (job.lane == lane) all.push_back(*find(id));
+  }
+  return all;
+}
+
 int Jobs::count(Lane lane) const {
-  return static_cast<int>(std::count_if(jobs_.begin(), jobs_.end(),
-                                        [&](const auto& job) { return job.second.lane == lane; }));
+  return static_cast<int>(running(lane).size());
 }
 
 LatestJob::LatestJob(QObject* context) : runner_(queued_post(context)) {}
@@ -150,7 +167,7 @@ void JobCancel::ask(const std::vector<quint64>& ids, const Jobs::Running& longes
   asked_ = longest.id;
   question_ = tr("%1 is at %2 %. Cancel again to end it.")
                   .arg(longest.title)
-                  .arg(std::lround(100 * longest.fraction));
+                  .arg(percent_done(longest.fraction));
   messages_.offer(question_, tr("Cancel it"), [this, ids] {
     if (const auto job = longestOf(ids)) end(ids, *job);
   });
@@ -159,7 +176,7 @@ void JobCancel::ask(const std::vector<quint64>& ids, const Jobs::Running& longes
 void JobCancel::end(const std::vector<quint64>& ids, const Jobs::Running& longest) {
   for (const quint64 id : ids) jobs_.cancel(id);
   messages_.hint(
-      tr("%1 was cancelled at %2 %.").arg(longest.title).arg(std::lround(100 * longest.fraction)));
+      tr("%1 was cancelled at %2 %.").arg(longest.title).arg(percent_done(longest.fraction)));
 }
 
 void show_jobs(Jobs& jobs, JobCancel& cancel, Frame& frame, Messages& messages) {

@@ -66,6 +66,12 @@ class Jobs : public QObject {
     return id;
   }
 
+  /// Shows work that runs elsewhere as a job until `release`; `cancel` must release it.
+  quint64 adopt(const QString& title, std::function<void()> cancel);
+  void tell(quint64 id, const ProgressState& state) { report(id, state); }
+  /// Ignored for an unknown id.
+  void release(quint64 id);
+
   /// A waiting or running job.
   struct Running {
     quint64 id = 0;
@@ -88,6 +94,8 @@ class Jobs : public QObject {
   [[nodiscard]] std::optional<Running> find(quint64 id) const;
   /// Latest job of a light field, or of no light field.
   [[nodiscard]] std::optional<Running> newest(std::uint64_t scene) const;
+  /// All of a lane, the oldest first.
+  [[nodiscard]] std::vector<Running> running(Lane lane) const;
   [[nodiscard]] int count() const { return static_cast<int>(jobs_.size()); }
   [[nodiscard]] int count(Lane lane) const;
 
@@ -103,7 +111,7 @@ class Jobs : public QObject {
 
  private:
   struct Job {
-    Lane lane;
+    std::optional<Lane> lane;  // none: it runs elsewhere
     JobId runner_id = 0;
     QString title;
     std::optional<ProgressState> news{};  // not yet told
@@ -111,9 +119,10 @@ class Jobs : public QObject {
     QElapsedTimer clock{};
     double fraction = 0;
     bool is_cancelling = false;
+    std::function<void()> cancel{};  // of one that runs elsewhere
   };
   [[nodiscard]] JobRunner& runner(Lane lane) { return *runners_[static_cast<std::size_t>(lane)]; }
-  quint64 add(const QString& title, Lane lane);
+  quint64 add(const QString& title, std::optional<Lane> lane);
   void attach(quint64 id, JobId runner_id);
   void report(quint64 id, const ProgressState& state);
   void tellProgress();

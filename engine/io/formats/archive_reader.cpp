@@ -293,11 +293,16 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   read_positions(file, grid, info);
   progress.step("reading views");
   LightField::Samples samples =
-      read_archive_samples(file, layout, options, info, progress.part(0, 0.55));
-  ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, progress.part(0.55, 0.6));
+      read_archive_samples(file, layout, options, info, progress.part(0, 0.45));
+  // Samples that stay in the file are read by the checks.
+  const bool is_mapped =
+      std::visit([](const auto& stack) { return stack.kind() == LargeKind::File; }, samples);
+  const double read = is_mapped ? 0.1 : 0.8;
+  const Progress reading = progress.part(0, read);
+  ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, reading.part(0.55, 0.6));
   settle_range(samples, options.levels, report);
   progress.step("reading depth");
-  ArchiveTruth depth = read_archive_depth(file, samples, options, report, progress.part(0.6, 0.85));
+  ArchiveTruth depth = read_archive_depth(file, samples, options, report, reading.part(0.6, 0.85));
   progress.step("reading labels");
   ArchiveLabels labels;
   FileUsage account(path.has_parent_path() ? path.parent_path() : fs::path("."));
@@ -305,7 +310,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   std::map<std::string, Image<std::uint8_t>> regions;
   if (options.needs_truth) {
     regions = read_regions(file, layout.shape);
-    labels = read_labels(file, layout.shape, report, account, progress.part(0.85, 0.95));
+    labels = read_labels(file, layout.shape, report, account, reading.part(0.85, 0.95));
   }
   GroundTruth truth{std::move(depth.field), std::move(depth.foreground),
                     std::move(depth.background), std::move(labels.labels), std::move(regions)};
@@ -313,7 +318,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   ExpectedOrder expected = expected_order(file);
   const std::vector<FileUse> others =
       read_other_maps(input, layout, options.needs_truth, {samples, truth, valid, expected, report},
-                      progress.part(0.95, 0.97));
+                      reading.part(0.95, 1));
   tell_unused_depth(depth, !truth.field.empty(), report);
   if (truth.has_disparity() || truth.has_layers()) truth.estimated = read_estimated(file);
   if (truth.estimated && options.needs_truth) {
@@ -325,7 +330,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
             .info = std::move(info),
             .expected = std::move(expected),
             .valid = std::move(valid)},
-           options, scene, progress);
+           options, scene, progress.part(read, 1));
   scene.scribbles = std::move(labels.scribbles);
   put_in_order(scene.scribbles, grid, flip_of(report));
   if (report.crop.leaves_out()) {

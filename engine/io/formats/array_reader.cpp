@@ -266,11 +266,11 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
     options.on_center_view(array_preview(*array, chosen.layout, grid.center()), parts.info, grid);
   }
   progress.check();
-  check_layout(*array, entry.order, chosen, progress);
+  check_layout(*array, entry.order, chosen, progress.part(0, 0.05));
 
   Scene scene;
   progress.step("reading views");
-  ArraySamples read = read_samples(*array, chosen.layout, progress.part(0, 0.7));
+  ArraySamples read = read_samples(*array, chosen.layout, progress.part(0.05, 0.65));
   settle_range(read.samples, options.levels, scene.convention);
   if (!read.left_out.empty()) {
     scene.convention.warnings.push_back(fmt::format(
@@ -286,7 +286,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
     if (&other != &entry && !is_owned) others.push_back(&other);
   }
   ArrayMaps maps = read_array_maps(file, others, {chosen.layout, entry.order}, options.needs_truth,
-                                   progress.part(0.7, 0.8));
+                                   progress.part(0.65, 0.7));
   parts.samples = std::move(read.samples);
   parts.valid = std::move(read.valid);
   combine(parts.valid, std::move(maps.valid));
@@ -294,7 +294,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   if (chosen.layout.has('n')) {
     const bool is_row = chosen.layout.has(kSingle) && options.axes.empty();
     const auto stored = is_row ? std::optional(chosen.layout.grid()) : std::nullopt;
-    arrange_list(file.path(), options, parts, chosen.reason, progress, stored);
+    arrange_list(file.path(), options, parts, chosen.reason, progress.part(0.7, 0.75), stored);
   }
   settle_disparity(parts.samples, maps, parts.truth.field, scene.convention);
   report_form(file, entry, chosen, scene.convention);
@@ -302,7 +302,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});
   parts.expected.is_truth_sign_assumed = maps.is_sign_assumed;
   parts.expected.reason = "arrays do not say how their views are ordered";
-  if (more.add) more.add(parts, scene.convention, progress);
+  if (more.add) more.add(parts, scene.convention, progress.part(0.75, 0.8));
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   return scene;
 }

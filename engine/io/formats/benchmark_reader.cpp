@@ -349,14 +349,14 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   const auto show_center = [&](const Image<std::uint8_t>& center) {
     if (options.on_center_view) options.on_center_view(center, info, views.grid);
   };
-  UsableViews usable = load_usable_views(views, show_center, progress.part(0, 0.85));
+  UsableViews usable = load_usable_views(views, show_center, progress.part(0, 0.65));
   if (usable.kept) {
     views = std::move(usable.views);
     report.warnings.push_back(std::move(usable.warning));
   }
   LightField::Samples samples = std::move(usable.samples);
-  if (!given && !views.part && arrange_as_seen(samples, views, report, progress)) {
-    samples = load_views(views, show_center, progress.part(0, 0.85));
+  if (!given && !views.part && arrange_as_seen(samples, views, report, progress.part(0.65, 0.7))) {
+    samples = load_views(views, show_center, progress.part(0, 0.7));
   }
   account.use(views.files, "views");
   account.leave_out(views.left_out, kViewsLeftOut);
@@ -378,10 +378,10 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
                                   options.map_views(),
                                   options.needs_truth};
   const SidecarNotes notes{account, report};
-  truth.field = read_benchmark_disparity(folder, beside_views, notes, progress.part(0.85, 0.9));
+  truth.field = read_benchmark_disparity(folder, beside_views, notes, progress.part(0.7, 0.75));
   if (truth.field.empty()) {
     // What other programs call it.
-    SidecarMaps beside = read_sidecar_maps(beside_views, notes, progress.part(0.9, 0.95));
+    SidecarMaps beside = read_sidecar_maps(beside_views, notes, progress.part(0.75, 0.8));
     truth = std::move(beside.truth);
     info.camera = beside.camera;
     scene.scribbles.labels = std::move(beside.label_infos);
@@ -399,7 +399,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   parts.info = std::move(info);
   parts.expected.reason = "benchmark folders store views in canonical order";
   parts.files = account.uses();
-  assemble(std::move(parts), options, scene, progress);
+  assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   return scene;
 }
 

@@ -257,18 +257,18 @@ Scene read_blender(const fs::path& folder, const OpenOptions& options, const Pro
       [&](const Image<std::uint8_t>& center) {
         if (options.on_center_view) options.on_center_view(center, info, views.grid);
       },
-      progress.part(0, 0.6));
+      progress.part(0, 0.5));
   require_size(manifest, samples);
   progress.step("reading truth");
   SceneParts parts;
   parts.truth = read_render_truth(manifest, crop, options.map_views(), options.needs_truth,
-                                  progress.part(0.6, 0.9));
+                                  progress.part(0.5, 0.8));
   parts.samples = std::move(samples);
   parts.info = std::move(info);
   parts.expected = {{}, "the add-on renders views in canonical order", true};
   parts.files = account_of(manifest, crop, options.needs_truth).uses();
   if (options.needs_truth) scene.scribbles.labels = manifest.labels;
-  assemble(std::move(parts), options, scene, progress);
+  assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   return scene;
 }
 

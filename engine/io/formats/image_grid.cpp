@@ -185,7 +185,7 @@ Reader image_grid_reader() {
 Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress,
                       const ImageGridExtras& extras) {
   NamedGrid grid = name_grid(folder, options);
-  const std::string evidence = settle_grid(folder, grid, options, progress.part(0, 0.15));
+  const std::string evidence = settle_grid(folder, grid, options, progress.part(0, 0.1));
   ViewFiles& views = grid.placed.views;
   const bool is_linear = is_linear_format(views.files.front());
   Scene scene;
@@ -211,7 +211,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
       [&](const Image<std::uint8_t>& center) {
         if (options.on_center_view) options.on_center_view(center, info, views.grid);
       },
-      progress.part(0.15, 0.9));
+      progress.part(0.1, 0.7));
   LightField::Samples samples = std::move(usable.samples);
   if (usable.kept) {
     info.positions = positions_of(*usable.kept, info.positions);
@@ -226,11 +226,12 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
     parts.truth.field = extras.read_truth(samples, info.camera, report);
   } else {
     progress.step("checking the order of views");
-    parts.swapped_axes = settle_axes(views, samples, info.positions, options, progress);
+    parts.swapped_axes =
+        settle_axes(views, samples, info.positions, options, progress.part(0.7, 0.75));
     SidecarMaps beside =
         read_sidecar_maps({views, folder, samples, info.camera, options.map_views(),
                            options.needs_truth, grid.poses.are_used()},
-                          {account, report}, progress.part(0.9, 1));
+                          {account, report}, progress.part(0.75, 0.8));
     parts.truth = std::move(beside.truth);
     parts.expected.is_truth_sign_assumed = beside.is_sign_assumed;
     info.camera = beside.camera;
@@ -245,7 +246,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   parts.expected.reason = evidence.empty() ? "rows and columns follow from the names" : evidence;
   if (grid.poses.are_used()) parts.expected.reason = "the poses of the cameras say so";
   parts.files = account.uses();
-  assemble(std::move(parts), options, scene, progress);
+  assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   if (!evidence.empty() && !report.order_check.ends_with(evidence)) {
     report.order_check = evidence + "; " + report.order_check;
   }

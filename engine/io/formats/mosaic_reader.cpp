@@ -396,15 +396,15 @@ Scene read_mosaic(const fs::path& path, const OpenOptions& options, const Progre
   report.units = "no depth in a mosaic";
   report_remainder(picture, layout, report);
   progress.step("splitting the picture into views");
-  LightField::Samples samples = split_mosaic(picture, layout, progress.part(0.5, 0.8));
+  LightField::Samples samples = split_mosaic(picture, layout, progress.part(0.5, 0.75));
   settle_range(samples, options.levels, report);
   SceneParts parts;
   parts.samples = std::move(samples);
   parts.info = std::move(info);
   parts.expected.reason = "mosaics hold rows and columns of views in order";
   parts.files = std::move(read.files);
-  if (read.origin.empty()) add_beside(path, options, parts, scene, progress.part(0.8, 0.9));
-  assemble(std::move(parts), options, scene, progress);
+  if (read.origin.empty()) add_beside(path, options, parts, scene, progress.part(0.75, 0.8));
+  assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   return scene;
 }
 

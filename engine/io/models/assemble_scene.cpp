@@ -7,6 +7,7 @@
 #include "engine/core/view_stack.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/models/dark_views.h"
+#include "engine/io/models/load_views.h"
 #include "engine/io/models/order/view_axes.h"
 
 #include <fmt/format.h>
@@ -116,11 +117,11 @@ void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionRep
                     const Progress& progress) {
   progress.step("checking the order of views");
   const bool are_axes_known = parts.expected.are_axes_known || are_axes_stated(options);
-  const std::string swapped = parts.swapped_axes
-                                  ? *parts.swapped_axes
-                                  : order_axes(parts, are_axes_known, report, progress);
-  check_line(parts, report, progress);
-  put_in_order(parts, options.flip, report, progress);
+  const std::string swapped =
+      parts.swapped_axes ? *parts.swapped_axes
+                         : order_axes(parts, are_axes_known, report, progress.part(0, 0.4));
+  check_line(parts, report, progress.part(0.4, 0.5));
+  put_in_order(parts, options.flip, report, progress.part(0.5, 1));
   complete_order(parts, swapped, report);
 }
 
@@ -224,6 +225,30 @@ void forget(const LightField::Samples& samples) {
       samples);
 }
 
+template <class T>
+CenterEpis center_epis(const ViewStack<T>& stack) {
+  const GridShape grid = stack.grid();
+  const ViewIndex center = grid.center();
+  const int height = stack.height(), width = stack.width(), channels = stack.channels();
+  Image<T> horizontal(grid.u, width, channels), vertical(grid.v, height, channels);
+  for (int u = 0; u < grid.u; ++u) {
+    std::copy_n(stack.view({center.v, u}).row(height / 2), width * channels, horizontal.row(u));
+  }
+  for (int v = 0; v < grid.v; ++v) {
+    const auto view = stack.view({v, center.u});
+    for (int y = 0; y < height; ++y) {
+      std::copy_n(&view.at(y, width / 2), channels, &vertical.at(v, y));
+    }
+  }
+  return {preview_rgb<T>(std::as_const(horizontal).view()),
+          preview_rgb<T>(std::as_const(vertical).view())};
+}
+
+void show_epis(const LightField::Samples& samples, const OpenOptions& options) {
+  if (!options.on_center_epis) return;
+  options.on_center_epis(std::visit([](const auto& stack) { return center_epis(stack); }, samples));
+}
+
 ViewCrop find_crop(const std::string& option, GridShape stored, const ViewBrightness& brightness) {
   if (option == "all") return central_crop(stored, stored);
   return option.empty() ? filled_crop(brightness) : parse_crop(option, stored);
@@ -238,10 +263,11 @@ bool are_on_disk(const LightField::Samples& samples) {
 ViewBrightness find_brightness(const SceneParts& parts, const Progress& progress) {
   if (are_on_disk(parts.samples) || has_many_views(grid_of(parts.samples))) {
     ViewBrightness brightness =
-        measure_brightness(parts.samples, parts.valid, BrightnessRows::Few, progress);
+        measure_brightness(parts.samples, parts.valid, BrightnessRows::Few, progress.part(0, 0.3));
     if (!brightness.has_dark_parts()) return brightness;
   }
-  return measure_brightness(parts.samples, parts.valid, BrightnessRows::EverySecond, progress);
+  return measure_brightness(parts.samples, parts.valid, BrightnessRows::EverySecond,
+                            progress.part(0.3, 1));
 }
 
 /// Leaves out views that are dark, or that the user does not want, and marks dark pixels of the
@@ -249,7 +275,7 @@ ViewBrightness find_brightness(const SceneParts& parts, const Progress& progress
 void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
                         const Progress& progress) {
   progress.step("looking for dark views");
-  ViewBrightness brightness = find_brightness(parts, progress);
+  ViewBrightness brightness = find_brightness(parts, progress.part(0, 0.6));
   forget(parts.samples);
   const ViewCrop crop = find_crop(options.crop, grid_of(parts.samples), brightness);
   if (crop.leaves_out()) {
@@ -260,8 +286,9 @@ void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, Conventio
   }
   const auto [height, width] = std::visit(
       [](const auto& stack) { return std::pair(stack.height(), stack.width()); }, parts.samples);
-  for (std::string text : {mark_empty_pixels(brightness, height, width, parts.valid, progress),
-                           mark_black_corners(parts.samples, parts.valid, progress)}) {
+  for (std::string text :
+       {mark_empty_pixels(brightness, height, width, parts.valid, progress.part(0.6, 0.7)),
+        mark_black_corners(parts.samples, parts.valid, progress.part(0.7, 1))}) {
     if (!text.empty()) report.warnings.push_back(std::move(text));
   }
   if (parts.valid.empty()) return;
@@ -275,11 +302,12 @@ void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, Conventio
 
 void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
               const Progress& progress) {
-  bring_in_order(parts, options, scene.convention, progress);
+  bring_in_order(parts, options, scene.convention, progress.part(0, 0.3));
+  show_epis(parts.samples, options);
   scene.convention.files = std::move(parts.files);
   zero_nonfinite_samples(parts.samples, scene.convention);
-  keep_what_was_seen(parts, options, scene.convention, progress);
-  equalize_views(parts, options, scene.convention, progress);
+  keep_what_was_seen(parts, options, scene.convention, progress.part(0.3, 0.7));
+  equalize_views(parts, options, scene.convention, progress.part(0.7, 1));
   std::string& samples_text = scene.convention.samples;
   if (samples_text.empty()) samples_text = stored_samples_text(parts.samples);
   samples_text += place_text(parts.samples);

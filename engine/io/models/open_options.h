@@ -29,6 +29,12 @@ enum class Mosaic { Auto, Lenslets, Views };
 /// Views whose disparity and depth are read.
 enum class MapViews { All, Center };
 
+/// The EPIs through the middle of the center view, `[u][x]` and `[v][y]` in RGB.
+struct CenterEpis {
+  Image<std::uint8_t> horizontal;
+  Image<std::uint8_t> vertical;
+};
+
 /// Options of opening: what a user may state instead of letting the reader detect it
 /// (`open_schema`), and what the caller wants.
 struct OpenOptions {
@@ -58,6 +64,8 @@ struct OpenOptions {
   /// Called on the reading thread as soon as the center view is decoded.
   std::function<void(const Image<std::uint8_t>& center_rgb, const LightFieldInfo&, GridShape)>
       on_center_view{};
+  /// Called on the reading thread once the order of views is known, before the slower checks.
+  std::function<void(CenterEpis)> on_center_epis{};
 
   [[nodiscard]] MapViews map_views() const {
     return needs_truth ? MapViews::All : MapViews::Center;

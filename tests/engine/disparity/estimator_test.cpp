@@ -87,6 +87,7 @@ class EstimatorTest : public QObject {
   void singleView_isRefused();
   void progress_risesToOne_data();
   void progress_risesToOne();
+  void unevenViews_takeTheirShareOfTheProgress();
   void stop_endsWithinLimit_data() { add_methods(); }
   void stop_endsWithinLimit();
   void stopBeforeStart_throwsCancelled_data() { add_methods(); }
@@ -290,6 +291,27 @@ void EstimatorTest::progress_risesToOne() {
   }
   QVERIFY2(gap < 0.25, qPrintable(QString::number(gap)));
   QVERIFY(steps.size() >= 2);
+}
+
+void EstimatorTest::unevenViews_takeTheirShareOfTheProgress() {
+  const Scene scene = render("edge", 96, 96, {5, 5});
+  const LightField uneven = like(*scene.light_field, [&](ViewIndex view, int y, int x, int c) {
+    return (0.6F + 0.08F * static_cast<float>(view.u)) *
+           static_cast<float>(scene.light_field->view<std::uint8_t>(view).at(y, x, c)) / 255;
+  });
+  double at_first_epis = -1;
+  const Progress progress({}, [&](const ProgressState& state) {
+    if (state.step == "horizontal EPIs" && at_first_epis < 0) at_first_epis = state.fraction;
+  });
+
+  EvenViews even;
+  const Estimate estimate =
+      find_estimator("epi_l").run(uneven, even, {}, {.views = ViewSelection::All}, progress);
+
+  QVERIFY(std::ranges::any_of(estimate.notes, [](const std::string& note) {
+    return note.find("evened out") != note.npos;
+  }));
+  QVERIFY2(at_first_epis >= 0 && at_first_epis < 0.3, qPrintable(QString::number(at_first_epis)));
 }
 
 // How late a stop is by the clock is measured by tests/bench/cancel_bench.

@@ -24,6 +24,7 @@ class LabelAccuracyTest : public QObject {
   void shares_areThoseOfJudgedPixels();
   void otherSizes_areRefused();
   void viewsThatBothCover_areJudged();
+  void labelsOfAnotherNumbering_areMatched();
 };
 
 void LabelAccuracyTest::shares_areThoseOfJudgedPixels() {
@@ -59,6 +60,23 @@ void LabelAccuracyTest::viewsThatBothCover_areJudged() {
   QCOMPARE(accuracy.judged(), 3);
   QCOMPARE(accuracy.share().value(), 2.0 / 3);
   QVERIFY(!judge_labels(given, {}).share());
+}
+
+void LabelAccuracyTest::labelsOfAnotherNumbering_areMatched() {
+  const auto truth = row({5, 5, 5, 5, 2, 2, 2, 1});
+  const auto given = row({1, 1, 1, 2, 2, 2, 2, 1});
+  const LabelAccuracy accuracy = judge_labels(given.view(), truth.view());
+
+  const LabelMatch by_overlap = match_labels(accuracy, {{1, "a"}, {2, "b"}}, {});
+  QCOMPARE(by_overlap.true_of, (std::map<std::int32_t, std::int32_t>{{1, 5}, {2, 2}}));
+  QVERIFY(by_overlap.is_by_overlap);
+  QCOMPARE(accuracy.matched(by_overlap).share().value(), 6.0 / 8);
+
+  const LabelMatch by_name =
+      match_labels(accuracy, {{1, "tree"}, {2, "house"}}, {{2, "tree"}, {5, "house"}});
+  QCOMPARE(by_name.true_of, (std::map<std::int32_t, std::int32_t>{{1, 2}, {2, 5}}));
+  QVERIFY(!by_name.is_by_overlap);
+  QCOMPARE(accuracy.matched(by_name).share().value(), 1.0 / 8);
 }
 
 }  // namespace episcope::in_label_accuracy_test

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/window_test_main.h"
 #include "widgets/panels/metric_table.h"
+#include "tests/window_test_main.h"
 
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QHeaderView>
 #include <QLabel>
+#include <QMenu>
 #include <QSignalSpy>
 #include <QTableWidget>
 #include <QToolButton>
@@ -116,6 +117,24 @@ class MetricTableTest : public QObject {
     QVERIFY(latex.contains("EPI\\_L & 10.500 & plain \\\\"));
     QVERIFY(latex.contains("foreign & -- & 50 \\% of it"));
     QVERIFY(latex.trimmed().endsWith("\\end{tabular}"));
+  }
+
+  void columnOfTheMenu_isLeftOutOfTableAndLatex() {
+    MetricTable table;
+    table.setTable(columns(), rows());
+    table.show();
+    auto* inner = table.findChild<QTableWidget*>();
+
+    emit inner->customContextMenuRequested({});
+    const auto* menu = table.findChild<QMenu*>("metrics.columns");
+    QVERIFY(menu);
+    QCOMPARE(menu->actions().size(), 2);
+    menu->actions().at(1)->trigger();
+
+    QVERIFY(inner->isColumnHidden(2) && !inner->isColumnHidden(1));
+    QVERIFY(table.toLatex().startsWith("\\begin{tabular}{lr}"));
+    QVERIFY(!table.toLatex().contains("plain"));
+    QVERIFY(table.toCsv().contains("plain"));
   }
 
   void nan_isSortedLastAndShownAsAbsent() {

@@ -47,6 +47,7 @@ class SegmentTest : public QObject {
   void overlays_areDrawn();
   void recolouredLabel_isSeenAtOnce();
   void labels_areComparedWithThoseOfAnotherFile();
+  void foreignNumbers_areMatchedByNameOrOverlap();
   void allViews_areExportedAndReadAgain();
   void allViews_goOnWhileAnotherSceneIsShown();
   void allViewsOfAClosedScene_end();
@@ -217,6 +218,35 @@ void SegmentTest::labels_areComparedWithThoseOfAnotherFile() {
   QVERIFY2(f.panel().note().contains(share), qPrintable(f.panel().note() + " " + share));
   QVERIFY(f.window.bench().overlay.isAvailable(Quantity::TrueLabels));
   QVERIFY(f.window.bench().overlay.isAvailable(Quantity::WrongLabels));
+}
+
+void SegmentTest::foreignNumbers_areMatchedByNameOrOverlap() {
+  Segmenting f;
+  f.trigger("segment.update");
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  QTRY_VERIFY(f.panel().note().startsWith("correct:"));
+  const QString before = f.panel().note();
+  Scene other = *f.window.bench().session.scene();
+  auto truth = std::make_shared<GroundTruth>();
+  truth->labels = other.truth->labels.clone();
+  for (std::size_t i = 0; i < truth->labels.size(); ++i) truth->labels.data()[i] += 40;
+  other.truth = truth;
+  other.scribbles.views.clear();
+  const auto write = [&](const QString& folder) {
+    QDir().mkpath(f.path(folder));
+    io::write_archive(f.path(folder + "/lf.h5").toStdString(), other, Progress(1));
+    return f.path(folder + "/labels.h5");
+  };
+  other.scribbles.labels = f.document().labels().labels();
+  for (LabelInfo& label : other.scribbles.labels) label.id += 40;
+  const QString named = write("named");
+  other.scribbles.labels.clear();
+  const QString unnamed = write("unnamed");
+
+  find<AnnotationFiles>(f.window).compareWith(unnamed);
+  QTRY_COMPARE(f.panel().note(), before + ", labels matched by overlap");
+  find<AnnotationFiles>(f.window).compareWith(named);
+  QTRY_COMPARE(f.panel().note(), before);
 }
 
 void SegmentTest::allViews_areExportedAndReadAgain() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/browse/info_controller.h"
+#include "engine/io/formats/write_scene.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/epi_pane.h"
@@ -8,16 +9,21 @@
 #include "widgets/panels/value_bar.h"
 #include "widgets/panels/view_grid.h"
 
+#include <QDir>
 #include <QLabel>
+#include <QSlider>
 #include <QWheelEvent>
 
 #include <atomic>
+#include <cmath>
 #include <future>
 #include <thread>
 
 namespace episcope::in_browse_test {
 
 namespace {
+
+constexpr int kSliderStepsPerPx = 100;
 
 void click_pixel(ViewCanvas* canvas, PixelIndex pixel, Qt::KeyboardModifiers keys = {}) {
   QTest::mouseClick(canvas, Qt::LeftButton, keys, canvas->positionOf(pixel).toPoint());
@@ -32,6 +38,7 @@ class BrowseTest : public QObject {
   void arrows_changeTheView();
   void click_movesTheCrossHairAndTheEpis();
   void shiftClick_focusesAtThePixel();
+  void withoutEstimate_sliderAndShiftClickKnowTheRange();
   void valuesAtTheCursor_areRead();
   void samples_areSaidInShort_andInFullInTheTip();
   void gpu_isAskedForOnAWorker();
@@ -169,6 +176,33 @@ void BrowseTest::shiftClick_focusesAtThePixel() {
   click_pixel(f.window.bench().viewer_area.canvas(), {20, 33}, Qt::ShiftModifier);
 
   QCOMPARE(f.window.bench().session.focus_px(), truth);
+}
+
+void BrowseTest::withoutEstimate_sliderAndShiftClickKnowTheRange() {
+  scenes::RenderOptions options;
+  options.height = options.width = 160;
+  Scene scene = scenes::render_builtin("objects", options, Progress());
+  const GroundTruthPtr truth = scene.truth;
+  scene.truth = std::make_shared<GroundTruth>();
+  LightFieldInfo info;
+  info.name = "plain";
+  scene.light_field = std::make_shared<const LightField>(
+      std::get<ViewStack<std::uint8_t>>(scene.light_field->samples()).clone(), info);
+  WindowFixture f;
+  QDir().mkpath(f.path("plain"));
+  io::write_archive(f.path("plain/lf.h5").toStdString(), scene, Progress());
+  f.window.bench().opener.open(f.path("plain/lf.h5"));
+  const auto* slider = f.window.findChild<QSlider*>("overlay.focusSlider");
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene(), kScenePatience);
+  QCoreApplication::processEvents();  // the session tells the window of its scene one turn later
+  QTRY_VERIFY_WITH_TIMEOUT(slider->maximum() < 10 * kSliderStepsPerPx, kScenePatience);
+  click_pixel(f.canvas(), {80, 80}, Qt::ShiftModifier);
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.focus_px() != 0, kScenePatience);
+  const double found = f.window.bench().session.focus_px();
+  QVERIFY2(std::abs(found - truth->field.view({4, 4}).disparity.at(80, 80)) < 0.2,
+           qPrintable(QString::number(found)));
 }
 
 void BrowseTest::valuesAtTheCursor_areRead() {

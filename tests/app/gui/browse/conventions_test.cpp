@@ -3,6 +3,7 @@
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/shell/commands.h"
 #include "app/session/session.h"
+#include "engine/io/formats/write_scene.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/panels/info_panel.h"
@@ -96,6 +97,7 @@ class ConventionsTest : public QObject {
 
  private slots:
   void everyLabel_isSeenInFull();
+  void optionsInWarnings_areNamedAsInTheDialog();
   void chosenOrder_readsTheFileAgain();
   void reversedSign_isRememberedAndReversesBack();
   void choice_isRememberedForItsFileOnly();
@@ -361,6 +363,36 @@ void ConventionsTest::rememberedChoiceThatNoLongerFits_isToldAndNotUsed() {
   QVERIFY(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
     return warning.find("not used") != std::string::npos;
   }));
+}
+
+void ConventionsTest::optionsInWarnings_areNamedAsInTheDialog() {
+  Scene scene = scenes::render_builtin("edge", WindowFixture::smallOptions(), Progress());
+  auto samples = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples()).clone();
+  for (int u = 0; u < samples.grid().u; ++u) {
+    const auto view = samples.view({4, u});
+    for (std::size_t i = 0; i < view.size(); ++i) {
+      view.data[i] = static_cast<std::uint8_t>(view.data[i] * (0.6 + 0.05 * u));
+    }
+  }
+  LightFieldInfo info;
+  info.name = "uneven";
+  scene.light_field = std::make_shared<const LightField>(std::move(samples), info);
+  WindowFixture f;
+  QDir().mkpath(f.path("uneven"));
+  io::write_archive(f.path("uneven/lf.h5").toStdString(), scene, Progress());
+
+  f.window.bench().opener.open(f.path("uneven/lf.h5"));
+
+  const auto warning = [&f]() -> QString {
+    for (const auto* label : find<InfoPanel>(f.window).findChildren<QLabel*>()) {
+      if (label->text().contains("brightness of the views differs")) return label->text();
+    }
+    return {};
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(!warning().isEmpty(), kScenePatience);
+  QVERIFY2(!warning().contains("--") && warning().contains("“Equalize”") &&
+               warning().contains("“Conventions…”"),
+           qPrintable(warning()));
 }
 
 void ConventionsTest::everyLabel_isSeenInFull() {

@@ -57,6 +57,7 @@ class CompareTest : public QObject {
   void difference_isOfAAndB();
   void clickOnAMark_choosesB();
   void chosenB_staysWhenAnotherIsShown();
+  void resultOfAJob_leavesAComparisonAlone();
   void rowOfTheMetricTable_showsItsResult();
   void metricTable_isCopiedByKey();
   void statistics_areOfWhatIsInSight();
@@ -212,6 +213,21 @@ void CompareTest::chosenB_staysWhenAnotherIsShown() {
 
   QCOMPARE(f.session().shown()->id, f.ids[0]);
   QCOMPARE(f.session().compared()->id, f.ids[1]);
+}
+
+void CompareTest::resultOfAJob_leavesAComparisonAlone() {
+  Compared f({0.1F, 0.2F});
+  f.trigger("compare.wipe");
+  const auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
+
+  const int added = f.add(0.3F);
+
+  QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), 3, kPatience);
+  QCOMPARE(f.session().side_a()->id, f.ids[1]);
+  QCOMPARE(f.session().side_b()->id, f.ids[0]);
+  QCOMPARE(tree->topLevelItem(2)->text(0), QString("new"));
+  f.session().show_estimate(added);
+  QTRY_VERIFY_WITH_TIMEOUT(tree->topLevelItem(2)->text(0).isEmpty(), kPatience);
 }
 
 void CompareTest::rowOfTheMetricTable_showsItsResult() {

@@ -84,6 +84,7 @@ class KeptResultsTest : public QObject {
   void ownExport_isNoChangeOnDisk();
   void openedResultFile_isKnown();
   void runningMethod_isAskedFor();
+  void unsavedResult_isNamedWithItsLightField();
 };
 
 void KeptResultsTest::removedResult_canBeBroughtBack() {
@@ -293,11 +294,24 @@ void KeptResultsTest::openedResultFile_isKnown() {
   QVERIFY(f.window.findChild<QPushButton*>("changed_file.elsewhere"));
 }
 
+void KeptResultsTest::unsavedResult_isNamedWithItsLightField() {
+  Working f;
+  f.runAndWait();
+
+  f.trigger("file.quit");
+
+  QTRY_VERIFY(f.question());
+  QVERIFY2(f.question()->text().contains("EPI_L · edge"), qPrintable(f.question()->text()));
+  f.answer(QMessageBox::Cancel);
+}
+
 void KeptResultsTest::runningMethod_isAskedFor() {
   Working f;
   f.startEndless();
 
   f.trigger("file.quit");
+  QTRY_VERIFY(f.question());
+  QVERIFY2(f.question()->text().contains("endless (0 %)"), qPrintable(f.question()->text()));
   f.answer(QMessageBox::Cancel);
   QVERIFY(f.window.isVisible());
   QCOMPARE(f.window.bench().jobs.count(Lane::Estimate), 1);

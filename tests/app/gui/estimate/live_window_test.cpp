@@ -9,7 +9,9 @@
 #include "widgets/panels/method_panel.h"
 #include "widgets/panels/metric_table.h"
 
+#include <QLabel>
 #include <QPushButton>
+#include <QTreeWidget>
 
 #include <algorithm>
 
@@ -47,8 +49,8 @@ class Trying : public WindowFixture {
   /// Whether what is looked at is the full map of what was asked for last.
   [[nodiscard]] bool isThere() {
     const EstimateEntry* tried = session().live();
-    return tried && live().stage() == LiveStage::Idle && live().map() &&
-           !live().map()->is_coarse && tried->estimate == live().map()->estimate;
+    return tried && live().stage() == LiveStage::Idle && live().map() && !live().map()->is_coarse &&
+           tried->estimate == live().map()->estimate;
   }
   void wait() { QTRY_VERIFY_WITH_TIMEOUT(isThere(), kScenePatience); }
   [[nodiscard]] double value(const std::string& key) {
@@ -66,7 +68,10 @@ class LiveWindowTest : public QObject {
 
  private slots:
   void toggle_showsAMapThatIsNotKept();
+  void running_isAJob();
+  void cancelledJob_turnsItOff();
   void off_givesBackWhatWasShown();
+  void list_marksItAsAAndHasItsError();
   void parameter_changesTheMap();
   void manyChanges_endWithTheLast();
   void method_changesTheMap();
@@ -92,6 +97,51 @@ void LiveWindowTest::toggle_showsAMapThatIsNotKept() {
   QVERIFY2(f.status().contains("coarse") && f.status().contains("full"), qPrintable(f.status()));
   for (const OpenScene* each : f.session().scenes()) QVERIFY(each->estimates.empty());
   QCOMPARE(f.window.bench().jobs.count(), 0);
+}
+
+void LiveWindowTest::running_isAJob() {
+  Trying f;
+  f.toggle();
+
+  QCOMPARE(f.window.bench().jobs.count(), 1);
+  QVERIFY(f.window.bench().jobs.newest(f.session().generation())->title.startsWith("Live EPI_L"));
+  const auto* status = f.window.findChild<QLabel*>("valueBar.status");
+  QTRY_VERIFY_WITH_TIMEOUT(status->text().contains("1 job"), kPatience);
+  f.wait();
+  QCOMPARE(f.window.bench().jobs.count(), 0);
+}
+
+void LiveWindowTest::cancelledJob_turnsItOff() {
+  Trying f;
+  f.method().setCurrentMethod("st_av_g");
+  f.toggle();
+
+  f.window.bench().job_cancel.cancelNewest();
+
+  QVERIFY(!f.button().isChecked());
+  QCOMPARE(f.window.bench().jobs.count(), 0);
+}
+
+void LiveWindowTest::list_marksItAsAAndHasItsError() {
+  Trying f;
+  f.runAndWait();
+  const auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
+  QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), 1, kPatience);
+  f.set("inner_scale", 1.4);
+
+  f.toggle();
+  f.wait();
+
+  QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), 2, kPatience);
+  const QTreeWidgetItem* live = tree->topLevelItem(1);
+  QCOMPARE(live->text(1), QString("Live EPI_L"));
+  QTRY_VERIFY_WITH_TIMEOUT(live->text(2).contains('.'), kPatience);
+  QVERIFY(live->font(1).bold() && !tree->topLevelItem(0)->font(1).bold());
+  QCOMPARE(live->toolTip(0), QString("A: this result is shown"));
+  QVERIFY(!(live->flags() & Qt::ItemIsEditable));
+  f.toggle();
+  QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), 1, kPatience);
+  QVERIFY(tree->topLevelItem(0)->font(1).bold());
 }
 
 void LiveWindowTest::off_givesBackWhatWasShown() {

@@ -73,6 +73,7 @@ void CollectionWindowTest::collection_isListedWithThumbnails() {
   open_collection(f, make_collection(f, {"one", "two", "deep/three"}), 3);
 
   QCOMPARE(f.window.bench().frame.shownTab(), QString("collection"));
+  QCOMPARE(f.canvas()->accessibleDescription(), QString("Choose a scene in the list."));
   QCOMPARE(names_of(f), QStringList({"one", "three", "two"}));
   const QModelIndex first = list_of(f)->model()->index(0, 0);
   QCOMPARE(first.data(SceneList::kForm).toString(), QString("archive"));

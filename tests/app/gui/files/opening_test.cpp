@@ -7,6 +7,7 @@
 #include "tests/app/gui/held_lane.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
+#include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/number_spin.h"
@@ -69,6 +70,7 @@ class OpeningTest : public QObject {
  private slots:
   void openedFile_isShown();
   void folderOfASingleLightField_opensIt();
+  void epis_areDrawnBeforeTheChecksEnd();
   void readAgain_showsWhatWasWrittenMeanwhile();
   void builtinScene_isEstimatedAtOnce();
   void builtinScenes_areChosenFromAList();
@@ -104,6 +106,23 @@ void OpeningTest::openedFile_isShown() {
 }
 
 // As on the command line; one of several is chosen from a list (collection_window_test).
+void OpeningTest::epis_areDrawnBeforeTheChecksEnd() {
+  WindowFixture f;
+  const QString file = f.writeScene("edge", WindowFixture::smallOptions());
+  const Workbench& bench = f.window.bench();
+  const auto is_drawn = [&bench](const EpiPane& pane) { return pane.isVisible() && pane.hasEpi(); };
+  bool was_drawn = false;
+  connect(&bench.jobs, &Jobs::removed, this, [&] {
+    was_drawn |= bench.viewer_area.isPreviewing() && is_drawn(*bench.viewer_area.horizontalEpi()) &&
+                 is_drawn(*bench.viewer_area.verticalEpi());
+  });
+
+  bench.opener.open(file);
+
+  QTRY_VERIFY_WITH_TIMEOUT(bench.session.scene(), kScenePatience);
+  QVERIFY(was_drawn);
+}
+
 void OpeningTest::folderOfASingleLightField_opensIt() {
   WindowFixture f;
   const QString file = f.path("deeper/down/lf.h5");

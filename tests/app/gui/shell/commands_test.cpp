@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/shell/appearance.h"
 #include "app/gui/shell/commands.h"
+#include "app/gui/shell/appearance.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
@@ -10,6 +10,7 @@
 #include "widgets/panels/view_grid.h"
 
 #include <QAction>
+#include <QActionGroup>
 #include <QKeySequenceEdit>
 #include <QLabel>
 #include <QLineEdit>
@@ -34,6 +35,7 @@ class CommandsTest : public QObject {
   void keys_areUnique();
   void everyCommand_hasTextAndTip();
   void everyCommand_isInAMenu();
+  void exclusiveChoices_haveRadioMarks();
   void menus_fitASmallScreen();
   void sweep_showsItsKeyInTheMenu();
   void everyCommandWithKeys_isInTheShortcutWindow();
@@ -59,6 +61,22 @@ void CommandsTest::ids_areUnique() {
     ids.insert(command.id);
   }
   QVERIFY(ids.size() > 30);
+}
+
+void CommandsTest::exclusiveChoices_haveRadioMarks() {
+  WindowFixture f;
+  f.openSmall();
+  f.trigger("overlay.truth");
+  const Commands& commands = f.window.bench().commands;
+
+  for (const char* id : {"overlay.none", "overlay.truth", "compare.wipe", "annotate.brush"}) {
+    const QActionGroup* group = commands.find(id)->actionGroup();
+    QVERIFY2(group && group->isExclusive(), id);
+  }
+  QVERIFY(commands.find("overlay.truth")->isChecked());
+  QVERIFY(!commands.find("overlay.none")->isChecked());
+  f.trigger("overlay.truth");  // what is chosen stays chosen
+  QVERIFY(commands.find("overlay.truth")->isChecked());
 }
 
 void CommandsTest::keys_areUnique() {

@@ -4,6 +4,7 @@
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 
+#include <cmath>
 #include <numeric>
 
 namespace episcope::in_label_support_test {
@@ -42,10 +43,30 @@ class LabelSupportTest : public QObject {
     QVERIFY2(support[2] > 0.9, qPrintable(QString::number(support[2])));
   }
 
+  void pixel_isMatchedWhereItsSurroundingsTellItsDisparity() {
+    const Scene scene = render("objects", 160, 160);
+    const LightField& lf = *scene.light_field;
+    const ViewIndex view = lf.center();
+    int found = 0, right = 0, all = 0;
+    for (int y = 8; y < 160; y += 16) {
+      for (int x = 8; x < 160; x += 16) {
+        const auto disparity = matched_disparity(lf, view, {y, x}, {-3, 3}, Progress());
+        ++all;
+        if (!disparity) continue;
+        ++found;
+        const double truth = scene.truth->field.view(view).disparity.at(y, x);
+        right += std::abs(*disparity - truth) < 0.2 ? 1 : 0;
+      }
+    }
+    QVERIFY2(found > all / 2, qPrintable(QString("%1 of %2").arg(found).arg(all)));
+    QVERIFY2(right > 0.8 * found, qPrintable(QString("%1 of %2").arg(right).arg(found)));
+  }
+
   void pixelsWithoutTexture_doNotCount() {
     const LightField lf =
         make_light_field({3, 3}, 16, 16, 1, [](ViewIndex, int, int, int) { return 0.5F; });
     QCOMPARE(label_support(lf, {-1, 0, 1}, Progress()), (std::vector<double>{0, 0, 0}));
+    QVERIFY(!matched_disparity(lf, {1, 1}, {8, 8}, {-1, 1}, Progress()));
   }
 };
 
