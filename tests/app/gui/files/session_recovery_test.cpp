@@ -176,9 +176,10 @@ void SessionRecoveryTest::discardedSession_isGone() {
 // An empty journal once came back as scribbles that are not saved.
 void SessionRecoveryTest::sceneThatWasOnlyLookedAt_comesBackClean() {
   const QTemporaryDir state;
+  const WindowFixture files;
   {
     Recovering f(state.path());
-    f.openSmall("edge");
+    f.open(files.writeScene("edge", WindowFixture::smallOptions()), 1);
     f.estimate();
     f.trigger("annotate.mode");
     QTRY_VERIFY(!f.session().estimates()[0].kept.empty());
