@@ -153,8 +153,8 @@ Schema<VisibilityParameters> visibility_schema() {
              "A surface whose confidence is below this, mean over its surroundings, occludes "
              "nothing"},
             {0, 1})
-      .real("cap_share", &P::cap_share, {"Minimum cap", "The smallest cap of a pixel, as a share of ε"},
-            {0, 10})
+      .real("cap_share", &P::cap_share,
+            {"Minimum cap", "The smallest cap of a pixel, as a share of ε"}, {0, 10})
       .real("cap_offset", &P::cap_offset,
             {"Cap offset",
              "The cap of a pixel follows what a disparity that is off by this much costs there; 0 "

@@ -254,8 +254,7 @@ void MetricTable::showMenu(const QPoint& position) {
   menu->addAction(themed_icon("copy"), tr("Copy as CSV"), this, &MetricTable::copyCsv);
   menu->addAction(themed_icon("copy"), tr("Copy as LaTeX"), this, &MetricTable::copyLatex);
   addColumnsTo(*menu->addMenu(tr("Columns")));
-  const auto* item =
-      sender() == table_->horizontalHeader() ? nullptr : table_->itemAt(position);
+  const auto* item = sender() == table_->horizontalHeader() ? nullptr : table_->itemAt(position);
   if (item) {
     const quint64 id = item->data(kIdRole).toULongLong();
     menu->addSeparator();

@@ -135,7 +135,8 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
     const QString mark = result.is_new ? tr("new") : QString();
     item->setText(kMark, mark);
     // As tall as the row with the icon.
-    const int mark_width = mark.isEmpty() ? 0 : fontMetrics().horizontalAdvance(mark) + kMarkPadding;
+    const int mark_width =
+        mark.isEmpty() ? 0 : fontMetrics().horizontalAdvance(mark) + kMarkPadding;
     item->setSizeHint(kMark, {mark_width, fontMetrics().height() + kResultRowPadding});
     item->setText(kMethod, result.method);
     item->setText(kMse, result.mse_100 ? number_text(*result.mse_100, 2) : "–");

@@ -22,9 +22,9 @@ struct ResultRow {
   QString parameters;  ///< Summary; the whole of it is the tool tip.
   double seconds = 0;  ///< 0 = unknown.
   std::optional<double> mse_100;
-  QString detail;     ///< Further tool tip: source, notes.
-  QString note{};     ///< The user's note.
-  QString warning{};  ///< Shown with a warning sign before the parameters.
+  QString detail;       ///< Further tool tip: source, notes.
+  QString note{};       ///< The user's note.
+  QString warning{};    ///< Shown with a warning sign before the parameters.
   bool is_new = false;  ///< It was not shown yet.
 };
 

@@ -130,13 +130,14 @@ void AnnotationFiles::saveAsDialog() {
 
 void AnnotationFiles::askForPlace(std::function<void()> then) {
   if (!document_.document()) return;
-  ask_where_to_save(bench_,
-                    {.name = "save_scribbles",
-                     .title = tr("Save scribbles"),
-                     .filter = tr("Archive labels (*.h5)"),
-                     .proposal = suggestion(),
-                     .confirms_overwrite = false},
-                    [this, then = std::move(then)](const QString& path) { saveToChosen(path, then); });
+  ask_where_to_save(
+      bench_,
+      {.name = "save_scribbles",
+       .title = tr("Save scribbles"),
+       .filter = tr("Archive labels (*.h5)"),
+       .proposal = suggestion(),
+       .confirms_overwrite = false},
+      [this, then = std::move(then)](const QString& path) { saveToChosen(path, then); });
 }
 
 void AnnotationFiles::saveToChosen(const QString& path, std::function<void()> then) {

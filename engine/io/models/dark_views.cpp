@@ -263,7 +263,8 @@ std::string crop_text(const ViewCrop& crop, const ViewBrightness& brightness) {
     ++count;
   }
   return fmt::format(
-      "Using the inner {} of {} views, rows {} to {} and columns {} to {} from 0: {} outer views are "
+      "Using the inner {} of {} views, rows {} to {} and columns {} to {} from 0: {} outer views "
+      "are "
       "dark (mean {} % of the center's); --crop all keeps them.",
       grid_text(crop.kept), grid_text(crop.stored), crop.first.v, crop.first.v + crop.kept.v - 1,
       crop.first.u, crop.first.u + crop.kept.u - 1, count,

@@ -47,8 +47,8 @@ enum class BrightnessRows { EverySecond, Few };
 /// among other views causes no crop.
 [[nodiscard]] ViewCrop filled_crop(const ViewBrightness& brightness);
 
-/// "Using the inner 12×12 of 14×14 views …: 52 outer views are dark (mean 2 % of the center's); --crop all keeps
-/// them", for the report.
+/// "Using the inner 12×12 of 14×14 views …: 52 outer views are dark (mean 2 % of the center's);
+/// --crop all keeps them", for the report.
 [[nodiscard]] std::string crop_text(const ViewCrop& crop, const ViewBrightness& brightness);
 
 /// Marks pixels as invalid (0) that are dark where the center views are not: vignetting, failed

@@ -220,10 +220,10 @@ void OverlayTest::compareTab_showsTheMainMetricsWithoutScrolling() {
   f.runAndWait();
   f.trigger("tab.compare");
   const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
-  QTRY_VERIFY_WITH_TIMEOUT(
-      table->isVisible() && table->columnCount() > 7 &&  // scored in the background
-          table->horizontalHeaderItem(2)->text() == "2016\nMSE×100",
-      kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(table->isVisible() &&
+                               table->columnCount() > 7 &&  // scored in the background
+                               table->horizontalHeaderItem(2)->text() == "2016\nMSE×100",
+                           kPatience);
 
   const QStringList wanted = {"Result",        "2013\nMSE×100", "2016\nMSE×100", "2016\nbad .07",
                               "2016\nbad .03", "2016\nbad .01", "2016\nQ25"};
