@@ -365,6 +365,10 @@
         <source>Archive labels or pictures of strokes (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm);;All files (*)</source>
         <translation>Labels im Archivformat oder Bilder von Strichen (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm);;Alle Dateien (*)</translation>
     </message>
+    <message>
+        <source>%1 exists. Replace its labels and scribbles? What else it holds stays.</source>
+        <translation>%1 gibt es schon. Labels und Striche darin ersetzen? Was die Datei sonst enthält, bleibt.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::Autosave</name>
@@ -535,12 +539,12 @@
         <translation>Refokussiert auch die Ansicht, als Mittel aller Ansichten in der Fokusebene; sonst werden nur die EPIs geschert</translation>
     </message>
     <message>
-        <source>The disparity of this pixel is not known: run a method first, or move the slider.</source>
-        <translation>Die Disparität dieses Pixels ist nicht bekannt: erst ein Verfahren ausführen oder den Regler verschieben.</translation>
-    </message>
-    <message>
         <source>Center view</source>
         <translation>Mittlere Ansicht</translation>
+    </message>
+    <message>
+        <source>The disparity of this pixel cannot be found by itself: run a method first, or move the slider.</source>
+        <translation>Die Disparität dieses Pixels lässt sich für sich allein nicht finden: zuerst ein Verfahren starten oder den Regler bewegen.</translation>
     </message>
 </context>
 <context>
@@ -1283,6 +1287,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Listing %1</source>
         <translation>%1 wird aufgelistet</translation>
     </message>
+    <message>
+        <source>Choose a scene in the list.</source>
+        <translation>Wählen Sie eine Szene in der Liste.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ColorBar</name>
@@ -1439,6 +1447,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>%1 · no such map for this view</source>
         <translation>%1 · keine solche Karte für diese Ansicht</translation>
     </message>
+    <message>
+        <source>Colored view under maps</source>
+        <translation>Farbige Ansicht unter Karten</translation>
+    </message>
+    <message>
+        <source>Keeps the colors of the view under maps; without, it is grey, so that only the map has colors</source>
+        <translation>Lässt der Ansicht unter Karten ihre Farben; sonst ist sie grau, damit nur die Karte Farben hat</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ConventionsDialog</name>
@@ -1472,6 +1488,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Writing %1</source>
         <translation>%1 wird geschrieben</translation>
+    </message>
+    <message>
+        <source>Open this folder</source>
+        <translation>Diesen Ordner öffnen</translation>
     </message>
 </context>
 <context>
@@ -1830,25 +1850,13 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Copied: %1</source>
         <translation>Kopiert: %1</translation>
     </message>
+    <message>
+        <source>Belongs to another light field: %1. Its errors may be meaningless.</source>
+        <translation>Gehört zu einem anderen Lichtfeld: %1. Seine Fehler besagen vielleicht nichts.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FileController</name>
-    <message>
-        <source>Open file…</source>
-        <translation>Datei öffnen…</translation>
-    </message>
-    <message>
-        <source>Opens a light field, a result or a project</source>
-        <translation>Öffnet ein Lichtfeld, ein Ergebnis oder ein Projekt</translation>
-    </message>
-    <message>
-        <source>Open folder…</source>
-        <translation>Ordner öffnen…</translation>
-    </message>
-    <message>
-        <source>Opens a folder: an archive scene, a benchmark scene, an image grid, or a folder of several</source>
-        <translation>Öffnet einen Ordner: eine Szene des Archivs oder des Benchmarks, ein Bildraster oder einen Ordner mit mehreren davon</translation>
-    </message>
     <message>
         <source>Ctrl+Shift+O</source>
         <translation>Ctrl+Shift+O</translation>
@@ -1934,24 +1942,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Ctrl+Q</translation>
     </message>
     <message>
-        <source>Open a light field</source>
-        <translation>Lichtfeld öffnen</translation>
-    </message>
-    <message>
-        <source>Light fields, results and projects (*.h5 *.hdf5 *.pfm *.tif *.tiff *.episcope);;All files (*)</source>
-        <translation>Lichtfelder, Ergebnisse und Projekte (*.h5 *.hdf5 *.pfm *.tif *.tiff *.episcope);;Alle Dateien (*)</translation>
-    </message>
-    <message>
-        <source>Open the folder of a light field</source>
-        <translation>Ordner eines Lichtfelds öffnen</translation>
-    </message>
-    <message>
         <source>Open a result</source>
         <translation>Ergebnis öffnen</translation>
-    </message>
-    <message>
-        <source>Results (*.h5 *.hdf5 *.pfm *.tif *.tiff);;All files (*)</source>
-        <translation>Ergebnisse (*.h5 *.hdf5 *.pfm *.tif *.tiff);;Alle Dateien (*)</translation>
     </message>
     <message>
         <source>Clear list</source>
@@ -1968,6 +1960,54 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Choose one in the list at the upper left.</source>
         <translation>Eines aus der Liste oben links wählen.</translation>
+    </message>
+    <message>
+        <source>Open…</source>
+        <translation>Öffnen …</translation>
+    </message>
+    <message>
+        <source>Opens a file or a folder: a light field, a folder of several, a result or a project</source>
+        <translation>Öffnet eine Datei oder einen Ordner: ein Lichtfeld, einen Ordner mit mehreren, ein Ergebnis oder ein Projekt</translation>
+    </message>
+    <message>
+        <source>Open a light field, a result or a project</source>
+        <translation>Lichtfeld, Ergebnis oder Projekt öffnen</translation>
+    </message>
+    <message>
+        <source>Results (*.h5 *.hdf5 *.pfm *.tif *.tiff *.npy *.npz *.mat *.csv);;All files (*)</source>
+        <translation>Ergebnisse (*.h5 *.hdf5 *.pfm *.tif *.tiff *.npy *.npz *.mat *.csv);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Opening %1</source>
+        <translation>%1 wird geöffnet</translation>
+    </message>
+    <message>
+        <source>Result of another light field</source>
+        <translation>Ergebnis eines anderen Lichtfelds</translation>
+    </message>
+    <message>
+        <source>%1 was estimated from the light field %2.</source>
+        <translation>%1 wurde aus dem Lichtfeld %2 geschätzt.</translation>
+    </message>
+    <message>
+        <source>%1 lies in the folder of the light field %2.</source>
+        <translation>%1 liegt im Ordner des Lichtfelds %2.</translation>
+    </message>
+    <message>
+        <source>Open that light field</source>
+        <translation>Dieses Lichtfeld öffnen</translation>
+    </message>
+    <message>
+        <source>Add to “%1”</source>
+        <translation>Zu „%1“ hinzufügen</translation>
+    </message>
+    <message>
+        <source>%1 can be added to the results.</source>
+        <translation>%1 kann zu den Ergebnissen hinzugefügt werden.</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Hinzufügen</translation>
     </message>
 </context>
 <context>
@@ -2349,6 +2389,18 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>All views but the center one are interpolated.</source>
         <translation>Alle Ansichten außer der mittleren sind interpoliert.</translation>
+    </message>
+    <message>
+        <source>“%1”</source>
+        <translation>„%1“</translation>
+    </message>
+    <message>
+        <source>“%1: %2”</source>
+        <translation>„%1: %2“</translation>
+    </message>
+    <message>
+        <source>%1 See “Conventions…”.</source>
+        <translation>%1 Siehe „Konventionen …“.</translation>
     </message>
 </context>
 <context>
@@ -3329,6 +3381,17 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
 </context>
 <context>
+    <name>episcope::MethodRuns</name>
+    <message>
+        <source>New result: %1</source>
+        <translation>Neues Ergebnis: %1</translation>
+    </message>
+    <message>
+        <source>Show</source>
+        <translation>Zeigen</translation>
+    </message>
+</context>
+<context>
     <name>episcope::MetricController</name>
     <message>
         <source>Copied the numbers of one result as %1</source>
@@ -3748,6 +3811,10 @@ s</translation>
     <message>
         <source>Protocol benchmark2016: without a border of 15 px, center view</source>
         <translation>Protokoll benchmark2016: ohne einen Rand von 15 px, mittlere Ansicht</translation>
+    </message>
+    <message>
+        <source>Columns</source>
+        <translation>Spalten</translation>
     </message>
 </context>
 <context>
@@ -4329,10 +4396,6 @@ s</translation>
         <translation>Das Projekt wurde geändert.</translation>
     </message>
     <message>
-        <source>A method is still running; its result would be lost.</source>
-        <translation>Ein Verfahren läuft noch; sein Ergebnis ginge verloren.</translation>
-    </message>
-    <message>
         <source>Unsaved work</source>
         <translation>Nicht gespeicherte Arbeit</translation>
     </message>
@@ -4352,6 +4415,14 @@ s</translation>
         <source>Unsaved measured lines: on %1.</source>
         <translation>Nicht gespeicherte behaltene Linien: auf %1.</translation>
     </message>
+    <message>
+        <source>%1 (%2 %)</source>
+        <translation>%1 (%2 %)</translation>
+    </message>
+    <message>
+        <source>Still running, and would be lost: %1.</source>
+        <translation>Läuft noch und ginge verloren: %1.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::QuestionBox</name>
@@ -4366,6 +4437,10 @@ s</translation>
     <message>
         <source>The folder already holds %1. Replace it?</source>
         <translation>Der Ordner enthält schon %1. Ersetzen?</translation>
+    </message>
+    <message>
+        <source>Discard earlier work</source>
+        <translation>Frühere Arbeit verwerfen</translation>
     </message>
 </context>
 <context>
@@ -4394,16 +4469,20 @@ s</translation>
         <translation>Wiederherstellen</translation>
     </message>
     <message>
-        <source>Discard</source>
-        <translation>Verwerfen</translation>
-    </message>
-    <message>
         <source>“%1” is no longer the light field that was annotated. Your work is kept in %2.</source>
         <translation>„%1“ ist nicht mehr das Lichtfeld, das annotiert wurde. Die Arbeit wird in %2 aufbewahrt.</translation>
     </message>
     <message>
         <source>Recovered the annotation of “%1”.</source>
         <translation>Annotation von „%1“ wiederhergestellt.</translation>
+    </message>
+    <message>
+        <source>Discard…</source>
+        <translation>Verwerfen …</translation>
+    </message>
+    <message>
+        <source>This deletes the scribbles on “%1” that were not saved.</source>
+        <translation>Das löscht die Striche auf „%1“, die nicht gespeichert wurden.</translation>
     </message>
 </context>
 <context>
@@ -4590,10 +4669,6 @@ s</translation>
         <translation>Mittlerer quadratischer Fehler ×100 gegenüber der Referenz, px²</translation>
     </message>
     <message>
-        <source>“%1” · %2</source>
-        <translation>„%1“ · %2</translation>
-    </message>
-    <message>
         <source>The result appears here.</source>
         <translation>Das Ergebnis erscheint hier.</translation>
     </message>
@@ -4636,6 +4711,22 @@ s</translation>
     <message>
         <source>Export…</source>
         <translation>Exportieren…</translation>
+    </message>
+    <message>
+        <source>new</source>
+        <translation>neu</translation>
+    </message>
+    <message>
+        <source>“%1”</source>
+        <translation>„%1“</translation>
+    </message>
+    <message>
+        <source>⚠ %1</source>
+        <translation>⚠ %1</translation>
+    </message>
+    <message>
+        <source> · </source>
+        <translation> · </translation>
     </message>
 </context>
 <context>
@@ -6390,6 +6481,10 @@ s</translation>
         <source>mode</source>
         <translation>Modus</translation>
     </message>
+    <message>
+        <source>comparing the brightness of views</source>
+        <translation>Helligkeit der Ansichten wird verglichen</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>
@@ -6556,6 +6651,10 @@ s</translation>
         <source>labeling …</source>
         <translation>wird gelabelt …</translation>
     </message>
+    <message>
+        <source>labels matched by overlap</source>
+        <translation>Labels nach Überdeckung zugeordnet</translation>
+    </message>
 </context>
 <context>
     <name>episcope::SegmentPanel</name>
@@ -6638,12 +6737,16 @@ s</translation>
         <translation>Wiederherstellen</translation>
     </message>
     <message>
-        <source>Discard</source>
-        <translation>Verwerfen</translation>
-    </message>
-    <message>
         <source>Recovered what was open.</source>
         <translation>Das Geöffnete wurde wiederhergestellt.</translation>
+    </message>
+    <message>
+        <source>Discard…</source>
+        <translation>Verwerfen …</translation>
+    </message>
+    <message>
+        <source>This deletes the results that the earlier session kept: %1. Its light fields were: %2.</source>
+        <translation>Das löscht die Ergebnisse, die die frühere Sitzung behalten hat: %1. Ihre Lichtfelder waren: %2.</translation>
     </message>
 </context>
 <context>
@@ -7571,10 +7674,6 @@ s</translation>
         <translation>Zeigt, wo eine Fläche sichtbar ist und wo zwei</translation>
     </message>
     <message>
-        <source>Ground truth</source>
-        <translation>Referenz</translation>
-    </message>
-    <message>
         <source>Truth behind</source>
         <translation>Referenz dahinter</translation>
     </message>
@@ -7647,10 +7746,6 @@ s</translation>
         <translation>wahrer Hintergrund</translation>
     </message>
     <message>
-        <source>ground truth</source>
-        <translation>Referenz</translation>
-    </message>
-    <message>
         <source>uncertainty</source>
         <translation>Unsicherheit</translation>
     </message>
@@ -7673,6 +7768,14 @@ s</translation>
     <message>
         <source>second disparity</source>
         <translation>zweite Disparität</translation>
+    </message>
+    <message>
+        <source>Truth</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>truth</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

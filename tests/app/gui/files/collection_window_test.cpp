@@ -179,7 +179,7 @@ void CollectionWindowTest::filterAndOrder_chooseRows() {
   QCOMPARE(names_of(f), QStringList({"scene 9", "scene 10"}));
   f.window.findChild<QLineEdit*>("scenes.filter")->clear();
   QComboBox* order = f.window.findChild<QComboBox*>("scenes.order");
-  order->setCurrentIndex(order->findText("Truth"));
+  order->setCurrentIndex(order->findText("Ground truth"));
 
   QCOMPARE(names_of(f).last(), QString("bad"));
 }
