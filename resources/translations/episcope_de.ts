@@ -1963,7 +1963,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
     <message>
         <source>Open…</source>
-        <translation>Öffnen …</translation>
+        <translation>Öffnen…</translation>
     </message>
     <message>
         <source>Opens a file or a folder: a light field, a folder of several, a result or a project</source>
@@ -2400,7 +2400,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
     <message>
         <source>%1 See “Conventions…”.</source>
-        <translation>%1 Siehe „Konventionen …“.</translation>
+        <translation>%1 Siehe „Konventionen…“.</translation>
     </message>
 </context>
 <context>
@@ -4478,7 +4478,7 @@ s</translation>
     </message>
     <message>
         <source>Discard…</source>
-        <translation>Verwerfen …</translation>
+        <translation>Verwerfen…</translation>
     </message>
     <message>
         <source>This deletes the scribbles on “%1” that were not saved.</source>
@@ -6742,7 +6742,7 @@ s</translation>
     </message>
     <message>
         <source>Discard…</source>
-        <translation>Verwerfen …</translation>
+        <translation>Verwerfen…</translation>
     </message>
     <message>
         <source>This deletes the results that the earlier session kept: %1. Its light fields were: %2.</source>
