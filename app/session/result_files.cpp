@@ -123,6 +123,22 @@ void require_upright(const Estimate& estimate, const LightField& light_field,
                           ": rows and columns are exchanged; add --map-transpose");
 }
 
+/// Refuses maps that are a little larger than the views: which part belongs to these is not told.
+void require_no_padding(const Estimate& estimate, const LightField& light_field,
+                        const fs::path& path) {
+  constexpr int kWidestPadding = 64;
+  const auto& map = estimate.field.disparity;
+  const int below = map.height() - light_field.height(), right = map.width() - light_field.width();
+  const bool is_padded = std::min(below, right) >= 0 && std::max(below, right) > 0 &&
+                         std::max(below, right) <= kWidestPadding;
+  if (!is_padded) return;
+  throw IoError(path, "the maps have " + size_text(map.width(), map.height()) +
+                          " pixels, but the views " +
+                          size_text(light_field.width(), light_field.height()) +
+                          ": if they are padded, add --map-crop corner (on the right and below) or "
+                          "--map-crop middle");
+}
+
 /// Drops what no longer has the size of the disparity beside it.
 void keep_fitting_maps(Estimate& estimate) {
   const ViewStack<float>& maps = estimate.field.disparity;
@@ -178,6 +194,7 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path,
   io::apply_reading(reading, &light_field, estimate);
   require_upright(estimate, light_field, path);
   remove_padding_of(estimate, light_field);
+  require_no_padding(estimate, light_field, path);
   if (!io::is_result_file(path) && reading.border_px == 0) find_border_of(estimate, light_field);
   return estimate;
 }

@@ -62,7 +62,7 @@ std::string advice_on(const fs::path& path) {
   for (const UnsupportedForm& form : kUnsupportedForms) {
     if (suffix == form.suffix) return form.advice;
   }
-  return {};
+  return foreign_content(path);
 }
 
 std::string advice_on_folder(const fs::path& folder) {

@@ -18,7 +18,8 @@ namespace episcope::io {
                                const Progress& progress);
 
 /// Advice on a file whose suffix names an unsupported format of light fields: archives of files,
-/// raw pictures of Lytro cameras, tensors of learning programs. The end of a sentence; empty for
+/// raw pictures of Lytro cameras, tensors of learning programs; or whose content is of no form that
+/// is read (foreign_content). The end of a sentence; empty for
 /// other files.
 [[nodiscard]] std::string advice_on(const std::filesystem::path& path);
 

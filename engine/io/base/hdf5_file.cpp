@@ -157,7 +157,7 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path, const std::string& group
 
 Hdf5Input::~Hdf5Input() {
   const Hdf5Lock session;
-  for (const auto& [name, id] : datasets_) H5Dclose(id);
+  for (const auto& [name, opened] : datasets_) H5Dclose(opened.id);
   if (root_ >= 0 && root_ != file_) H5Gclose(root_);
   shared_.reset();
 }
@@ -165,6 +165,26 @@ Hdf5Input::~Hdf5Input() {
 bool Hdf5Input::has(const std::string& name) const {
   const Hdf5Lock session;
   return path_exists(path_, root_, name);
+}
+
+std::string Hdf5Input::fault_of(const std::string& name) const {
+  const Hdf5Lock session;
+  H5L_info_t link;
+  if (H5Lget_info(root_, name.c_str(), &link, H5P_DEFAULT) < 0) return {};
+  if (link.type == H5L_TYPE_EXTERNAL) return "is a link to another file, which is not followed";
+  if (H5Oexists_by_name(root_, name.c_str(), H5P_DEFAULT) <= 0) return "is a link to nothing";
+  if (is_group(root_, name)) return {};
+  const Hdf5Handle dataset(H5Dopen2(root_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!dataset.ok()) return {};  // which reading it tells
+  if (!holds_own_samples(dataset)) return "has its samples in other files, which are not read";
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space) == 0) return "is empty";
+  const bool has_numbers = describe_dataset(dataset, name).type != Hdf5Type::Other;
+  return has_numbers ? "" : "holds no numbers";
+}
+
+bool Hdf5Input::has_numbers(const std::string& name) const {
+  return fault_of(name).empty() && has(name);
 }
 
 std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
@@ -186,12 +206,12 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name, const std::string& advic
                              "as the dataset " +
                              name + " or choose another file");
   }
-  const hid_t id = open_dataset(name);
+  const hid_t id = open_dataset(name).id;
   require_sound_dataset(path_, name, id);
   return describe_dataset(id, name);
 }
 
-std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
+const Hdf5Input::Opened& Hdf5Input::open_dataset(const std::string& name) const {
   const auto known = datasets_.find(name);
   if (known != datasets_.end()) return known->second;
   const hid_t id = open_with_cache(path_, root_, name);
@@ -202,20 +222,20 @@ std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
     throw IoError(path_, "the dataset " + name +
                              " cannot be opened: the file is damaged; copy or download it again");
   }
-  return datasets_[name] = id;
+  return datasets_[name] = {id, std::make_shared<ChunkLengths>(id)};
 }
 
 template <class T>
 void Hdf5Input::read(const std::string& name, const Hdf5Block& block, T* out) const {
   const Hdf5Lock session;
-  const hid_t id = open_dataset(name);
+  const auto& [id, chunks] = open_dataset(name);
   const Hdf5Handle space(H5Dget_space(id), H5Sclose);
   const Hdf5Handle memory(memory_space(block), H5Sclose);
   const Hdf5Handle stored(H5Dget_type(id), H5Tclose);
   // A boolean of other programs is an enumeration, which HDF5 does not convert.
   const bool is_flag = H5Tget_class(stored) == H5T_ENUM && H5Tget_size(stored) == sizeof(T);
   const hid_t type = is_flag ? static_cast<hid_t>(stored) : native_type<T>();
-  const bool can_be_read = select_block(space, block) && !has_short_chunk(id, block);
+  const bool can_be_read = select_block(space, block) && chunks->are_whole(block);
   if (!can_be_read || H5Dread(id, type, memory, space, H5P_DEFAULT, out) < 0) {
     throw IoError(
         path_, "the dataset " + name +
@@ -232,7 +252,7 @@ template void Hdf5Input::read(const std::string&, const Hdf5Block&, double*) con
 template <class T>
 std::optional<std::uintmax_t> Hdf5Input::place_in_file(const std::string& name) const {
   const Hdf5Lock session;
-  const hid_t id = open_dataset(name);
+  const hid_t id = open_dataset(name).id;
   const Hdf5Handle creation(H5Dget_create_plist(id), H5Pclose);
   const Hdf5Handle type(H5Dget_type(id), H5Tclose);
   const Hdf5Handle space(H5Dget_space(id), H5Sclose);

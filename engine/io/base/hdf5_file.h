@@ -63,6 +63,7 @@ struct Hdf5Axis {
   int count = 0;
 };
 
+class ChunkLengths;
 class Hdf5OpenFile;
 
 /// An HDF5 file open for reading, without file locks. All inputs of one file share one opening and
@@ -84,6 +85,11 @@ class Hdf5Input {
   /// Name of the group that stands for the root; empty = the root itself.
   [[nodiscard]] const std::string& group() const { return group_; }
   [[nodiscard]] bool has(const std::string& name) const;
+  /// Why a dataset that is there is of no use: a link that leads nowhere or to another file,
+  /// without elements, without numbers. Empty if it is not there, or of use.
+  [[nodiscard]] std::string fault_of(const std::string& name) const;
+  /// As `has`, but false for a dataset with a fault.
+  [[nodiscard]] bool has_numbers(const std::string& name) const;
   /// Datasets of the root group and of the groups in it, at most three deep, by name.
   [[nodiscard]] std::vector<Hdf5Dataset> datasets() const;
   /// Throws IoError, naming what the file holds and what to do, if there is no such dataset; also
@@ -125,7 +131,12 @@ class Hdf5Input {
  private:
   friend class Hdf5Output;  // Copies from here.
 
-  [[nodiscard]] std::int64_t open_dataset(const std::string& name) const;
+  struct Opened {
+    std::int64_t id = -1;
+    std::shared_ptr<ChunkLengths> chunks;
+  };
+
+  [[nodiscard]] const Opened& open_dataset(const std::string& name) const;
   /// Negative if there is none.
   [[nodiscard]] std::int64_t open_attribute(const std::string& object,
                                             const std::string& name) const;
@@ -135,7 +146,7 @@ class Hdf5Input {
   std::shared_ptr<Hdf5OpenFile> shared_;
   std::int64_t file_ = -1;
   std::int64_t root_ = -1;  ///< The file or a group, by which names are looked up.
-  mutable std::map<std::string, std::int64_t> datasets_;  ///< Open ones, with their chunk caches.
+  mutable std::map<std::string, Opened> datasets_;  ///< With their chunk caches.
 };
 
 /// How samples are stored: as one array, or view by view, each shuffled and deflated.

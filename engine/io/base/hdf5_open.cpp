@@ -262,7 +262,7 @@ unsigned skipped_filters(hid_t dataset) {
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   if (H5Dget_num_chunks(dataset, space, &count) < 0) return ~0U;
   unsigned all = ~0U;
-  for (hsize_t i = 0; i < std::min(count, kChunksSeen); ++i) {
+  for (hsize_t i = 0; i < std::min(count, kChunksSeen) && all != 0; ++i) {
     unsigned skipped = ~0U;
     H5Dget_chunk_info(dataset, space, i, offset.data(), &skipped, &place, &size);
     all &= skipped;
@@ -303,7 +303,7 @@ void require_own_samples(const std::filesystem::path& path, const std::string& n
   if (holds_own_samples(dataset)) return;
   throw IoError(path, "the samples of the dataset " + name +
                           " are in other files, which are not read; store them in this file, for "
-                          "example by h5repack");
+                          "example by h5repack -l CONTI");
 }
 
 bool is_short_in_header(hid_t dataset) {
@@ -325,16 +325,19 @@ void require_sound_dataset(const std::filesystem::path& path, const std::string&
                            hid_t dataset) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
   if (const std::string filter = missing_filter(dataset, creation); !filter.empty()) {
-    throw IoError(path, fmt::format("the dataset {} is compressed by a filter that is not known "
-                                    "here ({}); store it without, for example by h5repack -f NONE",
-                                    name, filter));
+    throw IoError(
+        path, fmt::format("the dataset {} is compressed by a filter that is not known here ({}); "
+                          "name the folder of its plug-in in HDF5_PLUGIN_PATH (packages "
+                          "hdf5-filter-plugin, hdf5-filter-plugin-blosc-serial, or hdf5plugin "
+                          "of Python), or store it without, for example by h5repack -f NONE",
+                          name, filter));
   }
   const double claimed = claimed_bytes(dataset);
+  if (claimed <= kSmallDataset) return;
   const bool is_compressed = H5Pget_nfilters(creation) > 0;
   const double stored =
       std::min(static_cast<double>(H5Dget_storage_size(dataset)), file_bytes(path));
-  if (claimed <= std::max(kSmallDataset, stored * (is_compressed ? kLargestCompression : 1)))
-    return;
+  if (claimed <= stored * (is_compressed ? kLargestCompression : 1)) return;
   throw IoError(path,
                 fmt::format("the dataset {} claims {:.3g} bytes, of which the file can hold "
                             "no more than {:.3g}; it is damaged: copy or download it again",
@@ -432,12 +435,11 @@ hsize_t inflated_size(std::vector<std::uint8_t>& packed, hsize_t most) {
 
 /// Of what damages the shape of chunks, all of them suffer.
 bool is_first_whole(hid_t dataset, hsize_t bytes) {
-  ChunkPlaces offset(H5S_MAX_RANK);
+  const ChunkPlaces offset(H5S_MAX_RANK, 0);
   unsigned skipped = 0;
   haddr_t place = HADDR_UNDEF;
   hsize_t stored = 0;
-  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
-  if (H5Dget_chunk_info(dataset, space, 0, offset.data(), &skipped, &place, &stored) < 0 ||
+  if (H5Dget_chunk_info_by_coord(dataset, offset.data(), &skipped, &place, &stored) < 0 ||
       place == HADDR_UNDEF || skipped != 0) {
     return true;
   }
@@ -460,29 +462,49 @@ bool has_sound_chunks(hid_t dataset) {
   if (sides.empty() || !fit_dataset(dataset, sides)) return false;
   const hsize_t bytes = bytes_of_chunk(dataset, sides);
   if (!states_packed_size(creation, bytes)) return false;
+  if (H5Pget_nfilters(creation) > 0)
+    return !is_deflated(creation) || is_first_whole(dataset, bytes);
   hsize_t count = 0;
-  const bool has_any = H5Dget_num_chunks(dataset, space, &count) >= 0 && count > 0;
-  return !has_any || !is_deflated(creation) || is_first_whole(dataset, bytes);
+  return H5Dget_num_chunks(dataset, space, &count) < 0 ||
+         H5Dget_storage_size(dataset) == count * bytes;
 }
 
-bool has_short_chunk(hid_t dataset, const Hdf5Block& block) {
+ChunkLengths::ChunkLengths(hid_t dataset) : dataset_(dataset) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  if (H5Pget_layout(creation) != H5D_CHUNKED) return false;
-  if (std::ranges::count(block.count, 0U) > 0) return false;
-  const ChunkPlaces sides = sides_of(creation, block.start.size());
-  if (sides.empty()) return true;
-  const hsize_t bytes = bytes_of_chunk(dataset, sides);
-  const unsigned filters = (1U << std::max(0, H5Pget_nfilters(creation))) - 1;
-  ChunkPlaces at = first_chunk(block, sides);
+  const int filters = H5Pget_nfilters(creation);
+  if (H5Pget_layout(creation) != H5D_CHUNKED || filters <= 0) return;
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const Hdf5Shape shape = shape_of(space);
+  sides_ = sides_of(creation, shape.size());
+  bytes_ = bytes_of_chunk(dataset, sides_);
+  filters_ = (1U << filters) - 1;
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    counts_.push_back((shape[i] + sides_[i] - 1) / sides_[i]);
+  }
+}
+
+bool ChunkLengths::is_short(const ChunkPlaces& at) {
+  hsize_t stored = 0;
+  if (H5Dget_chunk_storage_size(dataset_, at.data(), &stored) < 0) return true;
+  if (stored == 0 || stored >= bytes_) return false;
+  packed_.resize(stored);
+  std::uint32_t skipped = 0;
+  return H5Dread_chunk(dataset_, H5P_DEFAULT, at.data(), &skipped, packed_.data()) < 0 ||
+         (skipped & filters_) == filters_;
+}
+
+bool ChunkLengths::are_whole(const Hdf5Block& block) {
+  if (sides_.empty() || std::ranges::count(block.count, 0U) > 0) return true;
+  ChunkPlaces at = first_chunk(block, sides_);
   do {
-    unsigned skipped = 0;
-    haddr_t place = HADDR_UNDEF;
-    hsize_t stored = 0;
-    if (H5Dget_chunk_info_by_coord(dataset, at.data(), &skipped, &place, &stored) < 0) return true;
-    const bool is_plain = place != HADDR_UNDEF && (skipped & filters) == filters;
-    if (is_plain && stored < bytes) return true;
-  } while (step(block, sides, at));
-  return false;
+    hsize_t index = 0;
+    for (std::size_t i = 0; i < at.size(); ++i) index = index * counts_[i] + at[i] / sides_[i];
+    if (index >= seen_.size()) seen_.resize(index + 1);
+    if (seen_[index]) continue;
+    if (is_short(at)) return false;
+    seen_[index] = true;
+  } while (step(block, sides_, at));
+  return true;
 }
 
 }  // namespace episcope::io

@@ -6,6 +6,7 @@
 #include <hdf5.h>
 
 #include <sys/stat.h>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -103,15 +104,33 @@ void require_own_samples(const std::filesystem::path& path, const std::string& n
 /// Whether `bytes` of an attribute or text are no more than the file holds.
 [[nodiscard]] bool fits_file(const std::filesystem::path& path, double bytes);
 
-/// Whether a chunk that the block lies in is stored without compression, and shorter than chunks
-/// are: HDF5 1.10 reads beyond it. True also if HDF5 cannot tell; false for datasets without
-/// chunks. For the sources that speak to HDF5 only.
-[[nodiscard]] bool has_short_chunk(hid_t dataset, const Hdf5Block& block);
-
 /// Whether chunks are no larger than the dataset may become, and the first of them, if it is
 /// deflated, holds as many samples as chunks do: the library would read beyond it. If they are
-/// packed by LZF, their size must be stated with the filter, which makes room for it. True for
-/// datasets without chunks.
+/// packed by LZF, their size must be stated with the filter, which makes room for it. Without
+/// filters the chunks that are stored must be as long as they are together. True for datasets
+/// without chunks. Walks through all chunks once.
 [[nodiscard]] bool has_sound_chunks(hid_t dataset);
+
+/// Finds chunks of a dataset with filters that are stored without them and shorter than chunks are:
+/// HDF5 1.10 reads beyond these. Looks at each chunk once.
+class ChunkLengths {
+ public:
+  /// `dataset` stays open as long as this.
+  explicit ChunkLengths(hid_t dataset);
+
+  /// Whether no chunk that the block lies in is too short. False also if HDF5 cannot tell.
+  [[nodiscard]] bool are_whole(const Hdf5Block& block);
+
+ private:
+  [[nodiscard]] bool is_short(const std::vector<hsize_t>& at);
+
+  hid_t dataset_;
+  std::vector<hsize_t> sides_;   ///< Of a chunk; empty if there is nothing to look for.
+  std::vector<hsize_t> counts_;  ///< Of chunks along each axis.
+  hsize_t bytes_ = 0;            ///< Of a chunk.
+  unsigned filters_ = 0;         ///< A bit each.
+  std::vector<bool> seen_;
+  std::vector<std::uint8_t> packed_;
+};
 
 }  // namespace episcope::io

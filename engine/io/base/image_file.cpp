@@ -232,6 +232,9 @@ bool is_animated_webp(const fs::path& path) {
 }
 
 [[noreturn]] void refuse_image(const fs::path& path) {
+  if (fs::file_size(path) == 0) {
+    throw IoError(path, "the file is empty; copy or download it again");
+  }
   if (is_animated_webp(path)) {
     throw IoError(path,
                   "animated WebP files are not read; save the pictures as PNG files in a folder, "
@@ -248,19 +251,39 @@ void allow_openexr() {
   static_cast<void>(is_set);
 }
 
+/// The stored pixels in their place of the picture; what is not stored is 0, of depth unknown.
+cv::Mat in_display(const fs::path& path, const cv::Mat& stored, const ExrPicture& exr,
+                   PicturePart part) {
+  const auto [left, top, width, height] = exr.display;
+  const bool has_windows = width > 0 && height > 0 && stored.cols == exr.data.width;
+  if (!has_windows || exr.data == exr.display) return stored;
+  constexpr std::int64_t kMostSide = std::numeric_limits<int>::max() / 2;
+  const std::int64_t x = exr.data.left - left, y = exr.data.top - top;
+  if (std::max({width, height, std::abs(x), std::abs(y)}) > kMostSide) refuse_image(path);
+  require_plausible_pixels(path, static_cast<std::uint64_t>(width * height));
+  const bool is_depth = part == PicturePart::Depth && stored.depth() == CV_32F;
+  const double unknown = is_depth ? std::numeric_limits<double>::quiet_NaN() : 0;
+  cv::Mat picture(static_cast<int>(height), static_cast<int>(width), stored.type(),
+                  cv::Scalar::all(unknown));
+  const cv::Rect place(static_cast<int>(x), static_cast<int>(y), stored.cols, stored.rows);
+  const cv::Rect seen = place & cv::Rect(0, 0, picture.cols, picture.rows);
+  if (!seen.empty()) stored(seen - place.tl()).copyTo(picture(seen));
+  return picture;
+}
+
 cv::Mat read_mat(const fs::path& path, PicturePart part) {
   allow_openexr();
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  const auto exr = read_exr(path, part);
   cv::Mat decoded;
   try {
-    const auto renamed = exr_with_known_channels(path, part);
-    decoded = renamed ? cv::imdecode(*renamed, cv::IMREAD_UNCHANGED)
-                      : cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+    decoded = exr && !exr->renamed.empty() ? cv::imdecode(exr->renamed, cv::IMREAD_UNCHANGED)
+                                           : cv::imread(path.string(), cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     decoded.release();
   }
   if (decoded.empty()) refuse_image(path);
-  return decoded;
+  return exr ? in_display(path, decoded, *exr, part) : decoded;
 }
 
 AnyImage image_of(const fs::path& path, const cv::Mat& decoded) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <istream>
 #include <limits>
 #include <string>
@@ -140,6 +141,63 @@ std::optional<ImageHeader> stated_image_header(const std::filesystem::path& path
   }
   const bool is_whole = header.height > 0 && header.width > 0 && !file.is_short();
   return is_whole ? std::optional(header) : std::nullopt;
+}
+
+namespace {
+
+/// The places of numbers that are two whole ones each.
+PagePlace tiff_place(FileBytes& file, bool is_little_endian) {
+  const auto number = [&](std::streamoff at, int count) {
+    return file.number(at, count, is_little_endian);
+  };
+  const auto ratio = [&](std::streamoff entry) {
+    const std::streamoff at = number(entry + 8, 4);
+    const std::uint32_t below = number(at + 4, 4);
+    return below == 0 ? 0 : static_cast<double>(number(at, 4)) / below;
+  };
+  double x_pixels = 1, y_pixels = 1, x = 0, y = 0;  // pixels of a unit, units
+  const std::streamoff directory = number(4, 4);
+  const std::uint32_t entries = number(directory, 2);
+  for (std::uint32_t i = 0; i < entries && !file.is_short(); ++i) {
+    const std::streamoff entry = directory + 2 + 12 * static_cast<std::streamoff>(i);
+    const std::uint32_t tag = number(entry, 2);
+    if (tag == 282) x_pixels = ratio(entry);
+    if (tag == 283) y_pixels = ratio(entry);
+    if (tag == 286) x = ratio(entry);
+    if (tag == 287) y = ratio(entry);
+  }
+  constexpr double kFarthest = 1 << 24;
+  const auto place = [kFarthest](double value) {
+    return static_cast<int>(std::lround(std::min(value, kFarthest)));
+  };
+  return {place(x * x_pixels), place(y * y_pixels)};
+}
+
+/// Of a chunk oFFs in pixels, before the samples.
+PagePlace png_place(FileBytes& file) {
+  constexpr std::uint32_t kOffsets = 0x6f464673, kSamples = 0x49444154;
+  constexpr int kMostChunks = 1000;
+  std::streamoff at = 8;
+  for (int i = 0; i < kMostChunks && !file.is_short(); ++i) {
+    const std::uint32_t bytes = file.number(at, 4, false), type = file.number(at + 4, 4, false);
+    if (type == kSamples) return {};
+    if (type == kOffsets && file.number(at + 16, 1, false) == 0) {
+      return {static_cast<int>(file.number(at + 8, 4, false)),
+              static_cast<int>(file.number(at + 12, 4, false))};
+    }
+    at += 12 + static_cast<std::streamoff>(bytes);
+  }
+  return {};
+}
+
+}  // namespace
+
+PagePlace stated_place(const std::filesystem::path& path) {
+  FileBytes file(path);
+  if (file.begins_with("\x89PNG\r\n\x1a\n")) return png_place(file);
+  if (file.begins_with(std::string_view("II*\0", 4))) return tiff_place(file, true);
+  if (file.begins_with(std::string_view("MM\0*", 4))) return tiff_place(file, false);
+  return {};
 }
 
 std::optional<ImageSize> image_size(const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 #include "engine/core/light_field.h"
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -60,6 +61,17 @@ struct ImageHeader {
 /// Reads the header of a PNG, JPEG, TIFF, BMP or PNM. `channels` is 0 if a palette decides. Returns
 /// nothing for other and for damaged files.
 [[nodiscard]] std::optional<ImageHeader> stated_image_header(const std::filesystem::path& path);
+
+/// Where a picture lies in its page, in px to the right and down.
+struct PagePlace {
+  int x = 0;
+  int y = 0;
+  friend auto operator<=>(const PagePlace&, const PagePlace&) = default;
+};
+
+/// Reads the place that a TIFF (XPosition, YPosition) or PNG file (oFFs) states; {0, 0} if there is
+/// none.
+[[nodiscard]] PagePlace stated_place(const std::filesystem::path& path);
 
 struct ImageSize {
   int height = 0;

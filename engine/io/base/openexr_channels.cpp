@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -31,6 +32,7 @@ struct ExrHeader {
   std::size_t end = 0;  ///< where the header ends and the places of the rows begin.
   std::uint64_t compression = 0;
   std::vector<Channel> channels;
+  ExrWindow data, display;
 };
 
 using ByteSpan = std::span<const std::uint8_t>;
@@ -115,12 +117,22 @@ Attribute take_attribute(const std::filesystem::path& path, ByteSpan bytes, std:
   return attribute;
 }
 
+/// Of a box of four whole numbers: the left, top, right and bottom pixel.
+ExrWindow window_at(ByteSpan bytes, std::size_t at) {
+  const auto number = [&](std::size_t i) {
+    return std::int64_t{static_cast<std::int32_t>(little_number(bytes, at + 4 * i, 4))};
+  };
+  return {number(0), number(1), number(2) - number(0) + 1, number(3) - number(1) + 1};
+}
+
 /// From `at` on, which is moved to what follows.
 ExrHeader take_header(const std::filesystem::path& path, ByteSpan bytes, std::size_t& at) {
   ExrHeader header;
   while (at < bytes.size() && bytes[at] != 0) {
     const Attribute attribute = take_attribute(path, bytes, at);
     if (attribute.name == "compression") header.compression = little_number(bytes, attribute.at, 1);
+    if (attribute.name == "dataWindow") header.data = window_at(bytes, attribute.at);
+    if (attribute.name == "displayWindow") header.display = window_at(bytes, attribute.at);
     if (attribute.type != "chlist") continue;
     header.list = attribute.at;
     header.list_size = attribute.size;
@@ -143,7 +155,9 @@ ExrHeader exr_header(const std::filesystem::path& path, ByteSpan bytes) {
     while (at < bytes.size() && bytes[at] != 0) (void)take_header(path, bytes, at);
   }
   const bool is_whole = header.end < bytes.size();
-  if ((version & (kManyParts | kDeep)) != 0 || !is_whole || header.compression >= kDwa) return {};
+  const bool can_rename =
+      (version & (kManyParts | kDeep)) == 0 && is_whole && header.compression < kDwa;
+  if (!can_rename) header.channels.clear();
   return header;
 }
 
@@ -256,15 +270,16 @@ ExrBytes bytes_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::optional<ExrBytes> exr_with_known_channels(const std::filesystem::path& path,
-                                                PicturePart part) {
+std::optional<ExrPicture> read_exr(const std::filesystem::path& path, PicturePart part) {
   ExrBytes bytes = bytes_of(path);
   if (bytes.empty()) return std::nullopt;
   const ExrHeader header = exr_header(path, bytes);
+  ExrPicture picture{{}, header.data, header.display};
   const ExrNames names = names_of(header.channels, part);
-  if (names.empty()) return std::nullopt;
+  if (names.empty()) return picture;
   replace_list(bytes, header, list_with(bytes, header.channels, names));
-  return bytes;
+  picture.renamed = std::move(bytes);
+  return picture;
 }
 
 }  // namespace episcope::io

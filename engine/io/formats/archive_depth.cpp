@@ -214,10 +214,10 @@ void settle_zero_depth(CameraGrid& camera, ConventionReport& report) {
 DepthMaps read_depth(const Hdf5Input& file, const std::string& name, const FieldShape& shape,
                      MapViews views, const Progress& progress) {
   DepthMaps maps;
-  if (!file.has(name)) return maps;
+  if (!file.has_numbers(name)) return maps;
   maps.name = name;
   maps.depth = read_maps<float>(file, name, shape, progress.part(0, 0.8), views);
-  if (file.has(name + "_MASK")) {
+  if (file.has_numbers(name + "_MASK")) {
     maps.mask = read_maps<std::uint8_t>(file, name + "_MASK", shape, progress.part(0.8, 1), views);
   }
   return maps;
@@ -319,7 +319,7 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
   const auto read = [&](const char* name, double begin, double end) {
     return read_depth(file, name, shape, options.map_views(), progress.part(begin, end));
   };
-  const std::string other = file.has("GT_DEPTH") ? "" : other_depth(file, shape);
+  const std::string other = file.has_numbers("GT_DEPTH") ? "" : other_depth(file, shape);
   DepthMaps field = read(other.empty() ? "GT_DEPTH" : other.c_str(), 0, 0.7);
   DepthMaps foreground = read("GT_DEPTH_FOREGROUND", 0.7, 0.8);
   DepthMaps background = read("GT_DEPTH_BACKGROUND", 0.8, 0.9);
@@ -540,7 +540,7 @@ std::optional<SampleType> sample_type(Hdf5Type type) {
 
 /// "all views" or "the center view" of a dataset; empty if there is none.
 std::string covered(const Hdf5Input& file, const char* dataset) {
-  if (!file.has(dataset)) return {};
+  if (!file.has_numbers(dataset)) return {};
   return file.dataset(dataset).shape.size() > 2 ? "all views" : "the center view";
 }
 
@@ -548,14 +548,15 @@ std::string truth_of(const Hdf5Input& file) {
   if (const std::string views = covered(file, "GT_DEPTH"); !views.empty()) {
     return "depth of " + views;
   }
-  const bool has_layers = file.has("GT_DEPTH_FOREGROUND") && file.has("GT_DEPTH_BACKGROUND");
+  const bool has_layers =
+      file.has_numbers("GT_DEPTH_FOREGROUND") && file.has_numbers("GT_DEPTH_BACKGROUND");
   return has_layers ? "depth of two layers" : "";
 }
 
 std::string labels_of(const Hdf5Input& file) {
   const std::string views = covered(file, kTrueLabels);
   const std::string labels = views.empty() ? "" : "labels of " + views;
-  if (!file.has("SCRIBBLES")) return labels;
+  if (!file.has_numbers("SCRIBBLES")) return labels;
   return labels.empty() ? "scribbles" : labels + ", scribbles";
 }
 

@@ -47,7 +47,7 @@ void read_positions(const Hdf5Input& file, GridShape grid, LightFieldInfo& info)
 /// The mask of valid pixels as stored; empty if there is none.
 ViewStack<std::uint8_t> read_valid(const Hdf5Input& file, const FieldShape& shape,
                                    const Progress& progress) {
-  if (!file.has(kValid)) return {};
+  if (!file.has_numbers(kValid)) return {};
   const Hdf5Shape stored = file.dataset(kValid).shape;
   const Hdf5Shape one{static_cast<std::size_t>(shape.height),
                       static_cast<std::size_t>(shape.width)};
@@ -100,11 +100,11 @@ bool contains_zero(const ViewStack<std::int32_t>& labels) {
 ArchiveLabels read_archive_labels(const Hdf5Input& file, const FieldShape& shape,
                                   ConventionReport& report, const Progress& progress) {
   ArchiveLabels found;
-  if (file.has(kTrueLabels)) {
+  if (file.has_numbers(kTrueLabels)) {
     found.labels = read_maps<std::int32_t>(file, kTrueLabels, shape, progress.part(0, 0.9));
   }
-  if (file.has(kTrueLabels)) found.scribbles.labels = read_label_list(file, kTrueLabels);
-  if (!file.has("SCRIBBLES")) return found;
+  if (file.has_numbers(kTrueLabels)) found.scribbles.labels = read_label_list(file, kTrueLabels);
+  if (!file.has_numbers("SCRIBBLES")) return found;
   StoredScribbles stored =
       read_scribble_dataset(file, shape, contains_zero(found.labels), progress.part(0.9, 1));
   if (stored.scribbles.labels.empty() && !stored.raises_labels) {
@@ -138,6 +138,10 @@ ViewStack<T> read_views(const Hdf5Input& file, const ArchiveLayout& layout,
   };
   const ViewIndex center = shape.grid.center();
   progress.check();
+  if (shape.grid.count() > 1 && read_rows_of_views(file, kArchiveLightField, stack, progress)) {
+    on_center(stack.view(center));
+    return stack;
+  }
   read(center);
   on_center(stack.view(center));
   if (shape.grid.count() > 1 && read_stored_views(file, kArchiveLightField, stack, progress)) {
@@ -218,15 +222,26 @@ std::optional<Interval> stated_range(const Hdf5Input& file) {
   return Interval{*min, *max};
 }
 
+/// Names datasets of the archive that are there and of no use.
+void tell_faults(const Hdf5Input& file, ConventionReport& report) {
+  for (const char* name :
+       {"GT_DEPTH", "GT_DEPTH_MASK", "GT_DEPTH_FOREGROUND", "GT_DEPTH_FOREGROUND_MASK",
+        "GT_DEPTH_BACKGROUND", "GT_DEPTH_BACKGROUND_MASK", kTrueLabels, "SCRIBBLES", kValid}) {
+    const std::string fault = file.fault_of(name);
+    if (!fault.empty()) report.warnings.push_back(fmt::format("{} {}: left out.", name, fault));
+  }
+}
+
 /// Labels of the file or of the file beside it, whose use is noted.
 ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, ConventionReport& report,
                           FileUsage& account, const Progress& progress) {
-  const bool has_own = file.has(kTrueLabels) || file.has("SCRIBBLES");
+  const bool has_own = file.has_numbers(kTrueLabels) || file.has_numbers("SCRIBBLES");
   ArchiveLabels own =
       has_own ? read_archive_labels(file, shape, report, progress) : ArchiveLabels();
   const fs::path beside = labels_beside(file.path());
   if (!is_there(beside)) return own;
   const Hdf5Input labels(beside);
+  tell_faults(labels, report);
   // Where several light fields share a folder, labels that we wrote name theirs.
   const auto owner = labels.text("/", "light_field");
   if (owner && *owner != file.path().filename().string()) return own;
@@ -235,7 +250,7 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
     return read_archive_labels(labels, shape, report, progress);
   }
   // What was painted is saved beside the file and never into it.
-  if (owner && labels.has("SCRIBBLES")) {
+  if (owner && labels.has_numbers("SCRIBBLES")) {
     account.use(beside, "scribble files");
     own.scribbles = read_scribble_dataset(labels, shape, false, progress).scribbles;
   }
@@ -245,7 +260,7 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
 /// How the depth was estimated, if the file says that it is a result.
 std::optional<Provenance> read_estimated(const Hdf5Input& file) {
   for (const char* name : {"GT_DEPTH", "GT_DEPTH_FOREGROUND"}) {
-    if (!file.has(name)) continue;
+    if (!file.has_numbers(name)) continue;
     const auto method = file.text(name, kEstimatedBy);
     if (!method) continue;
     Provenance estimated;
@@ -284,6 +299,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   ConventionReport& report = scene.convention;
   report.format = "archive (" + path.filename().string() + group_text(file) + ")";
   compare_sizes(file, report);
+  tell_faults(file, report);
   LightFieldInfo info{scene_name(path),
                       path.string(),
                       read_camera(file),
@@ -465,7 +481,7 @@ std::vector<Companion> find_companions(const std::filesystem::path& folder, cons
     if (!has_hdf5_signature(path)) continue;
     try {
       const Hdf5Input file(path);
-      if (!file.has(known.dataset)) continue;
+      if (!file.has_numbers(known.dataset)) continue;
       const Hdf5Shape shape = file.dataset(known.dataset).shape;
       require_fit(path, known.dataset, shape, field);
       found.push_back({known.kind, path, shape_text(shape)});

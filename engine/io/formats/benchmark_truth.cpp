@@ -7,6 +7,7 @@
 #include "engine/io/models/order/order_check.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
+#include "engine/io/models/sidecar_maps/sidecar_maps.h"
 
 #include <fmt/format.h>
 
@@ -387,6 +388,7 @@ void read_object_ids(const fs::path& folder, const SidecarViews& views, const Si
 DisparityField read_benchmark_disparity(const fs::path& folder, const SidecarViews& views,
                                         const SidecarNotes& notes, const Progress& progress) {
   DisparityField field = read_stored(folder, views, notes, progress);
+  apply_masks_beside(views, notes, field);
   correct_values(views.samples, field, notes.report);
   return field;
 }

@@ -20,8 +20,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <memory>
@@ -290,6 +292,9 @@ bool has_tiff_name(const fs::path& path) {
   return suffix == ".tif" || suffix == ".tiff";
 }
 
+/// Pages of ImageJ without directories; nothing for other files.
+std::vector<AnyImage> read_imagej_pages(const fs::path& path);
+
 bool has_pages(const fs::path& path) {
   return has_tiff_name(path) && count_tiff_pages(path, kMostPictures) >= kFewestPages;
 }
@@ -325,7 +330,9 @@ Frames read_frames(const fs::path& path, const Progress& progress) {
   }
   const ImageHeader header = read_image_header(path);
   require_view_memory(path, 8.0 * header.height * header.width * header.channels * pages);
-  return {decode_pages(path, pages), "pages of a TIFF file"};
+  std::vector<AnyImage> pictures = read_imagej_pages(path);
+  if (pictures.empty()) pictures = decode_pages(path, pages);
+  return {std::move(pictures), "pages of a TIFF file"};
 }
 
 template <class T>
@@ -570,6 +577,7 @@ class Numbers {
   }
 
   [[nodiscard]] bool is_tiff() const { return is_tiff_; }
+  [[nodiscard]] bool is_little_endian() const { return is_little_endian_; }
 
   /// How long places, numbers of entries, and entries are.
   [[nodiscard]] std::uint64_t place_bytes() const { return is_big_ ? 8 : 4; }
@@ -609,9 +617,7 @@ class Numbers {
   bool is_tiff_ = false;
 };
 
-}  // namespace
-
-int count_tiff_pages(const std::filesystem::path& path, int most) {
+int count_directories(const std::filesystem::path& path, int most) {
   Numbers file(path);
   if (!file.is_tiff()) return 0;
   int pages = 0;
@@ -625,25 +631,117 @@ int count_tiff_pages(const std::filesystem::path& path, int most) {
   return pages;
 }
 
-std::string tiff_description(const std::filesystem::path& path) {
-  constexpr std::uint64_t kDescription = 270;
+/// Value of a tag of the first page.
+struct TagValue {
+  std::uint64_t place = 0;   ///< Where the first value lies,
+  std::uint64_t bytes = 0;   ///< and how many bytes all have.
+  std::uint64_t number = 0;  ///< The first, if it is a whole number.
+};
+
+std::optional<TagValue> tag_of(Numbers& file, std::uint64_t tag) {
   constexpr std::uint64_t kMostEntries = 1000;
-  constexpr std::uint64_t kMostBytes = 64 << 10;
-  Numbers file(path);
-  if (!file.is_tiff()) return {};
+  constexpr std::array<std::uint64_t, 6> kSizes{0, 1, 1, 2, 4, 8};  // of types
+  if (!file.is_tiff()) return std::nullopt;
   std::uint64_t entry = file.place_of_first_page();
   const std::uint64_t entries = std::min(kMostEntries, file.at(entry, file.count_bytes()));
   entry += file.count_bytes();
   for (std::uint64_t i = 0; i < entries; ++i, entry += file.entry_bytes()) {
-    if (file.at(entry, 2) != kDescription) continue;
-    const std::uint64_t bytes = file.at(entry + 4, file.place_bytes());
-    const std::uint64_t value = entry + 4 + file.place_bytes();
-    const bool is_inside = bytes <= file.place_bytes();
-    const std::uint64_t place = is_inside ? value : file.at(value, file.place_bytes());
-    std::string text = file.text(place, std::min(bytes, kMostBytes));
-    return text.substr(0, text.find('\0'));
+    if (file.at(entry, 2) != tag) continue;
+    const std::uint64_t type = file.at(entry + 2, 2);
+    const std::uint64_t size = type < kSizes.size() ? kSizes[type] : 8;
+    TagValue value{entry + 4 + file.place_bytes(), size * file.at(entry + 4, file.place_bytes())};
+    if (value.bytes > file.place_bytes()) value.place = file.at(value.place, file.place_bytes());
+    value.number = file.at(value.place, size);
+    return value;
   }
-  return {};
+  return std::nullopt;
+}
+
+/// Samples that follow each other without directories.
+struct RawPages {
+  int count = 0;
+  int height = 0, width = 0, channels = 1;
+  std::uint64_t bits = 8;
+  bool is_float = false;
+  std::uint64_t place = 0;
+
+  [[nodiscard]] std::uint64_t bytes() const {
+    return static_cast<std::uint64_t>(height) * static_cast<std::uint64_t>(width) *
+           static_cast<std::uint64_t>(channels) * bits / 8;
+  }
+};
+
+/// Nothing if the file does not hold what its description states, or has them packed.
+std::optional<RawPages> raw_pages_of(const std::filesystem::path& path) {
+  constexpr std::uint64_t kLongest = 1 << 20;
+  const std::string text = tiff_description(path);
+  RawPages pages{.count = number_behind(text, "\nimages=")};
+  if (!text.starts_with("ImageJ=") || pages.count < 2) return std::nullopt;
+  Numbers file(path);
+  const auto number = [&](std::uint64_t tag, std::uint64_t otherwise) {
+    const auto value = tag_of(file, tag);
+    return value ? value->number : otherwise;
+  };
+  const std::uint64_t width = number(256, 0), height = number(257, 0), channels = number(277, 1);
+  pages.bits = number(258, 1);
+  pages.is_float = number(339, 1) == 3;
+  pages.place = number(273, 0);
+  const bool is_known = pages.is_float ? pages.bits == 32 : pages.bits == 8 || pages.bits == 16;
+  const bool is_plain = number(259, 1) == 1 && number(284, 1) == 1 && is_known &&
+                        (channels == 1 || channels == 3) && std::max(width, height) <= kLongest;
+  if (!is_plain) return std::nullopt;
+  pages.width = static_cast<int>(width);
+  pages.height = static_cast<int>(height);
+  pages.channels = static_cast<int>(channels);
+  const std::uint64_t bytes = pages.bytes(), size = std::filesystem::file_size(path);
+  const bool is_there = bytes > 0 && pages.place <= size &&
+                        static_cast<std::uint64_t>(pages.count) <= (size - pages.place) / bytes;
+  return is_there ? std::optional(pages) : std::nullopt;
+}
+
+template <class T>
+Image<T> raw_page(Numbers& file, const RawPages& pages, std::uint64_t place) {
+  const std::string bytes = file.text(place, pages.bytes());
+  Image<T> image(pages.height, pages.width, pages.channels);
+  std::memcpy(image.data(), bytes.data(), std::min<std::size_t>(bytes.size(), pages.bytes()));
+  if (file.is_little_endian() == (std::endian::native == std::endian::little)) return image;
+  for (T& sample : image) {
+    auto* const begin = reinterpret_cast<unsigned char*>(&sample);
+    std::reverse(begin, begin + sizeof(T));
+  }
+  return image;
+}
+
+std::vector<AnyImage> read_imagej_pages(const std::filesystem::path& path) {
+  std::vector<AnyImage> read;
+  const auto pages = count_directories(path, 1) == 1 ? raw_pages_of(path) : std::nullopt;
+  if (!pages) return read;
+  Numbers file(path);
+  for (int i = 0; i < pages->count; ++i) {
+    const std::uint64_t place = pages->place + static_cast<std::uint64_t>(i) * pages->bytes();
+    if (pages->is_float) read.emplace_back(raw_page<float>(file, *pages, place));
+    if (pages->bits == 8) read.emplace_back(raw_page<std::uint8_t>(file, *pages, place));
+    if (pages->bits == 16) read.emplace_back(raw_page<std::uint16_t>(file, *pages, place));
+  }
+  return read;
+}
+
+}  // namespace
+
+int count_tiff_pages(const std::filesystem::path& path, int most) {
+  const int directories = count_directories(path, most);
+  const auto raw = directories == 1 ? raw_pages_of(path) : std::nullopt;
+  return raw ? std::min(raw->count, most + 1) : directories;
+}
+
+std::string tiff_description(const std::filesystem::path& path) {
+  constexpr std::uint64_t kDescription = 270;
+  constexpr std::uint64_t kMostBytes = 64 << 10;
+  Numbers file(path);
+  const auto value = tag_of(file, kDescription);
+  if (!value) return {};
+  std::string text = file.text(value->place, std::min(value->bytes, kMostBytes));
+  return text.substr(0, text.find('\0'));
 }
 
 }  // namespace episcope::io

@@ -62,8 +62,9 @@ struct StatedPages {
 /// does not describe `pages` pages.
 [[nodiscard]] std::optional<StatedPages> stated_pages(const std::string& description, int pages);
 
-/// Counts the pages of a TIFF file by its directories, up to `most` + 1. 0 for other or damaged
-/// files.
+/// Counts the pages of a TIFF file by its directories, up to `most` + 1, or of a large file of
+/// ImageJ, whose pages follow the only directory's one after the other, as it states. 0 for other
+/// or damaged files.
 [[nodiscard]] int count_tiff_pages(const std::filesystem::path& path, int most);
 
 /// Reads the text ImageDescription of the first page of a TIFF file, cut off after 64 KiB. Empty if

@@ -10,6 +10,7 @@
 #include "engine/io/base/image_header.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/archive_depth.h"
+#include "engine/io/formats/mosaic_layout.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/names/grid_names.h"
 #include "engine/io/models/names/index_fields.h"
@@ -163,6 +164,16 @@ std::string format_of(const NamedGrid& grid, const fs::path& folder, const fs::p
   return format + ")";
 }
 
+/// Throws IoError if pictures of a list are rather mosaics of views each.
+void refuse_mosaics(const fs::path& folder, const ViewFiles& views) {
+  const auto count = views.files.size();
+  const auto mosaic = evident_mosaic(views.files.front());
+  if (!mosaic || !evident_mosaic(views.files.back())) return;
+  throw IoError(folder, fmt::format("each of the {} pictures looks like a mosaic of {} views ({}); "
+                                    "open one of them, or give --grid 1x{} if they are the views",
+                                    count, grid_text(mosaic->grid), mosaic->evidence, count));
+}
+
 /// Formats of float samples that are linear in light; their samples keep their scale.
 bool is_linear_format(const fs::path& path) {
   const std::string suffix = suffix_of(path);
@@ -185,6 +196,7 @@ Reader image_grid_reader() {
 Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress,
                       const ImageGridExtras& extras) {
   NamedGrid grid = name_grid(folder, options);
+  if (grid.placed.is_list && !given_grid(options)) refuse_mosaics(folder, grid.placed.views);
   const std::string evidence = settle_grid(folder, grid, options, progress.part(0, 0.1));
   ViewFiles& views = grid.placed.views;
   const bool is_linear = is_linear_format(views.files.front());

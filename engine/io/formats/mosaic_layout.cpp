@@ -465,6 +465,16 @@ MosaicLayout find_mosaic_layout(const AnyImage& picture, const fs::path& path,
   return {answer->kind, grid, height / grid.v, width / grid.u, std::move(answer->evidence)};
 }
 
+std::optional<MosaicLayout> evident_mosaic(const fs::path& path) {
+  try {
+    MosaicLayout layout = find_mosaic_layout(decode_image(path), path, OpenOptions());
+    const bool is_one = layout.kind == Mosaic::Views && layout.grid.v > 1 && layout.grid.u > 1;
+    return is_one ? std::optional(std::move(layout)) : std::nullopt;
+  } catch (const IoError&) {
+    return std::nullopt;
+  }
+}
+
 std::optional<GridShape> find_lenslets(const AnyImage& top, int height, const fs::path& path,
                                        const OpenOptions& options) {
   const Question question = question_of(top, {height, size_of(top).width}, path, options);

@@ -46,6 +46,10 @@ struct MosaicLayout {
                                               const OpenOptions& options,
                                               const std::string& subject = "this picture");
 
+/// The layout of a picture of views side by side that shows by itself that it is one. Empty if it
+/// does not, or cannot be decoded.
+[[nodiscard]] std::optional<MosaicLayout> evident_mosaic(const std::filesystem::path& path);
+
 /// Finds rows and columns of a lenslet from the decoded `top` of a picture of `height` px, as
 /// `find_mosaic_layout` does for a picture named as one of lenslets. Empty if the top does not
 /// tell.

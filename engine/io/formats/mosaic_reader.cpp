@@ -13,6 +13,7 @@
 #include "engine/io/models/array_file.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
+#include "engine/io/models/names/grid_names.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
@@ -168,12 +169,23 @@ bool is_largest(const fs::path& path, const std::vector<fs::path>& images) {
   });
 }
 
+/// Whether names of a folder tell rows and columns of views.
+bool are_views_named(const fs::path& folder, const OpenOptions& options) {
+  try {
+    return !name_grid(folder, options).placed.is_list;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
 fs::path find_by_file(const fs::path& path, const OpenOptions& options) {
   if (!is_image_name(path)) return find_mosaic_dataset(path, options) ? path : fs::path();
   if (wants_mosaic(options) || mosaic_name(path) != MosaicName::Plain) return path;
   const fs::path folder = scene_folder(path);
-  if (!is_largest(path, list_images(folder)) || is_other_form(folder, options)) return {};
-  return path;
+  if (is_other_form(folder, options)) return {};
+  const bool is_one = is_largest(path, list_images(folder)) ||
+                      (!are_views_named(folder, options) && evident_mosaic(path));
+  return is_one ? path : fs::path();
 }
 
 fs::path find_in_folder(const fs::path& folder, const OpenOptions& options) {

@@ -195,9 +195,11 @@ void join_views(std::vector<ArrayEntry>& entries) {
     entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-/// What stands before the last word of a name, with what parts them: "LF/" of "LF/r".
-std::string_view before_last_word(std::string_view name) {
-  return name.substr(0, name.find_last_of("/_.- ") + 1);
+/// What stands before the name of a channel, with what parts them: "LF/" of "LF/r", "lf" of "lfr".
+/// Nothing if the name does not end so.
+std::optional<std::string> before_channel(const std::string& name, std::string_view channel) {
+  if (!lower_case(name).ends_with(channel)) return std::nullopt;
+  return name.substr(0, name.size() - channel.size());
 }
 
 void join_channels(std::vector<ArrayEntry>& entries) {
@@ -205,15 +207,14 @@ void join_channels(std::vector<ArrayEntry>& entries) {
       {{"r", "g", "b"}, {"red", "green", "blue"}}};
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const ArrayEntry first = entries[i];
-    const std::string before(before_last_word(first.name));
-    const std::string word = lower_case(first.name.substr(before.size()));
-    const auto names = std::ranges::find(kNames, word, [](const auto& all) { return all[0]; });
+    const auto names = std::ranges::find_if(
+        kNames, [&](const auto& all) { return before_channel(first.name, all[0]).has_value(); });
     if (names == kNames.end() || !first.other_kind.empty()) continue;
+    const std::string before = *before_channel(first.name, names->front());
     std::vector<std::size_t> places;
     for (const std::string_view channel : *names) {
       const auto found = std::ranges::find_if(entries, [&](const ArrayEntry& entry) {
-        return before_last_word(entry.name) == before && is_same_kind(entry, first) &&
-               lower_case(entry.name.substr(before.size())) == channel;
+        return before_channel(entry.name, channel) == before && is_same_kind(entry, first);
       });
       if (found != entries.end()) {
         places.push_back(static_cast<std::size_t>(found - entries.begin()));
@@ -221,7 +222,8 @@ void join_channels(std::vector<ArrayEntry>& entries) {
     }
     if (places.size() != names->size()) continue;
     ArrayEntry whole = first;
-    whole.name = before.empty() ? "rgb" : before.substr(0, before.size() - 1);
+    whole.name = before.substr(0, before.find_last_not_of("/_.- ") + 1);
+    if (whole.name.empty()) whole.name = "rgb";
     whole.stated_axes.clear();
     whole.leading = 'c';
     whole.shape.insert(whole.shape.begin(), places.size());
@@ -384,6 +386,10 @@ ArrayEntry describe(const Hdf5Input& file, const Hdf5Dataset& dataset, bool is_m
     entry.other_kind = matlab_class == "char"   ? "text"
                        : matlab_class == "cell" ? "cell array"
                                                 : "dataset without numbers";
+    return entry;
+  }
+  if (!file.fault_of(dataset.name).empty()) {
+    entry.other_kind = "empty dataset";
     return entry;
   }
   entry.shape = dataset.shape;

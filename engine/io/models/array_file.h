@@ -40,7 +40,7 @@ struct ArrayEntry {
 
 /// A file of one or several arrays with names. Arrays of equal shape whose names are parts of one
 /// array are joined, and only the whole is an entry:
-/// - r, g and b (also R, red, LF_r, of one group) as channels;
+/// - r, g and b (also R, red, LF_r, lfr, of one group) as channels;
 /// - at least three views ([y][x], with channels last or first), numbered by row and column or in a
 ///   row: view_00_00, 3/4, cam012. Numbers that are equal in all names do not count.
 ///

@@ -112,10 +112,26 @@ class ViewDecoder {
   std::vector<Outcome> outcomes_;
 };
 
+/// Throws IoError if files state that their views were cut out at different places: no parallax
+/// tells these from a shift of the cameras.
+void require_one_place(const std::vector<fs::path>& files) {
+  const PagePlace first = stated_place(files.front());
+  for (const fs::path& file : files) {
+    const PagePlace place = stated_place(file);
+    if (place == first) continue;
+    throw IoError(
+        file, fmt::format("this view states that it lies at ({}, {}) px of a page, but {} "
+                          "at ({}, {}); cut all views at one place, or remove what the "
+                          "files state",
+                          place.x, place.y, files.front().filename().string(), first.x, first.y));
+  }
+}
+
 /// Loads the views that fit the first of `references` that can be decoded.
 Loaded load_around(const ViewFiles& views, const std::vector<int>& references,
                    const OnCenterView& on_center, const Progress& progress) {
   progress.check();
+  require_one_place(views.files);
   ViewDecoder decoder(views);
   const auto first = decoder.first_of(references);
   return std::visit(

@@ -45,11 +45,13 @@ constexpr double kMapScales[] = {0.1,       0.01,        0.001, 1.0 / 16, 1.0 / 
 /// Depth in m, mm or cm where the camera has another of these units.
 constexpr double kDepthScales[] = {1, 0.001, 1000, 0.01, 100};
 
-/// Size of a view, and the camera that depth belongs to.
+/// Size of a view, the camera that depth belongs to, and pixels of padding above and on the left.
 struct MapTarget {
   int height = 0;
   int width = 0;
   CameraGrid camera{};
+  int above = 0;
+  int left = 0;
 };
 
 /// The value of a map at a pixel of the view by a reading; NaN if it has none there.
@@ -60,8 +62,8 @@ float value_by(const DisparityView& map, const MapReading& reading, const MapTar
   if (y < border || x < border || y >= target.height - border || x >= target.width - border) {
     return kNone;
   }
-  int row = y - border;
-  int column = x - border;
+  int row = y - border + target.above;
+  int column = x - border + target.left;
   const int height = reading.is_transposed ? map.disparity.width : map.disparity.height;
   const int width = reading.is_transposed ? map.disparity.height : map.disparity.width;
   if (reading.flip == MapFlip::Y || reading.flip == MapFlip::Both) row = height - 1 - row;
@@ -104,6 +106,12 @@ Names<MapFlip> names_of(MapFlip) {
           {MapFlip::Both, "both", "both reversed"}};
 }
 
+Names<MapCrop> names_of(MapCrop) {
+  return {{MapCrop::None, "none", "all of it"},
+          {MapCrop::Corner, "corner", "padded on the right and below"},
+          {MapCrop::Middle, "middle", "padded on all sides"}};
+}
+
 Names<MapValues> names_of(MapValues) {
   return {{MapValues::Disparity, "disparity", "px per view step"},
           {MapValues::Depth, "depth", "in units of the camera of the light field"}};
@@ -131,7 +139,9 @@ Schema<MapReading> map_schema() {
                 "Pixels that the maps lack at each side of the views: their first pixel belongs "
                 "that far from the upper left corner",
                 "px"},
-               {0, kWidestBorder});
+               {0, kWidestBorder})
+      .choice("map-crop", &R::crop,
+              {"Part of maps", "Part of maps larger than the views that belongs to the views"});
   return schema;
 }
 
@@ -153,6 +163,8 @@ std::string reading_text(const MapReading& reading) {
   if (reading.border_px > 0) {
     parts.push_back(fmt::format("a border of {} px around the map", reading.border_px));
   }
+  if (reading.crop == MapCrop::Corner) parts.emplace_back("the upper left of padded maps");
+  if (reading.crop == MapCrop::Middle) parts.emplace_back("the middle of padded maps");
   return fmt::format("{}", fmt::join(parts, " and "));
 }
 
@@ -169,10 +181,12 @@ void require_possible(const MapReading& reading, const LightField* light_field,
         "a result in two layers is read as its file states; leave out the options that begin with "
         "--map-");
   }
-  if (!light_field && (reading.border_px > 0 || reading.values == MapValues::Depth)) {
+  const bool needs_views =
+      reading.border_px > 0 || reading.crop != MapCrop::None || reading.values == MapValues::Depth;
+  if (!light_field && needs_views) {
     throw InvalidInput(
-        "--map-border and --map-values depth need size and camera of the light field; name it with "
-        "--truth INPUT");
+        "--map-border, --map-crop and --map-values depth need size and camera of the light field; "
+        "name it with --truth INPUT");
   }
   if (reading.values == MapValues::Depth && !light_field->info().camera.is_known()) {
     throw InvalidInput("the camera of " + light_field->info().name +
@@ -181,19 +195,38 @@ void require_possible(const MapReading& reading, const LightField* light_field,
   }
 }
 
+/// What pixels of the views are to be filled from maps of this size.
+MapTarget target_of(const MapReading& reading, const LightField* light_field, int height,
+                    int width) {
+  MapTarget target{height, width};
+  if (!light_field) return target;
+  target.camera = light_field->info().camera;
+  if (reading.border_px == 0 && reading.crop == MapCrop::None) return target;
+  target.height = light_field->height();
+  target.width = light_field->width();
+  if (reading.crop == MapCrop::None) return target;
+  if (height < target.height || width < target.width) {
+    throw InvalidInput(
+        fmt::format("the maps have {}×{} px, less than the views with {}×{}; leave "
+                    "out --map-crop",
+                    width, height, target.width, target.height));
+  }
+  if (reading.crop == MapCrop::Middle) {
+    target.above = (height - target.height) / 2;
+    target.left = (width - target.width) / 2;
+  }
+  return target;
+}
+
 }  // namespace
 
 void apply_reading(const MapReading& reading, const LightField* light_field, Estimate& estimate) {
   if (reading == MapReading{}) return;
   require_possible(reading, light_field, estimate);
   const ViewStack<float>& maps = estimate.field.disparity;
-  MapTarget target{reading.is_transposed ? maps.width() : maps.height(),
-                   reading.is_transposed ? maps.height() : maps.width()};
-  if (light_field) target.camera = light_field->info().camera;
-  if (reading.border_px > 0) {
-    target.height = light_field->height();
-    target.width = light_field->width();
-  }
+  const MapTarget target = reading.is_transposed
+                               ? target_of(reading, light_field, maps.width(), maps.height())
+                               : target_of(reading, light_field, maps.height(), maps.width());
   if (!estimate.confidence.empty()) {
     MapReading places = reading;
     places.scale = 1;

@@ -15,6 +15,10 @@ namespace episcope::io {
 enum class MapFlip { None, X, Y, Both };
 [[nodiscard]] Names<MapFlip> names_of(MapFlip);
 
+/// Which part of maps that are padded belongs to the views.
+enum class MapCrop { None, Corner, Middle };
+[[nodiscard]] Names<MapCrop> names_of(MapCrop);
+
 /// What the numbers of a map are.
 enum class MapValues { Disparity, Depth };
 [[nodiscard]] Names<MapValues> names_of(MapValues);
@@ -30,12 +34,13 @@ struct MapReading {
   /// The maps lack so many pixels at each side of the views: pixel (0, 0) of a map is pixel
   /// (`border_px`, `border_px`) of a view. Only the middle of the views is judged.
   int border_px = 0;
+  MapCrop crop = MapCrop::None;  ///< Maps that are larger than the views, as networks pad them.
 
   friend bool operator==(const MapReading&, const MapReading&) = default;
 };
 
 /// Schema of the options, one row each: `map-transpose`, `map-flip`, `map-scale`, `map-values`,
-/// `map-border`.
+/// `map-border`, `map-crop`.
 [[nodiscard]] Schema<MapReading> map_schema();
 
 /// Options that differ from reading a map as it is, by key.
@@ -45,8 +50,8 @@ struct MapReading {
 [[nodiscard]] std::string reading_text(const MapReading& reading);
 
 /// Reads all maps of an estimate so. `light_field` tells size and camera; null = it is not known.
-/// Throws InvalidInput for a scale of 0, for an estimate in two layers, and for a border or depth
-/// if the light field or its camera is not known.
+/// Throws InvalidInput for a scale of 0, for an estimate in two layers, for a border, a part or
+/// depth if the light field or its camera is not known, and for a part of maps smaller than views.
 void apply_reading(const MapReading& reading, const LightField* light_field, Estimate& estimate);
 
 /// What the map of one view is compared with.

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
+#include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/npy.h"
@@ -144,6 +145,15 @@ std::vector<std::string> pose_words(const std::string& line) {
   return words;
 }
 
+/// What follows so many words of a line; it may hold spaces.
+std::string name_behind(const std::string& line, int words) {
+  std::istringstream in(line);
+  std::string name;
+  for (int i = 0; i < words; ++i) in >> name;
+  std::getline(in >> std::ws, name);
+  return name.substr(0, name.find_last_not_of(" \t\r") + 1);
+}
+
 [[noreturn]] void refuse(const fs::path& path, int line) {
   throw IoError(path, fmt::format("line {} is not one of an export of COLMAP as text; export it "
                                   "again or remove the file",
@@ -192,7 +202,7 @@ std::vector<CameraPose> read_colmap_poses(const fs::path& path) {
       numbers[i] = number_in(path, number, words[i + 1]);
     }
     CameraPose pose = colmap_pose(numbers);
-    pose.image = words[9];
+    pose.image = name_behind(line, 9);
     const auto focal = focals.find(words[8]);
     if (focal != focals.end()) pose.focal_widths = focal->second;
     poses.push_back(std::move(pose));
@@ -301,30 +311,51 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-/// The last folder and the name, which with and without a suffix are the same image.
-fs::path place_of(std::string image) {
+constexpr int kDeepestImage = 4;  ///< Folders by which images of one name are told apart.
+
+/// The name, which with and without a suffix is the same image, and up to `folders` folders that it
+/// is in.
+fs::path place_of(std::string image, int folders, bool keeps_case) {
   std::ranges::replace(image, '\\', '/');
-  const fs::path path = image;
-  return path.parent_path().filename() / path.stem();
+  if (!keeps_case) image = lower_case(image);
+  const fs::path path = fs::path(image).lexically_normal();
+  fs::path place = path.stem(), folder = path.parent_path();
+  for (; folders > 0 && folder.has_filename(); --folders, folder = folder.parent_path()) {
+    place = folder.filename() / place;
+  }
+  return place;
 }
 
-/// The poses of images by folder and name, or by name alone where no folder agrees.
+/// For each image the only pose of its place, or null.
+std::vector<const CameraPose*> poses_at(const std::vector<CameraPose>& all,
+                                        const std::vector<fs::path>& images, int folders,
+                                        bool keeps_case) {
+  std::map<fs::path, const CameraPose*> by_place;
+  for (const CameraPose& pose : all) {
+    const auto [at, is_new] = by_place.emplace(place_of(pose.image, folders, keeps_case), &pose);
+    if (!is_new) at->second = nullptr;
+  }
+  std::vector<const CameraPose*> poses;
+  for (const fs::path& image : images) {
+    const auto found = by_place.find(place_of(image.string(), folders, keeps_case));
+    poses.push_back(found == by_place.end() ? nullptr : found->second);
+  }
+  return poses;
+}
+
+/// The poses of images by name and as many folders as agree, else regardless of case.
 void match_names(const std::vector<CameraPose>& all, const std::vector<fs::path>& images,
                  FoundPoses& found) {
-  for (const bool by_folder : {true, false}) {
-    const auto key_of = [&](const std::string& image) {
-      const fs::path place = place_of(image);
-      return by_folder ? place : place.filename();
-    };
-    std::map<fs::path, const CameraPose*> by_name;
-    for (const CameraPose& pose : all) by_name.emplace(key_of(pose.image), &pose);
-    for (const fs::path& image : images) {
-      const auto named = by_name.find(key_of(image.string()));
-      if (named == by_name.end()) continue;
-      found.poses.push_back(*named->second);
-      found.images.push_back(image);
+  for (const bool keeps_case : {true, false}) {
+    for (int folders = kDeepestImage; folders >= 0; --folders) {
+      const std::vector<const CameraPose*> poses = poses_at(all, images, folders, keeps_case);
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (poses[i] == nullptr) continue;
+        found.poses.push_back(*poses[i]);
+        found.images.push_back(images[i]);
+      }
+      if (!found.images.empty()) return;
     }
-    if (!found.images.empty()) return;
   }
   found.problem = "it knows none of the images";
 }
@@ -389,7 +420,11 @@ std::vector<FoundPoses> read_parts(const fs::path& folder, const std::vector<fs:
 
 std::vector<FoundPoses> find_poses(const fs::path& folder, const fs::path& scene,
                                    const std::vector<fs::path>& images) {
-  for (const fs::path& base : {folder, scene}) {
+  std::vector<fs::path> bases{folder, scene};
+  for (fs::path inside = folder; inside.has_relative_path(); inside = inside.parent_path()) {
+    if (inside.filename() == "images") bases.push_back(inside.parent_path());
+  }
+  for (const fs::path& base : bases) {
     for (const char* inside : {"", "sparse/0", "sparse", "colmap"}) {
       for (const PoseForm& form : kPoseForms) {
         if (is_file(base / inside / form.name)) return {read_form(base / inside, form, images)};

@@ -67,7 +67,9 @@ struct FoundPoses {
 
 /// Finds camera poses: `transforms.json` (NeRF), `poses_bounds.npy` (LLFF), `images.bin` or
 /// `images.txt` with cameras (COLMAP). Looks in a folder of images, in the folder of the scene
-/// around it, and in `sparse/0`, `sparse` and `colmap` of both; reads the first form found.
+/// around it, beside a folder `images` around both, and in `sparse/0`, `sparse` and `colmap` of
+/// these; reads the first form found. Images are known by their names, with as many folders and
+/// regardless of case as needed.
 /// `images` are sorted by name. If poses are split for training and testing
 /// (`transforms_train.json`), all of them come first, then each part. Empty if there are none.
 [[nodiscard]] std::vector<FoundPoses> find_poses(const std::filesystem::path& folder,

@@ -132,7 +132,9 @@ ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name, const Fie
     read_column_major(file, dataset, shape.grid, stack);
     return stack;
   }
-  if (!is_center && read_stored_views(file, name, stack, progress)) return stack;
+  const bool is_read = !is_center && (read_stored_views(file, name, stack, progress) ||
+                                      read_rows_of_views(file, name, stack, progress));
+  if (is_read) return stack;
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
     const ViewIndex view = grid.view_at(i, first);
@@ -279,6 +281,33 @@ template bool read_stored_views(const Hdf5Input&, const std::string&, ViewStack<
                                 const Progress&);
 template bool read_stored_views(const Hdf5Input&, const std::string&, ViewStack<float>&,
                                 const Progress&);
+
+template <class T>
+bool read_rows_of_views(const Hdf5Input& file, const std::string& name, ViewStack<T>& views,
+                        const Progress& progress) {
+  const Hdf5Dataset dataset = file.dataset(name);
+  const Hdf5Shape& chunk = dataset.chunk;
+  if (chunk.size() < 4 || (chunk[0] == 1 && chunk[1] == 1)) return false;
+  Hdf5Block block{Hdf5Shape(chunk.size(), 0), dataset.shape};
+  if (chunk.size() > 4) block.count[4] = static_cast<std::size_t>(views.channels());
+  for (std::size_t& v = block.start[0]; v < dataset.shape[0]; v += chunk[0]) {
+    progress.check();
+    block.count[0] = std::min(chunk[0], dataset.shape[0] - v);
+    file.read(name, block, views.view({static_cast<int>(v), 0}).data);
+    progress.report(static_cast<double>(v + block.count[0]) /
+                    static_cast<double>(dataset.shape[0]));
+  }
+  return true;
+}
+
+template bool read_rows_of_views(const Hdf5Input&, const std::string&, ViewStack<std::uint8_t>&,
+                                 const Progress&);
+template bool read_rows_of_views(const Hdf5Input&, const std::string&, ViewStack<std::int32_t>&,
+                                 const Progress&);
+template bool read_rows_of_views(const Hdf5Input&, const std::string&, ViewStack<std::uint16_t>&,
+                                 const Progress&);
+template bool read_rows_of_views(const Hdf5Input&, const std::string&, ViewStack<float>&,
+                                 const Progress&);
 
 Hdf5Shape map_shape(GridShape grid, int height, int width) {
   const Hdf5Shape view{static_cast<std::size_t>(height), static_cast<std::size_t>(width)};

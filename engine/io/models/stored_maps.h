@@ -60,6 +60,13 @@ template <class T>
 [[nodiscard]] bool read_stored_views(const Hdf5Input& file, const std::string& name,
                                      ViewStack<T>& views, const Progress& progress);
 
+/// Fills `views` from a dataset whose chunks hold several views each, by rows of views, so that
+/// each chunk is unpacked once. False, with nothing done, if chunks do not. Of more channels than
+/// `views` has the first are read. T: uint8, int32, uint16 or float. Throws IoError, Cancelled.
+template <class T>
+[[nodiscard]] bool read_rows_of_views(const Hdf5Input& file, const std::string& name,
+                                      ViewStack<T>& views, const Progress& progress);
+
 /// Shape of the dataset of a stack of maps: `[y][x]` for a single view, else `[v][u][y][x]`.
 [[nodiscard]] Hdf5Shape map_shape(GridShape grid, int height, int width);
 

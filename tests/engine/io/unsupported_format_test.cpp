@@ -50,6 +50,50 @@ class UnsupportedFormatTest : public QObject {
     QVERIFY2(refusal(file).contains(advice), qPrintable(refusal(file)));
   }
 
+  void content_isTold_data() {
+    QTest::addColumn<QByteArray>("content");
+    QTest::addColumn<QString>("advice");
+    QTest::newRow("pointer") << QByteArray(
+                                    "version https://git-lfs.github.com/spec/v1\noid sha256:")
+                             << "git lfs pull";
+    QTest::newRow("web page") << QByteArray("<!DOCTYPE html><html><body>404") << "web page";
+    QTest::newRow("HEIC") << QByteArray(
+                                 "\0\0\0\x18"
+                                 "ftypheic\0\0\0\0",
+                                 16)
+                          << "HEIC";
+    QTest::newRow("AVIF") << QByteArray(
+                                 "\0\0\0\x1c"
+                                 "ftypavif\0\0\0\0",
+                                 16)
+                          << "AVIF";
+    QTest::newRow("JPEG XL") << QByteArray("\0\0\0\x0cJXL \x0d\x0a\x87\x0a", 12) << "JPEG XL";
+    QTest::newRow("nothing") << QByteArray() << "empty";
+  }
+  void content_isTold() {
+    QFETCH(QByteArray, content);
+    QFETCH(QString, advice);
+    const QTemporaryDir folder;
+    const fs::path place = folder.path().toStdString();
+    for (int i = 0; i < 9; ++i) {
+      const std::string name = std::to_string(i / 3) + "_" + std::to_string(i % 3) + ".png";
+      std::ofstream(place / name, std::ios::binary) << content.toStdString();
+    }
+
+    QVERIFY2(refusal(place).contains(advice), qPrintable(refusal(place)));
+  }
+
+  void folderOfHeic_isTold() {
+    const QTemporaryDir folder;
+    const fs::path place = folder.path().toStdString();
+    std::ofstream(place / "IMG_0_0.HEIC", std::ios::binary) << std::string(
+        "\0\0\0\x18"
+        "ftypheic\0\0\0\0",
+        16);
+
+    QVERIFY2(refusal(place).contains("IMG_0_0.HEIC: HEIC"), qPrintable(refusal(place)));
+  }
+
   void refusalOfAFolder_namesSuchFiles_data() {
     QTest::addColumn<QString>("name");
     QTest::addColumn<QString>("advice");

@@ -411,10 +411,12 @@ constexpr std::size_t kLongestCount = 18;  ///< Digits that a long long holds.
 
 /// The end of the number that begins with the digit at `begin`: digits, maybe with a fraction,
 /// maybe with an exponent that has a sign ("5.9e-08", but not "12e4", which is no number in a
-/// name).
+/// name). What follows a point has no fraction: in "toys.3.4" points part numbers.
 std::size_t end_of_number(std::string_view text, std::size_t begin) {
   std::size_t end = end_of_digits(text, begin);
-  if (end + 1 < text.size() && text[end] == '.' && is_digit(text[end + 1])) {
+  const bool is_parted_by_points = begin > 0 && text[begin - 1] == '.';
+  if (!is_parted_by_points && end + 1 < text.size() && text[end] == '.' &&
+      is_digit(text[end + 1])) {
     end = end_of_digits(text, end + 1);
   }
   const bool has_exponent = end + 2 < text.size() && (text[end] == 'e' || text[end] == 'E') &&

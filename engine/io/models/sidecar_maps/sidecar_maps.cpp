@@ -403,4 +403,14 @@ SidecarMaps read_sidecar_maps(const SidecarViews& views, const SidecarNotes& not
   return found;
 }
 
+void apply_masks_beside(const SidecarViews& views, const SidecarNotes& notes,
+                        DisparityField& field) {
+  if (field.empty()) return;
+  for (const MapSet& set : find_maps(views.files, views.folder, views.is_own).sets) {
+    const bool is_mask = set.kind == MapKind::Valid || set.kind == MapKind::Invalid;
+    const bool is_picture = !set.entries.empty() && can_hold_labels(set.entries.front().file);
+    if (is_mask && is_picture) read_validity(set, views, notes, field);
+  }
+}
+
 }  // namespace episcope::io

@@ -30,4 +30,9 @@ struct SidecarMaps {
 [[nodiscard]] std::optional<MapUnit> stated_unit(const std::filesystem::path& folder,
                                                  FileUsage& account);
 
+/// Applies masks of valid and of invalid pixels beside the views to disparity that came from
+/// elsewhere.
+void apply_masks_beside(const SidecarViews& views, const SidecarNotes& notes,
+                        DisparityField& field);
+
 }  // namespace episcope::io

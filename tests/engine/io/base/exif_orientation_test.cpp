@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/load_views.h"
 #include "tests/engine/io/models/sidecar_maps/layered_folder.h"
@@ -157,6 +158,52 @@ class ExifOrientationTest : public QObject {
     QCOMPARE(decoded.width(), 20);
     QCOMPARE(header.width, decoded.width());
     QCOMPARE(header.height, decoded.height());
+  }
+
+  // No parallax tells that from a shift of the cameras.
+  void viewsCutOutAtDifferentPlaces_areRefused_data() {
+    QTest::addColumn<int>("step");
+    QTest::newRow("all at one place") << 0;
+    QTest::newRow("each at its own") << 3;
+  }
+  void viewsCutOutAtDifferentPlaces_areRefused() {
+    QFETCH(int, step);
+    folder_->for_views(LayeredFolder::named("{}_{}.png"), [&](const fs::path& path,
+                                                              ViewIndex view) {
+      const auto one = folder_->scene.views.view(view);
+      const cv::Mat picture(one.height, one.width, CV_8UC3, const_cast<std::uint8_t*>(one.data));
+      std::vector<unsigned char> bytes;
+      cv::imencode(".png", picture, bytes);
+      std::string file(bytes.begin(), bytes.end());
+      const auto x = static_cast<std::size_t>(10 + step * view.u);
+      const std::string chunk =
+          "oFFs" + number(x, 4, false) + number(20, 4, false) + std::string(1, '\0');
+      const auto check = crc32(0, reinterpret_cast<const unsigned char*>(chunk.data()),
+                               static_cast<unsigned>(chunk.size()));
+      file.insert(33, number(9, 4, false) + chunk + number(check, 4, false));
+      std::ofstream(path, std::ios::binary) << file;
+    });
+
+    if (step == 0) {
+      QCOMPARE(folder_->open().light_field->grid(), (GridShape{3, 3}));
+    } else {
+      QVERIFY_THROWS_EXCEPTION(IoError, (void)folder_->open());
+    }
+  }
+
+  void placeOfATiff_isCountedInPixels() {
+    const std::pair<std::size_t, std::size_t> ratios[]{{300, 1}, {300, 1}, {1, 25}, {2, 25}};
+    std::string file = std::string("II*\0\10\0\0\0", 8) + number(4, 2, true);
+    std::string values;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t tag = (i < 2 ? 282 : 284) + i;  // resolution, then position
+      file += number(tag, 2, true) + number(5, 2, true) + number(1, 4, true) +
+              number(8 + 2 + 12 * 4 + 4 + values.size(), 4, true);
+      values += number(ratios[i].first, 4, true) + number(ratios[i].second, 4, true);
+    }
+    std::ofstream(folder_->path("a.tif"), std::ios::binary) << file + number(0, 4, true) + values;
+
+    QCOMPARE(io::stated_place(folder_->path("a.tif")), (io::PagePlace{12, 24}));
   }
 
   void damagedExif_isUpright() {

@@ -6,6 +6,8 @@
 
 #include <QTemporaryDir>
 
+#include <cmath>
+
 namespace episcope::in_exr_channels_test {
 
 using namespace episcope::test;
@@ -43,6 +45,22 @@ class ExrChannelsTest : public QObject {
   }
 
  private slots:
+  void storedPixels_lieInTheDisplayWindow() {
+    const Image<float> stored = channel(1);
+    write_exr(path(), {{"Y", stored.view()}}, DisplayWindow{-2, 1, 8, 9});
+
+    const auto colors = std::get<Image<float>>(io::decode_image(path()));
+    const auto depth = std::get<Image<float>>(io::decode_image(path(), io::PicturePart::Depth));
+
+    QCOMPARE(colors.width(), 11);
+    QCOMPARE(colors.height(), 9);
+    QCOMPARE(colors.at(0, 2), stored.at(1, 0));
+    QCOMPARE(colors.at(3, 8), stored.at(4, 6));
+    QCOMPARE(colors.at(0, 1), 0.0F);
+    QVERIFY(std::isnan(depth.at(4, 2)));
+    QCOMPARE(depth.at(3, 2), stored.at(4, 0));
+  }
+
   void channels_areFound_data() {
     QTest::addColumn<QStringList>("names");
     QTest::addColumn<bool>("depth");

@@ -34,14 +34,18 @@ std::string list_of(const ExrChannels& channels) {
 
 }  // namespace
 
-void write_exr(const std::filesystem::path& path, const ExrChannels& channels) {
+void write_exr(const std::filesystem::path& path, const ExrChannels& channels,
+               const std::optional<DisplayWindow>& display) {
   const ImageView<const float>& first = channels.begin()->second;
   const std::string box = std::string(8, '\0') + raw(std::int32_t{first.width - 1}) +
                           raw(std::int32_t{first.height - 1});
+  const std::string picture =
+      display ? raw(display->left) + raw(display->top) + raw(display->right) + raw(display->bottom)
+              : box;
   std::string file(kSignature);
   file += attribute("channels", "chlist", list_of(channels));
   file += attribute("compression", "compression", std::string(1, '\0'));
-  file += attribute("dataWindow", "box2i", box) + attribute("displayWindow", "box2i", box);
+  file += attribute("dataWindow", "box2i", box) + attribute("displayWindow", "box2i", picture);
   file += attribute("lineOrder", "lineOrder", std::string(1, '\0'));
   file += attribute("pixelAspectRatio", "float", raw(1.0F));
   file += attribute("screenWindowCenter", "v2f", std::string(8, '\0'));

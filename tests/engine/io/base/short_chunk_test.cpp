@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
+#include "tests/cpu_time.h"
 #include "tests/engine/io/base/one_dataset.h"
 #include "tests/test_main.h"
 
-#include <QTemporaryDir>
 #include <hdf5.h>
 #include <lzf.h>
+#include <QTemporaryDir>
 
 #include <algorithm>
 #include <array>
@@ -104,9 +105,43 @@ class ShortChunkTest : public QObject {
     write_chunks(path, false);
     shorten(path);
 
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_row(path, 0, 2000));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_row(path, 1900, 101));
+  }
+
+  void shortChunkAmongCompressed_isRefused() {
+    const fs::path path = folder_.filePath("skipped.h5").toStdString();
+    const auto store = [](hid_t creation) {
+      H5Pset_chunk(creation, 1, &kChunk);
+      H5Pset_deflate(creation, 4);
+    };
+    write_row(path, kLength, store, [](hid_t dataset) {
+      fill_row(dataset, kLength);
+      const std::vector<std::uint8_t> part(100, 170);
+      const hsize_t start = 2 * kChunk;
+      H5Dwrite_chunk(dataset, H5P_DEFAULT, 1, &start, part.size(), part.data());
+    });
+
     QCOMPARE(read_row(path, 0, 2000), std::vector<std::uint8_t>(2000, 170));
     QVERIFY_THROWS_EXCEPTION(IoError, (void)read_row(path, 1900, 101));
-    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_row(path, 0, kLength));
+  }
+
+  // A look at the whole list of chunks for each of them took a minute.
+  void manyChunks_areReadInLinearTime() {
+    static constexpr hsize_t kMany = 200'000, kFew = 4;
+    const fs::path path = folder_.filePath("many.h5").toStdString();
+    const auto store = [](hid_t creation) {
+      H5Pset_chunk(creation, 1, &kFew);
+      H5Pset_deflate(creation, 1);
+    };
+    write_row(path, kMany, store, [](hid_t dataset) { fill_row(dataset, kMany); });
+
+    const double begin = cpu_time_ms();
+    const std::vector<std::uint8_t> read = read_row(path, 0, kMany);
+    const double taken = cpu_time_ms() - begin;
+
+    QCOMPARE(read, std::vector<std::uint8_t>(kMany, 170));
+    QVERIFY2(taken < 5000 * kSlowdown, QByteArray::number(taken));
   }
 
   // LZF has no checksum: what is lost cannot be told from samples, but must not come from memory.

@@ -181,8 +181,8 @@ std::vector<Broken> broken_archives() {
       {"HDF5 cut in its samples", [](const fs::path& f) { return cut_archive(f, 200000); },
        "truncated or damaged"},
       {"LF is a link to another file", archive_of_link, "is a link to another file"},
-      {"LF in a raw file elsewhere", archive_of_raw_file, "are in other files"},
-      {"LF made of another file", archive_of_virtual_samples, "are in other files"},
+      {"LF in a raw file elsewhere", archive_of_raw_file, "h5repack -l CONTI"},
+      {"LF made of another file", archive_of_virtual_samples, "h5repack -l CONTI"},
       {"sides that are huge beside an empty one",
        [](const fs::path& f) {
          return unwritten_archive(f, {60000, 60000, 0, 1, 1}, [](hid_t) {});
@@ -243,7 +243,7 @@ std::vector<Broken> broken_archives() {
        "LF claims 1.08e+12 bytes"},
       {"LF compressed by an unknown filter",
        [](const fs::path& f) { return archive_of_unknown_filter(f, H5Z_FLAG_MANDATORY); },
-       "a filter that is not known here (32100, rare-codec)"},
+       "not known here (32100, rare-codec); name the folder of its plug-in in HDF5_PLUGIN_PATH"},
       {"LF compressed by an unknown filter that is marked as optional, as h5py marks LZF",
        [](const fs::path& f) { return archive_of_unknown_filter(f, H5Z_FLAG_OPTIONAL); },
        "a filter that is not known here (32100, rare-codec)"},

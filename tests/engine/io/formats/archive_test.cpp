@@ -7,6 +7,8 @@
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
+#include <hdf5.h>
+
 #include <cmath>
 #include <limits>
 
@@ -19,6 +21,52 @@ class ArchiveTest : public QObject, private ArchiveFolder {
 
  private slots:
   void init() { renew(); }
+
+  void partsOfNoUse_areLeftOut_data() {
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<QString>("fault");
+    QTest::newRow("a link to nothing") << "GT_DEPTH"
+                                       << "is a link to nothing";
+    QTest::newRow("a link to another file") << "GT_LABELS"
+                                            << "is a link to another file";
+    QTest::newRow("nothing stored") << "GT_DEPTH"
+                                    << "is empty";
+    QTest::newRow("of length 0") << "SCRIBBLES"
+                                 << "is empty";
+    QTest::newRow("text") << "GT_LABELS"
+                          << "holds no numbers";
+  }
+  void partsOfNoUse_areLeftOut() {
+    QFETCH(QString, name);
+    QFETCH(QString, fault);
+    const Scene scene = plane_scene();
+    io::write_archive(path("lf.h5"), scene, Progress(1));
+    const std::string dataset = name.toStdString();
+    const QByteArray row = QTest::currentDataTag();
+    const hid_t file = H5Fopen(path("lf.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    H5Ldelete(file, dataset.c_str(), H5P_DEFAULT);
+    if (row == "a link to nothing") {
+      H5Lcreate_soft("/nowhere", file, dataset.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    } else if (row == "a link to another file") {
+      H5Lcreate_external("o.h5", "/a", file, dataset.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    } else {
+      const hsize_t none = 0;
+      const hid_t space = row == "of length 0" ? H5Screate_simple(1, &none, nullptr)
+                                               : H5Screate(row == "text" ? H5S_SCALAR : H5S_NULL);
+      const hid_t type = row == "text" ? H5T_C_S1 : H5T_NATIVE_FLOAT;
+      H5Dclose(
+          H5Dcreate2(file, dataset.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+      H5Sclose(space);
+    }
+    H5Fclose(file);
+
+    const Scene read = open(path());
+
+    QVERIFY(has_same_samples(scene, read));
+    QVERIFY2(
+        describe(read.convention).find(dataset + " " + fault.toStdString()) != std::string::npos,
+        describe(read.convention).c_str());
+  }
 
   void archive_readsWhatItWrote() {
     const Scene scene = plane_scene();

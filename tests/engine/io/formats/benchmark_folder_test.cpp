@@ -107,6 +107,22 @@ class BenchmarkFolderTest : public QObject {
     QVERIFY(found.is_valid(10, 30));
   }
 
+  void maskBesideTheViews_saysWhatIsNotKnown() {
+    write_views("");
+    write_truth("gt_disp_lowres.pfm", 1);
+    const auto center = folder_->scene.disparity.view({1, 1});
+    Image<std::uint8_t> mask(center.height, center.width, 1, 255);
+    for (int y = 0; y < 20; ++y) std::fill_n(mask.row(y), 20, std::uint8_t{0});
+    io::write_png(folder_->path("valid_mask.png"), mask.view());
+
+    const Scene scene = folder_->open();
+
+    const DisparityView found = scene.truth->field.view({1, 1});
+    QVERIFY2(!found.is_valid(10, 10), warnings_of(scene).c_str());
+    QVERIFY(found.is_valid(10, 30));
+    for (const FileUse& use : scene.convention.files) QVERIFY2(use.is_used, use.example.c_str());
+  }
+
   void missingView_leavesAPartWithTheTruthInItsPlace() {
     write_views("");
     write_truth("gt_disp_lowres.pfm", 1);

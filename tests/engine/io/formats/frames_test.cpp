@@ -95,6 +95,35 @@ void write_big_tiff(const fs::path& path, std::uint8_t pages) {
 
 using Bytes = std::vector<std::uint8_t>;
 
+/// The red channel of views in 16 bits, the pages behind the only directory, as ImageJ writes more
+/// than 4 GB.
+void write_imagej_stack(const fs::path& path, const ViewStack<std::uint8_t>& views) {
+  const std::string text = "ImageJ=1.53t\nimages=" + std::to_string(views.grid().count()) + "\n";
+  const auto number = [](std::size_t value, int bytes) {
+    std::string written;
+    for (int i = bytes; i-- > 0;) written += static_cast<char>(value >> (8 * i));
+    return written;
+  };
+  constexpr std::size_t kTags = 8, kText = 8 + 2 + 12 * kTags + 4;
+  const std::size_t samples = kText + text.size() + 1;
+  const auto height = static_cast<std::size_t>(views.height());
+  const auto width = static_cast<std::size_t>(views.width());
+  const auto word = [&](std::size_t tag, std::size_t value) {
+    return number(tag, 2) + number(3, 2) + number(1, 4) + number(value, 2) + number(0, 2);
+  };
+  std::string file = std::string("MM\0*", 4) + number(8, 4) + number(kTags, 2);
+  file += word(256, width) + word(257, height) + word(258, 16) + word(262, 1);
+  file += number(270, 2) + number(2, 2) + number(text.size() + 1, 4) + number(kText, 4);
+  file += word(273, samples) + word(277, 1) + word(278, height) + number(0, 4) + text + '\0';
+  for (int i = 0; i < views.grid().count(); ++i) {
+    const auto view = views.view(views.view_at(i));
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) file += number(100 * view.at(y, x, 0), 2);
+    }
+  }
+  std::ofstream(path, std::ios::binary) << file;
+}
+
 void put_number(Bytes& out, std::uint32_t number) {
   for (int shift = 24; shift >= 0; shift -= 8)
     out.push_back(static_cast<std::uint8_t>(number >> shift));
@@ -205,6 +234,21 @@ class FramesTest : public QObject {
     QCOMPARE(scene.light_field->grid(), (GridShape{4, 5}));
     QCOMPARE(mean_error(views, *scene.light_field), 0.0);
     QCOMPARE(open(path("")).light_field->grid(), (GridShape{4, 5}));
+  }
+
+  void pagesWithoutDirectories_areViews() {
+    const ViewStack<std::uint8_t> views = some_views();
+    write_imagej_stack(path("stack.tif"), views);
+
+    const Scene scene = open(path("stack.tif"));
+
+    QCOMPARE(io::count_tiff_pages(path("stack.tif"), 1000), 20);
+    QCOMPARE(scene.light_field->grid(), (GridShape{4, 5}));
+    const auto& read = std::get<ViewStack<std::uint16_t>>(scene.light_field->samples());
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      QCOMPARE(int{read.data()[i]},
+               100 * views.data()[i * static_cast<std::size_t>(views.channels())]);
+    }
   }
 
   void pagesThatAreChannels_makeColouredViews_data() {

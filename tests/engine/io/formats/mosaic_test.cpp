@@ -269,6 +269,28 @@ class MosaicTest : public QObject {
     QVERIFY(refusal_of("").contains("holds 4 light fields"));
   }
 
+  void mosaicsOfOneSize_areNoViews_data() {
+    QTest::addColumn<QStringList>("names");
+    QTest::newRow("scenes") << QStringList{"scene01.png", "scene02.png"};
+    QTest::newRow("frames") << QStringList{"f_0.png", "f_1.png", "f_2.png", "f_3.png"};
+    QTest::newRow("without numbers") << QStringList{"bikes.png", "toys.png"};
+  }
+  void mosaicsOfOneSize_areNoViews() {
+    QFETCH(QStringList, names);
+    for (int i = 0; i < names.size(); ++i) {
+      PlaneOptions options;
+      options.grid = {3, 4};
+      options.d0 = 0.3 + 0.4 * i;
+      io::write_png(path(names[i].toStdString()), tiled(plane_scene(options)).view());
+    }
+
+    const Scene read = open(names.front().toStdString());
+
+    QVERIFY2(has_same_samples(plane({3, 4}), read), describe(read.convention).c_str());
+    const QString refusal = refusal_of("");
+    if (refusal.isEmpty()) QVERIFY(open("").convention.format.starts_with("sequence"));
+  }
+
   void largestOfManyViews_isNoMosaic() {
     const Scene scene = plane({3, 3});
     for (int i = 0; i < 9; ++i) {

@@ -7,8 +7,8 @@
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
-#include <QTemporaryDir>
 #include <fmt/format.h>
+#include <QTemporaryDir>
 
 #include <algorithm>
 #include <functional>
@@ -204,6 +204,7 @@ class JoinedArraysTest : public QObject {
     QTest::newRow("r") << "r g b";
     QTest::newRow("R") << "R G B";
     QTest::newRow("red") << "lf_red lf_green lf_blue";
+    QTest::newRow("run together") << "lfr lfg lfb";
   }
   void planesAtTheTop_areOneLightField() {
     QFETCH(QString, names);

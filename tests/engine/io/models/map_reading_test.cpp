@@ -12,6 +12,7 @@
 namespace episcope::in_map_reading_test {
 
 using namespace episcope::test;
+using io::MapCrop;
 using io::MapFlip;
 using io::MapReading;
 using io::MapValues;
@@ -212,6 +213,33 @@ class MapReadingTest : public QObject {
     QCOMPARE(estimate.confidence.view({2, 2}).at(1, 2), 5.0F);
   }
 
+  void partOfPaddedMaps_isThatOfTheViews_data() {
+    QTest::addColumn<MapCrop>("crop");
+    QTest::addColumn<int>("above");
+    QTest::addColumn<int>("left");
+    QTest::newRow("corner") << MapCrop::Corner << 0 << 0;
+    QTest::newRow("middle") << MapCrop::Middle << 3 << 5;
+  }
+  void partOfPaddedMaps_isThatOfTheViews() {
+    QFETCH(MapCrop, crop);
+    QFETCH(int, above);
+    QFETCH(int, left);
+    const LightField& views = *scene_.light_field;
+    Estimate estimate;
+    estimate.field.disparity = ViewStack<float>({1, 1}, views.height() + 6, views.width() + 10);
+    std::iota(estimate.field.disparity.data(),
+              estimate.field.disparity.data() + estimate.field.disparity.size(), 1.0F);
+    const float first = estimate.field.disparity.view({0, 0}).at(above, left);
+
+    io::apply_reading({.crop = crop}, &views, estimate);
+
+    QCOMPARE(estimate.field.disparity.height(), views.height());
+    QCOMPARE(estimate.field.disparity.width(), views.width());
+    QCOMPARE(estimate.field.disparity.view({0, 0}).at(0, 0), first);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             io::apply_reading({.border_px = 1, .crop = crop}, nullptr, estimate));
+  }
+
   void impossibleReadings_areRefused() {
     Estimate estimate = spoilt({});
 
@@ -223,7 +251,7 @@ class MapReadingTest : public QObject {
   }
 
   void givenOptions_areReadBack() {
-    const MapReading reading{true, MapFlip::X, -0.01, MapValues::Depth, 3};
+    const MapReading reading{true, MapFlip::X, -0.01, MapValues::Depth, 3, MapCrop::Middle};
 
     QVERIFY(io::given_options(MapReading{}).empty());
     QVERIFY(io::map_schema().parse(io::given_options(reading)) == reading);

@@ -121,6 +121,10 @@ class PosedViewsTest : public QObject {
     (out.write(reinterpret_cast<const char*>(&numbers), sizeof(numbers)), ...);
   }
   void write_colmap() const {
+    write_colmap([](int i) { return fmt::format("img{:02}.png", i); });
+  }
+  template <class NameOf>
+  void write_colmap(const NameOf& name_of) const {
     fs::create_directories(folder_->path("sparse/0"));
     std::ofstream(folder_->path("sparse/0/cameras.txt"))
         << fmt::format("# cameras\n1 SIMPLE_PINHOLE 72 60 {} 36 30\n", kFocal_widths * 72);
@@ -129,7 +133,7 @@ class PosedViewsTest : public QObject {
     for (int i = 0; i < kGrid.count(); ++i) {
       out << i + 1;
       for (const double number : colmap_numbers(i)) out << ' ' << fmt::format("{}", number);
-      out << fmt::format(" 1 img{:02}.png\n", i) << (i % 2 == 0 ? "\n" : "10.5 20.5 -1\n");
+      out << fmt::format(" 1 {}\n", name_of(i)) << (i % 2 == 0 ? "\n" : "10.5 20.5 -1\n");
     }
   }
   void write_binary_colmap() const {
@@ -189,6 +193,36 @@ class PosedViewsTest : public QObject {
     QVERIFY(std::abs(camera.focal_length - 72 * kFocal_widths) < 1e-3);
     QCOMPARE(scene.light_field->info().positions.size(), std::size_t{15});
     QVERIFY(std::abs(scene.light_field->info().positions.back().x - 4 * kStep) < 1e-5);
+  }
+
+  void namesOfColmap_areFoundAsTheyAre_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<QString>("stated");
+    QTest::newRow("spaces") << "images/img {}.png"
+                            << "img {}.png";
+    QTest::newRow("a folder with spaces") << "images/left row/img ({}).png"
+                                          << "left row/img ({}).png";
+    QTest::newRow("other case") << "images/img{}.png"
+                                << "IMG{}.PNG";
+    QTest::newRow("two folders") << "images/day 1/cam/img{}.png"
+                                 << "day 1/cam/img{}.png";
+  }
+  void namesOfColmap_areFoundAsTheyAre() {
+    QFETCH(QString, file);
+    QFETCH(QString, stated);
+    const auto named = [](const QString& form) {
+      return [form](int i) { return fmt::format(fmt::runtime(form.toStdString()), i); };
+    };
+    for (int i = 0; i < kGrid.count(); ++i) {
+      io::write_png(folder_->place(named(file)(i)), folder_->scene.views.view(view_of(i)));
+    }
+    write_colmap(named(stated));
+
+    const Scene scene = folder_->open();
+
+    QVERIFY2(has_views_in_order(scene), describe(scene.convention).c_str());
+    const std::string check = scene.convention.order_check;
+    QVERIFY2(check.starts_with("3×5 by images.txt"), check.c_str());
   }
 
   void missingCamera_leavesOutItsColumn() {

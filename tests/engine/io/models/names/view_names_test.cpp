@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/io/models/names/view_names.h"
+#include "engine/core/error.h"
 #include "tests/test_main.h"
 
 #include <algorithm>
@@ -55,6 +55,7 @@ std::vector<Form> grid_forms() {
       {"out_{row}_{col}_{y}_{x}.png",
        {4, 3},
        [](int r, int c) { return print("out_%02d_%02d_%g_%g.png", r, c, -1e-7 * r, 2.5 * c); }},
+      {"toys.{row}.{col}.png", {5, 4}, [](int r, int c) { return print("toys.%d.%d.png", r, c); }},
       {"{row}_{col}.png", {3, 5}, [](int r, int c) { return print("%d_%d.png", r, c); }},
       {"{row}_{col}.png", {3, 12}, [](int r, int c) { return print("%d_%d.png", r + 1, c + 1); }},
       {"scene7_view_{row}-{col}.tif",
