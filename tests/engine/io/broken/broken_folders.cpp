@@ -197,7 +197,7 @@ std::vector<Broken> broken_folders() {
          }
          return scene;
        },
-       "input_Cam000.png: the image cannot be decoded"},
+       "input_Cam000.png: the file is empty"},
       {"benchmark of more views than there are numbers",
        [](const fs::path& f) {
          const fs::path scene = benchmark(f);

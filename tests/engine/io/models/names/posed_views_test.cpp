@@ -3,6 +3,7 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/models/poses.h"
+#include "engine/io/open.h"
 #include "tests/engine/io/models/sidecar_maps/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
@@ -217,8 +218,9 @@ class PosedViewsTest : public QObject {
       io::write_png(folder_->place(named(file)(i)), folder_->scene.views.view(view_of(i)));
     }
     write_colmap(named(stated));
+    const fs::path views = folder_->path(named(file)(0)).parent_path();
 
-    const Scene scene = folder_->open();
+    const Scene scene = io::open_scene(views, {}, Progress(1));
 
     QVERIFY2(has_views_in_order(scene), describe(scene.convention).c_str());
     const std::string check = scene.convention.order_check;
