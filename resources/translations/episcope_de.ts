@@ -7770,12 +7770,12 @@ s</translation>
         <translation>zweite Disparität</translation>
     </message>
     <message>
-        <source>Truth</source>
-        <translation type="unfinished"></translation>
+        <source>Ground truth</source>
+        <translation>Referenz (Ground Truth)</translation>
     </message>
     <message>
-        <source>truth</source>
-        <translation type="unfinished"></translation>
+        <source>ground truth</source>
+        <translation>Referenz</translation>
     </message>
 </context>
 </TS>
