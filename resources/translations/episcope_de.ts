@@ -4010,6 +4010,10 @@ s</translation>
         <source>Opacity</source>
         <translation>Deckkraft</translation>
     </message>
+    <message>
+        <source>Focus</source>
+        <translation>Fokus</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ParameterEditor</name>

@@ -195,7 +195,7 @@ class SidePanelsTest : public QObject {
                                 {{"EPI_S", 0.318}, {"EPI_L", 0.3}, {"ST", std::nullopt}}});
 
     QCOMPARE(bar.text(),
-             QString::fromUtf8("x 301 y 417 · rgb 120 88 40 · truth 0.312 · EPI_S 0.318 "
+             QString::fromUtf8("x 301 y 417 · rgb 120 88 40 · ground truth 0.312 · EPI_S 0.318 "
                                "(+0.006) · EPI_L 0.300 (−0.012) · ST invalid"));
     const auto* swatch = bar.findChild<QLabel*>("valueBar.swatch");
     QCOMPARE(swatch->pixmap().toImage().pixelColor(5, 5), QColor(120, 88, 40));
@@ -236,7 +236,7 @@ class SidePanelsTest : public QObject {
     bar.setReading(PixelReading{{1, 2}, "77", Qt::gray, true, -0.0004, {{"EPI_S", -0.0006}}});
 
     QCOMPARE(bar.text(),
-             QString::fromUtf8("x 2 y 1 · grey 77 · truth 0.000 · EPI_S −0.001 (+0.000)"));
+             QString::fromUtf8("x 2 y 1 · grey 77 · ground truth 0.000 · EPI_S −0.001 (+0.000)"));
   }
 
   void info_wrapsSentencesAndElidesPaths() {

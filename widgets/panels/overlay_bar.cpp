@@ -75,7 +75,7 @@ OverlayBar::OverlayBar(QWidget* parent)
   row_->addWidget(quantity_);
   row_->addWidget(opacity_);
   row_->addSpacing(2 * theme::kMargin);
-  row_->addWidget(new QLabel(tr("Focus plane"), this));
+  row_->addWidget(new QLabel(tr("Focus"), this));
   row_->addWidget(focus_slider_, 1);
   row_->addWidget(focus_spin_);
   row_->addWidget(reset);
