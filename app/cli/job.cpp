@@ -10,6 +10,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -119,19 +120,39 @@ void wait_for_signals(sigset_t signals, const std::stop_source& stop) {
   while (sigwait(&signals, &signal) == 0 && signal != kEndOfWaiting) stop.request_stop();
 }
 
+/// The thread that waits, for `pass_on`.
+std::atomic<pthread_t> waiting_thread;
+
+// Libraries start threads before main that block no signal, and the system may choose one of these.
+void pass_on(int signal) {
+  pthread_kill(waiting_thread.load(), signal);
+}
+
+void handle(const sigset_t& signals, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    if (sigismember(&signals, signal) == 1) sigaction(signal, &action, nullptr);
+  }
+}
+
 }  // namespace
 
 struct Interrupt::Waiter {
+  sigset_t signals{};
   std::thread thread;
 };
 
 Interrupt::Interrupt() : waiter_(std::make_unique<Waiter>()) {
-  const sigset_t signals = awaited_signals();
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  waiter_->thread = std::thread(wait_for_signals, signals, stop_);
+  waiter_->signals = awaited_signals();
+  pthread_sigmask(SIG_BLOCK, &waiter_->signals, nullptr);
+  waiter_->thread = std::thread(wait_for_signals, waiter_->signals, stop_);
+  waiting_thread = waiter_->thread.native_handle();
+  handle(waiter_->signals, pass_on);
 }
 
 Interrupt::~Interrupt() {
+  handle(waiter_->signals, SIG_DFL);
   pthread_kill(waiter_->thread.native_handle(), kEndOfWaiting);
   waiter_->thread.join();
 }

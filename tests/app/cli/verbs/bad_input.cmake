@@ -34,7 +34,7 @@ bad("missing/x.h5.*does not exist" estimate epi_l lf.h5 -o missing/x.h5)
 bad("missing/x.png.*does not exist" show lf.h5 -o missing/x.png)
 bad("missing/x.h5.*does not exist" synthesize fronto -o missing/x.h5)
 bad("lf.h5: holds a light field" evaluate lf.h5 --truth lf.h5)
-bad("lf.h5: holds a light field" show lf.h5 -o out/x.png --truth lf.h5)
+expect("light field with truth" 2 ERR "lf.h5 is a light field itself" ARGS show lf.h5 -o out/x.png --truth lf.h5)
 bad("lf.h5: exists and is not a result file" estimate epi_l lf.h5 -o lf.h5)
 bad("is a folder" estimate epi_l lf.h5 -o out)
 # Even the superuser cannot make files there.
