@@ -3,6 +3,7 @@
 
 #include "engine/core/image.h"
 #include "engine/core/parallel.h"
+#include "engine/disparity/block_disparities.h"
 #include "engine/disparity/matching_cost.h"
 #include "engine/disparity/structure_tensor.h"
 #include "engine/disparity/view_samples.h"
@@ -27,8 +28,9 @@ namespace {
 constexpr std::array<float, 3> kCoherent{0.8F, 0.7F, 0.6F};
 // Share of the pixels that are enough.
 constexpr double kEnoughOrientations = 0.2;
-// Cells side by side that make an end of the range.
+// Cells side by side that make an end of the range, and those of them that lie beyond it.
 constexpr int kRun = 4;
+constexpr int kLeftOut = 1;
 // Horizontal EPIs looked at; blocks of vertical ones, and how many of them stand side by side.
 constexpr int kLines = 96;
 constexpr int kBlocks = 12;
@@ -163,10 +165,12 @@ OrientationHistogram::OrientationHistogram(const LightField& lf, double limit,
 
 std::optional<Interval> OrientationHistogram::ends(double tail) const {
   const double enough = tail * total_;
+  const int size = static_cast<int>(cells_.size());
   const int before = cells_to_skip(cells_.begin(), cells_.end(), enough);
-  if (before == size()) return {};
+  if (before == size) return {};
   const int behind = cells_to_skip(cells_.rbegin(), cells_.rend(), enough);
-  return Interval{before * kCell - limit_, std::min(limit_, limit_ + kCell - behind * kCell)};
+  const double last = (size - behind - kLeftOut) * kCell - limit_;
+  return Interval{(before + kLeftOut) * kCell - limit_, std::min(limit_, last)};
 }
 
 namespace {
@@ -354,61 +358,51 @@ namespace {
 
 // The range begins and ends where this share of the coherent pixels lies close together.
 constexpr double kOrientationTail = 0.002;
-// The same of smaller views, whose noise is smaller and whose ends are less exact.
-constexpr double kSmallTail = 0.006;
+// Coherent pixels below which orientations tell nothing.
+constexpr double kFewPixels = 100;
+// Blocks average over what they hold, and miss the ends by so much, px, and of their range, but
+// hardly more than the last; so far beyond them do single pixels count that nothing confirms.
+constexpr double kMissed = 0.05, kMissedShare = 0.08, kMissedMost = 0.35;
+constexpr double kFarthest = 0.1, kFarthestShare = 0.125, kFarthestMost = 0.45;
 // Labels at which pixels are matched, and how far they go beyond the orientations seen.
 constexpr double kLabelStep = 0.25;
 constexpr double kBeyond = 1.5;
-// Orientations count where this share of the distinctly matching pixels does so within `kNear`.
+// Orientations count where this share of the distinctly matching pixels does so within `kNear`, px
+// of the views matched; what is taken off the ends that they give, and how much farther they lie
+// than where nothing needs to confirm them, or are the same ends, less exact.
 constexpr double kSupport = 0.002;
-constexpr double kNear = 0.65;
-// What is taken off the ends that smaller views give, pixels of theirs.
-constexpr double kInexact = 0.15;
+constexpr double kNear = 0.3;
+constexpr double kInexact = 0.05;
+constexpr double kWorth = 0.2;
 // No range found reaches farther, px per view step.
 constexpr double kMaxDisparity = 16;
 
-// Leaves out orientations that hardly any pixel confirms by matching: aliases of repeated patterns
-// and of noise.
-void clear_unsupported(const LightField& lf, Interval seen, OrientationHistogram& histogram,
-                       const Progress& progress) {
-  const Interval range{seen.min - kBeyond, seen.max + kBeyond};
+// Leaves out orientations that hardly any pixel of smaller views confirms by matching: aliases of
+// repeated patterns and of noise. None if nothing is left.
+std::optional<Interval> confirmed_range(const LightField& lf, Interval searched,
+                                        OrientationHistogram histogram, const Progress& progress) {
+  const int factor = std::min(lf.height(), lf.width()) > 1 ? 2 : 1;
+  const Interval range{searched.min / factor, searched.max / factor};
   const int count = static_cast<int>(std::ceil(range.length() / kLabelStep)) + 1;
   const std::vector<float> labels = equidistant_labels(range, count);
-  const std::vector<double> support = label_support(lf, labels, progress);
-  // All is one repeated pattern: nothing tells which of its orientations are true.
-  if (std::ranges::all_of(support, [](double share) { return share == 0; })) return;
+  const std::vector<double> support = label_support(
+      smaller_views(lf, factor, progress.part(0, 0.3)), labels, progress.part(0.3, 1));
   for (int cell = 0; cell < histogram.size(); ++cell) {
     double sum = 0;
     for (int l = 0; l < count; ++l) {
-      if (std::fabs(labels[l] - histogram.middle(cell)) <= kNear) sum += support[l];
+      if (std::fabs(labels[l] - histogram.middle(cell) / factor) <= kNear) sum += support[l];
     }
     if (sum < kSupport) histogram.clear(cell);
   }
+  const std::optional<Interval> ends = histogram.ends(kOrientationTail);
+  if (!ends) return {};
+  return grown(*ends, -kInexact);
 }
 
-// None if hardly anything is seen or nothing of it is confirmed.
-std::optional<Interval> confirmed_range(const LightField& lf, double limit, double tail,
-                                        const Progress& progress) {
-  OrientationHistogram histogram(lf, limit, progress.part(0, 0.8));
-  constexpr double least = 100;
-  if (histogram.total() < least) return {};
-  const std::optional<Interval> seen = histogram.ends(tail);
-  if (!seen) return {};
-  clear_unsupported(lf, *seen, histogram, progress.part(0.8, 1));
-  return histogram.ends(tail);
-}
-
-// Smaller views show what noise and blur hide, but their ends are less exact.
-std::optional<Interval> range_of_smaller_views(const LightField& lf, int factor, double limit,
-                                               const Progress& progress) {
-  constexpr int least = 48;
-  if (std::min(lf.height(), lf.width()) < least * factor) return {};
-  const LightField smaller = smaller_views(lf, factor, progress.part(0, 0.2));
-  const std::optional<Interval> found =
-      confirmed_range(smaller, limit / factor, kSmallTail, progress.part(0.2, 1));
-  if (!found) return {};
-  const double inset = kInexact * factor;
-  return Interval{factor * found->min + inset, factor * found->max - inset};
+Interval widened(Interval range, const std::optional<Interval>& confirmed) {
+  if (confirmed && confirmed->min < range.min - kWorth) range.min = confirmed->min;
+  if (confirmed && confirmed->max > range.max + kWorth) range.max = confirmed->max;
+  return range;
 }
 
 // The range found last, for runs that follow on the same light field: nothing else decides it.
@@ -432,14 +426,6 @@ class KeptRange {
   Interval range_;
 };
 
-// An end that is hardly farther out is the same end, less exact.
-Interval widened(Interval range, Interval coarse) {
-  constexpr double worth = 0.25;
-  if (coarse.min < range.min - worth) range.min = coarse.min;
-  if (coarse.max > range.max + worth) range.max = coarse.max;
-  return range;
-}
-
 }  // namespace
 
 // The largest disparity whose neighboring views still share most of the image.
@@ -461,15 +447,22 @@ std::string limited_range_note(const LightField& lf, Interval range) {
 
 Interval find_disparity_range(const LightField& lf, const Progress& progress) {
   const double limit = farthest_found(lf);
-  std::optional<Interval> found =
-      confirmed_range(lf, limit, kOrientationTail, progress.part(0, 0.6));
-  for (const int factor : {2, 4}) {
-    const Progress part = factor == 2 ? progress.part(0.6, 0.85) : progress.part(0.85, 1);
-    const std::optional<Interval> coarse = range_of_smaller_views(lf, factor, limit, part);
-    if (!coarse) continue;
-    found = found ? widened(*found, *coarse) : *coarse;
+  const OrientationHistogram histogram(lf, limit, progress.part(0, 0.6));
+  std::optional<Interval> seen;
+  if (histogram.total() >= kFewPixels) seen = histogram.ends(kOrientationTail);
+  const std::optional<Interval> certain = certain_range(lf, limit, seen, progress.part(0.6, 0.9));
+  if (!certain) return seen.value_or(Interval{-1, 1});
+  const double length = certain->length();
+  const Interval all{-limit, limit};
+  const Interval least =
+      clipped(grown(*certain, std::min(kMissed + kMissedShare * length, kMissedMost)), all);
+  if (!seen) return least;
+  Interval most = grown(*certain, std::min(kFarthest + kFarthestShare * length, kFarthestMost));
+  if (seen->min < most.min || seen->max > most.max) {
+    const Interval searched = united(*certain, grown(*seen, kBeyond));
+    most = widened(most, confirmed_range(lf, searched, histogram, progress.part(0.9, 1)));
   }
-  return found.value_or(Interval{-1, 1});
+  return clipped(united(least, *seen), clipped(most, all));
 }
 
 RangeSource range_source(const LightField& lf, const IntervalOrAuto& wanted) {

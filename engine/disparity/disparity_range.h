@@ -31,7 +31,7 @@ class OrientationHistogram {
 
   /// From the first to the last 0.2 px that hold `tail` of all pixels. Orientations that noise
   /// alone gives are spread thinly over all disparities; what is seen lies close together, and
-  /// counts even where few of its pixels are coherent. Half of the 0.2 px is the margin. None if
+  /// counts even where few of its pixels are coherent. A part of the 0.2 px is the margin. None if
   /// too few cells are left.
   [[nodiscard]] std::optional<Interval> ends(double tail) const;
 
@@ -96,13 +96,15 @@ inline constexpr const char* kRangeHelp =
 [[nodiscard]] Interval search_range(const LightField& light_field, const IntervalOrAuto& wanted,
                                     const Progress& progress);
 
-/// Estimates the range by a coarse, robust pass: the structure tensor on some rows and columns of
-/// the center view's EPIs, sheared in whole pixels over ±16 px or a sixth of the image
-/// (OrientationHistogram), and the span between the first and the last disparities that hold a
-/// small fraction of the coherent pixels and that some pixels confirm by matching distinctly
-/// (label_support). The same at half and a quarter of the size (smaller_views), which shows
-/// what noise or blur hide, may widen the range. A light field without texture gives [−1, 1].
-/// Throws Cancelled.
+/// Estimates the range by a coarse, robust pass in two ways. What blocks of pixels match in views
+/// reduced to about 128 px and in smaller ones (certain_range) is certain but for their doubts,
+/// whatever noise, darkness or vignetting there is; blocks average, so the range goes a little
+/// beyond them. What single pixels see is exact but full of aliases: the span between the first and
+/// the last disparities that hold a small fraction of the coherent orientations on some rows and
+/// columns of the center view's EPIs, sheared in whole pixels over ±16 px or a sixth of the image
+/// (OrientationHistogram). It widens the range by 0.45 px at most, and farther only where views of
+/// half the size confirm it by matching distinctly (label_support). A light field without texture
+/// gives [−1, 1]. Throws Cancelled.
 [[nodiscard]] Interval find_disparity_range(const LightField& light_field,
                                             const Progress& progress);
 

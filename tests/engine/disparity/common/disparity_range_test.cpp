@@ -45,6 +45,17 @@ double share_within(const Scene& scene, Interval range) {
   return static_cast<double>(count) / static_cast<double>(truth.disparity.size());
 }
 
+// What is wanted of every range found.
+bool is_narrow(const Interval& found, const Interval& truth) {
+  return found.length() <= 1.25 * truth.length() + 0.3;
+}
+
+// How far beyond the truth an end may lie. Thin bars far in front hide parts of blocks of the wall,
+// which then match farther away than it is.
+double most_beyond(const QString& id, double scale, double usual) {
+  return id == "bars" && scale > 2 ? 1.3 : usual;
+}
+
 QString text(const Interval& range) {
   return QString("[%1, %2]").arg(range.min).arg(range.max);
 }
@@ -116,8 +127,9 @@ void DisparityRangeTest::foundRange_holdsTheTruth() {
   constexpr double missed = 0.02;
   QVERIFY2(found.min <= truth.min + missed && found.max >= truth.max - missed, qPrintable(both));
   // Each additional shear costs time and gives noise another chance.
-  constexpr double wide = 0.6;
+  const double wide = most_beyond(id, scale, 0.6);
   QVERIFY2(found.min >= truth.min - wide && found.max <= truth.max + wide, qPrintable(both));
+  QVERIFY2(is_narrow(found, truth), qPrintable(both));
 }
 
 void DisparityRangeTest::foundRange_ofWideBaselines_data() {
@@ -147,9 +159,10 @@ void DisparityRangeTest::foundRange_ofWideBaselines() {
 
   const QString both = text(found) + " for " + text(truth);
   // Of 0.2 % of the pixels, the ends may miss a tip.
-  const double missed = 0.03 * truth.length(), wide = 0.7;
+  const double missed = 0.03 * truth.length(), wide = most_beyond(id, scale, 0.7);
   QVERIFY2(found.min <= truth.min + missed && found.max >= truth.max - missed, qPrintable(both));
   QVERIFY2(found.min >= truth.min - wide && found.max <= truth.max + wide, qPrintable(both));
+  QVERIFY2(is_narrow(found, truth), qPrintable(both));
 }
 
 // A fabric of 7.5 px per thread on one half, at d = 1: three views of a row would match at −6.5,
