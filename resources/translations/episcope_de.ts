@@ -7775,7 +7775,7 @@ s</translation>
     </message>
     <message>
         <source>Ground truth</source>
-        <translation>Referenz (Ground Truth)</translation>
+        <translation>Referenz</translation>
     </message>
     <message>
         <source>ground truth</source>

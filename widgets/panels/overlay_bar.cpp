@@ -50,11 +50,11 @@ OverlayBar::OverlayBar(QWidget* parent)
   }
   opacity_->setObjectName("overlay.opacity");
   opacity_->setRange(0, 100);
-  opacity_->setMinimumWidth(40);
+  opacity_->setMinimumWidth(30);
   opacity_->setMaximumWidth(70);
   opacity_->setToolTip(tr("Opacity of the overlay"));
   focus_slider_->setObjectName("overlay.focusSlider");
-  focus_slider_->setMinimumWidth(44);
+  focus_slider_->setMinimumWidth(34);
   focus_slider_->setMaximumWidth(220);
   focus_slider_->setToolTip(
       tr("Focus plane: shears EPIs and view so that this disparity appears as zero (Alt+wheel, "
@@ -74,7 +74,7 @@ OverlayBar::OverlayBar(QWidget* parent)
   row_->addWidget(title_);
   row_->addWidget(quantity_);
   row_->addWidget(opacity_);
-  row_->addSpacing(2 * theme::kMargin);
+  row_->addSpacing(theme::kMargin);
   row_->addWidget(new QLabel(tr("Focus"), this));
   row_->addWidget(focus_slider_, 1);
   row_->addWidget(focus_spin_);

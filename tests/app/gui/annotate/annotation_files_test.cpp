@@ -59,7 +59,7 @@ void AnnotationFilesTest::exportedPictures_comeBackByImport() {
   QDir().mkpath(f.path("pictures"));
   const auto told = [&f] { return f.window.findChild<MessageBar*>("messageBar")->text(); };
   find<AnnotationFiles>(f.window).exportPictures(f.path("pictures"));
-  QTRY_VERIFY(told().contains("Written"));
+  QTRY_VERIFY(told().contains("Saved"));
   f.trigger("annotate.undo");
   QCOMPARE(f.labelAt({40, 40}), 0);
 

@@ -189,7 +189,7 @@ void CloudWindowTest::surfaceAndTruth_areDrawn() {
   f.panel().findChild<QCheckBox*>("cloud.surface")->click();
   QTRY_VERIFY(f.view().grabFramebuffer() != points);
 
-  f.choose("cloud.companion", "the truth");
+  f.choose("cloud.companion", "the ground truth");
   f.choose("cloud.coloring", "one each");
   f.choose("cloud.arrangement", "side by side");
   f.awaitPoints(2 * 96 * 96);
@@ -257,7 +257,7 @@ void CloudWindowTest::whatIsNotSeen_isNotHeld() {
 void CloudWindowTest::export_writesWhatIsSeen() {
   CloudFixture f;
   f.panel().findChild<QCheckBox*>("cloud.surface")->click();
-  f.choose("cloud.companion", "the truth");
+  f.choose("cloud.companion", "the ground truth");
   f.awaitPoints(2 * 96 * 96);
   f.trigger("cloud.export");
   auto* dialog = f.window.findChild<QFileDialog*>("export_cloud");

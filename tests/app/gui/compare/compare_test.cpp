@@ -173,7 +173,7 @@ void CompareTest::truthAsB_isSaidToHaveNoError() {
 
   QCOMPARE(overlay.describeB(), QString("view · the ground truth has no error"));
   f.trigger("overlay.disparity");
-  QCOMPARE(overlay.describeB(), QString("truth"));
+  QCOMPARE(overlay.describeB(), QString("ground truth"));
 }
 
 void CompareTest::difference_isOfAAndB() {
