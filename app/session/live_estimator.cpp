@@ -5,6 +5,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/core/shear.h"
+#include "engine/disparity/block_disparities.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/registry.h"
 

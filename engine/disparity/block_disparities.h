@@ -25,6 +25,17 @@ namespace episcope {
   return {std::clamp(range.min, to.min, to.max), std::clamp(range.max, to.min, to.max)};
 }
 
+/// Which views are made smaller: those in the row and the column of the center view, or all.
+enum class ReducedViews { CrossHair, All };
+
+/// Views of which each sample is the mean of `factor` × `factor` pixels, as uint16: noise is
+/// `factor` times weaker, disparities are `factor` times smaller. Other views are black. Blocks
+/// that the border or an invalid pixel cuts are left out or not valid. Precondition: factor ≤
+/// height and width. Throws Cancelled.
+[[nodiscard]] LightField smaller_views(const LightField& light_field, int factor,
+                                       const Progress& progress,
+                                       ReducedViews reduced = ReducedViews::CrossHair);
+
 /// What a block of the center view tells of its disparity, px per view step.
 struct BlockDisparity {
   float disparity = 0;  ///< Where the block matches best.

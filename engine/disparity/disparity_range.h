@@ -41,17 +41,6 @@ class OrientationHistogram {
   double total_ = 0;
 };
 
-/// Which views are made smaller: those in the row and the column of the center view, or all.
-enum class ReducedViews { CrossHair, All };
-
-/// Views of which each sample is the mean of `factor` × `factor` pixels, as uint16: noise is
-/// `factor` times weaker, disparities are `factor` times smaller. Other views are black. Blocks
-/// that the border or an invalid pixel cuts are left out or not valid. Precondition: factor ≤
-/// height and width. Throws Cancelled.
-[[nodiscard]] LightField smaller_views(const LightField& light_field, int factor,
-                                       const Progress& progress,
-                                       ReducedViews reduced = ReducedViews::CrossHair);
-
 /// Where pixels of the center view distinctly match: of those on some rows that match the views of
 /// its row and column, 3×3 px at a time, at one label (disparity, px per view step) much better
 /// than at any label 0.75 px or more away, the share that does so at each label, in [0, 1]. They

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/disparity_range.h"
+#include "engine/disparity/block_disparities.h"
 
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
