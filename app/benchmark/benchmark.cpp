@@ -356,7 +356,7 @@ std::optional<Estimate> read_submission(const fs::path& folder, const Scene& sce
     estimate.notes.push_back(maps.front().filename().string() +
                              ": it was estimated from other samples than those of this scene");
   }
-  const std::string doubt = better ? better_reading_text(*better) : poor_fit_text(estimate, scene);
+  const std::string doubt = doubt_text(better, estimate, scene);
   if (!doubt.empty()) estimate.notes.push_back(maps.front().filename().string() + ": " + doubt);
   if (!(estimate.seconds > 0)) estimate.seconds = seconds_of(folder, name);
   return estimate;

@@ -151,9 +151,7 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
                                                : middle_of(estimate->field.disparity));
   if (scene) {
     note_other_source(*estimate, *scene->light_field, job);
-    const auto better = find_better_reading(*estimate, *scene);
-    const std::string doubt =
-        better ? better_reading_text(*better) : poor_fit_text(*estimate, *scene);
+    const std::string doubt = doubt_text(find_better_reading(*estimate, *scene), *estimate, *scene);
     if (!doubt.empty()) job.note(shown.subject + ": " + doubt);
     take_scene(shown, std::move(*scene), loaded);
   }

@@ -166,10 +166,6 @@ void find_border_of(Estimate& estimate, const LightField& light_field) {
   keep_fitting_maps(estimate);
 }
 
-}  // namespace
-
-namespace {
-
 bool is_hdf5_light_field(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored) && io::has_hdf5_signature(path) &&
@@ -304,6 +300,11 @@ std::string better_reading_text(const io::BetterReading& found) {
   const char* remedy =
       found.is_contradicted() ? ": check the truth, or add" : "; if it is stored so, add";
   return better_reading_finding(found) + remedy + map_options_text(found.reading);
+}
+
+std::string doubt_text(const std::optional<io::BetterReading>& better, const Estimate& estimate,
+                       const Scene& scene) {
+  return better ? better_reading_text(*better) : poor_fit_text(estimate, scene);
 }
 
 nlohmann::ordered_json better_reading_json(const io::BetterReading& found) {

@@ -58,6 +58,11 @@ namespace episcope {
 /// Says so of a map of any origin; else empty.
 [[nodiscard]] std::string poor_fit_text(const DisparityView& map, const DisparityView& truth);
 
+/// What speaks against a result: that another reading, if one was found, fits far better
+/// (better_reading_text), or else that it explains little of the truth (poor_fit_text); else empty.
+[[nodiscard]] std::string doubt_text(const std::optional<io::BetterReading>& better,
+                                     const Estimate& estimate, const Scene& scene);
+
 /// Options that read a map so, as on the command line: " --map-transpose --map-scale=0.01".
 [[nodiscard]] std::string map_options_text(const io::MapReading& reading);
 

@@ -227,9 +227,8 @@ class WindowCosts {
   int height_;
 };
 
-// Adds the pixels of a row to the labels that they distinctly match.
-void count_distinct(const Image<float>& costs, const std::vector<float>& labels,
-                    const LightField& lf, int y, double* counts) {
+// The label that each pixel of a row distinctly matches; -1 if none.
+std::vector<int> distinct_labels(const Image<float>& costs, const std::vector<float>& labels) {
   const int width = costs.width();
   std::vector<int> best(width);
   std::vector<float> least(costs.row(0), costs.row(0) + width);
@@ -250,8 +249,9 @@ void count_distinct(const Image<float>& costs, const std::vector<float>& labels,
   }
   for (int x = 0; x < width; ++x) {
     const bool is_distinct = least[x] <= kRatio * next[x] && next[x] - least[x] >= kContrast;
-    if (is_distinct && lf.is_valid(lf.center(), y, x)) counts[best[x]] += 1;
+    if (!is_distinct) best[x] = -1;
   }
+  return best;
 }
 
 }  // namespace
@@ -264,8 +264,11 @@ std::vector<double> label_support(const LightField& lf, const std::vector<float>
   parallel_for_workers(rows, progress, [&] {
     return [&, costs = WindowCosts(lf, lf.center(), labels)](int i) mutable {
       const int y = rows > 1 ? i * (lf.height() - 1) / (rows - 1) : 0;
-      count_distinct(costs.compute(y, progress), labels, lf, y,
-                     counts.data() + static_cast<std::size_t>(i) * count);
+      double* const of_row = counts.data() + static_cast<std::size_t>(i) * count;
+      const std::vector<int> matched = distinct_labels(costs.compute(y, progress), labels);
+      for (int x = 0; x < lf.width(); ++x) {
+        if (matched[x] >= 0 && lf.is_valid(lf.center(), y, x)) of_row[matched[x]] += 1;
+      }
     };
   });
   std::vector<double> shares(count);
@@ -282,18 +285,8 @@ std::optional<double> matched_disparity(const LightField& lf, ViewIndex view, Pi
   const int count = static_cast<int>(std::ceil(range.length() / step)) + 1;
   const std::vector<float> labels = equidistant_labels(range, count);
   WindowCosts windows(lf, view, labels, radius);
-  const Image<float>& costs = windows.compute(pixel.y, progress);
-  int best = 0;
-  for (int l = 1; l < count; ++l) {
-    if (costs.at(l, pixel.x) < costs.at(best, pixel.x)) best = l;
-  }
-  const float least = costs.at(best, pixel.x);
-  for (int l = 0; l < count; ++l) {
-    const float other = costs.at(l, pixel.x);
-    const bool competes = std::fabs(labels[l] - labels[best]) >= kApart;
-    if (competes && (least > kRatio * other || other - least < kContrast)) return {};
-  }
-  return labels[best];
+  const int matched = distinct_labels(windows.compute(pixel.y, progress), labels)[pixel.x];
+  return matched < 0 ? std::nullopt : std::optional<double>(labels[matched]);
 }
 
 namespace {

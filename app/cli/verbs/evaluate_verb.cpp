@@ -347,8 +347,7 @@ class Judge {
     if (!io::is_result_file(file.result)) {
       row.notes.insert(row.notes.begin(), estimate->notes.begin(), estimate->notes.end());
     }
-    const std::string doubt =
-        row.better ? better_reading_text(*row.better) : poor_fit_text(*estimate, scene);
+    const std::string doubt = doubt_text(row.better, *estimate, scene);
     if (!doubt.empty()) row.notes.push_back(doubt);
     for (const std::string& sentence : row.notes) job_.note(file.result + ": " + sentence);
     write_error_map(error_map, {.view = view, .estimate = estimate, .evaluation = evaluation});

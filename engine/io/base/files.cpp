@@ -88,10 +88,6 @@ bool is_disk_full(const std::filesystem::path& path) {
   return !error && space.capacity > 0 && space.available < kNearlyNothing;
 }
 
-}  // namespace
-
-namespace {
-
 struct FirstBytes {
   std::size_t at;
   std::string_view bytes;  ///< In lower case.
