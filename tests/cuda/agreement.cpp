@@ -11,8 +11,10 @@ namespace episcope::cuda_tests {
 namespace {
 
 constexpr double kDisparityLimit = 1e-4;
+constexpr double kLearnedDisparityLimit = 1e-3;
 constexpr double kConfidenceLimit = 1e-3;
 constexpr double kLocalShare = 0.9999;
+constexpr double kLearnedShare = 0.999;
 constexpr double kMseLimit = 0.005;
 // A scene that a method solves exactly has an MSE of nothing: ×100, px².
 constexpr double kMseSlack = 2e-4;
@@ -26,7 +28,8 @@ bool same_result(const Estimate& a, const Estimate& b) {
 }
 
 // Counts what is valid on both; a pixel that is valid on one alone differs without limit.
-void compare_fields(const DisparityField& cpu, const DisparityField& device, Agreement& result) {
+void compare_fields(const DisparityField& cpu, const DisparityField& device, double limit,
+                    Agreement& result) {
   const ViewStack<float>& stack = cpu.disparity;
   std::size_t close = 0, all = 0;
   for (int i = 0; i < stack.grid().count(); ++i) {
@@ -38,7 +41,7 @@ void compare_fields(const DisparityField& cpu, const DisparityField& device, Agr
         const bool both = a.is_valid(y, x) && b.is_valid(y, x);
         const double off = both ? std::abs(a.disparity.at(y, x) - b.disparity.at(y, x)) : HUGE_VAL;
         ++all;
-        close += off <= kDisparityLimit ? 1 : 0;
+        close += off <= limit ? 1 : 0;
         result.largest = std::max(result.largest, off);
       }
     }
@@ -74,14 +77,16 @@ Agreement compare(const Case& each, const Scene& scene) {
   const Estimate device = run_on(Device::Cuda);
   Agreement result;
   result.is_repeatable = same_result(device, run_on(Device::Cuda));
-  compare_fields(cpu.field, device.field, result);
+  const Kind kind = kind_of(each.estimator);
+  compare_fields(cpu.field, device.field,
+                 kind == Kind::Learned ? kLearnedDisparityLimit : kDisparityLimit, result);
   result.confidence = confidence_share(cpu.confidence, device.confidence);
   result.cpu_mse = mse(cpu, scene);
   result.device_mse = mse(device, scene);
   const double off = std::abs(result.device_mse - result.cpu_mse);
   const bool same_quality = off <= kMseLimit * result.cpu_mse + kMseSlack;
-  const bool is_close =
-      kind_of(each.estimator) == Kind::Local ? result.within >= kLocalShare : same_quality;
+  const double share = kind == Kind::Learned ? kLearnedShare : kLocalShare;
+  const bool is_close = kind == Kind::Iterative ? same_quality : result.within >= share;
   result.passes = result.is_repeatable && is_close;
   return result;
 }

@@ -10,7 +10,8 @@ namespace episcope::cuda_tests {
 
 /// How a run on the device compares with the CPU's, and with itself.
 struct Agreement {
-  double within = 0;      ///< Share of the pixels of all views whose disparity is within 1e-4 px.
+  double within =
+      0;  ///< Share of the pixels of all views whose disparity is within its kind's limit.
   double largest = 0;     ///< Largest difference of disparity, px.
   double confidence = 0;  ///< Share whose confidence is within 1e-3.
   double cpu_mse = 0;     ///< ×100, center view.

@@ -66,7 +66,8 @@ void change(Scene& scene, const std::string& how) {
 }  // namespace
 
 Kind kind_of(const Estimator& estimator) {
-  return estimator.info.iterative ? Kind::Iterative : Kind::Local;
+  if (estimator.info.iterative) return Kind::Iterative;
+  return estimator.info.weights.empty() ? Kind::Local : Kind::Learned;
 }
 
 std::vector<Case> cases(const std::string& filter) {

@@ -20,6 +20,7 @@ struct Case {
 /// How closely a method on the device must follow the CPU.
 enum class Kind {
   Local,     ///< 99.99 % of the pixels within 1e-4 px.
+  Learned,   ///< 99.9 % of the pixels within 1e-3 px.
   Iterative  ///< MSE within 0.5 %: both stop at the same gap, on different ways.
 };
 [[nodiscard]] Kind kind_of(const Estimator& estimator);

@@ -76,8 +76,8 @@ bool compare_labels(const Arguments& arguments) {
 
 int compare_all(const Arguments& arguments) {
   bool passes = compare_labels(arguments);
-  TextTable table{{"method", "scene", "within 1e-4 px", "largest", "confidence", "MSE CPU",
-                   "MSE GPU", "repeatable", "passes"},
+  TextTable table{{"method", "scene", "within limit", "largest", "confidence", "MSE CPU", "MSE GPU",
+                   "repeatable", "passes"},
                   {}};
   for (const std::string& text : scene_texts()) {
     if (!text.starts_with(arguments.scenes)) continue;
