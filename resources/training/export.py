@@ -21,7 +21,7 @@ import kernels
 import network
 import views
 
-VERSION = 3
+VERSION = 4
 CONV, NORM = (nn.Conv2d, nn.Conv3d), (nn.BatchNorm2d, nn.BatchNorm3d)
 
 
