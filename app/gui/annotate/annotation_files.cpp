@@ -53,14 +53,15 @@ AnnotationFiles::AnnotationFiles(const Workbench& bench, AnnotationBar* bar)
 void AnnotationFiles::addCommand(const QString& id, const QString& text, const QString& tip,
                                  const QString& icon, const QList<QKeySequence>& keys,
                                  void (AnnotationFiles::*run)()) {
+  const bool is_export = id == "export_scribbles";
   bench_.commands.add({.id = "file." + id,
-                       .menu = Menu::File,
+                       .menu = is_export ? Menu::Export : Menu::Labels,
                        .text = text,
                        .tip = tip,
                        .icon = icon,
                        .keys = keys,
                        .run = [this, run] { (this->*run)(); },
-                       .section = section::kScribbles,
+                       .section = is_export ? section::kLabels : label_section::kFiles,
                        .enabled = [this] { return session_.scene() != nullptr; }});
 }
 
@@ -77,7 +78,7 @@ void AnnotationFiles::addCommands() {
   addCommand("compare_labels", tr("Compare with true labels…"),
              tr("Compares the segmentation with the GT_LABELS of another file"), "open", {},
              &AnnotationFiles::compareDialog);
-  addCommand("export_scribbles", tr("Export scribbles as images…"),
+  addCommand("export_scribbles", tr("Scribbles as images…"),
              tr("Writes a PNG image of each painted view"), "picture", {},
              &AnnotationFiles::exportDialog);
   for (const char* id : {"file.save_scribbles", "file.import_scribbles", "file.export_scribbles"}) {

@@ -468,9 +468,8 @@ namespace {
 
 using render::Quantity;
 
-// Sections of the menu.
+// Section of the menu.
 constexpr int kSegmentSection = 0;
-constexpr int kSegmentMapSection = 1;
 
 }  // namespace
 
@@ -509,21 +508,21 @@ void SegmentController::addRunCommands() {
 void SegmentController::addExportCommands() {
   bench_.commands.add(
       {.id = "segment.export",
-       .menu = Menu::Segmentation,
-       .text = tr("Export segmentation…"),
+       .menu = Menu::Export,
+       .text = tr("Segmentation…"),
        .tip = tr("Writes labels and probabilities as HDF5, or the labels of this view as PNG"),
        .icon = "export",
        .run = [this] { ask_to_export_segmentation(bench_, *this); },
-       .section = kSegmentSection,
+       .section = section::kLabels,
        .enabled = [this] { return segmentation().has_value(); }});
   bench_.commands.add(
       {.id = "segment.export_masks",
-       .menu = Menu::Segmentation,
-       .text = tr("Export masks…"),
+       .menu = Menu::Export,
+       .text = tr("Masks of labels…"),
        .tip = tr("Writes a black and white PNG of every label in every segmented view to a folder"),
        .icon = "export",
        .run = [this] { ask_to_export_masks(bench_, *this); },
-       .section = kSegmentSection,
+       .section = section::kLabels,
        .enabled = [this] { return segmentation().has_value(); }});
 }
 
@@ -563,7 +562,7 @@ void SegmentController::addOverlayCommands() {
     const Quantity quantity = row.quantity;
     QAction* action = bench_.commands.add(
         {.id = row.id,
-         .menu = Menu::Segmentation,
+         .menu = Menu::Map,
          .text = quantity_button(quantity),
          .tip = quantity_tip(quantity),
          .keys = row.keys,
@@ -572,10 +571,11 @@ void SegmentController::addOverlayCommands() {
                const bool is_shown = overlay.quantity() == quantity;
                overlay.setQuantity(is_shown ? Quantity::View : quantity);
              },
-         .section = kSegmentMapSection,
+         .section = section::kMaps,
          .enabled = [&overlay, quantity] { return overlay.isAvailable(quantity); },
-         .checked = [&overlay, quantity] { return overlay.quantity() == quantity; },
-         .choice = "overlay"});
+         .checked = [&overlay, quantity] { return overlay.chosenQuantity() == quantity; },
+         .choice = "overlay",
+         .visible = [&overlay, quantity] { return overlay.isAvailable(quantity); }});
     panel_->addOverlay(action, QString("button.%1").arg(row.id));
   }
 }

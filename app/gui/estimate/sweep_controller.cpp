@@ -162,6 +162,13 @@ void SweepController::addTab() {
                        .widget = panel_,
                        .waits = true,
                        .key = QKeySequence()});  // “Sweep parameters…” has one
+  bench_.commands.add({.id = "sweep.save",
+                       .menu = Menu::Export,
+                       .text = tr("Sweep (CSV)…"),
+                       .tip = tr("Writes the points of the sweep that is shown in the Sweep tab"),
+                       .run = [this] { save(); },
+                       .section = section::kResults,
+                       .enabled = [this] { return current() != nullptr; }});
 }
 
 void SweepController::connectPanel() {

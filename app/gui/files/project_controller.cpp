@@ -66,7 +66,7 @@ void ProjectController::addCommands() {
   const auto has_scene = [this] { return !bench_.session.scenes().empty(); };
   // Scribbles go to their own file, as other programs read it, until there is a project.
   bench_.commands.add({.id = "file.save",
-                       .menu = Menu::File,
+                       .menu = Menu::Project,
                        .text = tr("Save"),
                        .tip = tr("Saves the project; without one, the scribbles"),
                        .icon = "save",
@@ -79,17 +79,15 @@ void ProjectController::addCommands() {
                                save();
                              }
                            },
-                       .section = section::kProject,
                        .enabled = has_scene});
   bench_.commands.add({.id = "file.save_project",
-                       .menu = Menu::File,
-                       .text = tr("Save project as…"),
+                       .menu = Menu::Project,
+                       .text = tr("Save as…"),
                        .tip = tr("Saves all open light fields with their results and scribbles "
                                  "as a project"),
                        .icon = "save",
                        .keys = {tr("Ctrl+Alt+S")},
                        .run = [this] { saveAs(); },
-                       .section = section::kProject,
                        .enabled = has_scene});
 }
 
