@@ -2,6 +2,7 @@
 #include "app/gui/annotate/annotation_files.h"
 
 #include "annotation/exchange.h"
+#include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/shell/commands.h"

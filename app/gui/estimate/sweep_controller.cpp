@@ -5,6 +5,7 @@
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/scene_switcher.h"
+#include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
