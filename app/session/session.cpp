@@ -565,4 +565,11 @@ void Session::set_labels_file(std::uint64_t id, const LabelingPtr& labeling,
   changed(Part::Scenes);
 }
 
+void Session::mark_labels_saved(std::uint64_t id, const LabelingPtr& labeling) {
+  OpenScene* scene = open_scene(id);
+  if (!scene || scene->labels.labeling != labeling) return;
+  scene->labels.is_saved = true;
+  changed(Part::Labels);
+}
+
 }  // namespace episcope

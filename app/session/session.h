@@ -192,6 +192,9 @@ class Session {
   void set_labels_file(std::uint64_t scene, const LabelingPtr& labeling,
                        const std::filesystem::path& file);
   [[nodiscard]] const KeptLabels& labels() const { return now_->labels; }
+  /// Notes that a file of the user's holds the labels of an open scene; ignored if others are kept
+  /// meanwhile.
+  void mark_labels_saved(std::uint64_t scene, const LabelingPtr& labeling);
 
  private:
   void changed(Parts parts);

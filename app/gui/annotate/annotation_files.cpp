@@ -398,6 +398,10 @@ void export_segmentation(const Workbench& bench, const SegmentController& segmen
         bench.jobs, bench.messages, path,
         [file, segmentation, source = bench.session.input()](const Progress& progress) {
           write_segmentation(file, *segmentation, source, StoredProbabilities::All, progress);
+        },
+        [&session = bench.session, scene = bench.session.generation(),
+         labeling = bench.session.labels().labeling] {
+          session.mark_labels_saved(scene, labeling);
         });
     return;
   }
