@@ -32,8 +32,7 @@ struct UnsupportedForm {
 constexpr const char* kUnpack =
     "this is an archive of files; unpack it and open the folder that it makes";
 constexpr const char* kDecode =
-    "this is a raw picture of a Lytro camera; decode it, as LFToolbox does to a .mat file, or "
-    "export it as ESLF image, and open that";
+    "this is a raw picture of a Lytro camera; make a light field of it with episcope-cli decode";
 constexpr const char* kSave =
     "this is an object that a program has saved for itself; save the array as .npy, .npz or .h5";
 

@@ -34,7 +34,7 @@ class UnsupportedFormatTest : public QObject {
     QTest::newRow("packed TAR") << "lf.tar.gz"
                                 << "unpack it";
     QTest::newRow("Lytro") << "IMG_0001.LFP"
-                           << "LFToolbox";
+                           << "episcope-cli decode";
     QTest::newRow("tensor") << "lf.pt"
                             << ".npy";
     QTest::newRow("other") << "lf.doc"
