@@ -163,7 +163,7 @@ std::vector<Broken> broken_archives() {
          std::ofstream(f / "lf.h5") << "this is no HDF5";
          return f / "lf.h5";
        },
-       "the file is empty; copy or download it again"},
+       "not an HDF5 file"},
       {"text named .h5 in its folder",
        [](const fs::path& f) {
          std::ofstream(f / "lf.h5") << "this is no HDF5";
@@ -175,7 +175,7 @@ std::vector<Broken> broken_archives() {
          std::ofstream give(f / "lf.h5");
          return f / "lf.h5";
        },
-       "not an HDF5 file"},
+       "the file is empty; copy or download it again"},
       {"HDF5 cut in its header", [](const fs::path& f) { return cut_archive(f, 90); },
        "truncated or damaged"},
       {"HDF5 cut in its samples", [](const fs::path& f) { return cut_archive(f, 200000); },
