@@ -9,6 +9,9 @@
 #include "app/session/result_files.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_repack.h"
+#include "engine/io/formats/quilt.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/write.h"
 
@@ -28,6 +31,7 @@ struct ConvertRequest {
   std::string form;  ///< Id of a writer, or kMap; empty = told by the output.
   std::optional<ViewSelection> views;
   Overwrite overwrite = Overwrite::No;
+  bool is_repacked = false;  ///< The HDF5 file is copied as it is, without chunks.
   bool is_json = false;
   bool is_piped = false;  ///< To standard output.
   io::MapValues values = io::MapValues::Disparity;
@@ -51,7 +55,8 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
       "convert",
       {"Converts a light field or a result to another form, chosen by the suffix of OUT or by\n"
        "--to. Light fields: .h5 (archive form), .npy, .npz, .mat (LFToolbox), .png (lenslets,\n"
-       "ESLF) or a folder (benchmark form). Disparity of the center view: .pfm, .tiff, .csv,\n"
+       "ESLF), _qs8x6a0.75.png (quilt) or a folder (benchmark form). Disparity of the center view: "
+       ".pfm, .tiff, .csv,\n"
        ".ply, .npy for a RESULT, and .npz and .mat with --to map; an INPUT gives its truth. All\n"
        "views of it with --views all: .npy, .npz, .mat. Views, truth, labels, masks and\n"
        "camera are kept where the form can hold them; notes name what it cannot hold. Labels\n"
@@ -80,6 +85,9 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
                 "field");
   parser.flag("--gt-disparity", request.has_disparity, true,
               "Write GT_DISPARITY beside GT_DEPTH of the archive form");
+  parser.flag("--repack", request.is_repacked, true,
+              "Copy the HDF5 file INPUT with each dataset as one array, without chunks and "
+              "compression, and with what its virtual datasets have in other files");
   declare_map_options(parser, request.map);
   return parse_reading(parser, arguments, request.job, request.read);
 }
@@ -209,6 +217,15 @@ void write_map(ConvertSubject& subject, const ConvertRequest& request, MapForm f
   });
 }
 
+/// Displays read the tiles of a quilt from its name, and so does Episcope.
+void note_missing_tiles(const io::Writer& writer, const std::string& output,
+                        const LightField& field, Job& job) {
+  const std::filesystem::path named = io::quilt_path(output, field);
+  if (std::string(writer.id) != "quilt" || named == output) return;
+  job.note(output + " does not state its tiles, which displays read from its name; name it " +
+           named.filename().string());
+}
+
 /// Returns the file of labels that was written; empty if there is none.
 std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& request,
                             const Target& target, Job& job, const Progress& progress) {
@@ -220,6 +237,7 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
   const Scene scene = scene_to_write(subject, request.output);
   for (const std::string& sentence : io::unsupported_parts(*target.writer, scene))
     job.note(sentence);
+  note_missing_tiles(*target.writer, request.output, *scene.light_field, job);
   const bool is_archive = std::string(target.writer->id) == "archive";
   const std::filesystem::path labels =
       is_archive ? io::labels_place(request.output, scene, io::LabelFile::NamedAfter)
@@ -360,6 +378,25 @@ void convert_collection(ConvertRequest request, Job& job) {
   failures.require_none(scenes.size());
 }
 
+/// The file of an INPUT that is repacked.
+std::filesystem::path repacked_file(const std::string& input) {
+  std::error_code error;
+  const std::filesystem::path path(input);
+  return std::filesystem::is_directory(path, error) ? path / "lf.h5" : path;
+}
+
+void repack(const ConvertRequest& request, Job& job) {
+  if (!io::has_hdf5_name(request.output) || request.is_piped) {
+    throw UsageError("--repack writes a file *.h5, but the output is " + request.output +
+                     "; name it so");
+  }
+  protect_input(request.output, request.input);
+  check_light_field_output(request.output, request.overwrite);
+  io::repack_hdf5(repacked_file(request.input), request.output, job.progress());
+  job.finish();
+  if (!request.is_json) std::cout << request.output << ": written\n";
+}
+
 /// Whether OUT is to be a folder for the light fields of a folder.
 bool is_many(const ConvertRequest& request, const Progress& progress) {
   const bool may_be_folder = suffix_of(request.output).empty() || request.output.ends_with('/') ||
@@ -379,6 +416,15 @@ void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   to.require_alone(request.is_json);
   request.is_piped = to.is_meant();
   Job job(std::move(stop), request.job);
+  if (request.is_repacked) {
+    repack(request, job);
+    if (!request.is_json) return;
+    return print_answer(Json::object({{"input", request.input},
+                                      {"output", request.output},
+                                      {"form", "repacked"},
+                                      {"written", files_written(request.output, {})}}),
+                        job.notes());
+  }
   if (is_many(request, job.progress())) return convert_collection(request, job);
   Json answer = convert_one(request, job, job.progress());
   if (to.is_meant()) return to.send();
