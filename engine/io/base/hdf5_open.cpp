@@ -276,12 +276,17 @@ const char* package_of(H5Z_filter_t filter) {
   constexpr H5Z_filter_t kBzip2 = 307, kBlosc = 32001, kLz4 = 32004, kBitshuffle = 32008,
                          kZfp = 32013;
   switch (filter) {
-    case kBlosc: return "the package hdf5-filter-plugin-blosc-serial";
-    case kZfp: return "the package hdf5-filter-plugin-zfp-serial";
+    case kBlosc:
+      return "the package hdf5-filter-plugin-blosc-serial";
+    case kZfp:
+      return "the package hdf5-filter-plugin-zfp-serial";
     case kBzip2:
-    case kLz4: return "the package hdf5-filter-plugin";
-    case kBitshuffle: return "the package bitshuffle";
-    default: return "hdf5plugin of Python";
+    case kLz4:
+      return "the package hdf5-filter-plugin";
+    case kBitshuffle:
+      return "the package bitshuffle";
+    default:
+      return "hdf5plugin of Python";
   }
 }
 
