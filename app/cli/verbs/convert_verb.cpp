@@ -2,6 +2,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
 #include "app/cli/job.h"
+#include "app/cli/label_files.h"
 #include "app/cli/output.h"
 #include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
@@ -13,6 +14,7 @@
 #include "engine/io/base/hdf5_repack.h"
 #include "engine/io/formats/quilt.h"
 #include "engine/io/formats/write_scene.h"
+#include "engine/io/models/labels/label_import.h"
 #include "engine/io/write.h"
 
 #include <nlohmann/json.hpp>
@@ -37,6 +39,7 @@ struct ConvertRequest {
   io::MapValues values = io::MapValues::Disparity;
   bool has_disparity = false;  ///< Whether an archive gets disparity beside depth.
   ParameterOptions map;
+  LabelFileOptions labels{.prefers_truth = true};  ///< To take the place of the true labels.
   JobOptions job;
   ReadOptions read;
 };
@@ -88,8 +91,14 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
   parser.flag("--repack", request.is_repacked, true,
               "Copy the HDF5 file INPUT with each dataset as one array, without chunks and "
               "compression, and with what its virtual datasets have in other files");
+  parser.option("--labels", request.labels.file, text_value("LABELS"),
+                "Labels of another program to write as the true labels: a file as --scribbles of "
+                "label reads, or a folder of them");
+  declare_label_options(parser, request.labels);
   declare_map_options(parser, request.map);
-  return parse_reading(parser, arguments, request.job, request.read);
+  if (!parse_reading(parser, arguments, request.job, request.read)) return false;
+  check_label_options(parser, request.labels, "--labels");
+  return true;
 }
 
 /// What is written: a light field in one of its forms, or a map.
@@ -203,6 +212,32 @@ Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
   return scene;
 }
 
+/// A truth with other labels.
+GroundTruthPtr with_labels(const GroundTruth& truth, ViewStack<std::int32_t> labels) {
+  const auto copy = [](const DisparityField& field) {
+    return DisparityField{field.disparity.clone(), field.valid.clone()};
+  };
+  auto changed = std::make_shared<GroundTruth>();
+  changed->field = copy(truth.field);
+  changed->foreground = copy(truth.foreground);
+  changed->background = copy(truth.background);
+  changed->labels = std::move(labels);
+  changed->regions = truth.regions;
+  changed->high_res = truth.high_res;
+  changed->stratified = truth.stratified;
+  changed->estimated = truth.estimated;
+  return changed;
+}
+
+void take_labels(Scene& scene, const ConvertRequest& request, Job& job, const Progress& progress) {
+  if (request.labels.file.empty()) return;
+  const LightField& field = *scene.light_field;
+  Scribbles labels = load_labels(request.labels, scene, job, progress);
+  scene.truth = with_labels(*scene.truth,
+                            io::stack_of(labels, {field.grid(), field.height(), field.width()}));
+  if (!labels.labels.empty()) scene.scribbles.labels = std::move(labels.labels);
+}
+
 void write_map(ConvertSubject& subject, const ConvertRequest& request, MapForm form) {
   if (subject.field().empty()) throw InvalidInput(request.input + " has no disparity to convert");
   take_truth(subject);
@@ -234,7 +269,8 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
     write_map(subject, request, target.map);
     return {};
   }
-  const Scene scene = scene_to_write(subject, request.output);
+  Scene scene = scene_to_write(subject, request.output);
+  take_labels(scene, request, job, progress.part(0, 0.2));
   for (const std::string& sentence : io::unsupported_parts(*target.writer, scene))
     job.note(sentence);
   note_missing_tiles(*target.writer, request.output, *scene.light_field, job);
@@ -292,6 +328,10 @@ void check_output(const ConvertRequest& request, const Target& target) {
   if (request.values == io::MapValues::Depth && !is_map) {
     throw UsageError("--values depth is for a map (.pfm, .tiff, .npy), but the output is " +
                      request.output + "; leave it out, or name a map");
+  }
+  if (!request.labels.file.empty() && !target.writer) {
+    throw UsageError("--labels is for a light field, but the output is the map " + request.output +
+                     "; leave it out, or name a light field");
   }
   const bool is_archive = target.writer && std::string(target.writer->id) == "archive";
   if (request.has_disparity && !is_archive) {

@@ -14,8 +14,8 @@
 #include "engine/core/shear.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/models/labels/label_import.h"
 #include "engine/io/models/scribble_file.h"
-#include "engine/io/models/scribble_picture.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/panels/brush_panel.h"
 
@@ -260,35 +260,28 @@ void AnnotationFiles::importDialog() {
   ask_for_file(&bench_.window,
                {.name = "import_scribbles",
                 .title = tr("Import scribbles"),
-                .filter = tr("Archive labels or pictures of strokes (*.h5 *.hdf5 *.png *.bmp "
-                             "*.tif *.tiff *.pgm);;All files (*)")},
+                .filter = tr("Labels and pictures of strokes (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff "
+                             "*.pgm *.npy *.npz *.mat);;All files (*)")},
                [this](const QString& path) { importFrom(path); });
 }
 
 void AnnotationFiles::importFrom(const QString& path) {
   if (!document_.document()) return;
-  const bool has_pictures = io::holds_scribble_pictures(path_of(path));
   // A picture that was exported stands for all of them.
   const bool is_exported = QFileInfo(path).fileName().startsWith("scribbles_");
-  const QString place = has_pictures && is_exported ? QFileInfo(path).path() : path;
+  const QString place = is_exported ? QFileInfo(path).path() : path;
   const std::uint64_t generation = session_.generation();
-  bench_.jobs.start<std::shared_ptr<io::PictureStrokes>>(
+  bench_.jobs.start<std::shared_ptr<io::ImportedLabels>>(
       Lane::Load, tr("Importing %1").arg(QFileInfo(path).fileName()),
-      [scene = session_.scene(), place, has_pictures,
+      [scene = session_.scene(), place,
        known = document_.document()->labels().labels()](const Progress& progress) {
-        auto read = std::make_shared<io::PictureStrokes>();
-        if (!has_pictures) {
-          read->scribbles = io::read_scribbles(path_of(place), *scene, progress);
-          return read;
-        }
-        const LightField& field = *scene->light_field;
-        *read = io::read_scribble_pictures(path_of(place),
-                                           {field.grid(), field.height(), field.width()},
-                                           {.known = {known.begin(), known.end()}});
-        read->scribbles = sheared(read->scribbles, field.center(), scene->convention.focus_px);
+        auto read = std::make_shared<io::ImportedLabels>(io::read_labels(
+            {path_of(place)}, *scene, {.known = {known.begin(), known.end()}}, progress));
+        const std::string renumbered = io::renumber_labels(read->scribbles, LabelSet::kMaxId);
+        if (!renumbered.empty()) read->notes.push_back(renumbered);
         return read;
       },
-      [this, path, generation](const std::shared_ptr<io::PictureStrokes>& read) {
+      [this, path, generation](const std::shared_ptr<io::ImportedLabels>& read) {
         if (generation != session_.generation()) return;
         const bool is_new = document_.edit(
             [&](AnnotationDocument& document) { import_scribbles(document, read->scribbles); });
