@@ -27,7 +27,7 @@ std::string trimmed(const std::string& text) {
 
 /// Values by "section.key".
 std::map<std::string, std::string> read_sections(const fs::path& path) {
-  io::require_readable_file(path);
+  io::require_openable_file(path);
   constexpr std::uintmax_t kLargestText = 1 << 20;
   if (fs::file_size(path) > kLargestText) {
     throw IoError(path, "this is too large for a description of a camera; choose another file");

@@ -38,7 +38,7 @@ bool begins_with(ByteView bytes, const std::array<std::uint8_t, N>& signature,
 }
 
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
-  io::require_readable_file(path);
+  io::require_openable_file(path);
   if (std::filesystem::file_size(path) > kLargestFile) {
     throw IoError(path, fmt::format("this file has more than {} MiB, which no picture of a Lytro "
                                     "camera has; choose another",

@@ -147,7 +147,7 @@ Metadata parse_metadata(const std::string& text, const char* what) {
 }
 
 std::vector<std::uint8_t> bytes_of(const fs::path& path) {
-  io::require_readable_file(path);
+  io::require_openable_file(path);
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -389,7 +389,7 @@ RawFacts facts_from_json(const std::string& metadata) {
 }
 
 RawFile read_raw(const fs::path& path) {
-  io::require_readable_file(path);
+  io::require_openable_file(path);
   RawFile file;
   try {
     if (is_lfp_container(path)) {
