@@ -362,7 +362,8 @@ bool fits_file(const std::filesystem::path& path, double bytes) {
 }
 
 bool holds_own_samples(hid_t dataset) {
-  return is_stored_here(dataset) || for_each_source(dataset, [](hid_t) {});
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  return H5Pget_external_count(creation) <= 0 && for_each_source(dataset, [](hid_t) {});
 }
 
 std::vector<std::string> virtual_files(hid_t dataset) {
