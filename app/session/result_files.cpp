@@ -15,7 +15,7 @@
 #include "engine/io/base/image_header.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/array_reader.h"
-#include "engine/io/formats/frames_reader.h"
+#include "engine/io/formats/tiff_pages.h"
 #include "engine/io/formats/mosaic_reader.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/models/external_result.h"

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
+#include "engine/io/base/foreign_content.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/formats/archive_reader.h"
 #include "engine/io/formats/array_reader.h"
@@ -15,6 +16,8 @@
 #include "engine/io/formats/sequence_reader.h"
 #include "engine/io/models/reader.h"
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -24,28 +27,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct UnsupportedForm {
-  std::string_view suffix;
-  const char* advice;
-};
-
-constexpr const char* kUnpack =
-    "this is an archive of files; unpack it and open the folder that it makes";
-constexpr const char* kDecode =
-    "this is a raw picture of a Lytro camera; decode it, as LFToolbox does to a .mat file, or "
-    "export it as ESLF image, and open that";
-constexpr const char* kSave =
-    "this is an object that a program has saved for itself; save the array as .npy, .npz or .h5";
-
 constexpr const char* kConvert =
     "views are not read from GIF pictures, which hold 256 colors; use the originals, or convert "
     "them to PNG";
 
-constexpr UnsupportedForm kUnsupportedForms[] = {
-    {".zip", kUnpack}, {".tar", kUnpack}, {".gz", kUnpack},  {".tgz", kUnpack},
-    {".xz", kUnpack},  {".bz2", kUnpack}, {".zst", kUnpack}, {".7z", kUnpack},
-    {".rar", kUnpack}, {".lfp", kDecode}, {".lfr", kDecode}, {".lfx", kDecode},
-    {".pt", kSave},    {".pth", kSave},   {".pkl", kSave},   {".pickle", kSave}};
+struct FormWithoutMark {
+  std::string_view suffix;
+  const char* advice;
+};
+
+constexpr const char* kExport =
+    "this is a picture of a light-field camera in a form that is not read; export its views as "
+    "images, and open their folder";
+constexpr const char* kDevelop =
+    "raw photographs are not read; develop all views alike to TIFF of 16 bit, without correction "
+    "of the lens, and open these";
+
+/// Forms that the first bytes do not tell.
+constexpr FormWithoutMark kWithoutMark[] = {
+    {".lfi", kExport},  {".lfx", kExport},  {".ray", kExport},  {".dng", kDevelop},
+    {".nef", kDevelop}, {".cr2", kDevelop}, {".cr3", kDevelop}, {".arw", kDevelop},
+    {".raf", kDevelop}, {".orf", kDevelop}, {".rw2", kDevelop}};
 
 }  // namespace
 
@@ -58,11 +60,10 @@ std::span<const Reader> readers() {
 }
 
 std::string advice_on(const fs::path& path) {
-  const std::string suffix = suffix_of(path);
-  for (const UnsupportedForm& form : kUnsupportedForms) {
-    if (suffix == form.suffix) return form.advice;
-  }
-  return foreign_content(path);
+  const std::string content = foreign_content(path);
+  if (!content.empty()) return content;
+  const auto known = std::ranges::find(kWithoutMark, suffix_of(path), &FormWithoutMark::suffix);
+  return known == std::end(kWithoutMark) ? std::string() : known->advice;
 }
 
 std::string advice_on_folder(const fs::path& folder) {

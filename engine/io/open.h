@@ -17,10 +17,8 @@ namespace episcope::io {
 [[nodiscard]] Scene open_scene(const std::filesystem::path& path, const OpenOptions& options,
                                const Progress& progress);
 
-/// Advice on a file whose suffix names an unsupported format of light fields: archives of files,
-/// raw pictures of Lytro cameras, tensors of learning programs; or whose content is of no form that
-/// is read (foreign_content). The end of a sentence; empty for
-/// other files.
+/// Advice on a file whose content is of no form that is read (foreign_content.h), or whose suffix
+/// names a form that its bytes do not tell. The end of a sentence; empty for other files.
 [[nodiscard]] std::string advice_on(const std::filesystem::path& path);
 
 /// Advice on a folder without a light field, by its first file of an unsupported format or GIF

@@ -8,6 +8,7 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/mosaic_layout.h"
+#include "engine/io/formats/quilt.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/formats/write_scene.h"
 
@@ -117,6 +118,7 @@ constexpr const char* kHdf5[] = {".h5", ".hdf5"};
 constexpr const char* kNpy[] = {".npy"};
 constexpr const char* kNpz[] = {".npz"};
 constexpr const char* kMat[] = {".mat"};
+constexpr const char* kPng[] = {".png"};
 constexpr const char* kEslfSuffixes[] = {"_eslf.png", ".png"};
 
 constexpr FormContents kArchive{.floats = FloatsHeld::Exactly,
@@ -149,6 +151,7 @@ constexpr FormContents kArrays{.floats = FloatsHeld::Exactly,
                                .has_valid = true};
 
 constexpr FormContents kPicture{};
+constexpr FormContents kLine{.has_rows = false};
 
 void write_named_archive(const fs::path& path, const Scene& scene, const Progress& progress) {
   write_archive(path, scene, progress, {.labels = LabelFile::NamedAfter});
@@ -162,6 +165,7 @@ constexpr Writer kWriters[] = {
     {"npz", "the .npz form", kNpz, kArrays, write_npz},
     {"mat", "the .mat form", kMat, kArrays, write_mat},
     {"eslf", "a picture of lenslets", kEslfSuffixes, kPicture, write_eslf},
+    {"quilt", "a quilt", kPng, kLine, write_quilt},
 };
 
 }  // namespace
@@ -181,6 +185,7 @@ const Writer* writer_named(const std::string& id) {
 }
 
 const Writer* writer_of(const std::filesystem::path& path) {
+  if (quilt_tiles_of_name(path)) return writer_named("quilt");
   const auto found = std::ranges::find_if(
       kWriters, [&](const Writer& writer) { return writer.has_suffix_of(path); });
   return found == std::end(kWriters) ? nullptr : found;
@@ -261,6 +266,10 @@ std::vector<std::string> unsupported_parts(const Writer& writer, const Scene& sc
   Losses losses(writer, scene);
   if (field.sample_type() == SampleType::Float32 && holds.floats == FloatsHeld::Rounded) {
     losses.add(" holds no float samples; they are rounded to 16 bit, and clamped to 0 … 1.");
+  }
+  if (field.grid().v > 1 && !holds.has_rows) {
+    losses.add(fmt::format(" holds one row of views; row {} is written, the others are left out.",
+                           field.center().v));
   }
   compare_camera(field.info(), holds, losses);
   losses.compare_maps(truth.field.disparity, holds.disparity, "disparities");

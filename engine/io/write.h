@@ -32,7 +32,7 @@ enum class CamerasHeld {
 struct FormContents {
   FloatsHeld floats = FloatsHeld::None;
   MapsHeld disparity = MapsHeld::None;
-  bool is_depth = false;  ///< Disparity is held as depth in float, within 2⁻²³ of d + Δx.
+  bool is_depth = false;    ///< Disparity is held as depth in float, within 2⁻²³ of d + Δx.
   bool has_origin = false;  ///< Whether disparities that are no truth say how they were estimated.
   bool has_layers = false;
   MapsHeld labels = MapsHeld::None;
@@ -42,6 +42,7 @@ struct FormContents {
   CamerasHeld camera = CamerasHeld::None;
   bool has_range = false;      ///< The disparity range that files promise.
   bool has_positions = false;  ///< Of the cameras.
+  bool has_rows = true;        ///< More than one row of views.
 };
 
 /// A form in which light fields can be written: one row of the table.
@@ -65,7 +66,8 @@ struct Writer {
 /// The writer with this id; null for an unknown one.
 [[nodiscard]] const Writer* writer_named(const std::string& id);
 
-/// The first writer of files whose names end as `path` does; null if there is none.
+/// The first writer of files whose names end as `path` does, of quilts if the name states tiles;
+/// null if there is none.
 [[nodiscard]] const Writer* writer_of(const std::filesystem::path& path);
 
 /// Lists the parts of a scene that the form cannot hold, a sentence for each kind.

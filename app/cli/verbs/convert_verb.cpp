@@ -9,6 +9,7 @@
 #include "app/session/result_files.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
+#include "engine/io/formats/quilt.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/write.h"
 
@@ -51,7 +52,8 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
       "convert",
       {"Converts a light field or a result to another form, chosen by the suffix of OUT or by\n"
        "--to. Light fields: .h5 (archive form), .npy, .npz, .mat (LFToolbox), .png (lenslets,\n"
-       "ESLF) or a folder (benchmark form). Disparity of the center view: .pfm, .tiff, .csv,\n"
+       "ESLF), _qs8x6a0.75.png (quilt) or a folder (benchmark form). Disparity of the center view: "
+       ".pfm, .tiff, .csv,\n"
        ".ply, .npy for a RESULT, and .npz and .mat with --to map; an INPUT gives its truth. All\n"
        "views of it with --views all: .npy, .npz, .mat. Views, truth, labels, masks and\n"
        "camera are kept where the form can hold them; notes name what it cannot hold. Labels\n"
@@ -209,6 +211,15 @@ void write_map(ConvertSubject& subject, const ConvertRequest& request, MapForm f
   });
 }
 
+/// Displays read the tiles of a quilt from its name, and so does Episcope.
+void note_missing_tiles(const io::Writer& writer, const std::string& output,
+                        const LightField& field, Job& job) {
+  const std::filesystem::path named = io::quilt_path(output, field);
+  if (std::string(writer.id) != "quilt" || named == output) return;
+  job.note(output + " does not state its tiles, which displays read from its name; name it " +
+           named.filename().string());
+}
+
 /// Returns the file of labels that was written; empty if there is none.
 std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& request,
                             const Target& target, Job& job, const Progress& progress) {
@@ -220,6 +231,7 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
   const Scene scene = scene_to_write(subject, request.output);
   for (const std::string& sentence : io::unsupported_parts(*target.writer, scene))
     job.note(sentence);
+  note_missing_tiles(*target.writer, request.output, *scene.light_field, job);
   const bool is_archive = std::string(target.writer->id) == "archive";
   const std::filesystem::path labels =
       is_archive ? io::labels_place(request.output, scene, io::LabelFile::NamedAfter)

@@ -452,7 +452,8 @@ QString title_of(const io::Writer& writer) {
       {"npy", SaveFormsText::tr("NumPy array")},
       {"npz", SaveFormsText::tr("NumPy arrays with ground truth and labels")},
       {"mat", SaveFormsText::tr("MATLAB file of the Light Field Toolbox")},
-      {"eslf", SaveFormsText::tr("Picture of lenslets (ESLF)")}};
+      {"eslf", SaveFormsText::tr("Picture of lenslets (ESLF)")},
+      {"quilt", SaveFormsText::tr("Quilt for light-field displays")}};
   for (const auto& [id, title] : titles) {
     if (writer.id == std::string_view(id)) return title;
   }

@@ -2,6 +2,7 @@
 #include "engine/io/base/files.h"
 
 #include "engine/core/text.h"
+#include "engine/io/base/foreign_content.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -88,46 +89,7 @@ bool is_disk_full(const std::filesystem::path& path) {
   return !error && space.capacity > 0 && space.available < kNearlyNothing;
 }
 
-struct FirstBytes {
-  std::size_t at;
-  std::string_view bytes;  ///< In lower case.
-  const char* advice;
-};
-
-constexpr const char* kFetch =
-    "this is a pointer of Git LFS in place of the file; fetch the file by git lfs pull";
-constexpr const char* kWebPage =
-    "this is a web page in place of the file; download the file itself";
-constexpr const char* kHeic = "HEIC pictures are not read; convert them to PNG or TIFF";
-constexpr const char* kAvif = "AVIF pictures are not read; convert them to PNG or TIFF";
-constexpr const char* kJpegXl = "JPEG XL pictures are not read; convert them to PNG or TIFF";
-
-constexpr FirstBytes kForeign[] = {{0, "version https://git-lfs.github.com", kFetch},
-                                   {0, "<!doctype html", kWebPage},
-                                   {0, "<html", kWebPage},
-                                   {4, "ftypheic", kHeic},
-                                   {4, "ftypheix", kHeic},
-                                   {4, "ftyphevc", kHeic},
-                                   {4, "ftypmif1", kHeic},
-                                   {4, "ftypmsf1", kHeic},
-                                   {4, "ftypavif", kAvif},
-                                   {4, "ftypavis", kAvif},
-                                   {4, "jxl \x0d\x0a", kJpegXl},
-                                   {0, "\xff\x0a", kJpegXl}};
-
 }  // namespace
-
-std::string foreign_content(const std::filesystem::path& path) {
-  const FileDescriptor file(path, O_RDONLY | O_NONBLOCK);
-  std::array<char, 64> begin{};
-  const ssize_t count = file.ok() ? ::read(file.id(), begin.data(), begin.size()) : 0;
-  const std::string bytes =
-      lower_case(std::string(begin.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0))));
-  const auto known = std::ranges::find_if(kForeign, [&](const FirstBytes& one) {
-    return bytes.size() > one.at && std::string_view(bytes).substr(one.at).starts_with(one.bytes);
-  });
-  return known == std::end(kForeign) ? std::string() : known->advice;
-}
 
 void require_readable_file(const std::filesystem::path& path) {
   std::error_code error;

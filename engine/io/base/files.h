@@ -45,12 +45,11 @@ class FileDescriptor {
 /// Reads from the current position to the end; false leaves the reason in `errno`.
 [[nodiscard]] bool read_all(int descriptor, std::vector<std::uint8_t>& bytes);
 
-/// What a file is that no reader reads, by its first bytes, and what to do: a pointer of Git LFS, a
-/// web page, a HEIC, AVIF or JPEG XL picture. The end of a sentence; empty for other files.
-[[nodiscard]] std::string foreign_content(const std::filesystem::path& path);
+/// The end of a sentence on a file without content.
+inline constexpr const char* kEmptyFile = "the file is empty; copy or download it again";
 
-/// Throws IoError with one sentence unless `path` is a file that can be opened for reading and no
-/// `foreign_content`.
+/// Throws IoError with one sentence unless `path` is a file that can be opened for reading and has
+/// no content that no reader reads (foreign_content.h).
 void require_readable_file(const std::filesystem::path& path);
 
 /// Why writing to `path` failed and what to do about it, from `errno` and the free space.

@@ -191,6 +191,7 @@ std::shared_ptr<Hdf5OpenFile> Hdf5OpenFile::of(const std::filesystem::path& path
 Hdf5OpenFile::Hdf5OpenFile(const std::filesystem::path& path) {
   require_readable_file(path);
   if (!has_hdf5_signature(path)) {
+    if (std::filesystem::file_size(path) == 0) throw IoError(path, kEmptyFile);
     throw IoError(path, "this is not an HDF5 file, despite its name; choose another file");
   }
   follow_no_external_links();

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/radiance.h"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -12,8 +13,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <bit>
-#include <charconv>
-#include <cmath>
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
@@ -27,141 +26,6 @@ namespace episcope::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kRadiancePlanes = 4;  // red, green, blue, exponent
-constexpr int kShortestRuns = 8, kLongestRuns = 0x7fff;
-constexpr int kLongestLiteral = 128;
-constexpr std::uint64_t kMostPixelsOfByte = 16;  ///< A run of 127 takes 2 bytes a plane.
-constexpr int kExponentOffset = 128 + 8;
-
-/// What is left of a file.
-class RadianceBytes {
- public:
-  explicit RadianceBytes(const fs::path& path) : path_(path) {
-    std::ifstream in(path, std::ios::binary);
-    bytes_.assign(std::istreambuf_iterator<char>(in), {});
-  }
-
-  [[noreturn]] void refuse(const char* why) const {
-    throw IoError(path_, std::string("the image cannot be decoded: ") + why);
-  }
-  [[noreturn]] void refuse_damaged() const { refuse("it is damaged; copy or export it again"); }
-
-  [[nodiscard]] std::size_t size() const { return bytes_.size(); }
-
-  /// Without its end of line.
-  std::string_view line() {
-    const auto end = bytes_.find('\n', at_);
-    if (end == std::string::npos) refuse_damaged();
-    const std::string_view found = std::string_view(bytes_).substr(at_, end - at_);
-    at_ = end + 1;
-    return found;
-  }
-  int next() {
-    if (at_ == bytes_.size()) refuse_damaged();
-    return static_cast<unsigned char>(bytes_[at_++]);
-  }
-  /// Whether the next row is stored in runs; passes by what says so.
-  bool pass_mark_of_runs(int width) {
-    if (width < kShortestRuns || width > kLongestRuns || bytes_.size() - at_ < 4) return false;
-    const auto byte = [this](std::size_t i) { return static_cast<unsigned char>(bytes_[at_ + i]); };
-    if (byte(0) != 2 || byte(1) != 2 || byte(2) >= 128) return false;
-    if (byte(2) * 256 + byte(3) != width) refuse_damaged();
-    at_ += 4;
-    return true;
-  }
-
- private:
-  const fs::path& path_;
-  std::string bytes_;
-  std::size_t at_ = 0;
-};
-
-struct RadianceSize {
-  int height = 0, width = 0;
-};
-
-RadianceSize read_radiance_header(RadianceBytes& bytes) {
-  bytes.line();
-  for (std::string_view line = bytes.line(); !line.empty(); line = bytes.line()) {
-    if (line.starts_with("FORMAT=") && !line.starts_with("FORMAT=32-bit_rle_rgbe")) {
-      bytes.refuse("its pixels are not RGB with a common exponent; export it again");
-    }
-  }
-  const std::string_view text = bytes.line();
-  RadianceSize size;
-  const auto number = [&](std::string_view axis, int& length) {
-    const auto at = text.find(axis);
-    if (at == std::string_view::npos) {
-      bytes.refuse("its rows do not run from top to bottom; export it again");
-    }
-    std::from_chars(text.data() + at + axis.size(), text.data() + text.size(), length);
-  };
-  number("-Y ", size.height);
-  number("+X ", size.width);
-  if (size.height < 1 || size.width < 1) bytes.refuse_damaged();
-  const auto pixels =
-      static_cast<std::uint64_t>(size.height) * static_cast<std::uint64_t>(size.width);
-  if (pixels > kMostPixelsOfByte * bytes.size()) bytes.refuse_damaged();
-  return size;
-}
-
-void read_runs(RadianceBytes& bytes, int width, std::uint8_t* plane) {
-  for (int x = 0; x < width;) {
-    int count = bytes.next();
-    const bool is_run = count > kLongestLiteral;
-    if (is_run) count -= kLongestLiteral;
-    if (count == 0 || count > width - x) bytes.refuse_damaged();
-    if (is_run) {
-      std::fill_n(plane + x, count, static_cast<std::uint8_t>(bytes.next()));
-    } else {
-      for (int i = 0; i < count; ++i) plane[x + i] = static_cast<std::uint8_t>(bytes.next());
-    }
-    x += count;
-  }
-}
-
-void read_row(RadianceBytes& bytes, int width,
-              const std::array<std::uint8_t*, kRadiancePlanes>& planes) {
-  if (bytes.pass_mark_of_runs(width)) {
-    for (std::uint8_t* const plane : planes) read_runs(bytes, width, plane);
-    return;
-  }
-  for (int x = 0; x < width; ++x) {
-    for (std::uint8_t* const plane : planes) plane[x] = static_cast<std::uint8_t>(bytes.next());
-  }
-}
-
-/// Whether a file begins as a Radiance picture (.hdr) does.
-bool has_radiance_signature(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string begin(10, '\0');
-  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return begin.starts_with("#?RADIANCE") || begin.starts_with("#?RGBE");
-}
-
-/// Decodes a Radiance picture, rows from top to bottom, four bytes a pixel (RGB with a common
-/// exponent) as they are or in runs, to three linear channels. Throws IoError for other kinds and
-/// for a file that is damaged. By ourselves, because OpenCV 4.6 leaves a file open with each that
-/// is damaged. Source: Ward, "Real Pixels", Graphics Gems II, 1991.
-Image<float> decode_radiance(const fs::path& path) {
-  RadianceBytes bytes(path);
-  const auto [height, width] = read_radiance_header(bytes);
-  std::vector<std::uint8_t> row(static_cast<std::size_t>(width) * kRadiancePlanes);
-  std::array<std::uint8_t*, kRadiancePlanes> planes{};
-  for (int i = 0; i < kRadiancePlanes; ++i)
-    planes[i] = row.data() + static_cast<std::ptrdiff_t>(i) * width;
-  Image<float> image(height, width, 3);
-  for (int y = 0; y < height; ++y) {
-    read_row(bytes, width, planes);
-    for (int x = 0; x < width; ++x) {
-      const int exponent = planes[3][x];
-      const float unit = exponent == 0 ? 0 : std::ldexp(1.0F, exponent - kExponentOffset);
-      for (int c = 0; c < 3; ++c) image.at(y, x, c) = unit * static_cast<float>(planes[c][x]);
-    }
-  }
-  return image;
-}
 
 constexpr std::string_view kEnd = "\xff\xd9";  ///< In samples, a 0 follows each 0xff.
 constexpr std::streamoff kTail = 512;
@@ -233,7 +97,7 @@ bool is_animated_webp(const fs::path& path) {
 
 [[noreturn]] void refuse_image(const fs::path& path) {
   if (fs::file_size(path) == 0) {
-    throw IoError(path, "the file is empty; copy or download it again");
+    throw IoError(path, kEmptyFile);
   }
   if (is_animated_webp(path)) {
     throw IoError(path,
@@ -251,12 +115,18 @@ void allow_openexr() {
   static_cast<void>(is_set);
 }
 
+/// A picture as OpenCV decodes it.
+struct DecodedMat {
+  cv::Mat pixels;
+  std::optional<cv::Rect> stored{};  ///< The pixels that the file holds, if not all.
+};
+
 /// The stored pixels in their place of the picture; what is not stored is 0, of depth unknown.
-cv::Mat in_display(const fs::path& path, const cv::Mat& stored, const ExrPicture& exr,
-                   PicturePart part) {
+DecodedMat in_display(const fs::path& path, const cv::Mat& stored, const ExrPicture& exr,
+                      PicturePart part) {
   const auto [left, top, width, height] = exr.display;
   const bool has_windows = width > 0 && height > 0 && stored.cols == exr.data.width;
-  if (!has_windows || exr.data == exr.display) return stored;
+  if (!has_windows || exr.data == exr.display) return {stored};
   constexpr std::int64_t kMostSide = std::numeric_limits<int>::max() / 2;
   const std::int64_t x = exr.data.left - left, y = exr.data.top - top;
   if (std::max({width, height, std::abs(x), std::abs(y)}) > kMostSide) refuse_image(path);
@@ -268,10 +138,10 @@ cv::Mat in_display(const fs::path& path, const cv::Mat& stored, const ExrPicture
   const cv::Rect place(static_cast<int>(x), static_cast<int>(y), stored.cols, stored.rows);
   const cv::Rect seen = place & cv::Rect(0, 0, picture.cols, picture.rows);
   if (!seen.empty()) stored(seen - place.tl()).copyTo(picture(seen));
-  return picture;
+  return {picture, seen};
 }
 
-cv::Mat read_mat(const fs::path& path, PicturePart part) {
+DecodedMat read_mat(const fs::path& path, PicturePart part) {
   allow_openexr();
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   const auto exr = read_exr(path, part);
@@ -283,7 +153,7 @@ cv::Mat read_mat(const fs::path& path, PicturePart part) {
     decoded.release();
   }
   if (decoded.empty()) refuse_image(path);
-  return exr ? in_display(path, decoded, *exr, part) : decoded;
+  return exr ? in_display(path, decoded, *exr, part) : DecodedMat{decoded};
 }
 
 AnyImage image_of(const fs::path& path, const cv::Mat& decoded) {
@@ -303,10 +173,48 @@ AnyImage decode_image(const fs::path& path, PicturePart part) {
   require_plausible_picture(path);
   if (has_radiance_signature(path)) return decode_radiance(path);
   require_whole_jpeg(path);
-  return image_of(path, read_mat(path, part));
+  return image_of(path, read_mat(path, part).pixels);
 }
 
-std::vector<AnyImage> decode_pages(const fs::path& path, int count) {
+namespace {
+
+/// 1 where the last of 2 or 4 channels is not 0; empty if there is no such channel.
+template <class T>
+Image<std::uint8_t> opaque_in(const cv::Mat& pixels) {
+  const int channels = pixels.channels();
+  if (channels % 2 != 0) return {};
+  Image<std::uint8_t> seen(pixels.rows, pixels.cols);
+  for (int y = 0; y < pixels.rows; ++y) {
+    const T* alpha = pixels.ptr<T>(y) + channels - 1;
+    for (int x = 0; x < pixels.cols; ++x, alpha += channels) seen.at(y, x) = *alpha != 0 ? 1 : 0;
+  }
+  return seen;
+}
+
+Image<std::uint8_t> opaque_in(const cv::Mat& pixels) {
+  if (pixels.depth() == CV_8U) return opaque_in<std::uint8_t>(pixels);
+  return pixels.depth() == CV_16U ? opaque_in<std::uint16_t>(pixels) : opaque_in<float>(pixels);
+}
+
+/// Empty if all pixels are seen.
+Image<std::uint8_t> seen_in(const DecodedMat& decoded) {
+  Image<std::uint8_t> seen = opaque_in(decoded.pixels);
+  if (decoded.stored) {
+    const cv::Mat& pixels = decoded.pixels;
+    if (seen.empty()) seen = Image<std::uint8_t>(pixels.rows, pixels.cols, 1, 1);
+    for (int y = 0; y < seen.height(); ++y) {
+      for (int x = 0; x < seen.width(); ++x) {
+        if (!decoded.stored->contains({x, y})) seen.at(y, x) = 0;
+      }
+    }
+  }
+  return std::ranges::find(seen, std::uint8_t{0}) == seen.end() ? Image<std::uint8_t>()
+                                                                : std::move(seen);
+}
+
+}  // namespace
+
+std::vector<SeenImage> decode_pages(const fs::path& path, int count) {
   require_readable_file(path);
   require_plausible_picture(path);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
@@ -317,9 +225,9 @@ std::vector<AnyImage> decode_pages(const fs::path& path, int count) {
     decoded.clear();
   }
   if (static_cast<int>(decoded.size()) != count) refuse_image(path);
-  std::vector<AnyImage> pages;
+  std::vector<SeenImage> pages;
   for (cv::Mat& page : decoded) {
-    pages.push_back(image_of(path, page));
+    pages.push_back({image_of(path, page), seen_in({page})});
     page.release();
   }
   return pages;
@@ -372,8 +280,9 @@ constexpr std::size_t kSignatureBytes = 8;
 constexpr std::uintmax_t kLargestExpansion = 1100;
 constexpr std::size_t kBufferBytes = 1 << 20;
 
-/// What becomes of stored pixels: samples of 8 or 16 bits without alpha, or labels as they are.
-enum class PngPixels { Samples, Labels };
+/// What becomes of stored pixels: samples of 8 or 16 bits without alpha or with it, or labels as
+/// they are.
+enum class PngPixels { Samples, SamplesAndAlpha, Labels };
 
 /// An open file and its decoder. Errors of libpng jump: its functions are called only from the two
 /// members below that set the place to jump to, which hold nothing to be destroyed.
@@ -406,7 +315,7 @@ class PngDecoder {
       keep_labels();
     } else {
       png_set_expand(png_);
-      png_set_strip_alpha(png_);
+      if (pixels == PngPixels::Samples) png_set_strip_alpha(png_);
     }
     if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
     passes_ = png_set_interlace_handling(png_);
@@ -477,6 +386,13 @@ AnyImage read_samples(PngDecoder& png, const fs::path& path, int rows) {
   return image;
 }
 
+AnyImage read_top(PngDecoder& png, const fs::path& path, int rows) {
+  if (png.bits != 8 && png.bits != 16) refuse_image(path);
+  if (png.row_bytes * png.height / kLargestExpansion > fs::file_size(path)) refuse_image(path);
+  return png.bits == 8 ? read_samples<std::uint8_t>(png, path, rows)
+                       : read_samples<std::uint16_t>(png, path, rows);
+}
+
 }  // namespace
 
 bool has_png_signature(const fs::path& path) {
@@ -492,11 +408,49 @@ AnyImage decode_png(const fs::path& path) {
 
 AnyImage decode_png_top(const fs::path& path, int rows) {
   PngDecoder png(path);
-  if (!png.read_header() || (png.bits != 8 && png.bits != 16)) refuse_image(path);
-  if (png.row_bytes * png.height / kLargestExpansion > fs::file_size(path)) refuse_image(path);
-  const int count = png.is_interlaced() ? png.height : std::min(rows, png.height);
-  return png.bits == 8 ? read_samples<std::uint8_t>(png, path, count)
-                       : read_samples<std::uint16_t>(png, path, count);
+  if (!png.read_header()) refuse_image(path);
+  return read_top(png, path, png.is_interlaced() ? png.height : std::min(rows, png.height));
+}
+
+namespace {
+
+template <class T>
+SeenImage without_alpha(const Image<T>& all) {
+  const int channels = all.channels() - 1;
+  Image<T> image(all.height(), all.width(), channels);
+  Image<std::uint8_t> seen(all.height(), all.width());
+  bool is_whole = true;
+  for (int y = 0; y < all.height(); ++y) {
+    const T* in = all.row(y);
+    T* out = image.row(y);
+    for (int x = 0; x < all.width(); ++x, in += channels + 1, out += channels) {
+      std::copy_n(in, channels, out);
+      seen.at(y, x) = in[channels] != 0 ? 1 : 0;
+      is_whole = is_whole && in[channels] != 0;
+    }
+  }
+  return {std::move(image), is_whole ? Image<std::uint8_t>() : std::move(seen)};
+}
+
+SeenImage decode_png_seen(const fs::path& path) {
+  PngDecoder png(path);
+  if (!png.read_header(PngPixels::SamplesAndAlpha)) refuse_image(path);
+  const AnyImage all = read_top(png, path, png.height);
+  if (png.channels % 2 != 0) return {all};
+  return png.bits == 8 ? without_alpha(std::get<Image<std::uint8_t>>(all))
+                       : without_alpha(std::get<Image<std::uint16_t>>(all));
+}
+
+}  // namespace
+
+SeenImage decode_seen(const fs::path& path) {
+  require_readable_file(path);
+  if (has_png_signature(path)) return decode_png_seen(path);
+  require_plausible_picture(path);
+  if (has_radiance_signature(path)) return {decode_radiance(path)};
+  require_whole_jpeg(path);
+  const DecodedMat decoded = read_mat(path, PicturePart::Colors);
+  return {image_of(path, decoded.pixels), seen_in(decoded)};
 }
 
 namespace {
@@ -574,7 +528,7 @@ LabelPicture decode_label_picture(const fs::path& path) {
   require_readable_file(path);
   if (has_png_signature(path)) return decode_png_labels(path);
   require_plausible_picture(path);
-  const cv::Mat decoded = read_mat(path, PicturePart::Colors);
+  const cv::Mat decoded = read_mat(path, PicturePart::Colors).pixels;
   if (decoded.depth() == CV_8U) return split_mat<std::uint8_t>(decoded);
   if (decoded.depth() == CV_16U) return split_mat<std::uint16_t>(decoded);
   throw IoError(path, "a picture of labels must hold integers of 8 or 16 bits; export it again");

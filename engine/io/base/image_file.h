@@ -25,8 +25,18 @@ using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<f
 [[nodiscard]] AnyImage decode_image(const std::filesystem::path& path,
                                     PicturePart part = PicturePart::Colors);
 
+/// A decoded image, and which of its pixels hold something.
+struct SeenImage {
+  AnyImage image;
+  /// 0 = alpha is 0, or an OpenEXR file stores nothing here, else 1; empty = 1 everywhere.
+  Image<std::uint8_t> seen{};
+};
+
+/// Decodes as `decode_image` does. Throws IoError.
+[[nodiscard]] SeenImage decode_seen(const std::filesystem::path& path);
+
 /// Decodes the first `count` pages of a TIFF file. Throws IoError, also if there are fewer pages.
-[[nodiscard]] std::vector<AnyImage> decode_pages(const std::filesystem::path& path, int count);
+[[nodiscard]] std::vector<SeenImage> decode_pages(const std::filesystem::path& path, int count);
 
 /// "512×512 px, 3 channels, 8 bit", for messages.
 [[nodiscard]] std::string describe_image(const AnyImage& image);

@@ -145,32 +145,86 @@ std::optional<ImageHeader> stated_image_header(const std::filesystem::path& path
 
 namespace {
 
-/// The places of numbers that are two whole ones each.
-PagePlace tiff_place(FileBytes& file, bool is_little_endian) {
-  const auto number = [&](std::streamoff at, int count) {
-    return file.number(at, count, is_little_endian);
-  };
-  const auto ratio = [&](std::streamoff entry) {
-    const std::streamoff at = number(entry + 8, 4);
+/// The directories of a TIFF file.
+class TiffDirectories {
+ public:
+  TiffDirectories(FileBytes& file, bool is_little_endian)
+      : file_(file), is_little_endian_(is_little_endian), at_(number(4, 4)) {}
+
+  [[nodiscard]] bool is_at_end() const { return at_ == 0 || file_.is_short(); }
+
+  void step() { at_ = number(at_ + 2 + 12 * static_cast<std::streamoff>(number(at_, 2)), 4); }
+
+  /// Of the position in units of the resolution, and of the part of a raw picture that is shown.
+  [[nodiscard]] PagePlace place() {
+    double x_pixels = 1, y_pixels = 1, x = 0, y = 0;  // pixels of a unit, units
+    double left = 0, top = 0;                         // in pixels
+    const std::uint32_t entries = number(at_, 2);
+    for (std::uint32_t i = 0; i < entries && !file_.is_short(); ++i) {
+      const std::streamoff entry = at_ + 2 + 12 * static_cast<std::streamoff>(i);
+      switch (number(entry, 2)) {
+        case 282:
+          x_pixels = value(entry, 0);
+          break;
+        case 283:
+          y_pixels = value(entry, 0);
+          break;
+        case 286:
+          x = value(entry, 0);
+          break;
+        case 287:
+          y = value(entry, 0);
+          break;
+        case kCropOrigin:
+          left += value(entry, 0);
+          top += value(entry, 1);
+          break;
+        case kActiveArea:
+          top += value(entry, 0);
+          left += value(entry, 1);
+          break;
+        default:
+          break;
+      }
+    }
+    return {in_pixels(x * x_pixels + left), in_pixels(y * y_pixels + top)};
+  }
+
+ private:
+  static constexpr std::uint32_t kCropOrigin = 50719, kActiveArea = 50829;  // of DNG
+
+  static int in_pixels(double value) {
+    constexpr double kFarthest = 1 << 24;
+    return static_cast<int>(std::lround(std::min(value, kFarthest)));
+  }
+
+  std::uint32_t number(std::streamoff at, int count) {
+    return file_.number(at, count, is_little_endian_);
+  }
+
+  /// One of the values of an entry; 0 for types that are no positive numbers.
+  double value(std::streamoff entry, int index) {
+    constexpr std::uint32_t kShort = 3, kLong = 4, kRatio = 5;
+    const std::uint32_t type = number(entry + 2, 2);
+    const int bytes = type == kShort ? 2 : type == kLong ? 4 : 8;
+    if (type < kShort || type > kRatio) return 0;
+    const bool is_here = static_cast<std::uint64_t>(bytes) * number(entry + 4, 4) <= 4;
+    const std::streamoff first = is_here ? entry + 8 : std::streamoff{number(entry + 8, 4)};
+    const std::streamoff at = first + std::streamoff{bytes} * index;
+    if (type != kRatio) return number(at, bytes);
     const std::uint32_t below = number(at + 4, 4);
     return below == 0 ? 0 : static_cast<double>(number(at, 4)) / below;
-  };
-  double x_pixels = 1, y_pixels = 1, x = 0, y = 0;  // pixels of a unit, units
-  const std::streamoff directory = number(4, 4);
-  const std::uint32_t entries = number(directory, 2);
-  for (std::uint32_t i = 0; i < entries && !file.is_short(); ++i) {
-    const std::streamoff entry = directory + 2 + 12 * static_cast<std::streamoff>(i);
-    const std::uint32_t tag = number(entry, 2);
-    if (tag == 282) x_pixels = ratio(entry);
-    if (tag == 283) y_pixels = ratio(entry);
-    if (tag == 286) x = ratio(entry);
-    if (tag == 287) y = ratio(entry);
   }
-  constexpr double kFarthest = 1 << 24;
-  const auto place = [kFarthest](double value) {
-    return static_cast<int>(std::lround(std::min(value, kFarthest)));
-  };
-  return {place(x * x_pixels), place(y * y_pixels)};
+
+  FileBytes& file_;
+  bool is_little_endian_;
+  std::streamoff at_;
+};
+
+std::optional<TiffDirectories> tiff_directories(FileBytes& file) {
+  if (file.begins_with(std::string_view("II*\0", 4))) return TiffDirectories(file, true);
+  if (file.begins_with(std::string_view("MM\0*", 4))) return TiffDirectories(file, false);
+  return std::nullopt;
 }
 
 /// Of a chunk oFFs in pixels, before the samples.
@@ -195,9 +249,20 @@ PagePlace png_place(FileBytes& file) {
 PagePlace stated_place(const std::filesystem::path& path) {
   FileBytes file(path);
   if (file.begins_with("\x89PNG\r\n\x1a\n")) return png_place(file);
-  if (file.begins_with(std::string_view("II*\0", 4))) return tiff_place(file, true);
-  if (file.begins_with(std::string_view("MM\0*", 4))) return tiff_place(file, false);
-  return {};
+  auto directories = tiff_directories(file);
+  return directories ? directories->place() : PagePlace();
+}
+
+std::vector<PagePlace> stated_places(const std::filesystem::path& path) {
+  constexpr std::size_t kMostPages = 10000;
+  FileBytes file(path);
+  std::vector<PagePlace> places;
+  auto directories = tiff_directories(file);
+  for (; directories && !directories->is_at_end() && places.size() < kMostPages;
+       directories->step()) {
+    places.push_back(directories->place());
+  }
+  return places;
 }
 
 std::optional<ImageSize> image_size(const std::filesystem::path& path) {

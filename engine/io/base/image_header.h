@@ -10,6 +10,7 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace episcope::io {
 
@@ -69,9 +70,12 @@ struct PagePlace {
   friend auto operator<=>(const PagePlace&, const PagePlace&) = default;
 };
 
-/// Reads the place that a TIFF (XPosition, YPosition) or PNG file (oFFs) states; {0, 0} if there is
-/// none.
+/// Reads the place that a TIFF (XPosition, YPosition, and the crop of a DNG) or PNG file (oFFs)
+/// states; {0, 0} if there is none.
 [[nodiscard]] PagePlace stated_place(const std::filesystem::path& path);
+
+/// Reads the places that the pages of a TIFF file state, up to 10,000. Empty for other files.
+[[nodiscard]] std::vector<PagePlace> stated_places(const std::filesystem::path& path);
 
 struct ImageSize {
   int height = 0;

@@ -188,12 +188,15 @@ ExrNames names_of_layer(const std::vector<Channel>& channels) {
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const std::string& name = channels[i].name;
     const std::string_view part = last_part(name);
-    const bool is_color = part == "R" || part == "G" || part == "B";
+    const bool is_color = part == "R" || part == "G" || part == "B" || part == "A";
     if (is_color && part.size() < name.size()) {
       layers[name.substr(0, name.size() - 1)][i] = part.front();
     }
   }
-  std::erase_if(layers, [](const auto& layer) { return layer.second.size() != 3; });
+  std::erase_if(layers, [](const auto& layer) {
+    const auto is_color = [](const auto& one) { return one.second != 'A'; };
+    return std::ranges::count_if(layer.second, is_color) != 3;
+  });
   const auto combined = std::ranges::find_if(layers, [](const auto& layer) {
     return lower_case(layer.first).find("combined") != std::string::npos;
   });
@@ -220,12 +223,12 @@ ExrNames names_of(const std::vector<Channel>& channels, PicturePart part) {
 ExrBytes list_with(const ExrBytes& bytes, const std::vector<Channel>& channels,
                    const ExrNames& names) {
   ExrBytes list;
-  char before = 'A';  // first letter of what is not wanted
+  char before = '0';  // first letter of what is not wanted
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const auto found = names.find(i);
     const std::string name =
         found == names.end() ? fmt::format("{}{:05}", before, i) : std::string(1, found->second);
-    if (found != names.end()) before = static_cast<char>(found->second + 1);
+    if (found != names.end()) before = found->second;
     list.insert(list.end(), name.begin(), name.end());
     list.push_back(0);
     const auto rest = bytes.begin() + static_cast<std::ptrdiff_t>(channels[i].rest);

@@ -354,9 +354,10 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
     views = std::move(usable.views);
     report.warnings.push_back(std::move(usable.warning));
   }
-  LightField::Samples samples = std::move(usable.samples);
+  LoadedViews pixels = std::move(usable.pixels);
+  LightField::Samples& samples = pixels.samples;
   if (!given && !views.part && arrange_as_seen(samples, views, report, progress.part(0.65, 0.7))) {
-    samples = load_views(views, show_center, progress.part(0, 0.7));
+    pixels = load_views(views, show_center, progress.part(0, 0.7));
   }
   account.use(views.files, "views");
   account.leave_out(views.left_out, kViewsLeftOut);
@@ -395,6 +396,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
 
   SceneParts parts;
   parts.samples = std::move(samples);
+  parts.valid = std::move(pixels.valid);
   parts.truth = std::move(truth);
   parts.info = std::move(info);
   parts.expected.reason = "benchmark folders store views in canonical order";

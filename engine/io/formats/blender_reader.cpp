@@ -252,18 +252,19 @@ Scene read_blender(const fs::path& folder, const OpenOptions& options, const Pro
                       manifest.disparity_range,
                       {.reader = kReader, .options = {}}};
   progress.step("reading views");
-  LightField::Samples samples = load_views(
+  LoadedViews loaded = load_views(
       views,
       [&](const Image<std::uint8_t>& center) {
         if (options.on_center_view) options.on_center_view(center, info, views.grid);
       },
       progress.part(0, 0.5));
-  require_size(manifest, samples);
+  require_size(manifest, loaded.samples);
   progress.step("reading truth");
   SceneParts parts;
   parts.truth = read_render_truth(manifest, crop, options.map_views(), options.needs_truth,
                                   progress.part(0.5, 0.8));
-  parts.samples = std::move(samples);
+  parts.samples = std::move(loaded.samples);
+  parts.valid = std::move(loaded.valid);
   parts.info = std::move(info);
   parts.expected = {{}, "the add-on renders views in canonical order", true};
   parts.files = account_of(manifest, crop, options.needs_truth).uses();

@@ -7,6 +7,7 @@
 #include "engine/core/version.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/foreign_content.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
@@ -489,12 +490,17 @@ std::string image_kind(const fs::path& path) {
   return kind;
 }
 
+/// Not a pointer or a web page in place of one: they all fail for the same reason.
+bool may_be_picture(const ListedFile& file) {
+  return is_image_name(file.path) && file.bytes > 0 && foreign_content(file.path).empty();
+}
+
 /// The images that are light fields each. One of every kind is tried, since trying all the views of
 /// a grid would take long.
 std::vector<CollectionEntry> image_entries(const FolderListing& listing) {
   std::map<std::string, std::vector<const ListedFile*>> kinds;
   for (const ListedFile& file : listing.files) {
-    if (is_image_name(file.path)) kinds[image_kind(file.path)].push_back(&file);
+    if (may_be_picture(file)) kinds[image_kind(file.path)].push_back(&file);
   }
   std::vector<CollectionEntry> entries;
   if (kinds.size() > kMostNameKinds) return entries;

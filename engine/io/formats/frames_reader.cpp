@@ -9,6 +9,7 @@
 #include "engine/io/base/json.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/array_reader.h"
+#include "engine/io/formats/tiff_pages.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/choose_layout.h"
 #include "engine/io/models/load_views.h"
@@ -292,9 +293,6 @@ bool has_tiff_name(const fs::path& path) {
   return suffix == ".tif" || suffix == ".tiff";
 }
 
-/// Pages of ImageJ without directories; nothing for other files.
-std::vector<AnyImage> read_imagej_pages(const fs::path& path);
-
 bool has_pages(const fs::path& path) {
   return has_tiff_name(path) && count_tiff_pages(path, kMostPictures) >= kFewestPages;
 }
@@ -315,8 +313,21 @@ fs::path find_frames(const fs::path& path, const OpenOptions& options) {
 /// The pictures of a file, and what it is.
 struct Frames {
   std::vector<AnyImage> pictures;
-  std::string what;  ///< "pages", "pictures of a film (h264)".
+  std::string what;                         ///< "pages", "pictures of a film (h264)".
+  std::vector<Image<std::uint8_t>> seen{};  ///< As in SeenImage; empty = all as a whole.
 };
+
+/// Throws IoError if pages state that they were cut out at different places.
+void require_one_place(const fs::path& path) {
+  const std::vector<PagePlace> places = stated_places(path);
+  const auto other =
+      std::ranges::find_if(places, [&](const PagePlace& place) { return place != places.front(); });
+  if (other == places.end()) return;
+  throw IoError(path, fmt::format("page {} states that it lies at ({}, {}) px, but the first at "
+                                  "({}, {}); cut all pages at one place, or remove what they state",
+                                  other - places.begin(), other->x, other->y, places.front().x,
+                                  places.front().y));
+}
 
 Frames read_frames(const fs::path& path, const Progress& progress) {
   if (!has_tiff_name(path)) {
@@ -330,9 +341,14 @@ Frames read_frames(const fs::path& path, const Progress& progress) {
   }
   const ImageHeader header = read_image_header(path);
   require_view_memory(path, 8.0 * header.height * header.width * header.channels * pages);
-  std::vector<AnyImage> pictures = read_imagej_pages(path);
-  if (pictures.empty()) pictures = decode_pages(path, pages);
-  return {std::move(pictures), "pages of a TIFF file"};
+  require_one_place(path);
+  Frames frames{read_imagej_pages(path), "pages of a TIFF file"};
+  if (!frames.pictures.empty()) return frames;
+  for (SeenImage& page : decode_pages(path, pages)) {
+    frames.pictures.push_back(std::move(page.image));
+    frames.seen.push_back(std::move(page.seen));
+  }
+  return frames;
 }
 
 template <class T>
@@ -392,6 +408,11 @@ Scene read_light_field(const fs::path& path, const OpenOptions& options, const P
       scene_name(path), path.string(), {}, std::nullopt, {.reader = "frames", .options = {}}};
   parts.samples = samples_of(path, frames.pictures);
   const std::size_t count = frames.pictures.size();
+  parts.valid = std::visit(
+      [&](const auto& stack) {
+        return joined_seen(frames.seen, stack.grid(), {stack.height(), stack.width()});
+      },
+      parts.samples);
   frames.pictures.clear();
   settle_range(parts.samples, options.levels, scene.convention);
   std::string reason = fmt::format("{} {}", count, frames.what);
@@ -439,309 +460,6 @@ Reader frames_reader() {
           .find = find_frames,
           .read = read_light_field,
           .probe = probe_frames};
-}
-
-namespace {
-
-using Json = nlohmann::json;
-
-constexpr int kMostChannels = 4;
-
-struct PageAxis {
-  int length = 1;
-  bool is_channels = false;
-};
-/// The slowest first.
-using PageAxes = std::vector<PageAxis>;
-
-/// The number behind the first `name`; 1 if there is none.
-int number_behind(std::string_view text, std::string_view name) {
-  const auto found = text.find(name);
-  int number = 1;
-  if (found != std::string_view::npos) {
-    const std::string_view rest = text.substr(found + name.size());
-    std::from_chars(rest.data(), rest.data() + rest.size(), number);
-  }
-  return number;
-}
-
-PageAxes axes_of_imagej(std::string_view text) {
-  return {{number_behind(text, "\nframes=")},
-          {number_behind(text, "\nslices=")},
-          {number_behind(text, "\nchannels="), true}};
-}
-
-PageAxes axes_of_ome(std::string_view text) {
-  constexpr std::string_view kOrder = "DimensionOrder=\"XY";
-  const auto found = text.find(kOrder);
-  if (found == std::string_view::npos) return {};
-  const std::string_view letters = text.substr(found + kOrder.size(), 3);
-  PageAxes axes;
-  for (const char letter : letters) {  // the fastest first
-    const std::string name = std::string(" Size") + letter + "=\"";
-    axes.insert(axes.begin(), {number_behind(text, name), letter == 'C'});
-  }
-  return axes;
-}
-
-/// Axes of a shape before the axes of a page.
-PageAxes axes_of_shape(const std::vector<int>& shape, const std::string& letters, int pages) {
-  PageAxes axes;
-  std::int64_t product = 1;
-  for (std::size_t i = 0; i < shape.size() && product < pages; ++i) {
-    const bool is_named = letters.size() == shape.size() && letters[i] == 'C';
-    axes.push_back({shape[i], is_named});
-    product *= shape[i];
-  }
-  const bool has_channels = std::ranges::any_of(axes, &PageAxis::is_channels);
-  if (axes.size() == 3 && !has_channels) {
-    const bool is_last = axes.back().length <= kMostChannels;
-    (is_last ? axes.back() : axes.front()).is_channels = true;
-  }
-  return axes;
-}
-
-PageAxes axes_of_tifffile(const std::string& text, int pages) {
-  try {
-    const auto json = parse_json<Json>(text);
-    std::vector<int> shape;
-    for (const Json& length : json.at("shape")) {
-      shape.push_back(int_of(length));
-      if (shape.back() < 1) return {};
-    }
-    return axes_of_shape(shape, json.value("axes", std::string()), pages);
-  } catch (const Json::exception&) {
-    return {};
-  } catch (const InvalidInput&) {
-    return {};
-  }
-}
-
-std::int64_t product_of(const PageAxes& axes) {
-  constexpr std::int64_t kMany = 1 << 20;
-  std::int64_t product = 1;
-  for (const PageAxis& axis : axes) product = std::min(kMany, product * std::max(0, axis.length));
-  return product;
-}
-
-std::optional<StatedPages> pages_of(PageAxes axes, std::string program, int pages) {
-  std::erase_if(axes, [](const PageAxis& axis) { return axis.length == 1; });
-  // tifffile writes the last axis before that of rows as channels for ImageJ, whatever it is.
-  for (PageAxis& axis : axes) axis.is_channels = axis.is_channels && axis.length <= kMostChannels;
-  const auto drop_channels = [](PageAxes& from) { std::erase_if(from, &PageAxis::is_channels); };
-  PageAxes of_views = axes;
-  drop_channels(of_views);
-  // Pages may be colored: then their channels are no axis of pages.
-  if (product_of(of_views) == pages) axes = of_views;
-  if (axes.empty() || product_of(axes) != pages) return std::nullopt;
-  StatedPages stated;
-  stated.program = std::move(program);
-  const auto channels = std::ranges::find_if(axes, &PageAxis::is_channels);
-  if (channels != axes.end()) {
-    stated.order.channels = channels->length;
-    for (auto axis = channels + 1; axis != axes.end(); ++axis) {
-      stated.order.views_in_turn *= axis->length;
-    }
-  }
-  if (of_views.size() == 2) stated.grid = GridShape{of_views[0].length, of_views[1].length};
-  return stated;
-}
-
-}  // namespace
-
-std::optional<StatedPages> stated_pages(const std::string& description, int pages) {
-  if (description.starts_with("ImageJ=")) {
-    return pages_of(axes_of_imagej(description), "ImageJ", pages);
-  }
-  if (description.find("<OME") != std::string::npos) {
-    return pages_of(axes_of_ome(description), "OME-TIFF", pages);
-  }
-  if (description.starts_with('{')) {
-    return pages_of(axes_of_tifffile(description, pages), "tifffile", pages);
-  }
-  return std::nullopt;
-}
-
-namespace {
-
-/// Unsigned numbers of a file, in its byte order.
-class Numbers {
- public:
-  explicit Numbers(const std::filesystem::path& path) : in_(path, std::ios::binary) {
-    std::string begin(4, '\0');
-    in_.read(begin.data(), 4);
-    is_little_endian_ = begin.starts_with("II");
-    is_big_ = begin == std::string("II+\0", 4) || begin == std::string("MM\0+", 4);
-    const bool is_plain = begin == std::string("II*\0", 4) || begin == std::string("MM\0*", 4);
-    is_tiff_ = in_ && (is_plain || is_big_);
-  }
-
-  [[nodiscard]] bool is_tiff() const { return is_tiff_; }
-  [[nodiscard]] bool is_little_endian() const { return is_little_endian_; }
-
-  /// How long places, numbers of entries, and entries are.
-  [[nodiscard]] std::uint64_t place_bytes() const { return is_big_ ? 8 : 4; }
-  [[nodiscard]] std::uint64_t count_bytes() const { return is_big_ ? 8 : 2; }
-  [[nodiscard]] std::uint64_t entry_bytes() const { return is_big_ ? 20 : 12; }
-
-  [[nodiscard]] std::uint64_t place_of_first_page() { return at(is_big_ ? 8 : 4, place_bytes()); }
-
-  [[nodiscard]] std::string text(std::uint64_t place, std::uint64_t bytes) {
-    std::string read(static_cast<std::size_t>(bytes), '\0');
-    in_.clear();
-    in_.seekg(static_cast<std::streamoff>(place));
-    in_.read(read.data(), static_cast<std::streamsize>(bytes));
-    read.resize(static_cast<std::size_t>(in_.gcount()));
-    return read;
-  }
-
-  /// 0 behind the end.
-  [[nodiscard]] std::uint64_t at(std::uint64_t place, std::uint64_t bytes) {
-    std::array<unsigned char, 8> read{};
-    in_.clear();
-    in_.seekg(static_cast<std::streamoff>(place));
-    if (!in_.read(reinterpret_cast<char*>(read.data()), static_cast<std::streamsize>(bytes))) {
-      return 0;
-    }
-    std::uint64_t number = 0;
-    for (std::uint64_t i = 0; i < bytes; ++i) {
-      number = number << 8 | read[is_little_endian_ ? bytes - 1 - i : i];
-    }
-    return number;
-  }
-
- private:
-  std::ifstream in_;
-  bool is_little_endian_ = false;
-  bool is_big_ = false;
-  bool is_tiff_ = false;
-};
-
-int count_directories(const std::filesystem::path& path, int most) {
-  Numbers file(path);
-  if (!file.is_tiff()) return 0;
-  int pages = 0;
-  // Directories that lead back to themselves end at `most`.
-  std::uint64_t place = file.place_of_first_page();
-  for (; place != 0 && pages <= most; ++pages) {
-    const std::uint64_t entries = file.at(place, file.count_bytes());
-    if (entries == 0) return 0;
-    place = file.at(place + file.count_bytes() + file.entry_bytes() * entries, file.place_bytes());
-  }
-  return pages;
-}
-
-/// Value of a tag of the first page.
-struct TagValue {
-  std::uint64_t place = 0;   ///< Where the first value lies,
-  std::uint64_t bytes = 0;   ///< and how many bytes all have.
-  std::uint64_t number = 0;  ///< The first, if it is a whole number.
-};
-
-std::optional<TagValue> tag_of(Numbers& file, std::uint64_t tag) {
-  constexpr std::uint64_t kMostEntries = 1000;
-  constexpr std::array<std::uint64_t, 6> kSizes{0, 1, 1, 2, 4, 8};  // of types
-  if (!file.is_tiff()) return std::nullopt;
-  std::uint64_t entry = file.place_of_first_page();
-  const std::uint64_t entries = std::min(kMostEntries, file.at(entry, file.count_bytes()));
-  entry += file.count_bytes();
-  for (std::uint64_t i = 0; i < entries; ++i, entry += file.entry_bytes()) {
-    if (file.at(entry, 2) != tag) continue;
-    const std::uint64_t type = file.at(entry + 2, 2);
-    const std::uint64_t size = type < kSizes.size() ? kSizes[type] : 8;
-    TagValue value{entry + 4 + file.place_bytes(), size * file.at(entry + 4, file.place_bytes())};
-    if (value.bytes > file.place_bytes()) value.place = file.at(value.place, file.place_bytes());
-    value.number = file.at(value.place, size);
-    return value;
-  }
-  return std::nullopt;
-}
-
-/// Samples that follow each other without directories.
-struct RawPages {
-  int count = 0;
-  int height = 0, width = 0, channels = 1;
-  std::uint64_t bits = 8;
-  bool is_float = false;
-  std::uint64_t place = 0;
-
-  [[nodiscard]] std::uint64_t bytes() const {
-    return static_cast<std::uint64_t>(height) * static_cast<std::uint64_t>(width) *
-           static_cast<std::uint64_t>(channels) * bits / 8;
-  }
-};
-
-/// Nothing if the file does not hold what its description states, or has them packed.
-std::optional<RawPages> raw_pages_of(const std::filesystem::path& path) {
-  constexpr std::uint64_t kLongest = 1 << 20;
-  const std::string text = tiff_description(path);
-  RawPages pages{.count = number_behind(text, "\nimages=")};
-  if (!text.starts_with("ImageJ=") || pages.count < 2) return std::nullopt;
-  Numbers file(path);
-  const auto number = [&](std::uint64_t tag, std::uint64_t otherwise) {
-    const auto value = tag_of(file, tag);
-    return value ? value->number : otherwise;
-  };
-  const std::uint64_t width = number(256, 0), height = number(257, 0), channels = number(277, 1);
-  pages.bits = number(258, 1);
-  pages.is_float = number(339, 1) == 3;
-  pages.place = number(273, 0);
-  const bool is_known = pages.is_float ? pages.bits == 32 : pages.bits == 8 || pages.bits == 16;
-  const bool is_plain = number(259, 1) == 1 && number(284, 1) == 1 && is_known &&
-                        (channels == 1 || channels == 3) && std::max(width, height) <= kLongest;
-  if (!is_plain) return std::nullopt;
-  pages.width = static_cast<int>(width);
-  pages.height = static_cast<int>(height);
-  pages.channels = static_cast<int>(channels);
-  const std::uint64_t bytes = pages.bytes(), size = std::filesystem::file_size(path);
-  const bool is_there = bytes > 0 && pages.place <= size &&
-                        static_cast<std::uint64_t>(pages.count) <= (size - pages.place) / bytes;
-  return is_there ? std::optional(pages) : std::nullopt;
-}
-
-template <class T>
-Image<T> raw_page(Numbers& file, const RawPages& pages, std::uint64_t place) {
-  const std::string bytes = file.text(place, pages.bytes());
-  Image<T> image(pages.height, pages.width, pages.channels);
-  std::memcpy(image.data(), bytes.data(), std::min<std::size_t>(bytes.size(), pages.bytes()));
-  if (file.is_little_endian() == (std::endian::native == std::endian::little)) return image;
-  for (T& sample : image) {
-    auto* const begin = reinterpret_cast<unsigned char*>(&sample);
-    std::reverse(begin, begin + sizeof(T));
-  }
-  return image;
-}
-
-std::vector<AnyImage> read_imagej_pages(const std::filesystem::path& path) {
-  std::vector<AnyImage> read;
-  const auto pages = count_directories(path, 1) == 1 ? raw_pages_of(path) : std::nullopt;
-  if (!pages) return read;
-  Numbers file(path);
-  for (int i = 0; i < pages->count; ++i) {
-    const std::uint64_t place = pages->place + static_cast<std::uint64_t>(i) * pages->bytes();
-    if (pages->is_float) read.emplace_back(raw_page<float>(file, *pages, place));
-    if (pages->bits == 8) read.emplace_back(raw_page<std::uint8_t>(file, *pages, place));
-    if (pages->bits == 16) read.emplace_back(raw_page<std::uint16_t>(file, *pages, place));
-  }
-  return read;
-}
-
-}  // namespace
-
-int count_tiff_pages(const std::filesystem::path& path, int most) {
-  const int directories = count_directories(path, most);
-  const auto raw = directories == 1 ? raw_pages_of(path) : std::nullopt;
-  return raw ? std::min(raw->count, most + 1) : directories;
-}
-
-std::string tiff_description(const std::filesystem::path& path) {
-  constexpr std::uint64_t kDescription = 270;
-  constexpr std::uint64_t kMostBytes = 64 << 10;
-  Numbers file(path);
-  const auto value = tag_of(file, kDescription);
-  if (!value) return {};
-  std::string text = file.text(value->place, std::min(value->bytes, kMostBytes));
-  return text.substr(0, text.find('\0'));
 }
 
 }  // namespace episcope::io

@@ -135,14 +135,15 @@ void add_camera(const PosedViews& poses, const LightField::Samples& samples, Cam
 /// Exchanges rows and columns of views where the motion between them says so without doubt, before
 /// maps are judged by the views beside them. Returns why, or nothing; null where that cannot be
 /// done yet.
-std::optional<std::string> settle_axes(ViewFiles& views, LightField::Samples& samples,
+std::optional<std::string> settle_axes(ViewFiles& views, LoadedViews& pixels,
                                        std::vector<CameraPosition>& positions,
                                        const OpenOptions& options, const Progress& progress) {
   if (views.part || are_axes_stated(options)) return std::nullopt;
-  const ViewAxes axes = find_view_axes(samples, progress);
+  const ViewAxes axes = find_view_axes(pixels.samples, progress);
   if (!axes.are_swapped()) return std::string();
   const GridShape stored = views.grid;
-  swap_view_axes(samples);
+  swap_view_axes(pixels.samples);
+  swap_view_axes(pixels.valid);
   swap_view_axes(positions, stored);
   const std::vector<fs::path> files = views.files;
   views.grid = {stored.u, stored.v};
@@ -224,7 +225,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
         if (options.on_center_view) options.on_center_view(center, info, views.grid);
       },
       progress.part(0.1, 0.7));
-  LightField::Samples samples = std::move(usable.samples);
+  LightField::Samples& samples = usable.pixels.samples;
   if (usable.kept) {
     info.positions = positions_of(*usable.kept, info.positions);
     views = std::move(usable.views);
@@ -239,7 +240,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   } else {
     progress.step("checking the order of views");
     parts.swapped_axes =
-        settle_axes(views, samples, info.positions, options, progress.part(0.7, 0.75));
+        settle_axes(views, usable.pixels, info.positions, options, progress.part(0.7, 0.75));
     SidecarMaps beside =
         read_sidecar_maps({views, folder, samples, info.camera, options.map_views(),
                            options.needs_truth, grid.poses.are_used()},
@@ -254,6 +255,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   }
   warn_of_ignored_files(grid.left_out, samples, report);
   parts.samples = std::move(samples);
+  parts.valid = std::move(usable.pixels.valid);
   parts.info = std::move(info);
   parts.expected.reason = evidence.empty() ? "rows and columns follow from the names" : evidence;
   if (grid.poses.are_used()) parts.expected.reason = "the poses of the cameras say so";

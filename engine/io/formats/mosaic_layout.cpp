@@ -7,55 +7,17 @@
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_header.h"
+#include "engine/io/formats/mosaic_periods.h"
+#include "engine/io/formats/quilt.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace episcope::io {
 namespace {
-
-enum class LineAxis { X, Y };
-
-constexpr int kMostLines = 400;
-
-/// Not a multiple of the distance of two lines, or all of them would show the same part of
-/// lenslets.
-int spread(int line, int lines, int length) {
-  return static_cast<int>((line + 0.5) * length / lines);
-}
-
-template <class T>
-float brightness(const T* pixel, int channels) {
-  float sum = 0;
-  for (int c = 0; c < channels; ++c) sum += static_cast<float>(pixel[c]);
-  return sum / static_cast<float>(channels);
-}
-
-/// Brightness along up to 400 rows (LineAxis::X) or columns (LineAxis::Y) spread over a picture: a
-/// line a row, in units of the samples, the mean of the channels.
-Image<float> picture_lines(const AnyImage& picture, LineAxis axis) {
-  return std::visit(
-      [axis](const auto& image) {
-        const int across = axis == LineAxis::X ? image.height() : image.width();
-        const int along = axis == LineAxis::X ? image.width() : image.height();
-        Image<float> lines(std::min(across, kMostLines), along);
-        // Row by row of the picture in both cases, as it lies in memory.
-        for (int i = 0; i < (axis == LineAxis::X ? lines.height() : along); ++i) {
-          const auto* row = image.row(axis == LineAxis::X ? spread(i, lines.height(), across) : i);
-          for (int k = 0; k < (axis == LineAxis::X ? along : lines.height()); ++k) {
-            const int x = axis == LineAxis::X ? k : spread(k, lines.height(), across);
-            const float value = brightness(row + x * image.channels(), image.channels());
-            (axis == LineAxis::X ? lines.at(i, k) : lines.at(k, i)) = value;
-          }
-        }
-        return lines;
-      },
-      picture);
-}
 
 namespace fs = std::filesystem;
 
@@ -79,11 +41,12 @@ MosaicName mosaic_name(const std::filesystem::path& path) {
   for (const std::string_view word : kLensletWords) {
     if (ends_with_word(stem, word)) return MosaicName::Lenslets;
   }
+  if (quilt_tiles_of_name(path)) return MosaicName::Quilt;
   return stem == "lf" ? MosaicName::Mosaic : MosaicName::Plain;
 }
 
 std::string scene_of_mosaic(const std::filesystem::path& path) {
-  std::string stem = lower_case(path.stem().string());
+  std::string stem = lower_case(without_quilt_tiles(path.stem().string()));
   for (const std::string_view word :
        {kEslf, kLensletWords[0], kLensletWords[1], kLensletWords[2]}) {
     if (stem.size() <= word.size() + 1 || !ends_with_word(stem, word)) continue;
@@ -94,197 +57,6 @@ std::string scene_of_mosaic(const std::filesystem::path& path) {
 }
 
 namespace {
-
-/// The period with which the brightness of a picture changes along its lines. From one lenslet to
-/// the next, the view jumps from the last to the first, and so does the brightness; lenslets with
-/// dark borders show their period in the brightness itself.
-struct LensletPeriod {
-  int period_px = 0;     ///< 0 = none was found.
-  double explained = 0;  ///< Part of the variance of differences of neighbors that repeats,
-  double jump = 0;       ///< their largest over their median within a period,
-  double shading = 0;    ///< and part of the variance of the brightness itself that repeats.
-
-  /// Whether the lines are those of lenslets: half of the variance repeats, with a jump of 1.5. Of
-  /// multiples of 4 the brightness must repeat as well, because pictures that were compressed as
-  /// JPEG have jumps every 8 or 16 px.
-  [[nodiscard]] bool is_certain() const;
-  /// The same without regard to compression: for a picture of which one knows otherwise that it
-  /// consists of lenslets.
-  [[nodiscard]] bool is_likely() const;
-  /// For such a picture that is a JPEG: of multiples of 8 the brightness must repeat.
-  [[nodiscard]] bool is_likely_in_jpeg() const;
-};
-
-constexpr int kSmallestPeriod = 3;
-constexpr int kLargestPeriod = 32;
-/// Fewer repetitions of a period prove nothing.
-constexpr int kFewestRepetitions = 8;
-constexpr double kExplained = 0.5;
-constexpr double kJump = 1.5;
-/// A period is taken before its multiples, which explain as much.
-constexpr double kAlmost = 0.9;
-/// Of JPEG, in px; with colors of half the size, they are twice as large.
-constexpr int kJpegBlock = 8;
-
-struct Folded {
-  double explained = 0;
-  double jump = 0;
-};
-
-/// Each period divided by its mean, so that only what is within periods counts.
-Folded fold(const std::vector<double>& signal, int period) {
-  const std::size_t repetitions = signal.size() / static_cast<std::size_t>(period);
-  if (repetitions < kFewestRepetitions) return {};
-  std::vector<double> mean(static_cast<std::size_t>(period));
-  double total = 0;
-  for (std::size_t r = 0; r < repetitions; ++r) {
-    const auto begin = signal.begin() + static_cast<std::ptrdiff_t>(r) * period;
-    const double level = std::accumulate(begin, begin + period, 0.0) / period;
-    if (level <= 0) continue;
-    for (int i = 0; i < period; ++i) {
-      const double relative = begin[i] / level - 1;
-      total += relative * relative;
-      mean[static_cast<std::size_t>(i)] += relative / static_cast<double>(repetitions);
-    }
-  }
-  double repeated = 0;
-  for (const double value : mean) repeated += static_cast<double>(repetitions) * value * value;
-  std::vector<double> sorted = mean;
-  std::ranges::sort(sorted);
-  const double median = 1 + sorted[sorted.size() / 2];
-  return {total > 0 ? repeated / total : 0, median > 0 ? (1 + sorted.back()) / median : 0};
-}
-
-bool LensletPeriod::is_likely() const {
-  return period_px > 0 && explained >= kExplained && jump >= kJump;
-}
-
-bool LensletPeriod::is_likely_in_jpeg() const {
-  return is_likely() && (period_px % kJpegBlock != 0 || shading >= kExplained);
-}
-
-bool LensletPeriod::is_certain() const {
-  return is_likely() && (period_px % 4 != 0 || shading >= kExplained);
-}
-
-/// `lines`: brightness, a line a row. Periods of 3 to 32 px are tried.
-LensletPeriod find_lenslet_period(const Image<float>& lines) {
-  std::vector<double> brightness(static_cast<std::size_t>(lines.width()));
-  std::vector<double> difference(static_cast<std::size_t>(std::max(lines.width() - 1, 0)));
-  for (int y = 0; y < lines.height(); ++y) {
-    const float* line = lines.row(y);
-    for (std::size_t x = 0; x < brightness.size(); ++x) brightness[x] += line[x];
-    for (std::size_t x = 0; x < difference.size(); ++x) {
-      difference[x] += std::abs(line[x + 1] - line[x]);
-    }
-  }
-  std::vector<Folded> folded;
-  for (int period = kSmallestPeriod; period <= kLargestPeriod; ++period) {
-    folded.push_back(fold(difference, period));
-  }
-  const double best = std::ranges::max(folded, {}, &Folded::explained).explained;
-  const auto found = std::ranges::find_if(
-      folded, [best](const Folded& one) { return one.explained >= kAlmost * best; });
-  if (best <= 0) return {};
-  const int period = kSmallestPeriod + static_cast<int>(found - folded.begin());
-  return {period, found->explained, found->jump, fold(brightness, period).explained};
-}
-
-/// How often a picture repeats along its lines: views side by side resemble each other.
-struct TileCount {
-  int count = 0;           ///< 0 = nothing was found.
-  double correlation = 0;  ///< Of the brightness changes of neighboring tiles, at the best of
-                           ///< shifts by up to 8 px.
-  double edge = 0;         ///< Differences across borders of tiles over those everywhere.
-
-  /// Whether tiles are views of one scene: correlation 0.3 (unrelated pictures: below 0.15), and
-  /// borders that are seen, 1.5.
-  [[nodiscard]] bool is_certain() const;
-};
-
-constexpr int kMostTiles = 32;
-constexpr int kSmallestTile = 32;
-constexpr int kLargestTileShift = 8;
-constexpr int kStepWindow = 4;
-constexpr int kLineStep = 2;
-constexpr double kCorrelation = 0.3;
-constexpr double kEdge = 1.5;
-
-/// Differences of the means of neighboring windows of 4 px: what disparity moves by a pixel or two
-/// still correlates.
-Image<float> smooth_changes(const Image<float>& lines) {
-  const int width = std::max(lines.width() - 2 * kStepWindow + 1, 1);
-  Image<float> changes((lines.height() + kLineStep - 1) / kLineStep, width);
-  if (lines.width() < 2 * kStepWindow) return changes;
-  for (int y = 0; y < changes.height(); ++y) {
-    const float* line = lines.row(y * kLineStep);
-    for (int x = 0; x < width; ++x) {
-      float change = 0;
-      for (int i = 0; i < kStepWindow; ++i) change += line[x + kStepWindow + i] - line[x + i];
-      changes.at(y, x) = change;
-    }
-  }
-  return changes;
-}
-
-double correlation_at(const Image<float>& changes, int lag) {
-  double ab = 0;
-  double aa = 0;
-  double bb = 0;
-  for (int y = 0; y < changes.height(); ++y) {
-    const float* a = changes.row(y);
-    const float* b = a + lag;
-    float row_ab = 0;
-    float row_aa = 0;
-    float row_bb = 0;
-    for (int x = 0; x < changes.width() - lag; ++x) {
-      row_ab += a[x] * b[x];
-      row_aa += a[x] * a[x];
-      row_bb += b[x] * b[x];
-    }
-    ab += row_ab;
-    aa += row_aa;
-    bb += row_bb;
-  }
-  const double norm = std::sqrt(aa * bb);
-  return norm > 0 ? ab / norm : 0;
-}
-
-double edge_ratio(const Image<float>& lines, int tiles) {
-  const int width = lines.width() / tiles;
-  double all = 0;
-  double edges = 0;
-  for (int y = 0; y < lines.height(); ++y) {
-    const float* line = lines.row(y);
-    for (int x = 1; x < lines.width(); ++x) {
-      const double difference = std::abs(line[x] - line[x - 1]);
-      all += difference;
-      if (x % width == 0) edges += difference;
-    }
-  }
-  if (all <= 0) return 0;
-  return edges / (tiles - 1) / (all / (lines.width() - 1));
-}
-
-bool TileCount::is_certain() const {
-  return count > 1 && correlation >= kCorrelation && edge >= kEdge;
-}
-
-/// `lines`: brightness, a line a row. Tries 2 to 32 tiles of at least 32 px, of whole pixels.
-TileCount find_tile_count(const Image<float>& lines) {
-  const Image<float> changes = smooth_changes(lines);
-  TileCount best;
-  for (int tiles = 2; tiles <= kMostTiles; ++tiles) {
-    const int width = lines.width() / tiles;
-    if (lines.width() % tiles != 0 || width < kSmallestTile) continue;
-    for (int shift = -kLargestTileShift; shift <= kLargestTileShift; ++shift) {
-      const double correlation = correlation_at(changes, width + shift);
-      if (correlation > best.correlation) best = {tiles, correlation, 0};
-    }
-  }
-  if (best.count > 0) best.edge = edge_ratio(lines, best.count);
-  return best;
-}
 
 /// A picture, what is known of it, and its lines, which show periods.
 struct Question {
@@ -313,7 +85,7 @@ std::optional<GridShape> stated_grid(const OpenOptions& options) {
   const std::optional<GridShape> grid = given_grid(options);
   if (options.lenslet == 0) return grid;
   const GridShape lenslet{options.lenslet, options.lenslet};
-  if (options.mosaic == Mosaic::Views) {
+  if (options.mosaic != Mosaic::Auto && options.mosaic != Mosaic::Lenslets) {
     throw InvalidInput(
         "--lenslet belongs to --mosaic lenslets; for views side by side give --grid");
   }
@@ -328,6 +100,7 @@ std::optional<GridShape> stated_grid(const OpenOptions& options) {
 
 Mosaic stated_kind(const OpenOptions& options, MosaicName name) {
   if (options.mosaic != Mosaic::Auto) return options.mosaic;
+  if (name == MosaicName::Quilt && options.lenslet == 0) return Mosaic::Quilt;
   const bool is_named = name == MosaicName::Eslf || name == MosaicName::Lenslets;
   return options.lenslet > 0 || is_named ? Mosaic::Lenslets : Mosaic::Auto;
 }
@@ -381,14 +154,43 @@ std::optional<Answer> views_of(const Question& question) {
                             u.correlation, v.correlation)};
 }
 
+/// Whether tiles of `count` would cut through the views that lines show.
+bool cuts_views(const Image<float>& lines, int count) {
+  const TileCount shown = find_tile_count(lines);
+  if (!shown.is_certain() || shown.count == count) return false;
+  const TileCount given = tiles_of_count(lines, count);
+  return !given.is_certain() || given.correlation < shown.correlation / 2;
+}
+
+/// Throws IoError if views side by side evidently have other borders than a given grid.
+void require_sensible_cut(const Question& question, GridShape grid) {
+  if (!cuts_views(question.along_x, grid.u) && !cuts_views(question.along_y, grid.v)) return;
+  const auto shown = views_of(question);
+  if (!shown) return;
+  throw IoError(
+      question.path,
+      fmt::format("--grid {}x{} cuts through the views of {}, whose tiles are {}x{} ({}); "
+                  "correct or leave out --grid",
+                  grid.v, grid.u, question.subject, shown->grid.v, shown->grid.u, shown->evidence));
+}
+
 std::optional<Answer> find_answer(const Question& question) {
   if (question.grid && question.kind != Mosaic::Auto) {
+    if (question.kind != Mosaic::Lenslets) require_sensible_cut(question, *question.grid);
     return Answer{question.kind, *question.grid, "as the options say"};
   }
+  if (question.kind == Mosaic::Quilt) {
+    if (const auto tiles = quilt_tiles_of_name(question.path)) {
+      return Answer{Mosaic::Quilt, *tiles, "as its name says"};
+    }
+  }
   std::optional<Answer> found;
-  if (question.kind != Mosaic::Views) found = lenslets_of(question);
+  if (question.kind == Mosaic::Auto || question.kind == Mosaic::Lenslets)
+    found = lenslets_of(question);
   if (!found && question.kind != Mosaic::Lenslets) found = views_of(question);
+  if (found && question.kind != Mosaic::Auto) found->kind = question.kind;
   const bool contradicts = found && question.grid && !(found->grid == *question.grid);
+  if (contradicts && found->kind == Mosaic::Views) require_sensible_cut(question, *question.grid);
   return contradicts ? std::nullopt : found;
 }
 
@@ -413,7 +215,7 @@ std::vector<ReadingChoice> possible_lenslets(const Question& question) {
     throw IoError(question.path,
                   reason + "; give the pixels along a side of a lenslet, for example --lenslet 14");
   }
-  if (question.kind == Mosaic::Views) {
+  if (question.kind != Mosaic::Auto) {
     throw IoError(question.path,
                   "the number of views in " + question.subject + " " + size +
                       " is not found; give rows and columns, for example --grid 9x9");
@@ -446,6 +248,21 @@ Question question_of(const AnyImage& picture, ImageSize size, const fs::path& pa
           picture_lines(picture, LineAxis::Y)};
 }
 
+/// Throws IoError for a quilt whose tiles do not fill the picture: it was cut or scaled.
+MosaicLayout layout_of(Answer answer, ImageSize view, ImageSize picture, const fs::path& path) {
+  const GridShape tiles = answer.grid;
+  MosaicLayout layout{answer.kind, tiles,      tiles,
+                      view.height, view.width, std::move(answer.evidence)};
+  if (layout.kind != Mosaic::Quilt) return layout;
+  layout.grid = {1, tiles.count()};
+  if (view.height * tiles.v == picture.height && view.width * tiles.u == picture.width) {
+    return layout;
+  }
+  throw IoError(path, fmt::format("{}×{} tiles of a quilt do not divide a picture of {}×{} px; use "
+                                  "the original, or state the tiles by --grid ROWSxCOLUMNS",
+                                  tiles.v, tiles.u, picture.width, picture.height));
+}
+
 }  // namespace
 
 MosaicLayout find_mosaic_layout(const AnyImage& picture, const fs::path& path,
@@ -462,7 +279,7 @@ MosaicLayout find_mosaic_layout(const AnyImage& picture, const fs::path& path,
                                     "--grid or --lenslet",
                                     width, height, grid.v, grid.u));
   }
-  return {answer->kind, grid, height / grid.v, width / grid.u, std::move(answer->evidence)};
+  return layout_of(std::move(*answer), {height / grid.v, width / grid.u}, {height, width}, path);
 }
 
 std::optional<MosaicLayout> evident_mosaic(const fs::path& path) {
@@ -605,6 +422,15 @@ void scatter(const T* from, int channels, int step, int count, T* to) {
   }
 }
 
+}  // namespace
+
+ViewIndex MosaicLayout::tile_of(ViewIndex view) const {
+  if (kind == Mosaic::Quilt) return quilt_tile(tiles, view.u);
+  return kind == Mosaic::ViewsUp ? ViewIndex{tiles.v - 1 - view.v, view.u} : view;
+}
+
+namespace {
+
 /// Row `y` of view `view`.
 template <class T>
 void copy_row(const Image<T>& picture, const MosaicLayout& layout, ViewIndex view, int y, T* to) {
@@ -613,8 +439,9 @@ void copy_row(const Image<T>& picture, const MosaicLayout& layout, ViewIndex vie
     const T* row = picture.row(y * layout.grid.v + view.v);
     gather(row + view.u * channels, channels, layout.grid.u, layout.width, to);
   } else {
-    const T* row = picture.row(view.v * layout.height + y);
-    std::copy_n(row + static_cast<std::ptrdiff_t>(view.u) * layout.width * channels,
+    const ViewIndex tile = layout.tile_of(view);
+    const T* row = picture.row(tile.v * layout.height + y);
+    std::copy_n(row + static_cast<std::ptrdiff_t>(tile.u) * layout.width * channels,
                 layout.width * channels, to);
   }
 }

@@ -18,6 +18,7 @@ enum class MosaicName {
   Plain,     ///< Nothing.
   Mosaic,    ///< "lf.bmp", "lf.png", …: all views, in a way that is not told.
   Lenslets,  ///< "*_macpi.*", "*_lenslet.*", "*_lenslets.*".
+  Quilt,     ///< "*_qs8x6a0.75.*": one line of views, side by side from the bottom left.
   Eslf       ///< "*_eslf.*": lenslets of a Lytro camera.
 };
 
@@ -28,13 +29,17 @@ enum class MosaicName {
 [[nodiscard]] std::string scene_of_mosaic(const std::filesystem::path& path);
 
 /// Layout of all views in one picture. Pixel (x, y) of view (v, u) is at (x·columns + u, y·rows +
-/// v) for lenslets, at (u·width + x, v·height + y) for views side by side.
+/// v) for lenslets, at (tile.u·width + x, tile.v·height + y) for views side by side.
 struct MosaicLayout {
   Mosaic kind = Mosaic::Lenslets;  ///< Never Auto.
   GridShape grid;
-  int height = 0;  ///< Of a view, in px; what the grid does not divide is left over at the end.
+  GridShape tiles;  ///< Rows and columns of views in the picture; of a quilt not the grid.
+  int height = 0;   ///< Of a view, in px; what the grid does not divide is left over at the end.
   int width = 0;
   std::string evidence;  ///< What spoke for it: "the name", "the option --grid", with numbers.
+
+  /// Where a view lies, of views side by side.
+  [[nodiscard]] ViewIndex tile_of(ViewIndex view) const;
 };
 
 /// Finds the layout by the options `mosaic`, `lenslet` and `grid`, the name of the file, and the

@@ -277,9 +277,18 @@ bool AdjacentMaps::contains(const std::filesystem::path& file) const {
 
 std::string format_of(const MosaicLayout& layout) {
   const std::string grid = grid_text(layout.grid);
-  return layout.kind == Mosaic::Lenslets
-             ? fmt::format("mosaic of lenslets of {} px ({})", grid, layout.evidence)
-             : fmt::format("mosaic of {} views side by side ({})", grid, layout.evidence);
+  switch (layout.kind) {
+    case Mosaic::Quilt:
+      return fmt::format("quilt of {} tiles, a line of views from the bottom left ({})",
+                         grid_text(layout.tiles), layout.evidence);
+    case Mosaic::ViewsUp:
+      return fmt::format("mosaic of {} views side by side, rows from the bottom ({})", grid,
+                         layout.evidence);
+    case Mosaic::Lenslets:
+      return fmt::format("mosaic of lenslets of {} px ({})", grid, layout.evidence);
+    default:
+      return fmt::format("mosaic of {} views side by side ({})", grid, layout.evidence);
+  }
 }
 
 /// Of sizes that the grid does not divide.
@@ -287,8 +296,8 @@ void report_remainder(const AnyImage& picture, const MosaicLayout& layout,
                       ConventionReport& report) {
   const auto [height, width] = std::visit(
       [](const auto& image) { return std::pair(image.height(), image.width()); }, picture);
-  const int rows = height - layout.height * layout.grid.v;
-  const int columns = width - layout.width * layout.grid.u;
+  const int rows = height - layout.height * layout.tiles.v;
+  const int columns = width - layout.width * layout.tiles.u;
   if (rows == 0 && columns == 0) return;
   report.warnings.push_back(
       fmt::format("The picture has {}×{} px, which {} does not divide: the last {} columns and {} "
@@ -332,6 +341,7 @@ void add_beside(const fs::path& path, const OpenOptions& options, SceneParts& pa
 /// A picture of all views, and where from.
 struct MosaicPicture {
   AnyImage picture;
+  Image<std::uint8_t> seen;  ///< As in SeenImage.
   MosaicLayout layout;
   std::string origin;  ///< For the report; empty for an image.
   std::vector<FileUse> files;
@@ -339,12 +349,13 @@ struct MosaicPicture {
 
 bool may_have_gaps(const fs::path& path, const OpenOptions& options) {
   const MosaicName name = mosaic_name(path);
-  return options.mosaic != Mosaic::Lenslets && options.lenslet == 0 &&
-         (name == MosaicName::Plain || name == MosaicName::Mosaic);
+  return (options.mosaic == Mosaic::Auto || options.mosaic == Mosaic::Views) &&
+         options.lenslet == 0 && (name == MosaicName::Plain || name == MosaicName::Mosaic);
 }
 
 /// Of views side by side, gaps between them are cut out of the picture.
-MosaicLayout find_layout(AnyImage& picture, const fs::path& path, const OpenOptions& options) {
+MosaicLayout find_layout(AnyImage& picture, Image<std::uint8_t>& seen, const fs::path& path,
+                         const OpenOptions& options) {
   if (may_have_gaps(path, options)) {
     const auto sheet = find_contact_sheet(picture);
     const auto given = given_grid(options);
@@ -353,6 +364,7 @@ MosaicLayout find_layout(AnyImage& picture, const fs::path& path, const OpenOpti
       MosaicLayout layout = find_mosaic_layout(tiles, path, options);
       if (layout.grid == sheet->grid() && layout.kind == Mosaic::Views) {
         picture = std::move(tiles);
+        if (!seen.empty()) seen = std::get<Image<std::uint8_t>>(without_gaps(seen, *sheet));
         layout.evidence += "; " + sheet->text();
         return layout;
       }
@@ -362,9 +374,10 @@ MosaicLayout find_layout(AnyImage& picture, const fs::path& path, const OpenOpti
 }
 
 MosaicPicture read_from_image(const fs::path& path, const OpenOptions& options) {
-  AnyImage picture = decode_image(path);
-  MosaicLayout layout = find_layout(picture, path, options);
-  return {std::move(picture), std::move(layout), {}, account_of(path)};
+  SeenImage decoded = decode_seen(path);
+  MosaicLayout layout = find_layout(decoded.image, decoded.seen, path, options);
+  return {
+      std::move(decoded.image), std::move(decoded.seen), std::move(layout), {}, account_of(path)};
 }
 
 /// What the dataset says is as if options said it, unless they do.
@@ -377,8 +390,11 @@ MosaicPicture read_from_dataset(const fs::path& path, const MosaicDataset& datas
   MosaicLayout layout = find_mosaic_layout(picture, path, options, "the dataset " + dataset.name);
   if (is_stated) layout.evidence = "as an attribute says";
   const char* order = dataset.is_transposed ? ", stored by columns" : "";
-  return {std::move(picture), std::move(layout),
-          fmt::format(", HDF5 dataset {}{}", dataset.name, order), uses_beside(path, dataset)};
+  return {std::move(picture),
+          {},
+          std::move(layout),
+          fmt::format(", HDF5 dataset {}{}", dataset.name, order),
+          uses_beside(path, dataset)};
 }
 
 MosaicPicture read_picture(const fs::path& path, const OpenOptions& options) {
@@ -412,6 +428,10 @@ Scene read_mosaic(const fs::path& path, const OpenOptions& options, const Progre
   settle_range(samples, options.levels, report);
   SceneParts parts;
   parts.samples = std::move(samples);
+  if (!read.seen.empty()) {
+    parts.valid = std::get<ViewStack<std::uint8_t>>(
+        split_mosaic(std::move(read.seen), layout, progress.part(0.75, 0.76)));
+  }
   parts.info = std::move(info);
   parts.expected.reason = "mosaics hold rows and columns of views in order";
   parts.files = std::move(read.files);

@@ -67,12 +67,13 @@ void store(const AnyImage& decoded, ImageView<T> view) {
 
 /// Views that fit one of them, and the outcome of each view, by place.
 struct Loaded {
-  LightField::Samples samples;
+  LoadedViews pixels;
   std::vector<Outcome> outcomes;
 
   /// Whether all are of one form, and none has color that the one with the others lacks.
   [[nodiscard]] bool is_whole() const {
-    const bool is_grey = std::visit([](const auto& all) { return all.channels() == 1; }, samples);
+    const bool is_grey =
+        std::visit([](const auto& all) { return all.channels() == 1; }, pixels.samples);
     return std::ranges::all_of(outcomes, [&](const Outcome& each) {
       return each.form && each.form == outcomes.front().form && (each.is_grey || !is_grey);
     });
@@ -82,14 +83,18 @@ struct Loaded {
 /// Decodes views, and notes what becomes of each.
 class ViewDecoder {
  public:
-  explicit ViewDecoder(const ViewFiles& views) : views_(views), outcomes_(views.files.size()) {}
+  explicit ViewDecoder(const ViewFiles& views)
+      : views_(views), outcomes_(views.files.size()), seen_(views.files.size()) {}
 
   /// An empty image if it cannot be decoded.
   AnyImage decode(int place) {
     const auto at = static_cast<std::size_t>(place);
     try {
-      AnyImage image = upright(decode_image(views_.files[at]), views_.orientation);
+      SeenImage decoded = decode_seen(views_.files[at]);
+      AnyImage image = upright(decoded.image, views_.orientation);
       outcomes_[at] = outcome_of(image);
+      seen_[at] =
+          std::get<Image<std::uint8_t>>(upright(std::move(decoded.seen), views_.orientation));
       return image;
     } catch (const IoError& error) {
       outcomes_[at] = {.text = error.sentence()};
@@ -106,10 +111,12 @@ class ViewDecoder {
     throw IoError(views_.files[at], outcomes_[at].text);
   }
   [[nodiscard]] std::vector<Outcome>& outcomes() { return outcomes_; }
+  [[nodiscard]] const std::vector<Image<std::uint8_t>>& seen() const { return seen_; }
 
  private:
   const ViewFiles& views_;
   std::vector<Outcome> outcomes_;
+  std::vector<Image<std::uint8_t>> seen_;  ///< Empty = the whole view.
 };
 
 /// Throws IoError if files state that their views were cut out at different places: no parallax
@@ -144,7 +151,9 @@ Loaded load_around(const ViewFiles& views, const std::vector<int>& references,
           store(i == first.first ? first.second : decoder.decode(i),
                 stack.view(views.grid.view_at(i)));
         });
-        return {std::move(stack), std::move(decoder.outcomes())};
+        return {{std::move(stack),
+                 joined_seen(decoder.seen(), views.grid, {image.height(), image.width()})},
+                std::move(decoder.outcomes())};
       },
       first.second);
 }
@@ -210,10 +219,24 @@ std::vector<int> references_in(const UsableViews& usable, GridShape all,
 
 }  // namespace
 
+ViewStack<std::uint8_t> joined_seen(const std::vector<Image<std::uint8_t>>& seen, GridShape grid,
+                                    ImageSize size) {
+  if (std::ranges::all_of(seen, [](const auto& one) { return one.empty(); })) return {};
+  ViewStack<std::uint8_t> valid(grid, size.height, size.width);
+  std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (ImageSize{seen[i].height(), seen[i].width()} != size) continue;
+    std::ranges::copy(seen[i], valid.view(grid.view_at(static_cast<int>(i))).data);
+  }
+  const bool is_any = std::any_of(valid.data(), valid.data() + valid.size(),
+                                  [](std::uint8_t pixel) { return pixel != 0; });
+  return is_any ? std::move(valid) : ViewStack<std::uint8_t>();
+}
+
 UsableViews load_usable_views(const ViewFiles& views, const OnCenterView& on_center,
                               const Progress& progress) {
   Loaded loaded = load_around(views, from_center(views.grid), on_center, progress);
-  if (loaded.is_whole()) return {std::move(loaded.samples), views};
+  if (loaded.is_whole()) return {std::move(loaded.pixels), views};
   const std::vector<UnusableView> unusable = unusable_views(views, loaded.outcomes);
   UsableViews usable{{}, views};
   if (!unusable.empty()) {
@@ -223,19 +246,19 @@ UsableViews load_usable_views(const ViewFiles& views, const OnCenterView& on_cen
     usable.kept = left->kept;
     usable.warning = std::move(left->warning);
   }
-  loaded.samples = {};
+  loaded.pixels = {};
   loaded = load_around(usable.views, references_in(usable, views.grid, loaded.outcomes), on_center,
                        progress);
   if (!loaded.is_whole()) refuse(usable.views, unusable_views(usable.views, loaded.outcomes));
-  usable.samples = std::move(loaded.samples);
+  usable.pixels = std::move(loaded.pixels);
   return usable;
 }
 
-LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_center,
-                               const Progress& progress) {
+LoadedViews load_views(const ViewFiles& views, const OnCenterView& on_center,
+                       const Progress& progress) {
   Loaded loaded = load_around(views, from_center(views.grid), on_center, progress);
   if (!loaded.is_whole()) refuse(views, unusable_views(views, loaded.outcomes));
-  return std::move(loaded.samples);
+  return std::move(loaded.pixels);
 }
 
 namespace {

@@ -19,16 +19,29 @@ namespace episcope::io {
 /// Called with an 8-bit RGB picture of the center view before the others are read.
 using OnCenterView = std::function<void(const Image<std::uint8_t>& center_rgb)>;
 
+/// Samples of views, and which of their pixels hold something.
+struct LoadedViews {
+  LightField::Samples samples;
+  /// 0 = transparent, or nothing is stored (`decode_seen`); empty = all are seen, or none is: of
+  /// pictures that are transparent as a whole alpha means nothing.
+  ViewStack<std::uint8_t> valid{};
+};
+
+/// Joins what is seen of each view (`SeenImage`) as in LoadedViews. An image of another size counts
+/// as seen.
+[[nodiscard]] ViewStack<std::uint8_t> joined_seen(const std::vector<Image<std::uint8_t>>& seen,
+                                                  GridShape grid, ImageSize size);
+
 /// Decodes the views in parallel, upright, the center first. Throws IoError that names the file if
 /// one cannot be decoded or differs from the center view in size, channels or depth. Throws
 /// Cancelled.
-[[nodiscard]] LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_center,
-                                             const Progress& progress);
+[[nodiscard]] LoadedViews load_views(const ViewFiles& views, const OnCenterView& on_center,
+                                     const Progress& progress);
 
 /// Samples of the views of a grid that can be used together.
 struct UsableViews {
-  LightField::Samples samples;
-  ViewFiles views;                   ///< All, or the part of them that `samples` holds.
+  LoadedViews pixels;
+  ViewFiles views;                   ///< All, or the part of them that `pixels` holds.
   std::optional<PartOfGrid> kept{};  ///< That part, if it is not all.
   std::string warning{};             ///< What could not be used and why, and what is left.
 };

@@ -32,7 +32,9 @@ Names<Units> names_of(Units) {
 Names<Mosaic> names_of(Mosaic) {
   return {{Mosaic::Auto, "auto", "automatic: detected and checked"},
           {Mosaic::Lenslets, "lenslets", "lenslets side by side (ESLF)"},
-          {Mosaic::Views, "views", "views side by side"}};
+          {Mosaic::Views, "views", "views side by side"},
+          {Mosaic::ViewsUp, "views-up", "views side by side, rows from the bottom"},
+          {Mosaic::Quilt, "quilt", "one line of views, rows from the bottom (quilt)"}};
 }
 
 Schema<OpenOptions> open_schema() {

@@ -23,7 +23,7 @@ enum class Units { Auto, WithWidth, WithoutWidth };
 [[nodiscard]] Names<Units> names_of(Units);
 
 /// How one image holds all views.
-enum class Mosaic { Auto, Lenslets, Views };
+enum class Mosaic { Auto, Lenslets, Views, ViewsUp, Quilt };
 [[nodiscard]] Names<Mosaic> names_of(Mosaic);
 
 /// Views whose disparity and depth are read.

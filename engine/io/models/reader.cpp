@@ -13,7 +13,10 @@ bool Reader::has_option(std::string_view key) const {
 }
 
 FoundReader find_reader(const fs::path& path, const OpenOptions& options) {
-  if (!fs::is_directory(path)) require_readable_file(path);
+  if (!fs::is_directory(path)) {
+    require_readable_file(path);
+    if (fs::file_size(path) == 0) throw IoError(path, kEmptyFile);
+  }
   for (const Reader& reader : readers()) {
     if (fs::path found = reader.find(path, options); !found.empty()) {
       return {&reader, std::move(found)};

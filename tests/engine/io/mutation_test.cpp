@@ -93,6 +93,10 @@ class MutationTest : public QObject {
       options.mosaic = io::Mosaic::Lenslets;
       options.grid = "3x3";
     }
+    if (writer.id == std::string("quilt")) {
+      options.mosaic = io::Mosaic::Quilt;
+      options.grid = "3x1";
+    }
     std::mt19937 random(20260101);
     const PeakMemory memory;
     int noticed = 0;  // refused, or opened without a view

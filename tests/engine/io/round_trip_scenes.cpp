@@ -133,6 +133,17 @@ LightField rounded(const LightField& field) {
   return {std::move(stack), field.info()};
 }
 
+/// The middle row of views.
+LightField row_of(const LightField& field) {
+  return std::visit(
+      [&]<class T>(const ViewStack<T>& all) {
+        ViewStack<T> row({1, all.grid().u}, all.height(), all.width(), all.channels());
+        std::copy_n(all.view({all.grid().center().v, 0}).data, row.size(), row.data());
+        return LightField(std::move(row), field.info());
+      },
+      field.samples());
+}
+
 template <class T>
 bool equal(const ViewStack<T>& a, const ViewStack<T>& b) {
   if (a.empty() || b.empty()) return a.empty() && b.empty();
@@ -252,7 +263,8 @@ io::FormContents common_contents(const io::FormContents& a, const io::FormConten
           .has_valid = a.has_valid && b.has_valid,
           .camera = std::min(a.camera, b.camera),
           .has_range = a.has_range && b.has_range,
-          .has_positions = a.has_positions && b.has_positions};
+          .has_positions = a.has_positions && b.has_positions,
+          .has_rows = a.has_rows && b.has_rows};
 }
 
 std::string difference(const Scene& scene, const io::FormContents& holds, const Scene& read) {
@@ -269,8 +281,12 @@ std::string difference(const Scene& scene, const io::FormContents& holds, const 
   };
   const bool is_rounded =
       field.sample_type() == SampleType::Float32 && holds.floats == io::FloatsHeld::Rounded;
-  require(read.light_field->grid() == field.grid(), "grid");
-  require(is_rounded ? equal(rounded(field), *read.light_field) : equal(field, *read.light_field),
+  const bool is_row = !holds.has_rows;
+  require(read.light_field->grid() == (is_row ? GridShape{1, field.grid().u} : field.grid()),
+          "grid");
+  require(is_row       ? equal(row_of(field), *read.light_field)
+          : is_rounded ? equal(rounded(field), *read.light_field)
+                       : equal(field, *read.light_field),
           "samples");
   require(equal(held(truth.field, holds.disparity, field.center()), read_truth.field, tolerance),
           "disparity");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
+#include "engine/io/formats/quilt.h"
 #include "engine/io/open.h"
 #include "engine/io/write.h"
 #include "tests/engine/io/round_trip_scenes.h"
@@ -34,12 +35,18 @@ class RoundTripTest : public QObject {
       options.mosaic = io::Mosaic::Lenslets;
       options.grid = std::to_string(grid.v) + "x" + std::to_string(grid.u);
     }
+    if (writer.id == std::string("quilt")) {  // and this name says nothing of tiles
+      const GridShape tiles = io::quilt_tiles_of(*scene.light_field);
+      options.mosaic = io::Mosaic::Quilt;
+      options.grid = std::to_string(tiles.v) + "x" + std::to_string(tiles.u);
+    }
     return io::open_scene(path, options, Progress(2));
   }
 
   static bool can_write(const io::Writer& writer, const Scene& scene) {
-    return scene.light_field->sample_type() != SampleType::Float32 ||
-           writer.holds.floats != io::FloatsHeld::None;
+    return (scene.light_field->sample_type() != SampleType::Float32 ||
+            writer.holds.floats != io::FloatsHeld::None) &&
+           (scene.light_field->grid().u > 1 || writer.holds.has_rows);
   }
 
  private slots:

@@ -29,14 +29,10 @@ class UnsupportedFormatTest : public QObject {
   void refusal_saysWhatToDo_data() {
     QTest::addColumn<QString>("name");
     QTest::addColumn<QString>("advice");
-    QTest::newRow("ZIP") << "lf.zip"
-                         << "unpack it";
-    QTest::newRow("packed TAR") << "lf.tar.gz"
-                                << "unpack it";
-    QTest::newRow("Lytro") << "IMG_0001.LFP"
-                           << "LFToolbox";
-    QTest::newRow("tensor") << "lf.pt"
-                            << ".npy";
+    QTest::newRow("export") << "lf.lfi"
+                            << "export its views";
+    QTest::newRow("raw photograph") << "IMG_0_0.DNG"
+                                    << "develop all views alike";
     QTest::newRow("other") << "lf.doc"
                            << "an lf.h5, a scene folder";
   }
@@ -69,6 +65,23 @@ class UnsupportedFormatTest : public QObject {
                           << "AVIF";
     QTest::newRow("JPEG XL") << QByteArray("\0\0\0\x0cJXL \x0d\x0a\x87\x0a", 12) << "JPEG XL";
     QTest::newRow("nothing") << QByteArray() << "empty";
+    QTest::newRow("ZIP") << QByteArray("PK\x03\x04\x14\0\0\0", 8) << "an archive of files; unpack";
+    QTest::newRow("TAR") << QByteArray(257, 'a') + QByteArray("ustar\0", 6)
+                         << "an archive of files; unpack";
+    QTest::newRow("7z") << QByteArray("7z\xBC\xAF\x27\x1C") << "an archive of files; unpack";
+    QTest::newRow("gzip") << QByteArray("\x1F\x8B\x08\0", 4) << "is compressed; unpack";
+    QTest::newRow("Zstandard") << QByteArray("\x28\xB5\x2F\xFD") << "is compressed; unpack";
+    QTest::newRow("Lytro") << QByteArray("\x89LFP\x0D\x0A\x1A\x0A\0\0\0\1", 12)
+                           << "a raw picture of a Lytro camera";
+    QTest::newRow("pickle") << QByteArray("\x80\x04\x95\x10", 4) << "save the array as .npy";
+    QTest::newRow("PyTorch") << QByteArray("PK\x03\x04", 4) + QByteArray(26, '\0') +
+                                    QByteArray("lf/data.pkl")
+                             << "save the array as .npy";
+    QTest::newRow("web page after a blank line") << QByteArray("\r\n <html><head>") << "web page";
+    QTest::newRow("answer of a server")
+        << QByteArray("<?xml version=\"1.0\" encoding=\"UTF-8\"?><Error><Code>AccessDenied")
+        << "the answer of a server";
+    QTest::newRow("PDF") << QByteArray("%PDF-1.5") << "a document";
   }
   void content_isTold() {
     QFETCH(QByteArray, content);
@@ -81,6 +94,36 @@ class UnsupportedFormatTest : public QObject {
     }
 
     QVERIFY2(refusal(place).contains(advice), qPrintable(refusal(place)));
+  }
+
+  void contentOfEveryName_isTold_data() {
+    QTest::addColumn<QString>("name");
+    for (const char* name :
+         {"lf.h5", "scene.hdf5", "lf.mat", "lf.npy", "lf.mp4", "lf.tif", "lf.exr", "lf.zip",
+          "lf.lfr", "lf.bin", "lf_eslf.png", "gt_qs8x6a0.75.jpg"}) {
+      QTest::newRow(name) << name;
+    }
+  }
+  void contentOfEveryName_isTold() {
+    QFETCH(QString, name);
+    const QTemporaryDir folder;
+    const fs::path place = folder.path().toStdString();
+    std::ofstream(place / name.toStdString(), std::ios::binary)
+        << "version https://git-lfs.github.com/spec/v1\noid sha256:";
+
+    const QString of_file = refusal(place / name.toStdString());
+    const QString of_folder = refusal(place);
+
+    QVERIFY2(of_file.contains("git lfs pull"), qPrintable(of_file));
+    QVERIFY2(of_folder.contains("git lfs pull"), qPrintable(of_folder));
+  }
+
+  void archiveOfArrays_isNone() {
+    const QTemporaryDir folder;
+    const fs::path place = folder.path().toStdString();
+    std::ofstream(place / "lf.npz", std::ios::binary) << std::string("PK\x03\x04\0\0", 6);
+
+    QVERIFY2(!refusal(place / "lf.npz").contains("unpack"), qPrintable(refusal(place / "lf.npz")));
   }
 
   void folderOfHeic_isTold() {
@@ -99,17 +142,17 @@ class UnsupportedFormatTest : public QObject {
     QTest::addColumn<QString>("advice");
     QTest::newRow("ZIP") << "rectified.zip"
                          << "rectified.zip: this is an archive of files; unpack it";
+    QTest::newRow("ZIP of another name") << "rectified.dat"
+                                         << "rectified.dat: this is an archive of files; unpack it";
     QTest::newRow("GIF") << "1_1.gif"
                          << "convert them to PNG";
-    QTest::newRow("other") << "lf.doc"
-                           << "expected an lf.h5";
   }
   void refusalOfAFolder_namesSuchFiles() {
     QFETCH(QString, name);
     QFETCH(QString, advice);
     const QTemporaryDir folder;
     const fs::path place = folder.path().toStdString();
-    std::ofstream(place / name.toStdString()) << "something";
+    std::ofstream(place / name.toStdString(), std::ios::binary) << "PK\x03\x04 and so on";
 
     QVERIFY2(refusal(place).contains(advice), qPrintable(refusal(place)));
   }

@@ -615,7 +615,7 @@ bool names_companions(const std::string& skeleton) {
 }
 
 bool names_mosaics(const std::string& skeleton) {
-  return has_word(skeleton, std::array{"eslf", "macpi"});
+  return has_word(skeleton, std::array{"eslf", "macpi", "qs/"});
 }
 
 }  // namespace episcope::io

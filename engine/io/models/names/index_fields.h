@@ -82,7 +82,7 @@ class NameWords {
 /// thumbnail, …
 [[nodiscard]] bool names_companions(const std::string& skeleton);
 
-/// Whether names hold a word for one image that is a light field: eslf, macpi.
+/// Whether names hold a word for one image that is a light field: eslf, macpi, qs of a quilt.
 [[nodiscard]] bool names_mosaics(const std::string& skeleton);
 
 /// Meaning of the numbers in the names of a group.

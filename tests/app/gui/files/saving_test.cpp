@@ -51,8 +51,11 @@ void SavingTest::everyForm_isWritten() {
   emit dialog->fileSelected(name);
 
   QTRY_VERIFY2_WITH_TIMEOUT(message(f).startsWith("Saved: "), qPrintable(message(f)), kPatience);
-  const Scene scene = io::open_scene(name.toStdString(), {}, Progress());
-  QCOMPARE(scene.light_field->sample_hash(), f.window.bench().session.light_field()->sample_hash());
+  if (writer.holds.has_rows) {
+    const Scene scene = io::open_scene(name.toStdString(), {}, Progress());
+    QCOMPARE(scene.light_field->sample_hash(),
+             f.window.bench().session.light_field()->sample_hash());
+  }
   const auto losses = io::unsupported_parts(writer, *f.window.bench().session.scene());
   for (const std::string& sentence : losses) {
     QVERIFY2(message(f).contains(QString::fromStdString(sentence)), qPrintable(message(f)));

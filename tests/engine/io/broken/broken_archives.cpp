@@ -163,7 +163,7 @@ std::vector<Broken> broken_archives() {
          std::ofstream(f / "lf.h5") << "this is no HDF5";
          return f / "lf.h5";
        },
-       "not an HDF5 file"},
+       "the file is empty; copy or download it again"},
       {"text named .h5 in its folder",
        [](const fs::path& f) {
          std::ofstream(f / "lf.h5") << "this is no HDF5";

@@ -2,6 +2,7 @@
 #include "engine/core/error.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/formats/frames_reader.h"
+#include "engine/io/formats/tiff_pages.h"
 #include "engine/io/formats/movie.h"
 #include "engine/io/open.h"
 #include "tests/engine/io/formats/described_tiff.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/formats/frames_reader.h"
+#include "engine/io/formats/tiff_pages.h"
 #include "tests/test_main.h"
 
 namespace episcope::in_stated_pages_test {
