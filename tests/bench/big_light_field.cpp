@@ -3,7 +3,7 @@
 // archive form, as large files are tried with: a built-in scene of 256×256 px, repeated over the
 // views, so that a view is made at the speed of the disk. 27x27 4096x2160 takes 19.3 GB.
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/scenes/builtin.h"
 
 #include <algorithm>

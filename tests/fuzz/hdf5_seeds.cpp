@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/fuzz/hdf5_seeds.h"
 
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "tests/engine/io/formats/array_files.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/fuzz/seed_scene.h"

@@ -9,6 +9,8 @@
 #include "app/session/result_files.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_repack.h"
 #include "engine/io/formats/quilt.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/write.h"
@@ -29,6 +31,7 @@ struct ConvertRequest {
   std::string form;  ///< Id of a writer, or kMap; empty = told by the output.
   std::optional<ViewSelection> views;
   Overwrite overwrite = Overwrite::No;
+  bool is_repacked = false;  ///< The HDF5 file is copied as it is, without chunks.
   bool is_json = false;
   bool is_piped = false;  ///< To standard output.
   io::MapValues values = io::MapValues::Disparity;
@@ -82,6 +85,9 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
                 "field");
   parser.flag("--gt-disparity", request.has_disparity, true,
               "Write GT_DISPARITY beside GT_DEPTH of the archive form");
+  parser.flag("--repack", request.is_repacked, true,
+              "Copy the HDF5 file INPUT with each dataset as one array, without chunks and "
+              "compression, and with what its virtual datasets have in other files");
   declare_map_options(parser, request.map);
   return parse_reading(parser, arguments, request.job, request.read);
 }
@@ -372,6 +378,25 @@ void convert_collection(ConvertRequest request, Job& job) {
   failures.require_none(scenes.size());
 }
 
+/// The file of an INPUT that is repacked.
+std::filesystem::path repacked_file(const std::string& input) {
+  std::error_code error;
+  const std::filesystem::path path(input);
+  return std::filesystem::is_directory(path, error) ? path / "lf.h5" : path;
+}
+
+void repack(const ConvertRequest& request, Job& job) {
+  if (!io::has_hdf5_name(request.output) || request.is_piped) {
+    throw UsageError("--repack writes a file *.h5, but the output is " + request.output +
+                     "; name it so");
+  }
+  protect_input(request.output, request.input);
+  check_light_field_output(request.output, request.overwrite);
+  io::repack_hdf5(repacked_file(request.input), request.output, job.progress());
+  job.finish();
+  if (!request.is_json) std::cout << request.output << ": written\n";
+}
+
 /// Whether OUT is to be a folder for the light fields of a folder.
 bool is_many(const ConvertRequest& request, const Progress& progress) {
   const bool may_be_folder = suffix_of(request.output).empty() || request.output.ends_with('/') ||
@@ -391,6 +416,15 @@ void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   to.require_alone(request.is_json);
   request.is_piped = to.is_meant();
   Job job(std::move(stop), request.job);
+  if (request.is_repacked) {
+    repack(request, job);
+    if (!request.is_json) return;
+    return print_answer(Json::object({{"input", request.input},
+                                      {"output", request.output},
+                                      {"form", "repacked"},
+                                      {"written", files_written(request.output, {})}}),
+                        job.notes());
+  }
   if (is_many(request, job.progress())) return convert_collection(request, job);
   Json answer = convert_one(request, job, job.progress());
   if (to.is_meant()) return to.send();

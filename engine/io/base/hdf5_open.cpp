@@ -271,8 +271,26 @@ unsigned skipped_filters(hid_t dataset) {
   return all;
 }
 
-/// The name of the first filter of the samples that the library lacks; empty if it has all.
-std::string missing_filter(hid_t dataset, hid_t creation) {
+/// Where Debian has the plug-in of a filter.
+const char* package_of(H5Z_filter_t filter) {
+  switch (filter) {
+    case 32001:
+      return "the package hdf5-filter-plugin-blosc-serial";
+    case 32013:
+      return "the package hdf5-filter-plugin-zfp-serial";
+    case 307:    // bzip2
+    case 32004:  // LZ4
+    case 32008:
+      return "the package hdf5-filter-plugin";  // bitshuffle
+    default:
+      return "hdf5plugin of Python";
+  }
+}
+
+/// The first filter of the samples that the library lacks, and where it is to be had; empty if it
+/// has all.
+std::string missing_filter(hid_t dataset) {
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
   for (int i = 0; i < std::max(0, H5Pget_nfilters(creation)); ++i) {
     unsigned flags = 0;
     unsigned config = 0;
@@ -283,9 +301,55 @@ std::string missing_filter(hid_t dataset, hid_t creation) {
     if (id < 0 || H5Zfilter_avail(id) > 0) continue;
     const bool is_optional = (flags & H5Z_FLAG_OPTIONAL) != 0;
     if (is_optional && (skipped_filters(dataset) >> i & 1U) != 0) continue;
-    return fmt::format("{}{}{}", id, name[0] == 0 ? "" : ", ", name.data());
+    return fmt::format("{}{}{}); install {}", id, name[0] == 0 ? "" : ", ", name.data(),
+                       package_of(id));
   }
   return {};
+}
+
+void require_filters(const std::filesystem::path& path, const std::string& name, hid_t dataset) {
+  const std::string filter = missing_filter(dataset);
+  if (filter.empty()) return;
+  throw IoError(
+      path, fmt::format("the dataset {} is compressed by a filter that is not known here ({}, name "
+                        "the folder of plug-ins in HDF5_PLUGIN_PATH, and open it again; or store "
+                        "it without, for example by h5repack -f NONE",
+                        name, filter));
+}
+
+/// A name that a list of properties holds at a place, as HDF5 gives it.
+template <class Getter>
+std::string name_in(Getter getter, hid_t creation, std::size_t at) {
+  const ssize_t length = getter(creation, at, nullptr, 0);
+  if (length <= 0) return {};
+  std::string name(static_cast<std::size_t>(length) + 1, '\0');
+  getter(creation, at, name.data(), name.size());
+  name.pop_back();
+  return name;
+}
+
+bool is_stored_here(hid_t dataset) {
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  return H5Pget_external_count(creation) <= 0 && H5Pget_layout(creation) != H5D_VIRTUAL;
+}
+
+/// Calls `visit` with each dataset that a virtual one is made of, while they are in the same file;
+/// returns whether all are.
+template <class Visit>
+bool for_each_source(hid_t dataset, const Visit& visit) {
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  std::size_t count = 0;
+  if (H5Pget_layout(creation) != H5D_VIRTUAL) return true;
+  if (H5Pget_virtual_count(creation, &count) < 0) return false;
+  const Hdf5Handle file(H5Iget_file_id(dataset), H5Fclose);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (name_in(H5Pget_virtual_filename, creation, i) != ".") return false;
+    const std::string name = name_in(H5Pget_virtual_dsetname, creation, i);
+    const Hdf5Handle source(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!source.ok() || !is_stored_here(source)) return false;
+    visit(source);
+  }
+  return true;
 }
 
 }  // namespace
@@ -295,16 +359,40 @@ bool fits_file(const std::filesystem::path& path, double bytes) {
 }
 
 bool holds_own_samples(hid_t dataset) {
+  return is_stored_here(dataset) || for_each_source(dataset, [](hid_t) {});
+}
+
+std::vector<std::string> virtual_files(hid_t dataset) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  return H5Pget_external_count(creation) <= 0 && H5Pget_layout(creation) != H5D_VIRTUAL;
+  std::vector<std::string> files;
+  std::size_t count = 0;
+  if (H5Pget_layout(creation) != H5D_VIRTUAL || H5Pget_virtual_count(creation, &count) < 0) {
+    return files;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    std::string file = name_in(H5Pget_virtual_filename, creation, i);
+    if (std::ranges::find(files, file) == files.end()) files.push_back(std::move(file));
+  }
+  return files;
+}
+
+bool are_sources_sound(hid_t dataset) {
+  bool are_sound = true;
+  const bool are_here = for_each_source(dataset, [&](hid_t source) {
+    const Hdf5Shape shape = describe_dataset(source, {}).shape;
+    are_sound = are_sound && has_sound_numbers(source) && !is_short_in_header(source) &&
+                has_sound_chunks(source) &&
+                ChunkLengths(source).are_whole({Hdf5Shape(shape.size(), 0), shape});
+  });
+  return are_here && are_sound;
 }
 
 void require_own_samples(const std::filesystem::path& path, const std::string& name,
                          hid_t dataset) {
   if (holds_own_samples(dataset)) return;
   throw IoError(path, "the samples of the dataset " + name +
-                          " are in other files, which are not read; store them in this file, for "
-                          "example by h5repack -l CONTI");
+                          " are in other files, which are not read; store them in one file by "
+                          "episcope-cli convert --repack, and open that");
 }
 
 bool is_short_in_header(hid_t dataset) {
@@ -325,19 +413,15 @@ bool has_sound_numbers(hid_t dataset) {
 void require_sound_dataset(const std::filesystem::path& path, const std::string& name,
                            hid_t dataset) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  if (const std::string filter = missing_filter(dataset, creation); !filter.empty()) {
-    throw IoError(
-        path, fmt::format("the dataset {} is compressed by a filter that is not known here ({}); "
-                          "name the folder of its plug-in in HDF5_PLUGIN_PATH (packages "
-                          "hdf5-filter-plugin, hdf5-filter-plugin-blosc-serial, or hdf5plugin "
-                          "of Python), or store it without, for example by h5repack -f NONE",
-                          name, filter));
-  }
+  require_filters(path, name, dataset);
+  for_each_source(dataset, [&](hid_t source) { require_filters(path, name, source); });
   const double claimed = claimed_bytes(dataset);
   if (claimed <= kSmallDataset) return;
-  const bool is_compressed = H5Pget_nfilters(creation) > 0;
+  const bool is_virtual = H5Pget_layout(creation) == H5D_VIRTUAL;
+  const bool is_compressed = H5Pget_nfilters(creation) > 0 || is_virtual;
   const double stored =
-      std::min(static_cast<double>(H5Dget_storage_size(dataset)), file_bytes(path));
+      is_virtual ? file_bytes(path)
+                 : std::min(static_cast<double>(H5Dget_storage_size(dataset)), file_bytes(path));
   if (claimed <= stored * (is_compressed ? kLargestCompression : 1)) return;
   throw IoError(path,
                 fmt::format("the dataset {} claims {:.3g} bytes, of which the file can hold "

@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,34 @@ class Hdf5Handle {
   hid_t id_;
   herr_t (*close_)(hid_t);
 };
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+/// The type of the library for numbers of type T in memory.
+template <class T>
+hid_t native_type() {
+  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
+  if constexpr (std::is_same_v<T, std::uint16_t>) return H5T_NATIVE_UINT16;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+}
+
+/// Selects the block; false if the dataset has another rank or no such place.
+inline bool select_block(hid_t space, const Hdf5Block& block) {
+  const std::vector<hsize_t> start(block.start.begin(), block.start.end());
+  const std::vector<hsize_t> count(block.count.begin(), block.count.end());
+  if (static_cast<int>(start.size()) != H5Sget_simple_extent_ndims(space)) return false;
+  return start.empty() || H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr,
+                                              count.data(), nullptr) >= 0;
+}
+
+/// Of the rank of the block: HDF5 walks through selections of different ranks element by element.
+inline hid_t memory_space(const Hdf5Block& block) {
+  const std::vector<hsize_t> count(block.count.begin(), block.count.end());
+  return count.empty() ? H5Screate(H5S_SCALAR)
+                       : H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr);
+}
 
 /// One opening of an HDF5 file, shared by all inputs of the file while one of them exists, since
 /// one reader after the other looks at it. Callers hold the lock of the library.
@@ -95,11 +124,18 @@ void require_sound_dataset(const std::filesystem::path& path, const std::string&
 /// larger ones, which only damage makes, reads beyond its memory.
 [[nodiscard]] bool has_sound_numbers(hid_t dataset);
 
-/// Whether the samples of a dataset are in its file: not in raw files that it names, nor in
-/// datasets of other files that it is made of. Such a file could name any file of the user's.
+/// Whether the samples of a dataset are in its file, perhaps as other datasets that it is made of:
+/// not in raw files that it names, nor in datasets of other files. Such a file could name any file
+/// of the user's.
 [[nodiscard]] bool holds_own_samples(hid_t dataset);
 /// Throws IoError if it does not.
 void require_own_samples(const std::filesystem::path& path, const std::string& name, hid_t dataset);
+
+/// Names of the files that a virtual dataset is made of, "." for its own; each once.
+[[nodiscard]] std::vector<std::string> virtual_files(hid_t dataset);
+/// Whether the datasets of its own file that a virtual one is made of can be read: as the checks
+/// below and ChunkLengths. True for other datasets.
+[[nodiscard]] bool are_sources_sound(hid_t dataset);
 
 /// Whether `bytes` of an attribute or text are no more than the file holds.
 [[nodiscard]] bool fits_file(const std::filesystem::path& path, double bytes);

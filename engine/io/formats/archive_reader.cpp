@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/memory.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/archive_depth.h"

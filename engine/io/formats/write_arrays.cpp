@@ -3,7 +3,7 @@
 
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/base/zip.h"
 #include "engine/io/models/array_samples.h"

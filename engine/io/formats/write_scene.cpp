@@ -5,7 +5,7 @@
 #include "engine/core/parallel.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/exchange_files.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/formats/benchmark_truth.h"

@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/result_file.h"

@@ -4,7 +4,7 @@
 #include "engine/core/estimate.h"
 #include "engine/core/parameter.h"
 #include "engine/core/progress.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 
 #include <filesystem>
 #include <optional>

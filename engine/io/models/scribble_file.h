@@ -7,7 +7,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/stored_maps.h"
 

@@ -6,7 +6,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/view_stack.h"
 #include "engine/io/base/array_layout.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/models/open_options.h"
 
 #include <functional>

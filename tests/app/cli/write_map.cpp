@@ -5,7 +5,7 @@
 // MATLAB does, "reversed" not at all; or "hundredths": .npy of integers.
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/exchange_files.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/base/npy.h"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/scene.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/models/order/view_axes.h"
 
 #include <functional>

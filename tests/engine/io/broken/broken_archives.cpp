@@ -163,7 +163,7 @@ std::vector<Broken> broken_archives() {
          std::ofstream(f / "lf.h5") << "this is no HDF5";
          return f / "lf.h5";
        },
-       "the file is empty; copy or download it again"},
+       "not an HDF5 file"},
       {"text named .h5 in its folder",
        [](const fs::path& f) {
          std::ofstream(f / "lf.h5") << "this is no HDF5";
@@ -175,14 +175,14 @@ std::vector<Broken> broken_archives() {
          std::ofstream give(f / "lf.h5");
          return f / "lf.h5";
        },
-       "not an HDF5 file"},
+       "the file is empty; copy or download it again"},
       {"HDF5 cut in its header", [](const fs::path& f) { return cut_archive(f, 90); },
        "truncated or damaged"},
       {"HDF5 cut in its samples", [](const fs::path& f) { return cut_archive(f, 200000); },
        "truncated or damaged"},
       {"LF is a link to another file", archive_of_link, "is a link to another file"},
-      {"LF in a raw file elsewhere", archive_of_raw_file, "h5repack -l CONTI"},
-      {"LF made of another file", archive_of_virtual_samples, "h5repack -l CONTI"},
+      {"LF in a raw file elsewhere", archive_of_raw_file, "episcope-cli convert --repack"},
+      {"LF made of another file", archive_of_virtual_samples, "episcope-cli convert --repack"},
       {"sides that are huge beside an empty one",
        [](const fs::path& f) {
          return unwritten_archive(f, {60000, 60000, 0, 1, 1}, [](hid_t) {});

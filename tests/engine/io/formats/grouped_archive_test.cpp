@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/models/reader.h"
 #include "tests/engine/io/archive_folder.h"
 #include "tests/engine/io/synthetic_scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/core/image.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/open.h"
 #include "tests/engine/io/archive_folder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/open.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/base/array_input.h"
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/models/open_options.h"

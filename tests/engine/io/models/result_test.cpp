@@ -2,7 +2,7 @@
 #include "engine/core/error.h"
 #include "engine/core/version.h"
 #include "engine/io/base/exchange_files.h"
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/result_file.h"
 #include "tests/test_main.h"
