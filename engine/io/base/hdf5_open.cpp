@@ -273,17 +273,15 @@ unsigned skipped_filters(hid_t dataset) {
 
 /// Where Debian has the plug-in of a filter.
 const char* package_of(H5Z_filter_t filter) {
+  constexpr H5Z_filter_t kBzip2 = 307, kBlosc = 32001, kLz4 = 32004, kBitshuffle = 32008,
+                         kZfp = 32013;
   switch (filter) {
-    case 32001:
-      return "the package hdf5-filter-plugin-blosc-serial";
-    case 32013:
-      return "the package hdf5-filter-plugin-zfp-serial";
-    case 307:    // bzip2
-    case 32004:  // LZ4
-    case 32008:
-      return "the package hdf5-filter-plugin";  // bitshuffle
-    default:
-      return "hdf5plugin of Python";
+    case kBlosc: return "the package hdf5-filter-plugin-blosc-serial";
+    case kZfp: return "the package hdf5-filter-plugin-zfp-serial";
+    case kBzip2:
+    case kLz4: return "the package hdf5-filter-plugin";
+    case kBitshuffle: return "the package bitshuffle";
+    default: return "hdf5plugin of Python";
   }
 }
 

@@ -32,7 +32,7 @@ inline constexpr const char* kArchiveLightField = "LF";
 /// How it is stored: [v][h][y][x][c] or, grey, [v][h][y][x].
 struct ArchiveLayout {
   FieldShape shape;
-  int channels = 1;  ///< That are read; an alpha channel is left out.
+  int channels = 1;  ///< That are read, without an alpha channel.
   bool has_channel_axis = true;
   Hdf5Type type = Hdf5Type::UInt8;
 };

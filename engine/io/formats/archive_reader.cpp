@@ -177,6 +177,32 @@ std::optional<ViewStack<T>> map_views(const Hdf5Input& file, const ArchiveLayout
   return ViewStack<T>(shape.grid, shape.height, shape.width, layout.channels, {}, map);
 }
 
+/// 0 where a fourth channel is 0, an alpha. Empty if there is none, or if it is 0 nowhere, or
+/// everywhere, as programs write that know no alpha.
+ViewStack<std::uint8_t> read_alpha(const Hdf5Input& file, const ArchiveLayout& layout,
+                                   const Progress& progress) {
+  const FieldShape& shape = layout.shape;
+  const Hdf5Shape stored = file.dataset(kArchiveLightField).shape;
+  const auto channels = static_cast<std::size_t>(layout.channels);
+  if (!layout.has_channel_axis || stored.back() != channels + 1) return {};
+  ViewStack<std::uint8_t> valid(shape.grid, shape.height, shape.width);
+  std::vector<float> alpha(valid.view_size());
+  std::size_t seen = 0;
+  for (int i = 0; i < shape.grid.count(); ++i) {
+    progress.check();
+    Hdf5Block block = view_block(stored, shape.grid.view_at(i));
+    block.start.back() = channels;
+    block.count.back() = 1;
+    file.read(kArchiveLightField, block, alpha.data());
+    std::ranges::transform(alpha, valid.view(shape.grid.view_at(i)).data, [&](float value) {
+      seen += value != 0 ? 1 : 0;
+      return static_cast<std::uint8_t>(value != 0);
+    });
+  }
+  const bool tells = seen > 0 && seen < valid.size();
+  return tells ? std::move(valid) : ViewStack<std::uint8_t>();
+}
+
 /// The samples of an archive file in the stored order of views and in their stored type; wider
 /// integers are taken as bytes if the center view fits. Those of a large light field
 /// (is_better_mapped) stay in the file, if it stores them as an array of 8 or 16 bits that nothing
@@ -315,7 +341,8 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
       std::visit([](const auto& stack) { return stack.kind() == LargeKind::File; }, samples);
   const double read = is_mapped ? 0.1 : 0.8;
   const Progress reading = progress.part(0, read);
-  ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, reading.part(0.55, 0.6));
+  ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, reading.part(0.55, 0.58));
+  if (valid.empty()) valid = read_alpha(file, layout, reading.part(0.58, 0.6));
   settle_range(samples, options.levels, report);
   progress.step("reading depth");
   ArchiveTruth depth = read_archive_depth(file, samples, options, report, reading.part(0.6, 0.85));

@@ -176,7 +176,6 @@ void require_sensible_cut(const Question& question, GridShape grid) {
 
 std::optional<Answer> find_answer(const Question& question) {
   if (question.grid && question.kind != Mosaic::Auto) {
-    if (question.kind != Mosaic::Lenslets) require_sensible_cut(question, *question.grid);
     return Answer{question.kind, *question.grid, "as the options say"};
   }
   if (question.kind == Mosaic::Quilt) {
@@ -206,14 +205,22 @@ std::vector<ReadingChoice> possible_lenslets(const Question& question) {
   return choices;
 }
 
+/// What cameras record under lenslets has any pitch, and often a rotation.
+constexpr const char* kRectify =
+    "; a raw picture, whose lenslets are no whole number of pixels apart or turned, must be "
+    "rectified before";
+
 [[noreturn]] void refuse(const Question& question) {
   const std::string size = fmt::format("of {}×{} px", question.width, question.height);
   if (question.kind == Mosaic::Lenslets) {
     const std::string reason = "no period of lenslets is found in " + question.subject + " " + size;
     auto choices = possible_lenslets(question);
-    if (!choices.empty()) throw Undecided(question.path, reason, "lenslet", std::move(choices));
+    if (!choices.empty()) {
+      throw Undecided(question.path, reason + kRectify, "lenslet", std::move(choices));
+    }
     throw IoError(question.path,
-                  reason + "; give the pixels along a side of a lenslet, for example --lenslet 14");
+                  reason + "; give the pixels along a side of a lenslet, for example --lenslet 14" +
+                      kRectify);
   }
   if (question.kind != Mosaic::Auto) {
     throw IoError(question.path,
@@ -224,7 +231,8 @@ std::vector<ReadingChoice> possible_lenslets(const Question& question) {
       question.path,
       "this is a single picture " + size +
           " and not recognized as a light field; if it holds all views, give --mosaic "
-          "lenslets --lenslet N or --mosaic views --grid RxC, else open a folder of views");
+          "lenslets --lenslet N or --mosaic views --grid RxC, else open a folder of views" +
+          kRectify);
 }
 
 ImageSize size_of(const AnyImage& picture) {
@@ -279,6 +287,7 @@ MosaicLayout find_mosaic_layout(const AnyImage& picture, const fs::path& path,
                                     "--grid or --lenslet",
                                     width, height, grid.v, grid.u));
   }
+  if (question.grid && answer->kind != Mosaic::Lenslets) require_sensible_cut(question, grid);
   return layout_of(std::move(*answer), {height / grid.v, width / grid.u}, {height, width}, path);
 }
 

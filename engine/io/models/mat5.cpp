@@ -377,6 +377,7 @@ std::unique_ptr<ArrayInput> Mat5File::open_stored(const ArrayEntry& entry) const
 }
 
 std::unique_ptr<const ArrayFile> open_matlab_file(const std::filesystem::path& path) {
+  require_readable_file(path);
   if (is_mat5_file(path)) return std::make_unique<const Mat5File>(path);
   if (!has_hdf5_signature(path)) {
     throw IoError(path,

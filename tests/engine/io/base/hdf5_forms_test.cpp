@@ -5,9 +5,9 @@
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
-#include <QTemporaryDir>
 #include <hdf5.h>
 #include <lzf.h>
+#include <QTemporaryDir>
 
 #include <array>
 #include <cmath>
@@ -204,19 +204,34 @@ class Hdf5FormsTest : public QObject {
     QVERIFY_THROWS_EXCEPTION(IoError, (void)io::open_scene(path(), {}, Progress(1)));
   }
 
-  void alphaChannel_isLeftOut() {
+  void alphaChannel_tellsInvalidPixels_data() {
+    QTest::addColumn<int>("transparent");
+    QTest::newRow("opaque") << 0;
+    QTest::newRow("a corner of the first view") << 7;
+  }
+  void alphaChannel_tellsInvalidPixels() {
+    QFETCH(int, transparent);
     const Scene scene = plane_scene();
     std::vector<std::uint8_t> rgba;
     for (std::size_t i = 0; i < bytes_of(scene).size(); i += 3) {
       const std::uint8_t* rgb = bytes_of(scene).data() + i;
-      rgba.insert(rgba.end(), {rgb[0], rgb[1], rgb[2], 255});
+      const bool is_seen = i / 3 >= static_cast<std::size_t>(transparent);
+      rgba.insert(rgba.end(),
+                  {rgb[0], rgb[1], rgb[2], static_cast<std::uint8_t>(is_seen ? 255 : 0)});
     }
     {
       const HandMadeFile file(path());
       file.dataset("LF", H5T_NATIVE_UINT8, H5T_NATIVE_UINT8, {5, 5, 64, 80, 4}, {}, rgba.data());
     }
 
-    QVERIFY(has_same_samples(scene, io::open_scene(path(), {}, Progress(1))));
+    const Scene read = io::open_scene(path(), {.flip = io::Flip::None}, Progress(1));
+    QVERIFY(has_same_samples(scene, read));
+    const ViewStack<std::uint8_t>& valid = read.light_field->valid();
+    QCOMPARE(valid.empty(), transparent == 0);
+    if (valid.empty()) return;
+    QCOMPARE(std::count(valid.data(), valid.data() + valid.size(), std::uint8_t{0}),
+             std::ptrdiff_t{transparent});
+    QCOMPARE(valid.view({0, 0}).at(0, transparent - 1), std::uint8_t{0});
   }
 
   void booleanMaskAndDoubleDepth_areRead() {

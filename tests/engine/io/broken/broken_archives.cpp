@@ -67,13 +67,19 @@ std::size_t pass_through(unsigned, std::size_t, const unsigned*, std::size_t byt
   return bytes;
 }
 
+struct UnknownFilter {
+  H5Z_filter_t id = 32100;
+  const char* name = "rare-codec";
+};
+
 /// LF is stored through a filter that a reader does not know; `flag`: whether it had to be.
-fs::path archive_of_unknown_filter(const fs::path& folder, unsigned flag) {
-  constexpr H5Z_filter_t kFilter = 32100;
+fs::path archive_of_unknown_filter(const fs::path& folder, unsigned flag,
+                                   UnknownFilter unknown = {}) {
+  const H5Z_filter_t kFilter = unknown.id;
   const H5Z_class2_t filter{H5Z_CLASS_T_VERS, kFilter, 1,       1,
-                            "rare-codec",     nullptr, nullptr, pass_through};
+                            unknown.name,     nullptr, nullptr, pass_through};
   H5Zregister(&filter);
-  const fs::path path = unwritten_archive(folder, {3, 3, 8, 9, 3}, [flag](hid_t creation) {
+  const fs::path path = unwritten_archive(folder, {3, 3, 8, 9, 3}, [=](hid_t creation) {
     const hsize_t chunk[] = {1, 1, 8, 9, 3};
     H5Pset_chunk(creation, 5, chunk);
     H5Pset_filter(creation, kFilter, flag, 0, nullptr);
@@ -243,7 +249,28 @@ std::vector<Broken> broken_archives() {
        "LF claims 1.08e+12 bytes"},
       {"LF compressed by an unknown filter",
        [](const fs::path& f) { return archive_of_unknown_filter(f, H5Z_FLAG_MANDATORY); },
-       "not known here (32100, rare-codec); name the folder of its plug-in in HDF5_PLUGIN_PATH"},
+       "not known here (32100, rare-codec); install hdf5plugin of Python, name the folder"},
+      {"LF compressed by Blosc",
+       [](const fs::path& f) {
+         return archive_of_unknown_filter(f, H5Z_FLAG_MANDATORY, {32001, "blosc"});
+       },
+       "(32001, blosc); install the package hdf5-filter-plugin-blosc-serial, name the folder of "
+       "plug-ins in HDF5_PLUGIN_PATH"},
+      {"LF compressed by LZ4",
+       [](const fs::path& f) {
+         return archive_of_unknown_filter(f, H5Z_FLAG_MANDATORY, {32004, "lz4"});
+       },
+       "(32004, lz4); install the package hdf5-filter-plugin, name"},
+      {"LF compressed by bitshuffle",
+       [](const fs::path& f) {
+         return archive_of_unknown_filter(f, H5Z_FLAG_MANDATORY, {32008, "bitshuffle"});
+       },
+       "(32008, bitshuffle); install the package bitshuffle, name"},
+      {"LF compressed by Zstandard",
+       [](const fs::path& f) {
+         return archive_of_unknown_filter(f, H5Z_FLAG_MANDATORY, {32015, "zstd"});
+       },
+       "(32015, zstd); install hdf5plugin of Python, name"},
       {"LF compressed by an unknown filter that is marked as optional, as h5py marks LZF",
        [](const fs::path& f) { return archive_of_unknown_filter(f, H5Z_FLAG_OPTIONAL); },
        "a filter that is not known here (32100, rare-codec)"},

@@ -12,6 +12,8 @@
 #include <QTemporaryDir>
 #include <opencv2/imgcodecs.hpp>
 
+#include <cmath>
+
 namespace episcope::in_mosaic_test {
 
 using namespace episcope::test;
@@ -199,6 +201,24 @@ class MosaicTest : public QObject {
 
     QCOMPARE(read.light_field->grid(), (GridShape{14, 14}));
     QVERIFY(QString::fromStdString(read.convention.format).contains("14 divides both sides"));
+  }
+
+  void pitchThatIsNoWholeNumber_isTold() {
+    // Spots of lenslets 15.38 px apart.
+    Image<std::uint8_t> raw(300, 320);
+    for (int y = 0; y < raw.height(); ++y) {
+      for (int x = 0; x < raw.width(); ++x) {
+        const double dx = std::remainder(x, 15.38), dy = std::remainder(y, 15.38);
+        raw.at(y, x) = static_cast<std::uint8_t>(20 + 200 / (1 + 0.05 * (dx * dx + dy * dy)));
+      }
+    }
+    io::write_png(path("raw.png"), raw.view());
+    io::OpenOptions options;
+    options.mosaic = io::Mosaic::Lenslets;
+
+    for (const QString& refusal : {refusal_of("raw.png"), refusal_of("raw.png", options)}) {
+      QVERIFY2(refusal.contains("must be rectified before"), qPrintable(refusal));
+    }
   }
 
   void viewsSideBySide_areFound() {

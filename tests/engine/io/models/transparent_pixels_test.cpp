@@ -8,7 +8,6 @@
 
 #include <QTemporaryDir>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <functional>
 
@@ -26,8 +25,8 @@ constexpr int kTransparentColumns = 5;
 cv::Mat with_alpha(const Scene& scene, ViewIndex view, int depth) {
   const auto image = bytes_of(scene).view(view);
   const cv::Mat rgb(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.data));
-  cv::Mat bgra;
-  cv::cvtColor(rgb, bgra, cv::COLOR_RGB2BGRA);
+  cv::Mat bgra(rgb.size(), CV_8UC4, cv::Scalar::all(255));
+  cv::mixChannels(rgb, bgra, {0, 2, 1, 1, 2, 0});
   bgra(cv::Rect(0, 0, kTransparentColumns, bgra.rows)) &= cv::Scalar(255, 255, 255, 0);
   cv::Mat out;
   bgra.convertTo(out, depth, depth == CV_16U ? 257 : 1);
