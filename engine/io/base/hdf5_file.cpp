@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/hdf5_chunks.h"
 #include "engine/io/base/hdf5_open.h"
 
 #include <fmt/format.h>
@@ -190,13 +191,15 @@ const Hdf5Input::Opened& Hdf5Input::open_dataset(const std::string& name) const 
     throw IoError(path_, "the dataset " + name +
                              " cannot be opened: the file is damaged; copy or download it again");
   }
-  return datasets_[name] = {id, std::make_shared<ChunkLengths>(id)};
+  return datasets_[name] = {id, std::make_shared<ChunkLengths>(id),
+                            std::make_shared<DeflatedChunks>(id)};
 }
 
 template <class T>
 void Hdf5Input::read(const std::string& name, const Hdf5Block& block, T* out) const {
   const Hdf5Lock session;
-  const auto& [id, chunks] = open_dataset(name);
+  const auto& [id, chunks, deflated] = open_dataset(name);
+  if (deflated->read(block, native_type<T>(), out)) return;
   const Hdf5Handle space(H5Dget_space(id), H5Sclose);
   const Hdf5Handle memory(memory_space(block), H5Sclose);
   const Hdf5Handle stored(H5Dget_type(id), H5Tclose);

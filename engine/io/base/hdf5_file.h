@@ -52,6 +52,7 @@ struct Hdf5Block {
 [[nodiscard]] bool has_hdf5_signature(const std::filesystem::path& path);
 
 class ChunkLengths;
+class DeflatedChunks;
 class Hdf5OpenFile;
 
 /// An HDF5 file open for reading, without file locks. All inputs of one file share one opening and
@@ -122,6 +123,7 @@ class Hdf5Input {
   struct Opened {
     std::int64_t id = -1;
     std::shared_ptr<ChunkLengths> chunks;
+    std::shared_ptr<DeflatedChunks> deflated;
   };
 
   [[nodiscard]] const Opened& open_dataset(const std::string& name) const;

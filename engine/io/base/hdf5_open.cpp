@@ -276,12 +276,17 @@ const char* package_of(H5Z_filter_t filter) {
   constexpr H5Z_filter_t kBzip2 = 307, kBlosc = 32001, kLz4 = 32004, kBitshuffle = 32008,
                          kZfp = 32013;
   switch (filter) {
-    case kBlosc: return "the package hdf5-filter-plugin-blosc-serial";
-    case kZfp: return "the package hdf5-filter-plugin-zfp-serial";
+    case kBlosc:
+      return "the package hdf5-filter-plugin-blosc-serial";
+    case kZfp:
+      return "the package hdf5-filter-plugin-zfp-serial";
     case kBzip2:
-    case kLz4: return "the package hdf5-filter-plugin";
-    case kBitshuffle: return "the package bitshuffle";
-    default: return "hdf5plugin of Python";
+    case kLz4:
+      return "the package hdf5-filter-plugin";
+    case kBitshuffle:
+      return "the package bitshuffle";
+    default:
+      return "hdf5plugin of Python";
   }
 }
 
@@ -357,7 +362,8 @@ bool fits_file(const std::filesystem::path& path, double bytes) {
 }
 
 bool holds_own_samples(hid_t dataset) {
-  return is_stored_here(dataset) || for_each_source(dataset, [](hid_t) {});
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  return H5Pget_external_count(creation) <= 0 && for_each_source(dataset, [](hid_t) {});
 }
 
 std::vector<std::string> virtual_files(hid_t dataset) {

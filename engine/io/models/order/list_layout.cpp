@@ -331,6 +331,9 @@ ListLayout layout_of(int count, const Arrangement& one, bool is_along_x) {
   return layout;
 }
 
+/// Of the difference of neighbors; views that are in order reach several times as much.
+constexpr double kParallax = 0.15;
+
 /// The arrangement with the image axes along which it runs; not decided if these contradict it.
 ListLayout with_axes(int count, const Arrangement& one, const ListPictures& pictures) {
   const AxisEvidence in_rows = motion(pictures, one, true);
@@ -338,6 +341,12 @@ ListLayout with_axes(int count, const Arrangement& one, const ListPictures& pict
   if (one.period == count) {
     layout.is_decided = in_rows.is_decided();
     layout.evidence = motion_text("between neighbors", in_rows);
+    const bool has_parallax = std::max(in_rows.gone_along_x(), in_rows.gone_along_y()) >= kParallax;
+    if (!layout.is_decided && in_rows.has_pairs() && !has_parallax) {
+      layout.evidence +=
+          ": the pictures differ by something else than parallax, as those of a focal stack do, "
+          "which is no light field";
+    }
     return layout;
   }
   const AxisEvidence across = motion(pictures, one, false);

@@ -193,3 +193,12 @@ foreach(i RANGE ${last})
     endif()
   endforeach()
 endforeach()
+
+expect("convert to a quilt" 0 ERR "row 2 is written, the others are left out"
+       ARGS convert "${lf}" quilt_qs5x1a1.333.png)
+expect("info of the quilt" 0 OUT "quilt of 1×5 tiles.*1×5 views of 64×48 px" ARGS info quilt_qs5x1a1.333.png)
+expect("convert to a quilt of another name" 0 ERR "name it plain_qs" ARGS convert "${lf}" plain.png --to quilt)
+expect("repack" 0 OUT "whole.h5: written" ARGS convert "${lf}" whole.h5 --repack)
+expect("info of what was repacked" 0 OUT "5×5 views of 64×48 px.*truth +disparity of all views"
+       ARGS info whole.h5)
+expect("repack again" 1 ERR "--overwrite" ARGS convert "${lf}" whole.h5 --repack)

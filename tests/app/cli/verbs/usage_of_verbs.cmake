@@ -56,6 +56,7 @@ set(table
   "convert scene out.npz --to grid --views center"
   "convert scene out.h5 --values depth"
   "convert scene out.npz --gt-disparity"
+  "convert scene out.npz --repack"
   "convert scene out.npz --map-transpose"
   "convert scene out.png --to map"
   "convert r.pfm out.h5"

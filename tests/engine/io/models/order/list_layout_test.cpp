@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/io/models/order/list_layout.h"
+#include "engine/core/error.h"
 #include "tests/engine/io/models/order/layered_scene.h"
 #include "tests/test_main.h"
 
+#include <algorithm>
 #include <array>
 #include <mutex>
 #include <set>
@@ -66,6 +67,39 @@ class ListLayoutTest : public QObject {
     QVERIFY2(found.is_decided, found.evidence.c_str());
     QVERIFY2(found.grid == options.grid, io::layout_text(found).c_str());
     if (rows > 1 && columns > 1) QCOMPARE(static_cast<int>(found.order), order);
+  }
+
+  void focalStack_isNoLightField() {
+    const LightField::Samples one = layered_views({.grid = {1, 1}});
+    const auto& sharp = std::get<ViewStack<std::uint8_t>>(one);
+    ViewStack<std::uint8_t> stack({1, 7}, sharp.height(), sharp.width(), sharp.channels());
+    for (int i = 0; i < 7; ++i) {
+      const auto from = sharp.view({0, 0});
+      const auto to = stack.view({0, i});
+      // Means over more and more pixels: no point moves.
+      for (int y = 0; y < to.height; ++y) {
+        for (int x = 0; x < to.width; ++x) {
+          for (int c = 0; c < to.channels; ++c) {
+            int sum = 0, count = 0;
+            for (int dy = -i; dy <= i; ++dy) {
+              for (int dx = -i; dx <= i; ++dx) {
+                const int py = std::clamp(y + dy, 0, to.height - 1);
+                const int px = std::clamp(x + dx, 0, to.width - 1);
+                sum += from.at(py, px, c);
+                ++count;
+              }
+            }
+            to.at(y, x, c) = static_cast<std::uint8_t>(sum / count);
+          }
+        }
+      }
+    }
+
+    const ListLayout found = io::find_list_layout(std::move(stack), Progress(2));
+
+    QVERIFY(!found.is_decided);
+    QVERIFY2(found.evidence.find("as those of a focal stack do") != std::string::npos,
+             found.evidence.c_str());
   }
 
   void poorViews_areStillArranged_data() {
