@@ -2,12 +2,10 @@
 #include "engine/io/base/foreign_content.h"
 
 #include "engine/core/text.h"
-#include "engine/io/base/files.h"
 
-#include <fcntl.h>
-#include <unistd.h>
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <iterator>
 #include <string_view>
 
@@ -81,12 +79,14 @@ constexpr FirstBytes kForeign[] = {
 
 constexpr std::size_t kMostBytes = 512;
 
-/// In lower case.
-std::string first_bytes(const FileDescriptor& file) {
+/// In lower case. Empty for what is no file: opening a pipe waits for whoever writes into it.
+std::string first_bytes(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  std::ifstream file(path, std::ios::binary);
   std::array<char, kMostBytes> begin{};
-  const ssize_t count = file.ok() ? ::read(file.id(), begin.data(), begin.size()) : 0;
-  return lower_case(
-      std::string(begin.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0))));
+  file.read(begin.data(), begin.size());
+  return lower_case(std::string(begin.data(), static_cast<std::size_t>(file.gcount())));
 }
 
 /// Of a zip archive: PyTorch keeps its tensors in one, with a file "NAME/data.pkl" in front.
@@ -100,8 +100,7 @@ bool holds_pickle(std::string_view zip) {
 }  // namespace
 
 std::string foreign_content(const std::filesystem::path& path) {
-  const FileDescriptor file(path, O_RDONLY | O_NONBLOCK);
-  const std::string bytes = first_bytes(file);
+  const std::string bytes = first_bytes(path);
   const std::string_view text =
       std::string_view(bytes).substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
   if (holds_pickle(bytes)) return kSave;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/base/hdf5_chunks.h"
 
-#include "engine/io/base/hdf5_open.h"
-
 #include <algorithm>
 #include <cstring>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/hdf5_open.h"
 
 #include <hdf5.h>
 #include <zlib.h>
