@@ -12,7 +12,6 @@
 #include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
-#include "engine/core/text.h"
 #include "engine/disparity/estimator.h"
 #include "engine/io/base/json.h"
 #include "engine/io/formats/archive_reader.h"
@@ -25,7 +24,6 @@
 #include <iostream>
 #include <iterator>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -157,25 +155,6 @@ Scribbles load_scribbles(const LabelRequest& request, Scene& scene, Job& job) {
   return std::move(scene.scribbles);
 }
 
-/// Names painted ids that the true labels do not have: they can only be wrong.
-void note_unknown_labels(const Scribbles& scribbles, const Scene& scene, Job& job) {
-  const ViewStack<std::int32_t>& truth = scene.truth->labels;
-  if (truth.empty()) return;
-  std::set<std::int32_t> known(truth.data(), truth.data() + truth.size());
-  known.erase(0);
-  std::set<std::int32_t> unknown;
-  for (const ViewScribbles& one : scribbles.views) {
-    for (const std::int32_t id : one.labels) {
-      if (id > 0 && !known.contains(id)) unknown.insert(id);
-    }
-  }
-  if (unknown.empty()) return;
-  const auto text = [](std::int32_t id) { return std::to_string(id); };
-  job.note("GT_LABELS do not have " + std::string(unknown.size() == 1 ? "label " : "labels ") +
-           joined(unknown, ", ", text) + ", but " + joined(known, ", ", text) +
-           "; pixels of the former count as wrong");
-}
-
 Labeling label_views(Labeler& labeler, const Scribbles& scribbles, const Scene& scene,
                      const LabelRequest& request, const Progress& progress) {
   if (request.given.empty()) {
@@ -280,7 +259,8 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   Scene scene = load_input(request.input, request.read, progress.part(0, 0.1));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
   const Scribbles scribbles = load_scribbles(request, scene, job);
-  note_unknown_labels(scribbles, scene, job);
+  const std::string unknown = unknown_labels_text(scribbles, scene.truth->labels);
+  if (!unknown.empty()) job.note(unknown);
   const Stopwatch watch;
   const LabelingDisparity disparity = find_labeling_disparity(
       scene, request.parameters, request.disparity, progress.part(0.1, 0.2), device);

@@ -6,9 +6,11 @@
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/label_pages.h"
+#include "engine/io/base/npy.h"
 #include "engine/io/models/array_maps.h"
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/labels/color_table.h"
+#include "engine/io/models/labels/label_json.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/names/grid_names.h"
 #include "engine/io/models/numpy_file.h"
@@ -32,6 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array kPictures{".png", ".bmp", ".tif", ".tiff", ".pgm", ".jpg", ".jpeg"};
+constexpr const char* kJson = ".json";
 constexpr std::array kArrays{".npy", ".npz", ".mat", ".h5", ".hdf5"};
 
 template <class Names>
@@ -133,6 +136,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   std::error_code ignored;
   const fs::path voc = folder / "SegmentationClass";
   if (fs::is_directory(voc, ignored)) return files_in(voc);
+  const fs::path coco = folder / "annotations";
+  if (fs::is_directory(coco, ignored)) return files_in(coco);
   const std::vector<fs::path> all = sorted_files(folder);
   const auto those = [&](const auto& is_wanted) {
     std::vector<fs::path> files;
@@ -143,7 +148,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
     return view_of_scribble_picture(path.filename().string()).has_value();
   };
   if (auto own = those(is_own); !own.empty()) return own;
-  for (const char* suffix : {".npy", ".png", ".tif", ".tiff", ".bmp", ".pgm"}) {
+  for (const char* suffix : {kJson, ".npy", ".png", ".tif", ".tiff", ".bmp", ".pgm"}) {
     auto files = those([&](const fs::path& path) { return suffix_of(path) == suffix; });
     if (!files.empty()) return files;
   }
@@ -159,6 +164,8 @@ std::vector<fs::path> listed(const std::vector<fs::path>& paths) {
 /// Files that are being read, and what they hold so far.
 struct Import {
   const LabelPlaces& places;
+  LabelNames names;
+  std::vector<LabelInfo> stated{};  ///< Names and colors by id.
   std::vector<ViewPicture> pictures{};
   std::vector<std::string> notes{};
 
@@ -342,20 +349,57 @@ void add_array(Import& import, const NamedFile& file, const Progress& progress) 
       read_whole(*arrays->open(found.entry), found.layout, progress);
   std::vector<LabelPicture> pictures;
   for (int i = 0; i < maps.grid().count(); ++i) {
-    LabelPicture picture{Image<std::int32_t>(maps.height(), maps.width()), {}, {}, {}};
-    std::copy_n(maps.view(maps.view_at(i)).data, maps.view_size(), picture.numbers.data());
-    pictures.push_back(std::move(picture));
+    Image<std::int32_t> numbers(maps.height(), maps.width());
+    std::copy_n(maps.view(maps.view_at(i)).data, maps.view_size(), numbers.data());
+    pictures.push_back({std::move(numbers), {}, {}, {}});
   }
   import.add_all(file, std::move(pictures));
 }
 
+LabelPicture picture_of(Image<std::int32_t> numbers) {
+  return {std::move(numbers), {}, {}, {}};
+}
+
+void add_coco(Import& import, const fs::path& path) {
+  CocoLabels coco = read_coco(path);
+  std::vector<fs::path> names;
+  for (const JsonPicture& picture : coco.pictures) names.emplace_back(picture.file_name);
+  if (names.empty()) throw IoError(path, "has no pictures; export it again");
+  const std::vector<NamedFile> views = placed(names, import.places);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto place =
+        std::ranges::find(coco.pictures, views[i].path.string(), &JsonPicture::file_name);
+    import.add(path, views[i].view.value_or(import.places.shape.grid.center()),
+               picture_of(std::move(place->labels)));
+    place->file_name.clear();  // another of that name is another picture
+  }
+  import.stated = std::move(coco.labels);
+  std::ranges::move(coco.notes, std::back_inserter(import.notes));
+}
+
+void add_json(Import& import, const NamedFile& file) {
+  const LabelJson kind = label_json_kind(file.path);
+  if (kind == LabelJson::Coco) return add_coco(import, file.path);
+  if (kind == LabelJson::None) {
+    throw IoError(file.path,
+                  "is JSON, but neither of labelme (shapes) nor of COCO (images, "
+                  "annotations); choose another file");
+  }
+  JsonPicture picture = read_labelme(file.path, import.names);
+  const auto named = view_of_name(picture.file_name, import.places);
+  const ViewIndex view = file.view ? *file.view : named.value_or(import.places.shape.grid.center());
+  import.add(file.path, view, picture_of(std::move(picture.labels)));
+  import.stated = import.names.labels();
+}
+
 void add_file(Import& import, const NamedFile& file, const Progress& progress) {
   const std::string suffix = suffix_of(file.path);
+  if (suffix == kJson) return add_json(import, file);
   if (is_among(kArrays, suffix)) return add_array(import, file, progress);
   if (!is_among(kPictures, suffix)) {
     throw IoError(file.path,
                   "is no file of labels by its name; choose PNG, TIFF, BMP, PGM, .npy, "
-                  ".npz, .mat or HDF5");
+                  ".npz, .mat, HDF5, or JSON of labelme or COCO");
   }
   require_exact_colors(file.path);
   import.add_all(file, decode_label_pages(file.path));
@@ -388,11 +432,27 @@ void require_distinct_views(std::vector<ViewPicture>& pictures) {
 
 }  // namespace
 
+bool holds_labels_only(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  if (is_among(kPictures, suffix) || suffix == kJson) return true;
+  try {
+    constexpr std::size_t kAxes = 5;  // of a light field in color
+    if (suffix == ".npy") return NpyFile(path).shape().size() < kAxes;
+    if (!has_hdf5_name(path) || !has_hdf5_signature(path)) return false;
+    const Hdf5Input file(path);
+    const auto has = [&](const char* name) { return file.has(name); };
+    constexpr std::array kLabels{"SCRIBBLES", "LABELS", kTrueLabels, "exported_data"};
+    return !file.has("LF") && std::ranges::any_of(kLabels, has);
+  } catch (const IoError&) {
+    return false;  // what is wrong with it is said when it is opened
+  }
+}
+
 ImportedLabels read_label_files(const std::vector<fs::path>& paths, const LabelPlaces& places,
                                 const LabelReading& reading, const Progress& progress) {
   if (paths.empty()) throw InvalidInput("no file of labels was named");
   const std::vector<fs::path> files = listed(paths);
-  Import import{places};
+  Import import{places, LabelNames(reading.known)};
   const std::vector<NamedFile> named = placed(files, places);
   for (std::size_t i = 0; i < named.size(); ++i) {
     const double share = 1.0 / static_cast<double>(named.size());
@@ -400,7 +460,8 @@ ImportedLabels read_label_files(const std::vector<fs::path>& paths, const LabelP
              progress.part(static_cast<double>(i) * share, static_cast<double>(i + 1) * share));
   }
   require_distinct_views(import.pictures);
-  const LabelReading known = with_label_map(reading, import, files.front());
+  LabelReading known = with_label_map(reading, import, files.front());
+  if (!import.stated.empty()) known.stated = std::move(import.stated);
   ImportedLabels labels = labels_of_pictures(std::move(import.pictures), known, paths.front());
   labels.notes.insert(labels.notes.end(), import.notes.begin(), import.notes.end());
   return labels;

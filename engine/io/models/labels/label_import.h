@@ -21,18 +21,26 @@ struct LabelPlaces {
   std::vector<std::string> names{};
 };
 
+/// Whether a file holds labels and no light field, by its name or, of arrays, by what is in it: a
+/// picture, JSON, `.npy` of at most four axes, labels in HDF5.
+[[nodiscard]] bool holds_labels_only(const std::filesystem::path& path);
+
 /// Reads labels of other programs, in the order of the canonical grid:
 /// - pictures: PNG, BMP, PGM, TIFF of any integers; pages of a TIFF are the views, row by row;
 /// - arrays: `.npy`, `.npz`, `.mat` of version 5 to 7.3, HDF5, also of ilastik (`axistags`), of one
-///   view, of all views in a row or in the grid.
+///   view, of all views in a row or in the grid;
+/// - JSON: labelme, and COCO, whose pictures are the views of their names. Ids of labelme's names
+/// are
+///   those of the light field's labels of the same name, else free ones.
 ///
 /// A file of one view belongs to the view whose file has its name (`LabelPlaces::names`), else to
 /// the one whose row and column are the last two numbers of its name ("04_05_labels.png"). A file
 /// alone that tells neither is of the center view; several that tell nothing are all views, by
 /// their running number. Of a folder, all files of labels in it are read: of `scribbles_VV_UU.png`
-/// only those, of a VOC folder those in `SegmentationClass`. Colors of `labelmap.txt` beside them
-/// count where no table is given. Throws IoError that says what is expected: no labels, another
-/// size than the views have, fractions, a JPEG picture, several arrays that fit. Throws Cancelled.
+/// only those, of a VOC folder those in `SegmentationClass`, of a COCO folder those in
+/// `annotations`. Colors of `labelmap.txt` beside them count where no table is given. Throws
+/// IoError that says what is expected: no labels, another size than the views have, fractions, a
+/// JPEG picture, several arrays that fit. Throws Cancelled.
 [[nodiscard]] ImportedLabels read_label_files(const std::vector<std::filesystem::path>& paths,
                                               const LabelPlaces& places,
                                               const LabelReading& reading = {},
