@@ -27,6 +27,7 @@
 #include "app/gui/shell/command_palette.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
+#include "app/gui/shell/manual_window.h"
 #include "app/gui/shell/panes.h"
 #include "engine/core/version.h"
 #include "widgets/controls/tool_button.h"
@@ -121,14 +122,14 @@ void add_commands(const Workbench& bench, CloudController* cloud) {
            },
        .checked = [&frame = bench.frame] { return frame.panes().isTorn("tab.cloud"); }});
   bench.commands.add({.id = "cloud.export",
-                      .menu = Menu::File,
-                      .text = CloudController::tr("Save 3D view…"),
+                      .menu = Menu::Export,
+                      .text = CloudController::tr("3D view…"),
                       .tip = CloudController::tr("Writes the points or surfaces that the 3D view "
                                                  "shows, in their colors, as PLY"),
                       .icon = "export",
                       .keys = {CloudController::tr("Ctrl+Alt+E")},
                       .run = [cloud] { cloud->askToExport(); },
-                      .section = section::kExport,
+                      .section = section::kPictures,
                       .enabled = [cloud] { return cloud->hasScene(); }});
 }
 
@@ -222,6 +223,13 @@ void add_help(const Workbench& bench) {
   auto* palette = new CommandPalette(commands, &window);
   add_theme_commands(commands);
   add_language_commands(commands, bench.messages);
+  auto* manual = new ManualWindow(&window);
+  commands.add({.id = "help.manual",
+                .menu = Menu::Help,
+                .text = HelpText::tr("Manual"),
+                .tip = HelpText::tr("Opens the pages of the manual"),
+                .icon = "info",
+                .run = [manual] { manual->open("index.md"); }});
   commands.add({.id = "help.keys",
                 .menu = Menu::Help,
                 .text = HelpText::tr("Keys and mouse"),

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/label_review.h"
 
+#include "engine/core/text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace episcope {
 
@@ -38,6 +41,23 @@ LabelingScores matched(LabelingScores scores, const std::vector<LabelInfo>& give
   }
   scores.is_by_overlap = match.is_by_overlap;
   return scores;
+}
+
+std::string unknown_labels_text(const Scribbles& scribbles, const ViewStack<std::int32_t>& truth) {
+  if (truth.empty()) return {};
+  std::set<std::int32_t> known(truth.data(), truth.data() + truth.size());
+  known.erase(0);
+  std::set<std::int32_t> unknown;
+  for (const ViewScribbles& one : scribbles.views) {
+    for (const std::int32_t id : one.labels) {
+      if (id > 0 && !known.contains(id)) unknown.insert(id);
+    }
+  }
+  if (unknown.empty()) return {};
+  const auto text = [](std::int32_t id) { return std::to_string(id); };
+  return "GT_LABELS do not have " + std::string(unknown.size() == 1 ? "label " : "labels ") +
+         joined(unknown, ", ", text) + ", but " + joined(known, ", ", text) +
+         "; pixels of the former count as wrong";
 }
 
 Metrics labeling_metrics(const LabelingScores& scores) {

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace episcope {
@@ -39,6 +40,11 @@ struct LabelingScores {
 /// Scores of labels whose numbers may be others than those of the truth (match_labels).
 [[nodiscard]] LabelingScores matched(LabelingScores scores, const std::vector<LabelInfo>& given,
                                      const std::vector<LabelInfo>& truth);
+
+/// Sentence about painted ids that true labels do not have, which can only be wrong; empty if there
+/// are none, or no truth.
+[[nodiscard]] std::string unknown_labels_text(const Scribbles& scribbles,
+                                              const ViewStack<std::int32_t>& truth);
 
 /// The scores that are known, by key: shares in [0, 1].
 [[nodiscard]] Metrics labeling_metrics(const LabelingScores& scores);

@@ -216,6 +216,7 @@ OpenScene scene_of(const ProjectScene& scene, bool is_saved) {
   open.sample_hash = scene.sample_hash;
   open.place = scene.place;
   open.labels = scene.labels;
+  open.labels.is_saved = is_saved;
   int id = 0;
   for (const ProjectResult& result : scene.results) {
     open.estimates.push_back({.id = ++id,

@@ -67,8 +67,7 @@ ProbabilityMap copy(VolumeView<const std::uint8_t> from) {
   return to;
 }
 
-// The one who is told of a draft is not its owner.
-LabelingPtr copy(const Labeling& from) {
+std::shared_ptr<Labeling> copy(const Labeling& from) {
   auto to = std::make_shared<Labeling>();
   to->probabilities.ids = from.probabilities.ids;
   to->probabilities.grid = from.probabilities.grid;
@@ -77,9 +76,43 @@ LabelingPtr copy(const Labeling& from) {
     to->probabilities.views.push_back(copy(map.view()));
   }
   to->labels = from.labels.clone();
-  to->is_draft = true;
+  to->is_draft = from.is_draft;
+  to->gap = from.gap;
   to->seconds = from.seconds;
+  to->note = from.note;
   return to;
+}
+
+// The one who is told of a draft is not its owner.
+LabelingPtr draft_of(const Labeling& from) {
+  auto draft = copy(from);
+  draft->is_draft = true;
+  return draft;
+}
+
+// Replaces the labels of the view that `from` covers, and the probabilities if they are of the same
+// labels; else there are none.
+void put_view(const Labeling& from, Labeling& into) {
+  const ViewIndex view = from.labels.first();
+  std::copy_n(from.labels.view(view).data, from.labels.view_size(), into.labels.view(view).data);
+  LabelProbabilities& probabilities = into.probabilities;
+  if (!probabilities.contains(view)) return;
+  if (from.probabilities.contains(view) && from.probabilities.ids == probabilities.ids) {
+    probabilities.view(view) = copy(from.probabilities.view(view).view());
+  } else {
+    probabilities.views.clear();
+  }
+}
+
+// A view that was never painted is as good as one of which all was erased.
+bool has_same_strokes(const ScribbleLayer* a, const ScribbleLayer& b, ViewIndex view) {
+  const ImageView<const std::uint8_t> before = a ? a->view(view) : ImageView<const std::uint8_t>{};
+  const ImageView<const std::uint8_t> now = b.view(view);
+  const auto is_blank = [](ImageView<const std::uint8_t> image) {
+    return std::all_of(image.data, image.data + image.size(), [](auto id) { return id == 0; });
+  };
+  if (before.empty() || now.empty()) return is_blank(before) && is_blank(now);
+  return std::equal(now.data, now.data + now.size(), before.data);
 }
 
 }  // namespace
@@ -94,9 +127,12 @@ bool is_same_scene(const LabelingInput& a, const LabelingInput& b) {
 }
 
 bool is_same(const LabelingInput& a, const LabelingInput& b) {
+  return is_same_but_strokes(a, b) && a.scribbles && b.scribbles && *a.scribbles == *b.scribbles;
+}
+
+bool is_same_but_strokes(const LabelingInput& a, const LabelingInput& b) {
   const Schema<LabelerParameters> schema = labeler_schema();
-  return is_same_scene(a, b) && schema.values(a.parameters) == schema.values(b.parameters) &&
-         *a.scribbles == *b.scribbles;
+  return is_same_scene(a, b) && schema.values(a.parameters) == schema.values(b.parameters);
 }
 
 LabelerParameters possible_parameters(const LabelingInput& input) {
@@ -111,7 +147,26 @@ LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex v
                        const std::function<void(LabelingPtr)>& on_draft, const Progress& progress) {
   return std::make_shared<const Labeling>(
       labeler.label(scribbles_of(*input.scribbles), possible_parameters(input), {view, {1, 1}},
-                    progress, [&](const Labeling& draft) { on_draft(copy(draft)); }));
+                    progress, [&](const Labeling& draft) { on_draft(draft_of(draft)); }));
+}
+
+LabelingPtr correct_all_views(Labeler& labeler, const LabelingInput& input,
+                              const KnownLabeling& before, ViewIndex first,
+                              const CorrectionNews& news, const Progress& progress) {
+  const Scribbles former = scribbles_of(*before.input->scribbles);
+  const auto on_view = [&](ViewIndex view, const Image<std::int32_t>& labels) {
+    news.on_view(view);
+    if (!(view == first)) return;
+    auto draft = std::make_shared<Labeling>();
+    draft->is_draft = true;
+    draft->probabilities.ids = before.labeling->probabilities.ids;
+    draft->labels = ViewStack<std::int32_t>({1, 1}, labels.height(), labels.width(), 1, view);
+    std::copy(labels.begin(), labels.end(), draft->labels.data());
+    news.on_draft(std::move(draft));
+  };
+  auto corrected = labeler.correct(scribbles_of(*input.scribbles), possible_parameters(input),
+                                   {*before.labeling, former, first, on_view}, progress);
+  return corrected ? std::make_shared<const Labeling>(std::move(*corrected)) : nullptr;
 }
 
 LabelingPtr label_all_views(const LabelingInput& input, const Progress& progress) {
@@ -309,9 +364,11 @@ void LiveLabeler::set_input(LabelingInput input) {
   if (input_ && input_->light_field != input.light_field) {
     views_.clear();
     all_ = {};
+    former_.clear();
   }
-  input_ = std::make_shared<const LabelingInput>(std::move(input));
-  state_ = has_labels() ? LiveState::OutOfDate : LiveState::Idle;
+  const bool is_of_all = bring_back_all(input);
+  input_ = is_of_all ? all_.input : std::make_shared<const LabelingInput>(std::move(input));
+  state_ = has_labels() && !is_of_all ? LiveState::OutOfDate : LiveState::Idle;
   sentence_.clear();
 }
 
@@ -321,13 +378,27 @@ void LiveLabeler::clear() {
   labeler_ = nullptr;
   views_.clear();
   all_ = {};
+  former_.clear();
   state_ = LiveState::Idle;
   sentence_.clear();
+}
+
+// Strokes that are undone bring back the labels of all views; likewise if they are redone.
+bool LiveLabeler::bring_back_all(const LabelingInput& input) {
+  if (all_.input && is_same(*all_.input, input)) return true;
+  const auto found =
+      std::ranges::find_if(former_, [&](const Known& each) { return is_same(*each.input, input); });
+  if (found == former_.end()) return false;
+  std::swap(*found, all_);
+  former_.splice(former_.begin(), former_, found);
+  return true;
 }
 
 void LiveLabeler::cancel() {
   ++request_;
   runner_.cancel_all();
+  corrected_.clear();
+  is_correcting_ = false;
   if (is_running()) state_ = LiveState::OutOfDate;
 }
 
@@ -351,6 +422,29 @@ bool LiveLabeler::is_up_to_date(ViewIndex view) const {
   return known && known->input == input_;
 }
 
+bool LiveLabeler::is_before_strokes(ViewIndex view) const {
+  const Known* known = find(view);
+  return known && known == &all_ && known->input != input_ && input_ &&
+         is_same_but_strokes(*known->input, *input_) &&
+         has_same_strokes(known->input->scribbles.get(), *input_->scribbles, view);
+}
+
+LabelingPtr LiveLabeler::widest(ViewIndex view) const {
+  if (!all_.labeling) return labeling(view);
+  std::shared_ptr<Labeling> merged;
+  for (const Known& each : views_) {
+    const ViewIndex own = each.labeling->labels.first();
+    if (find(own) != &each || !all_.labeling->labels.contains(own)) continue;
+    if (!merged) merged = copy(*all_.labeling);
+    put_view(*each.labeling, *merged);
+  }
+  return merged ? merged : all_.labeling;
+}
+
+bool LiveLabeler::is_widest_up_to_date(ViewIndex view) const {
+  return all_.labeling ? all_.input == input_ : is_up_to_date(view);
+}
+
 void LiveLabeler::label(ViewIndex view) {
   if (!input_) return;
   if (is_running() && view == view_) return;
@@ -359,10 +453,39 @@ void LiveLabeler::label(ViewIndex view) {
     state_ = LiveState::Idle;
     return;
   }
-  start(view);
+  start(view, {});
 }
 
-void LiveLabeler::start(ViewIndex view) {
+bool LiveLabeler::can_correct() const {
+  return all_.labeling && input_ && input_ != all_.input && input_->disparity &&
+         all_.input->scribbles && !all_.labeling->probabilities.views.empty() &&
+         is_same_but_strokes(*all_.input, *input_);
+}
+
+void LiveLabeler::correct(ViewIndex view) {
+  if (is_running() && is_correcting_) return;
+  cancel();
+  start(view, all_);
+  is_correcting_ = true;
+}
+
+void LiveLabeler::prepare(ViewIndex view) {
+  if (!input_ || is_running() || !all_.labeling || all_.input != input_ || !input_->disparity ||
+      all_.labeling->probabilities.views.empty()) {
+    return;
+  }
+  cancel();
+  runner_.start<bool>(
+      [labeler = labeler_, input = input_, view](const Progress& progress) {
+        lower_thread_priority();
+        labeler->prepare_correction(scribbles_of(*input->scribbles), possible_parameters(*input),
+                                    view, progress);
+        return true;
+      },
+      [](const Outcome<bool>&) {});
+}
+
+void LiveLabeler::start(ViewIndex view, const Known& all) {
   view_ = view;
   state_ = LiveState::Training;
   sentence_.clear();
@@ -376,11 +499,23 @@ void LiveLabeler::start(ViewIndex view) {
       if (labeling->is_draft) change(LiveState::Refining);
     });
   };
+  const auto tell_view = [this, is_current](ViewIndex done) {
+    post_([this, is_current, done] {
+      if (!is_current()) return;
+      corrected_.push_back(done);
+      on_changed_();
+    });
+  };
   runner_.start<std::string>(
-      [labeler = labeler_, input = input_, view, tell](const Progress& progress) {
+      [labeler = labeler_, input = input_, view, all, tell, tell_view](const Progress& progress) {
         lower_thread_priority();
         std::string missing = missing_scribbles(*input);
-        if (missing.empty()) tell(label_live(*labeler, *input, view, tell, progress));
+        if (!missing.empty()) return missing;
+        LabelingPtr made;
+        if (all.labeling) {
+          made = correct_all_views(*labeler, *input, all, view, {tell, tell_view}, progress);
+        }
+        tell(made ? made : label_live(*labeler, *input, view, tell, progress));
         return missing;
       },
       [this, is_current](const Outcome<std::string>& outcome) {
@@ -393,6 +528,8 @@ void LiveLabeler::start(ViewIndex view) {
 }
 
 void LiveLabeler::finish(const Outcome<std::string>& outcome) {
+  corrected_.clear();
+  is_correcting_ = false;
   if (outcome.failure) {
     change(LiveState::Failed, failure_text(outcome.failure));
   } else if (outcome.value) {
@@ -402,8 +539,7 @@ void LiveLabeler::finish(const Outcome<std::string>& outcome) {
 
 void LiveLabeler::keep(Known known) {
   if (known.labeling->labels.grid().count() > 1) {
-    views_.clear();
-    all_ = std::move(known);
+    keep_all(std::move(known));
     return;
   }
   const ViewIndex view = known.labeling->labels.first();
@@ -411,6 +547,31 @@ void LiveLabeler::keep(Known known) {
                 [view](const Known& each) { return each.labeling->labels.first() == view; });
   views_.push_front(std::move(known));
   if (views_.size() > kKeptViews) views_.pop_back();
+}
+
+namespace {
+
+std::size_t bytes_of(const Labeling& labeling) {
+  std::size_t bytes = labeling.labels.size() * sizeof(std::int32_t);
+  for (const ProbabilityMap& map : labeling.probabilities.views) bytes += map.view().size();
+  return bytes;
+}
+
+}  // namespace
+
+void LiveLabeler::keep_all(Known known) {
+  views_.clear();
+  if (all_.labeling && is_same_but_strokes(*all_.input, *known.input)) {
+    former_.push_front(std::move(all_));
+  } else {
+    former_.clear();
+  }
+  all_ = std::move(known);
+  std::size_t bytes = 0;
+  std::erase_if(former_, [&](const Known& each) {
+    bytes += bytes_of(*each.labeling);
+    return !each.input->scribbles || bytes > kFormerBytes || is_same(*each.input, *all_.input);
+  });
 }
 
 void LiveLabeler::take(LabelingPtr labeling, const std::shared_ptr<const LabelingInput>& input) {

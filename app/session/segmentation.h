@@ -33,7 +33,7 @@ struct LabelingInput {
   std::shared_ptr<const DisparityField> disparity;  ///< Null: images alone.
   /// EDGE_WEIGHTS of all views; null: computed from image and disparity.
   std::shared_ptr<const ViewStack<float>> edges;
-  std::shared_ptr<const ScribbleLayer> scribbles;
+  std::shared_ptr<const ScribbleLayer> scribbles;  ///< Null: of labels that are known alone.
   LabelerParameters parameters;
   /// Of the disparity (LabelingDisparity::confidence); null: it is right everywhere.
   std::shared_ptr<const ViewStack<float>> confidence;
@@ -46,6 +46,8 @@ struct LabelingInput {
 
 /// Whether two inputs give the same labels.
 [[nodiscard]] bool is_same(const LabelingInput& a, const LabelingInput& b);
+/// Whether two inputs are the same but for strokes.
+[[nodiscard]] bool is_same_but_strokes(const LabelingInput& a, const LabelingInput& b);
 
 /// The parameters that the input allows: without a disparity, features of images and smoothing view
 /// by view.
@@ -58,6 +60,23 @@ struct LabelingInput {
 [[nodiscard]] LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex view,
                                      const std::function<void(LabelingPtr)>& on_draft,
                                      const Progress& progress);
+
+/// Labels of all views and what they were made from.
+struct KnownLabeling {
+  LabelingPtr labeling;
+  std::shared_ptr<const LabelingInput> input;
+};
+
+/// Corrects labels of all views after strokes (Labeler::correct): `input` differs from theirs in
+/// strokes alone. `on_draft` gets the labels of `first` as soon as they are solved, `on_view` hears
+/// of each view that is, from any thread. Null if that cannot be. Throws as `label_live`.
+struct CorrectionNews {
+  std::function<void(LabelingPtr)> on_draft;
+  std::function<void(ViewIndex)> on_view;
+};
+[[nodiscard]] LabelingPtr correct_all_views(Labeler& labeler, const LabelingInput& input,
+                                            const KnownLabeling& before, ViewIndex first,
+                                            const CorrectionNews& news, const Progress& progress);
 
 /// Segments all views. Throws as `label_live`.
 [[nodiscard]] LabelingPtr label_all_views(const LabelingInput& input, const Progress& progress);
@@ -129,6 +148,7 @@ struct KeptLabels {
   std::vector<LabelInfo> infos;  ///< Names and colors.
   std::uint64_t strokes = 0;     ///< `hash_of` the strokes that it was learnt from.
   std::filesystem::path file{};  ///< That keeps it for the project; empty = none yet.
+  bool is_saved = false;         ///< A file of the user's holds it.
 
   [[nodiscard]] bool empty() const { return !labeling && file.empty(); }
   /// Whether all views are in memory, which take long to segment.
@@ -165,6 +185,8 @@ class LiveLabeler {
  public:
   /// Number of views whose labels are kept, so that returning to one need not wait.
   static constexpr std::size_t kKeptViews = 12;
+  /// Bytes of former labels of all views, which come back when strokes are undone.
+  static constexpr std::size_t kFormerBytes = std::size_t{768} << 20;
 
   /// `post` brings closures to the owner's thread; `on_changed` is called there after each change
   /// of state or labels that no call of the owner made.
@@ -181,6 +203,16 @@ class LiveLabeler {
   /// Starts to segment a view and cancels the running job, unless the view has refined labels.
   /// Ignored without an input.
   void label(ViewIndex view);
+  /// Whether strokes can correct the labels of all views: there are some that lack strokes alone.
+  [[nodiscard]] bool can_correct() const;
+  /// Starts to correct the labels of all views, `view` first, and cancels the running job, unless
+  /// that is a correction for the same input. Precondition: `can_correct()`.
+  void correct(ViewIndex view);
+  /// Computes ahead what a correction after the next stroke in this view needs, if labels of all
+  /// views are up to date and nothing is running.
+  void prepare(ViewIndex view);
+  /// Views that the running correction has done.
+  [[nodiscard]] const std::vector<ViewIndex>& corrected_views() const { return corrected_; }
   /// Replaces all labels by labels of all views, made from `input`. Ignored for an input of another
   /// light field.
   void take(LabelingPtr labeling, const std::shared_ptr<const LabelingInput>& input);
@@ -197,15 +229,23 @@ class LiveLabeler {
   [[nodiscard]] LabelingPtr labeling(ViewIndex view) const;
   /// Whether those are of the present input.
   [[nodiscard]] bool is_up_to_date(ViewIndex view) const;
+  /// Whether those were made with all views, and lack only strokes in other views. The view by
+  /// itself would get worse ones.
+  [[nodiscard]] bool is_before_strokes(ViewIndex view) const;
+  /// The newest labels of all views, if they were segmented, each view with its newest ones; else
+  /// `labeling(view)`. Copies labels if some views have newer ones than the others.
+  [[nodiscard]] LabelingPtr widest(ViewIndex view) const;
+  /// Whether `widest` is of the present input in all its views.
+  [[nodiscard]] bool is_widest_up_to_date(ViewIndex view) const;
 
  private:
-  struct Known {
-    LabelingPtr labeling;
-    std::shared_ptr<const LabelingInput> input;
-  };
+  using Known = KnownLabeling;
   [[nodiscard]] const Known* find(ViewIndex view) const;
-  void start(ViewIndex view);
+  /// `all` is corrected, unless it is empty.
+  void start(ViewIndex view, const Known& all);
   void keep(Known known);
+  void keep_all(Known known);
+  [[nodiscard]] bool bring_back_all(const LabelingInput& input);
   void finish(const Outcome<std::string>& outcome);
   void change(LiveState state, std::string sentence = {});
 
@@ -215,6 +255,9 @@ class LiveLabeler {
   std::shared_ptr<Labeler> labeler_;  // used by one job at a time
   std::list<Known> views_;            // of one view each, the newest comes first
   Known all_;                         // older than those
+  std::list<Known> former_;           // of all views, the newest comes first
+  std::vector<ViewIndex> corrected_;
+  bool is_correcting_ = false;
   LiveState state_ = LiveState::Idle;
   std::string sentence_;
   ViewIndex view_;

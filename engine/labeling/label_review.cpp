@@ -272,12 +272,13 @@ Image<std::int32_t> smooth_boundaries(ImageView<const std::int32_t> labels,
   Image<float> best(labels.height, labels.width);
   const int margin = static_cast<int>(std::ceil(kReach * smoothing_px));
   for (const auto& [label, bounds] : bounds_of(labels)) {
+    if (label == 0) continue;
     const PixelRect rect = widened(bounds, margin, labels);
     const cv::Mat weights = weights_of(label, rect, labels, smoothing_px);
     for (int y = rect.y0; y < rect.y1; ++y) {
       const auto* weight = weights.ptr<float>(y - rect.y0);
       for (int x = rect.x0; x < rect.x1; ++x, ++weight) {
-        if (!painted.empty() && painted.at(y, x) != 0) continue;
+        if (labels.at(y, x) == 0 || (!painted.empty() && painted.at(y, x) != 0)) continue;
         const float now = *weight + (labels.at(y, x) == label ? kTie : 0);
         if (now <= best.at(y, x)) continue;
         best.at(y, x) = now;

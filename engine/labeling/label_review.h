@@ -96,7 +96,7 @@ struct MaskValues {
 /// Smooths the boundaries of labels: each pixel takes the most frequent label around it, weighted
 /// by a Gaussian of standard deviation `smoothing_px`, and keeps its own in a tie. Straight
 /// boundaries stay, corners are rounded, parts much thinner than `smoothing_px` vanish. Painted
-/// pixels keep their labels. 0 px changes nothing.
+/// pixels keep their labels, pixels of label 0 stay without one. 0 px changes nothing.
 ///
 /// `labels` `[y][x]`; `painted` `[y][x]` (0 = not painted) or empty. Source: one step of Merriman,
 /// Bence and Osher, Diffusion generated motion by mean curvature, 1992, with several labels. Throws

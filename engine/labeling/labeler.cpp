@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/cuda/device.h"
+#include "engine/labeling/correct_views.h"
 #include "engine/labeling/edge_probability.h"
 #include "engine/labeling/pixel_features.h"
 #include "engine/labeling/predict_from_strokes.h"
@@ -87,6 +88,49 @@ void require_fit(const ViewScribbles& painted, const LightField& lf) {
       lf.grid().v, lf.grid().u, lf.width(), lf.height()));
 }
 
+bool are_same(const std::vector<ViewScribbles>& a, const std::vector<ViewScribbles>& b) {
+  return std::ranges::equal(a, b, [](const ViewScribbles& left, const ViewScribbles& right) {
+    return left.view == right.view && std::ranges::equal(left.labels, right.labels);
+  });
+}
+
+// The pixels of a view that have other strokes now, `[y][x]`, 1 = changed; empty if there are none.
+Image<std::uint8_t> new_strokes(const Scribbles& former, const Scribbles& now, ViewIndex view) {
+  const auto strokes = [view](const Scribbles& scribbles) {
+    const auto found = std::ranges::find(scribbles.views, view, &ViewScribbles::view);
+    return found == scribbles.views.end() ? nullptr : &found->labels;
+  };
+  const Image<std::int32_t>*const before = strokes(former), *const after = strokes(now);
+  if (!before && !after) return {};
+  const Image<std::int32_t> none(before ? before->height() : after->height(),
+                                 before ? before->width() : after->width());
+  const Image<std::int32_t>&a = before ? *before : none, &b = after ? *after : none;
+  Image<std::uint8_t> changed(none.height(), none.width());
+  std::transform(a.begin(), a.end(), b.begin(), changed.begin(),
+                 [](std::int32_t was, std::int32_t is) { return was != is ? 1 : 0; });
+  const bool is_any = std::ranges::any_of(changed, [](std::uint8_t each) { return each != 0; });
+  return is_any ? std::move(changed) : Image<std::uint8_t>();
+}
+
+// The same probabilities with layers for more labels, which have none. Precondition: `more`
+// includes `ids`.
+ProbabilityMap with_layers(VolumeView<const std::uint8_t> map, const std::vector<std::int32_t>& ids,
+                           const std::vector<std::int32_t>& more) {
+  ProbabilityMap wide(map.height, static_cast<int>(more.size()), map.width);
+  for (std::size_t l = 0; l < more.size(); ++l) {
+    const auto found = std::ranges::find(ids, more[l]);
+    for (int y = 0; y < map.height; ++y) {
+      std::uint8_t* const to = wide.view().row(y, static_cast<int>(l));
+      if (found == ids.end()) {
+        std::fill_n(to, map.width, std::uint8_t{0});
+      } else {
+        std::copy_n(map.row(y, static_cast<int>(found - ids.begin())), map.width, to);
+      }
+    }
+  }
+  return wide;
+}
+
 /// What was learned from strokes; borrows it.
 struct Learned {
   const Scribbles& scribbles;
@@ -131,6 +175,120 @@ struct Labeler::State {
   GrownForest grown;
   bool is_painting = false, keeps_solvers = false;  // In the call at hand.
   KeptSolver reference_solver, own_solver;  // Of the view being painted: for `judge`, and after it.
+
+  /// What strokes say of one view, before colors judge it.
+  struct Said {
+    ViewIndex view;
+    std::vector<ViewScribbles> strokes;
+    ParameterSet parameters;
+    std::vector<std::int32_t> ids;
+    ProbabilityMap map;
+  };
+  std::optional<Said> said;  // The newest, by `say`.
+
+  /// Probabilities of one view by all trees, kept until the next call.
+  const Said& say(const Scribbles& scribbles, const LabelerParameters& parameters, ViewIndex view,
+                  const Progress& progress) {
+    const ParameterSet values = labeler_schema().values(parameters);
+    if (said && said->view == view && said->parameters == values &&
+        are_same(said->strokes, scribbles.views)) {
+      return *said;
+    }
+    Said now{view, scribbles.views, values, painted_labels(scribbles, *light_field), {}};
+    begin(false, now.ids);
+    const Learned learned = learn(scribbles, now.ids, parameters, progress.part(0, 0.5));
+    LabelProbabilities one = empty_probabilities(now.ids, {view, {1, 1}});
+    predict(learned, one, progress.part(0.5, 1));
+    now.map = std::move(one.views[0]);
+    said = std::move(now);
+    return *said;
+  }
+
+  [[nodiscard]] bool can_correct(const LabelerParameters& parameters,
+                                 const Labeling& before) const {
+    const GridShape grid = light_field->grid();
+    return parameters.regularizer == Regularizer::Rayspace && disparity &&
+           disparity->disparity.grid() == grid && before.labels.grid() == grid &&
+           before.probabilities.views.size() == static_cast<std::size_t>(grid.count());
+  }
+
+  /// What is corrected: probabilities and which of them are new.
+  struct News {
+    LabelProbabilities probabilities;
+    ChangedRays changed;
+  };
+
+  [[nodiscard]] News start_news(const Labeling& before, const std::vector<std::int32_t>& ids,
+                                const Progress& progress) const {
+    News news{empty_probabilities(ids, {{0, 0}, light_field->grid()}),
+              ChangedRays(light_field->grid(), light_field->height(), light_field->width(), 1,
+                          {0, 0}, allocate_large_zeros)};
+    parallel_for(news.probabilities.grid.count(), progress, [&](int i) {
+      const auto at = static_cast<std::size_t>(i);
+      news.probabilities.views[at] =
+          with_layers(before.probabilities.views[at].view(), before.probabilities.ids, ids);
+    });
+    return news;
+  }
+
+  /// What the strokes of one view say that is new, carried to all views.
+  void add_news(const Scribbles& scribbles, const LabelerParameters& parameters,
+                const LabelCorrection& correction, ViewIndex view, const Progress& progress,
+                News& all) {
+    const Image<std::uint8_t> painted = new_strokes(correction.former, scribbles, view);
+    if (painted.empty()) return;
+    const std::vector<std::int32_t>& ids = all.probabilities.ids;
+    const Said& former = say(correction.former, parameters, view, progress.part(0, 0.4));
+    const ProbabilityMap before = with_layers(former.map.view(), former.ids, ids);
+    ProbabilityMap after =
+        with_layers(say(scribbles, parameters, view, progress.part(0.4, 0.8)).map.view(), ids, ids);
+    const Image<std::uint8_t> news = news_of(before.view(), after.view(), painted);
+    if (!set.with_disparity || confidence) {
+      reweight_view_by_color(*light_field, view,
+                             layers_after(correction.before.labels.view(view), news, after, ids),
+                             progress.part(0.8, 0.8), after);
+    }
+    const RayColors colors(*light_field, light_field->grid(), {0, 0}, progress.part(0.8, 0.8));
+    carry_news({view, news, after.view()}, *disparity, colors, progress.part(0.8, 1),
+               all.probabilities, all.changed);
+  }
+
+  /// Layers of the labels of a view, with the most probable ones where there are news.
+  static Image<std::int32_t> layers_after(ImageView<const std::int32_t> labels,
+                                          const Image<std::uint8_t>& news,
+                                          const ProbabilityMap& after,
+                                          const std::vector<std::int32_t>& ids) {
+    Image<std::int32_t> found = most_probable_labels(after.view(), ids);
+    for (int y = 0; y < labels.height; ++y) {
+      for (int x = 0; x < labels.width; ++x) {
+        std::int32_t& id = found.at(y, x);
+        if (news.at(y, x) == 0 && labels.at(y, x) > 0) id = labels.at(y, x);
+        id = static_cast<std::int32_t>(std::ranges::lower_bound(ids, id) - ids.begin());
+      }
+    }
+    return found;
+  }
+
+  [[nodiscard]] RayLabeling solve_news(const News& news, const LabelerParameters& parameters,
+                                       const LabelCorrection& correction,
+                                       const Progress& progress) {
+    find_edges({{0, 0}, light_field->grid()}, progress.part(0, 0.2));
+    const RayLabelingInput input{&news.probabilities, disparity.get(), edges.get(),
+                                 light_field.get()};
+    RayCorrection rays{correction.before.labels, news.changed, correction.first, {}};
+    if (correction.on_view) {
+      rays.on_view = [&](ViewIndex view, ImageView<const std::int32_t> layers) {
+        Image<std::int32_t> labels(layers.height, layers.width);
+        std::transform(layers.data, layers.data + layers.size(), labels.begin(),
+                       [&](std::int32_t layer) {
+                         return news.probabilities.ids[static_cast<std::size_t>(layer)];
+                       });
+        clear_invalid(view, labels.view());
+        correction.on_view(view, std::move(labels));
+      };
+    }
+    return correct_rays(input, options_of(parameters), rays, progress.part(0.2, 1));
+  }
 
   void use(PixelFeatureSet wanted) {
     if (wanted.with_disparity == set.with_disparity) return;
@@ -361,13 +519,31 @@ struct Labeler::State {
     own.views[0] = std::move(around.view(own.first));
   }
 
-  static void take_most_probable(Labeling& labeling, const Progress& progress) {
+  void take_most_probable(Labeling& labeling, const Progress& progress) const {
     labeling.labels = most_probable_labels_of_all({&labeling.probabilities}, {}, progress).labels;
+    clear_invalid(labeling.labels);
   }
 
-  static void set_labels(RayLabeling result, Labeling& labeling) {
+  void set_labels(RayLabeling result, Labeling& labeling) const {
     labeling.gap = result.relative_gap();
     labeling.labels = std::move(result.labels);
+    clear_invalid(labeling.labels);
+  }
+
+  // What was not seen has no label.
+  void clear_invalid(ViewStack<std::int32_t>& labels) const {
+    if (light_field->valid().empty()) return;
+    for (int i = 0; i < labels.grid().count(); ++i) {
+      const ViewIndex view = labels.view_at(i);
+      clear_invalid(view, labels.view(view));
+    }
+  }
+
+  void clear_invalid(ViewIndex view, ImageView<std::int32_t> labels) const {
+    const ImageView<const std::uint8_t> valid = light_field->valid_of(view);
+    if (valid.empty()) return;
+    std::transform(labels.data, labels.data + labels.size(), valid.data, labels.data,
+                   [](std::int32_t id, std::uint8_t is_valid) { return is_valid ? id : 0; });
   }
 };
 
@@ -427,6 +603,45 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   labeling.note = state_->note;
   labeling.seconds = watch.seconds();
   return labeling;
+}
+
+std::optional<Labeling> Labeler::correct(const Scribbles& scribbles,
+                                         const LabelerParameters& parameters,
+                                         const LabelCorrection& correction,
+                                         const Progress& progress) {
+  const Stopwatch watch;
+  const std::vector<std::int32_t> ids = painted_labels(scribbles, *state_->light_field);
+  const Labeling& before = correction.before;
+  if (!state_->can_correct(parameters, before) ||
+      !std::ranges::includes(ids, before.probabilities.ids)) {
+    return std::nullopt;
+  }
+  state_->use({uses_disparity(parameters)});
+  State::News news = state_->start_news(before, ids, progress.part(0, 0.05));
+  std::set<std::pair<int, int>> painted;
+  for (const Scribbles* each : {&correction.former, &scribbles}) {
+    for (const ViewScribbles& view : each->views) painted.insert({view.view.v, view.view.u});
+  }
+  progress.step(kLabelingStep);
+  for (const auto& [v, u] : painted) {
+    state_->add_news(scribbles, parameters, correction, {v, u}, progress.part(0.05, 0.3), news);
+  }
+  const RayLabeling rays = state_->solve_news(news, parameters, correction, progress.part(0.3, 1));
+  Labeling labeling;
+  labeling.gap = std::max(before.gap, rays.relative_gap());
+  labeling.labels = rays.labels.clone();
+  state_->clear_invalid(labeling.labels);
+  labeling.probabilities = std::move(news.probabilities);
+  labeling.seconds = watch.seconds();
+  return labeling;
+}
+
+void Labeler::prepare_correction(const Scribbles& scribbles, const LabelerParameters& parameters,
+                                 ViewIndex view, const Progress& progress) {
+  state_->use({uses_disparity(parameters)});
+  static_cast<void>(state_->say(scribbles, parameters, view, progress.part(0, 0.3)));
+  progress.step("finding edges");
+  state_->find_edges({{0, 0}, state_->light_field->grid()}, progress.part(0.3, 1));
 }
 
 Labeling Labeler::smooth(LabelProbabilities probabilities, const LabelerParameters& parameters,

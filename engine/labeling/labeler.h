@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,11 +49,22 @@ struct LabelerParameters {
 /// A segmentation of a rectangle of views.
 struct Labeling {
   LabelProbabilities probabilities;  ///< Of the forest and all else, before regularization.
-  ViewStack<std::int32_t> labels;    ///< The label of each pixel, one of `probabilities.ids`.
-  bool is_draft = false;             ///< Whether the labels are still to be regularized.
-  double gap = 0;                    ///< Relative duality gap of the regularizer.
-  double seconds = 0;                ///< Wall-clock time.
-  std::string note;                  ///< Of many views: where they were computed; or empty.
+  /// The label of each pixel, one of `probabilities.ids`; 0 where the light field holds nothing.
+  ViewStack<std::int32_t> labels;
+  bool is_draft = false;  ///< Whether the labels are still to be regularized.
+  double gap = 0;         ///< Relative duality gap of the regularizer.
+  double seconds = 0;     ///< Wall-clock time.
+  std::string note;       ///< Of many views: where they were computed; or empty.
+};
+
+/// Labels of all views that strokes are to correct; borrowed.
+struct LabelCorrection {
+  const Labeling& before;   ///< Of all views, with probabilities, as a `Labeler` gave them
+  const Scribbles& former;  ///< for these strokes.
+  ViewIndex first;          ///< The view in sight: its labels come first.
+  /// Called for each view when its labels are solved, ids, from any thread, for `first` before all
+  /// others. Votes may still change some.
+  std::function<void(ViewIndex, Image<std::int32_t>)> on_view{};
 };
 
 /// Learns from scribbles which label each pixel of a light field has. One object serves many
@@ -114,6 +126,24 @@ class Labeler {
   [[nodiscard]] Labeling label(const Scribbles& scribbles, const LabelerParameters& parameters,
                                ViewRectangle views, const Progress& progress,
                                const std::function<void(const Labeling&)>& on_draft = {});
+
+  /// Corrects labels of all views after strokes on some of them, in a fraction of the time of
+  /// `label`: where the strokes say something new in a view in which they were painted (`news_of`),
+  /// the new probabilities are carried along the rays to all views, and only rays near those are
+  /// solved again (`correct_rays`); all others keep their labels. The energy that is minimized, its
+  /// gap and the votes are those of `label`. Only `label` lets the new strokes judge places that
+  /// none of these views shows.
+  ///
+  /// None if that cannot be: without disparity of all views, with a regularizer other than
+  /// Rayspace, without probabilities in `before`, or if a label has lost all its strokes. Throws as
+  /// `label`.
+  [[nodiscard]] std::optional<Labeling> correct(const Scribbles& scribbles,
+                                                const LabelerParameters& parameters,
+                                                const LabelCorrection& correction,
+                                                const Progress& progress);
+  /// Computes ahead what `correct` needs besides new strokes. Throws as `label`.
+  void prepare_correction(const Scribbles& scribbles, const LabelerParameters& parameters,
+                          ViewIndex view, const Progress& progress);
 
   /// Labels of all views from probabilities that are known already: what `label` does after the
   /// forest. `features` of the parameters says whether disparity makes edges.

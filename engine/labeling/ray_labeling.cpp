@@ -76,13 +76,17 @@ bool is_near(int at, int here, int count) {
   return at >= first && at < first + kNearViews;
 }
 
+bool are_near(ViewRectangle views, ViewIndex view, ViewIndex other) {
+  const auto& [v, u] = views.first;
+  return is_near(other.v - v, view.v - v, views.grid.v) &&
+         is_near(other.u - u, view.u - u, views.grid.u);
+}
+
 bool is_asked(const TrackSources& sources, ViewIndex other) {
   const ViewIndex view = sources.view;
   if (other == view || !sources.disparity.contains(other)) return false;
   if (sources.others == TrackViews::All) return true;
-  const auto& [v, u] = sources.probabilities.first;
-  const GridShape grid = sources.probabilities.grid;
-  return is_near(other.v - v, view.v - v, grid.v) && is_near(other.u - u, view.u - u, grid.u);
+  return are_near({sources.probabilities.first, sources.probabilities.grid}, view, other);
 }
 
 void fill_row(const TrackSources& sources, const CostTable& table, VolumeView<float> costs, int y,
@@ -106,6 +110,15 @@ void fill_row(const TrackSources& sources, const CostTable& table, VolumeView<fl
 }
 
 }  // namespace
+
+std::vector<ViewIndex> near_views(ViewRectangle views, ViewIndex view) {
+  std::vector<ViewIndex> near;
+  for (int i = 0; i < views.grid.count(); ++i) {
+    const ViewIndex other = views.grid.view_at(i, views.first);
+    if (other != view && are_near(views, view, other)) near.push_back(other);
+  }
+  return near;
+}
 
 CostTable cost_table(double floor) {
   CostTable table;

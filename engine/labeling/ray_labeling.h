@@ -186,6 +186,9 @@ enum class TrackViews {
   Near,  ///< Those of the nearest kNearViews² views.
 };
 
+/// The views of the rectangle that are nearest to `view`, kNearViews² with itself, without it.
+[[nodiscard]] std::vector<ViewIndex> near_views(ViewRectangle views, ViewIndex view);
+
 /// What fill_track_costs gathers from: everything is borrowed.
 struct TrackSources {
   const LabelProbabilities& probabilities;

@@ -360,9 +360,6 @@ RayLabeling smooth_view(const RayLabelingInput& input, ViewIndex view,
 
 namespace {
 
-// Rounds of votes. The second makes labels agree that the first one has changed.
-constexpr int kVotes = 2;
-
 RayColors colors_of(const RayLabelingInput& input, const Progress& progress) {
   if (input.light_field == nullptr) return {};
   return {*input.light_field, input.probabilities->grid, input.probabilities->first, progress};

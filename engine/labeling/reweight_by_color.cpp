@@ -134,6 +134,22 @@ void reweight_by_color(const RayLabelingInput& input, ViewIndex reference,
   });
 }
 
+void reweight_view_by_color(const LightField& light_field, ViewIndex view,
+                            const Image<std::int32_t>& layers, const Progress& progress,
+                            ProbabilityMap& probabilities) {
+  const LocalColors near(lab_of(light_field, view), layers, probabilities.layers());
+  const JudgedView own{light_field.view_as_float(view), {}, {}};
+  const VolumeView<std::uint8_t> all = probabilities.view();
+  // Rows in blocks, each with room of its own.
+  constexpr int kRows = 32;
+  parallel_for((all.height + kRows - 1) / kRows, progress, [&](int block) {
+    Judge judge(near, all);
+    for (int y = block * kRows; y < std::min((block + 1) * kRows, all.height); ++y) {
+      judge.judge_row(own, y);
+    }
+  });
+}
+
 namespace {
 
 constexpr float kNoise = 0.03F;

@@ -21,6 +21,12 @@ void reweight_by_color(const RayLabelingInput& input, ViewIndex reference,
                        const RayLabelingParameters& parameters, const Progress& progress,
                        LabelProbabilities& probabilities);
 
+/// Reweights the probabilities of one view by its own local colors, from its labels `layers`
+/// `[y][x]`, 0 … L − 1, that are known already. Throws Cancelled.
+void reweight_view_by_color(const LightField& light_field, ViewIndex view,
+                            const Image<std::int32_t>& layers, const Progress& progress,
+                            ProbabilityMap& probabilities);
+
 /// The colors of each label near each place of a labeled view. Strokes may be far from a boundary
 /// and in other light, and estimated disparity is too wide beside it; colors of smoothed labels
 /// within a few px decide better there. An addition to [WSG13]; tests/accuracy/tuning.md has the

@@ -27,6 +27,8 @@ episcope_install_files(cli "${CMAKE_INSTALL_DATADIR}/episcope/weights"
                        "${CMAKE_SOURCE_DIR}/resources/weights/net.npz")
 if(EPISCOPE_GUI)
   install(TARGETS episcope RUNTIME COMPONENT window)
+  install(DIRECTORY "${CMAKE_SOURCE_DIR}/resources/manual/pages/"
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/episcope/manual" COMPONENT window)
   episcope_install_files(window "${CMAKE_INSTALL_MANDIR}/man1" "${pages}/man/episcope.1.gz")
   install(PROGRAMS "${packaging}/desktop/episcope-thumbnailer" TYPE BIN COMPONENT window)
   episcope_install_files(window "${CMAKE_INSTALL_DATADIR}/applications"

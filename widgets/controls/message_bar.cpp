@@ -68,7 +68,10 @@ MessageBar::MessageBar(QWidget* parent)
   layout->addWidget(close_);
   timer_.setSingleShot(true);
   timer_.setInterval(kStay);
-  connect(close_, &QToolButton::clicked, this, &MessageBar::dismiss);
+  connect(close_, &QToolButton::clicked, this, [this] {
+    dismiss();
+    emit closed();
+  });
   connect(&timer_, &QTimer::timeout, this, &MessageBar::dismiss);
   hide();
 }

@@ -44,6 +44,10 @@ class MessageBar : public QWidget {
  public slots:
   void dismiss();
 
+ signals:
+  /// The user closed the message by its cross, without an action.
+  void closed();
+
  protected:
   void paintEvent(QPaintEvent* event) override;
   void changeEvent(QEvent* event) override;

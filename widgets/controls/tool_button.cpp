@@ -104,7 +104,6 @@ QToolButton* make_tool_button(const ToolButtonText& text, QWidget* parent) {
   button->setObjectName(text.name);
   button->setIcon(themed_icon(text.icon));
   button->setIconSize({14, 14});
-  button->setAutoRaise(true);
   button->setToolTip(text.tip);
   if (text.text.isEmpty()) {
     button->setAccessibleName(text.tip);
@@ -120,7 +119,6 @@ QToolButton* make_action_button(QAction* action, const QString& object_name, QWi
   button->setObjectName(object_name);
   button->setDefaultAction(action);
   button->setIconSize({16, 16});
-  button->setAutoRaise(true);
   button->setFocusPolicy(Qt::NoFocus);
   return button;
 }

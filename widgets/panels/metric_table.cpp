@@ -160,10 +160,9 @@ void MetricTable::fill() {
   table_->horizontalHeader()->setSortIndicator(is_same_shape ? sort_column : -1, order);
   table_->setSortingEnabled(true);
   fitColumns();
-  const bool is_empty = rows_.empty() || columns_.empty();
-  table_->setVisible(!is_empty);
-  empty_->setVisible(is_empty);
-  for (auto* button : {copy_csv_, copy_latex_, save_}) button->setEnabled(!is_empty);
+  table_->setVisible(!isEmpty());
+  empty_->setVisible(isEmpty());
+  for (auto* button : {copy_csv_, copy_latex_, save_}) button->setEnabled(!isEmpty());
 }
 
 // No wider than the text: a style would keep room for a sort arrow in every header.

@@ -52,6 +52,8 @@ class MetricTable : public QWidget {
   /// Marks the rows of the shown and the compared result; 0 = none.
   void setSides(quint64 a, quint64 b);
 
+  /// Whether there is nothing to copy or save.
+  [[nodiscard]] bool isEmpty() const { return rows_.empty() || columns_.empty(); }
   /// RFC 4180, full precision, decimal point, keys as header; missing values are empty.
   [[nodiscard]] QString toCsv() const;
   /// A `tabular` with the shown decimals and the best of each column in bold; missing values are

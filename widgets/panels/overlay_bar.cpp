@@ -13,12 +13,13 @@
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
-#include <QStandardItemModel>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -26,6 +27,7 @@ namespace {
 using render::Quantity;
 
 constexpr double kFocusStep = 0.01;  // px a slider step.
+constexpr int kMostQuantities = 20;  // seen at once
 
 int focus_step(double focus_px) {
   return static_cast<int>(std::lround(focus_px / kFocusStep));
@@ -35,7 +37,6 @@ int focus_step(double focus_px) {
 
 OverlayBar::OverlayBar(QWidget* parent)
     : QWidget(parent),
-      title_(new QLabel(tr("Overlay"), this)),
       quantity_(new QComboBox(this)),
       opacity_(new QSlider(Qt::Horizontal, this)),
       focus_slider_(new QSlider(Qt::Horizontal, this)),
@@ -43,11 +44,10 @@ OverlayBar::OverlayBar(QWidget* parent)
       row_(new QHBoxLayout(this)) {
   setObjectName("overlayBar");
   quantity_->setObjectName("overlay.quantity");
-  quantity_->setToolTip(tr("Overlay of the view (M: next)"));
-  for (const render::QuantityInfo& info : render::quantities()) {
-    if (info.quantity == Quantity::Difference) continue;  // chosen by a command of its own
-    quantity_->addItem(quantity_label(info.quantity), static_cast<int>(info.quantity));
-  }
+  quantity_->setAccessibleName(tr("Map over the view"));
+  quantity_->setToolTip(tr("Map over the view (M: next)"));
+  quantity_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  quantity_->setMaxVisibleItems(kMostQuantities);
   opacity_->setObjectName("overlay.opacity");
   opacity_->setRange(0, 100);
   opacity_->setMinimumWidth(30);
@@ -71,7 +71,9 @@ OverlayBar::OverlayBar(QWidget* parent)
 
   row_->setContentsMargins(0, 0, 0, 0);
   row_->setSpacing(theme::kSpacing);
-  row_->addWidget(title_);
+  auto* map = new QLabel(tr("Map"), this);
+  map->setBuddy(quantity_);
+  row_->addWidget(map);
   row_->addWidget(quantity_);
   row_->addWidget(opacity_);
   row_->addSpacing(theme::kMargin);
@@ -101,24 +103,26 @@ OverlayBar::OverlayBar(QWidget* parent)
 }
 
 void OverlayBar::setAvailable(const std::vector<Quantity>& quantities) {
-  auto* model = qobject_cast<QStandardItemModel*>(quantity_->model());
-  for (int i = 0; i < quantity_->count(); ++i) {
-    const auto quantity = static_cast<Quantity>(quantity_->itemData(i).toInt());
-    const bool is_available =
-        quantity == Quantity::View ||
-        std::find(quantities.begin(), quantities.end(), quantity) != quantities.end();
-    model->item(i)->setEnabled(is_available);
+  std::vector<Quantity> listed{Quantity::View};
+  std::ranges::copy_if(quantities, std::back_inserter(listed),
+                       [](Quantity each) { return each != Quantity::View; });
+  if (listed == listed_) return;  // its list may be open
+  listed_ = std::move(listed);
+  const Quantity shown = quantity();
+  const QSignalBlocker blocker(quantity_);
+  quantity_->clear();
+  for (const Quantity each : listed_) {
+    quantity_->addItem(quantity_button(each), static_cast<int>(each));
+    quantity_->setItemData(quantity_->count() - 1, quantity_tip(each), Qt::ToolTipRole);
   }
-}
-
-void OverlayBar::setSelectorVisible(bool visible) {
-  quantity_->setVisible(visible);
-  title_->setText(visible ? tr("Overlay") : tr("Opacity"));
+  quantity_->setCurrentIndex(std::max(0, quantity_->findData(static_cast<int>(shown))));
 }
 
 void OverlayBar::setQuantity(Quantity quantity) {
+  const int place = quantity_->findData(static_cast<int>(quantity));
+  if (place < 0) return;
   const QSignalBlocker blocker(quantity_);
-  quantity_->setCurrentIndex(quantity_->findData(static_cast<int>(quantity)));
+  quantity_->setCurrentIndex(place);
   opacity_->setEnabled(quantity != Quantity::View);
 }
 
@@ -177,12 +181,8 @@ double OverlayBar::focus() const {
 }
 
 void OverlayBar::selectNextQuantity() {
-  const auto* model = qobject_cast<QStandardItemModel*>(quantity_->model());
-  int index = quantity_->currentIndex();
-  do {
-    index = (index + 1) % quantity_->count();
-  } while (!model->item(index)->isEnabled());
-  setQuantity(static_cast<Quantity>(quantity_->itemData(index).toInt()));
+  const int next = (quantity_->currentIndex() + 1) % quantity_->count();
+  setQuantity(listed_[static_cast<std::size_t>(next)]);
   emit quantitySelected(quantity());
 }
 
@@ -227,8 +227,12 @@ CompareBar::CompareBar(QWidget* parent)
     : QWidget(parent),
       a_(make_combo("compare.a", tr("A: the result shown"), this)),
       b_(make_combo("compare.b", tr("B: the result it is compared with"), this)),
+      maps_(new QHBoxLayout),
       buttons_(new QHBoxLayout) {
   setObjectName("compareBar");
+  maps_->setSpacing(2);
+  maps_->addWidget(new QLabel(tr("Map"), this));
+  maps_->addStretch(1);
   buttons_->setSpacing(2);
   auto* row = new QHBoxLayout;
   row->setSpacing(theme::kSpacing);
@@ -241,12 +245,17 @@ CompareBar::CompareBar(QWidget* parent)
   layout->setContentsMargins(0, theme::kSpacing, 0, 0);
   layout->setSpacing(theme::kSpacing);
   layout->addLayout(row);
+  layout->addLayout(maps_);
   layout->addLayout(buttons_);
   buttons_->addStretch(1);
   connect(a_, &QComboBox::activated, this,
           [this] { emit aChosen(a_->currentData().toULongLong()); });
   connect(b_, &QComboBox::activated, this,
           [this] { emit bChosen(b_->currentData().toULongLong()); });
+}
+
+void CompareBar::addMap(QAction* action, const QString& object_name) {
+  maps_->insertWidget(maps_->count() - 1, make_action_button(action, object_name, this));
 }
 
 void CompareBar::addAction(QAction* action, const QString& object_name) {

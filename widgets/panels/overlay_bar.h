@@ -19,8 +19,7 @@ namespace episcope {
 
 class NumberSpin;
 
-/// A row of controls above the canvas: overlay, opacity and focus plane (shear). Setters never
-/// emit.
+/// A row of controls for the tool bar: map, opacity and focus plane (shear). Setters never emit.
 class OverlayBar : public QWidget {
   Q_OBJECT
 
@@ -29,11 +28,9 @@ class OverlayBar : public QWidget {
 
   explicit OverlayBar(QWidget* parent = nullptr);
 
-  /// Quantities that are available; others are greyed out. "None" always is.
+  /// Quantities to choose from, in order; Quantity::View, no map, need not be among them.
   void setAvailable(const std::vector<render::Quantity>& quantities);
-  /// False: the host has another control for the quantity.
-  void setSelectorVisible(bool visible);
-  /// Quantity::View = no overlay.
+  /// Ignored if it is not available.
   void setQuantity(render::Quantity quantity);
   void setOpacity(double opacity);
   /// Range of the focus slider, px per view step. The field beside it takes numbers up to
@@ -64,7 +61,7 @@ class OverlayBar : public QWidget {
   void showFocus(double focus_px);
   void changeFocus(double focus_px);
 
-  QLabel* title_;
+  std::vector<render::Quantity> listed_;
   QComboBox* quantity_;
   QSlider* opacity_;
   QSlider* focus_slider_;
@@ -90,6 +87,8 @@ class CompareBar : public QWidget {
 
   explicit CompareBar(QWidget* parent = nullptr);
 
+  /// Adds a button for a map to compare by, above the others.
+  void addMap(QAction* action, const QString& object_name);
   /// Adds a button for an action, in order of the calls.
   void addAction(QAction* action, const QString& object_name);
   /// Available results, with A and B; 0 = none: `other` then names what replaces B, e.g. "truth".
@@ -102,6 +101,7 @@ class CompareBar : public QWidget {
  private:
   QComboBox* a_;
   QComboBox* b_;
+  QHBoxLayout* maps_;
   QHBoxLayout* buttons_;
 };
 

@@ -84,7 +84,9 @@ QWidget* SegmentPanel::makeSettings() {
          "feature"));
   source_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   all_views_->setObjectName("segment.keepAll");
-  all_views_->setToolTip(tr("Segments all views whenever the labels of this one are ready"));
+  all_views_->setToolTip(
+      tr("Strokes change the labels of all views: they are corrected near what "
+         "the strokes say, or segmented anew if that cannot be"));
   auto* row = new QHBoxLayout;
   row->setSpacing(theme::kSpacing);
   row->addWidget(new QLabel(tr("Disparity"), this));
@@ -196,6 +198,11 @@ ParameterSet SegmentPanel::parameters() const {
 
 int SegmentPanel::source() const {
   return source_->currentData().toInt();
+}
+
+void SegmentPanel::setKeepsAllViews(bool keeps) {
+  const QSignalBlocker blocker(all_views_);
+  all_views_->setChecked(keeps);
 }
 
 bool SegmentPanel::keepsAllViews() const {

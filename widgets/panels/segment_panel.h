@@ -54,8 +54,9 @@ class SegmentPanel : public QWidget {
   [[nodiscard]] ParameterSet parameters() const;
   /// Id of the chosen disparity.
   [[nodiscard]] int source() const;
-  /// Whether to segment all views after each stroke.
+  /// Whether strokes change the labels of all views.
   [[nodiscard]] bool keepsAllViews() const;
+  void setKeepsAllViews(bool keeps);
   [[nodiscard]] QString state() const;
   [[nodiscard]] QString note() const;
 

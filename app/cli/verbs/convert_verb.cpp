@@ -2,6 +2,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
 #include "app/cli/job.h"
+#include "app/cli/label_files.h"
 #include "app/cli/output.h"
 #include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
@@ -13,6 +14,9 @@
 #include "engine/io/base/hdf5_repack.h"
 #include "engine/io/formats/quilt.h"
 #include "engine/io/formats/write_scene.h"
+#include "engine/io/models/labels/label_export.h"
+#include "engine/io/models/labels/label_import.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/io/write.h"
 
 #include <nlohmann/json.hpp>
@@ -37,6 +41,7 @@ struct ConvertRequest {
   io::MapValues values = io::MapValues::Disparity;
   bool has_disparity = false;  ///< Whether an archive gets disparity beside depth.
   ParameterOptions map;
+  LabelFileOptions labels{.prefers_truth = true};  ///< To take the place of the true labels.
   JobOptions job;
   ReadOptions read;
 };
@@ -47,7 +52,16 @@ constexpr const char* kMap = "map";
 std::vector<std::string> form_names() {
   std::vector<std::string> ids{kMap};
   for (const io::Writer& writer : io::writers()) ids.emplace_back(writer.id);
+  for (const auto& form : io::names_of(io::LabelForm{})) ids.emplace_back(form.name);
   return ids;
+}
+
+/// The form of a folder of labels that is asked for; nothing for light fields and maps.
+std::optional<io::LabelForm> label_form_of(const ConvertRequest& request) {
+  for (const auto& form : io::names_of(io::LabelForm{})) {
+    if (request.form == form.name) return form.value;
+  }
+  return std::nullopt;
 }
 
 bool parse(const VerbArguments& arguments, ConvertRequest& request) {
@@ -61,10 +75,13 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
        "views of it with --views all: .npy, .npz, .mat. Views, truth, labels, masks and\n"
        "camera are kept where the form can hold them; notes name what it cannot hold. Labels\n"
        "of the archive form are in OUT_labels.h5, or in labels.h5 beside lf.h5.\n"
+       "Labels alone, of a light field or of a file of label, become a folder for other tools:\n"
+       "--to labels (PNG with a palette), voc, coco or labelme, with the views as pictures.\n"
        "A RESULT takes the place of the truth of its light field; .h5 says so. Light fields\n"
        "in a folder are converted one by one into the folder OUT and keep their names.",
        "episcope-cli convert demo demo_folder/\n"
        "  episcope-cli convert demo views/ --to grid\n"
+       "  episcope-cli convert demo for_labelme/ --to labelme\n"
        "  episcope-cli convert demo.h5 demo.ply"});
   parser.positional("INPUT", request.input,
                     "A light field or a result; - is a map on standard input");
@@ -75,8 +92,10 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
                 "suffix of OUT");
   parser.option("--views", request.views, choice_of<ViewSelection>(),
                 "Views of a map: all that there are, or center (default center)");
-  parser.option("--truth", request.truth, text_value("INPUT"),
-                "Light field of a RESULT; by default the one named in its file");
+  parser.option(
+      "--truth", request.truth, text_value("INPUT"),
+      "Light field of a RESULT; by default the one named in its file. Of labels: the light "
+      "field whose views are written as pictures");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
               "Replace an existing light field, or a map with other values");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line for each file");
@@ -88,8 +107,14 @@ bool parse(const VerbArguments& arguments, ConvertRequest& request) {
   parser.flag("--repack", request.is_repacked, true,
               "Copy the HDF5 file INPUT with each dataset as one array, without chunks and "
               "compression, and with what its virtual datasets have in other files");
+  parser.option("--labels", request.labels.file, text_value("LABELS"),
+                "Labels of another program to write as the true labels: a file as --scribbles of "
+                "label reads, or a folder of them");
+  declare_label_options(parser, request.labels);
   declare_map_options(parser, request.map);
-  return parse_reading(parser, arguments, request.job, request.read);
+  if (!parse_reading(parser, arguments, request.job, request.read)) return false;
+  check_label_options(parser, request.labels, "--labels");
+  return true;
 }
 
 /// What is written: a light field in one of its forms, or a map.
@@ -203,6 +228,32 @@ Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
   return scene;
 }
 
+/// A truth with other labels.
+GroundTruthPtr with_labels(const GroundTruth& truth, ViewStack<std::int32_t> labels) {
+  const auto copy = [](const DisparityField& field) {
+    return DisparityField{field.disparity.clone(), field.valid.clone()};
+  };
+  auto changed = std::make_shared<GroundTruth>();
+  changed->field = copy(truth.field);
+  changed->foreground = copy(truth.foreground);
+  changed->background = copy(truth.background);
+  changed->labels = std::move(labels);
+  changed->regions = truth.regions;
+  changed->high_res = truth.high_res;
+  changed->stratified = truth.stratified;
+  changed->estimated = truth.estimated;
+  return changed;
+}
+
+void take_labels(Scene& scene, const ConvertRequest& request, Job& job, const Progress& progress) {
+  if (request.labels.file.empty()) return;
+  const LightField& field = *scene.light_field;
+  Scribbles labels = load_labels(request.labels, scene, job, progress);
+  scene.truth = with_labels(*scene.truth,
+                            io::stack_of(labels, {field.grid(), field.height(), field.width()}));
+  if (!labels.labels.empty()) scene.scribbles.labels = std::move(labels.labels);
+}
+
 void write_map(ConvertSubject& subject, const ConvertRequest& request, MapForm form) {
   if (subject.field().empty()) throw InvalidInput(request.input + " has no disparity to convert");
   take_truth(subject);
@@ -234,7 +285,8 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
     write_map(subject, request, target.map);
     return {};
   }
-  const Scene scene = scene_to_write(subject, request.output);
+  Scene scene = scene_to_write(subject, request.output);
+  take_labels(scene, request, job, progress.part(0, 0.2));
   for (const std::string& sentence : io::unsupported_parts(*target.writer, scene))
     job.note(sentence);
   note_missing_tiles(*target.writer, request.output, *scene.light_field, job);
@@ -293,6 +345,10 @@ void check_output(const ConvertRequest& request, const Target& target) {
     throw UsageError("--values depth is for a map (.pfm, .tiff, .npy), but the output is " +
                      request.output + "; leave it out, or name a map");
   }
+  if (!request.labels.file.empty() && !target.writer) {
+    throw UsageError("--labels is for a light field, but the output is the map " + request.output +
+                     "; leave it out, or name a light field");
+  }
   const bool is_archive = target.writer && std::string(target.writer->id) == "archive";
   if (request.has_disparity && !is_archive) {
     throw UsageError("--gt-disparity is for the archive form, but the output is " + request.output +
@@ -305,8 +361,68 @@ void check_output(const ConvertRequest& request, const Target& target) {
   if (target.writer && !is_folder) check_light_field_output(request.output, request.overwrite);
 }
 
+void check_label_folder(const ConvertRequest& request) {
+  if (request.views || request.has_disparity || request.values == io::MapValues::Depth) {
+    throw UsageError(
+        "convert: --views, --values and --gt-disparity have no effect on labels; leave "
+        "them out");
+  }
+  protect_input(request.output, request.input);
+  if (!request.truth.empty()) protect_input(request.output, request.truth);
+}
+
+/// Writes the labels of a segmentation file.
+void write_segmented(const ConvertRequest& request, io::LabelForm form, const Progress& progress) {
+  const io::SegmentationFile file(request.input);
+  io::LabelSource source;
+  for (int i = 0; i < file.grid().count(); ++i) {
+    source.views.push_back(file.grid().view_at(i, file.first()));
+  }
+  source.labels_of = [&file](ViewIndex view) { return file.labels(view); };
+  source.infos = file.infos();
+  if (!request.truth.empty()) {
+    source.pictures = load_input_of({request.input, file.reading()}, request.truth, request.read,
+                                    progress.part(0, 0.4))
+                          .light_field;
+    for (const ViewIndex view : source.views) (void)view_of(*source.pictures, view);
+  }
+  io::write_label_folder(request.output, form, source, progress.part(0.4, 1));
+}
+
+/// Writes the labels of a light field, with its views.
+void write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Job& job,
+                           const Progress& progress) {
+  Scene scene = load_input(request.input, request.read, progress.part(0, 0.3));
+  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  take_labels(scene, request, job, progress.part(0.3, 0.5));
+  if (scene.truth->labels.empty()) {
+    throw InvalidInput(request.input + " has no labels; name some with --labels");
+  }
+  io::LabelSource source = io::source_of(scene.truth->labels, scene.scribbles.labels);
+  source.pictures = scene.light_field;
+  io::write_label_folder(request.output, form, source, progress.part(0.5, 1));
+}
+
+[[nodiscard]] Json convert_labels(const ConvertRequest& request, io::LabelForm form, Job& job,
+                                  const Progress& progress) {
+  check_label_folder(request);
+  if (request.labels.file.empty() && io::is_segmentation_file(request.input)) {
+    write_segmented(request, form, progress);
+  } else {
+    write_labels_of_scene(request, form, job, progress);
+  }
+  job.finish();
+  if (!request.is_json) std::cout << request.output << ": written\n";
+  return Json::object({{"input", request.input},
+                       {"output", request.output},
+                       {"form", request.form},
+                       {"written", Json::array({request.output})}});
+}
+
 /// Returns what was converted, for JSON.
 [[nodiscard]] Json convert_one(const ConvertRequest& request, Job& job, const Progress& progress) {
+  if (const auto form = label_form_of(request))
+    return convert_labels(request, *form, job, progress);
   const Target target = target_of(request);
   check_output(request, target);
   ConvertSubject subject = load_subject(request, target, progress.part(0, 0.5));
@@ -401,8 +517,9 @@ void repack(const ConvertRequest& request, Job& job) {
 bool is_many(const ConvertRequest& request, const Progress& progress) {
   const bool may_be_folder = suffix_of(request.output).empty() || request.output.ends_with('/') ||
                              std::filesystem::is_directory(request.output);
-  return may_be_folder && request.form != kMap && request.truth.empty() &&
-         !names_result(request.input) && is_collection(request.input, request.read, progress);
+  return may_be_folder && request.form != kMap && !label_form_of(request) &&
+         request.truth.empty() && !names_result(request.input) &&
+         is_collection(request.input, request.read, progress);
 }
 
 }  // namespace
@@ -411,7 +528,7 @@ void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   ConvertRequest request;
   if (!parse(arguments, request)) return;
   const InputStream from(request.input, stop);
-  require_result_for(request.truth, request.input);
+  if (!label_form_of(request)) require_result_for(request.truth, request.input);
   const OutputStream to(request.output, ".npy");
   to.require_alone(request.is_json);
   request.is_piped = to.is_meant();

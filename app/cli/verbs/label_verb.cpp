@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
+#include "app/cli/label_files.h"
 #include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
 #include "app/cli/streams.h"
@@ -11,12 +12,9 @@
 #include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
-#include "engine/core/text.h"
 #include "engine/disparity/estimator.h"
 #include "engine/io/base/json.h"
 #include "engine/io/formats/archive_reader.h"
-#include "engine/io/models/scribble_file.h"
-#include "engine/io/models/scribble_picture.h"
 
 #include <nlohmann/json.hpp>
 
@@ -26,7 +24,6 @@
 #include <iostream>
 #include <iterator>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -36,8 +33,7 @@ namespace {
 struct LabelRequest {
   std::string input;
   std::string output;
-  std::string scribbles;
-  std::string colors;  // Table of the colors of scribbles that are pictures.
+  LabelFileOptions scribbles;
   std::string disparity;
   std::string given;    // Probabilities to begin with.
   std::string archive;  // Folder to write,
@@ -60,13 +56,14 @@ bool parse(const VerbArguments& arguments, LabelRequest& request) {
                     "The light field; - is one on standard input: HDF5, .npy, .npz, .mat or TIFF");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "File of labels to write");
-  parser.option("--scribbles", request.scribbles, text_value("LABELS.h5|PICTURE"),
-                "File of scribbles, a picture of those of the center view, or a folder of "
-                "scribbles_VV_UU.png; by default the file next to INPUT. In pictures a label is a "
-                "gray level, an index of the palette (0 = unpainted), or a distinct color; "
-                "transparent pixels, or else those of the most frequent color, are unpainted");
-  parser.option("--colors", request.colors, text_value("TABLE.csv"),
-                "What the colors of a picture mean: lines r,g,b,id,name; id 0 = unpainted");
+  parser.option(
+      "--scribbles", request.scribbles.file, text_value("LABELS"),
+      "Strokes, by default those next to INPUT: a file of labels, a picture (PNG, TIFF) or "
+      "an array (.npy, .mat, HDF5) of one view or of all, or a folder of pictures that are "
+      "named by row and column, as 04_04.png. In pictures a label is a gray level, an "
+      "index of the palette (0 = unpainted), or a distinct color; transparent pixels, or "
+      "else those of the most frequent color, are unpainted");
+  declare_label_options(parser, request.scribbles);
   parser.option(
       "--disparity", request.disparity, text_value("RESULT.h5"),
       std::string("Disparity of all views; by default ") + kLabelingEstimator + " estimates it");
@@ -96,9 +93,7 @@ bool parse(const VerbArguments& arguments, LabelRequest& request) {
   options.declare(parser, schema.descriptions(), {{"smoothness", "--boundary-cost"}});
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   request.parameters = schema.parse(options.values());
-  parser.check_uses({{{"--colors"},
-                      io::holds_scribble_pictures(request.scribbles),
-                      "unless --scribbles names a picture or a folder of pictures"}});
+  check_label_options(parser, request.scribbles, "--scribbles");
   if (!request.disparity.empty() && request.parameters.features == FeatureSet::ImageTruth) {
     throw UsageError(
         "label: --features image+truth uses the ground truth, so --disparity would have no effect");
@@ -141,27 +136,16 @@ void check_output(const LabelRequest& request, const InputStream& from) {
                         {{}, labeler_schema().values(request.parameters), request.input, reading},
                         request.overwrite);
   protect_input(request.output, request.input);
-  for (const std::string& file : {request.scribbles, request.disparity, request.given}) {
+  for (const std::string& file : {request.scribbles.file, request.disparity, request.given}) {
     if (!file.empty()) protect_input(request.output, file);
   }
   if (from.is(request.input)) require_no_other_source(request.output, request.overwrite);
   check_folders(request);
 }
 
-Scribbles load_pictures(const LabelRequest& request, const Scene& scene, Job& job) {
-  const LightField& lf = *scene.light_field;
-  io::PictureLabels labels{.known = scene.scribbles.labels};
-  if (!request.colors.empty()) labels.table = io::read_color_table(request.colors);
-  io::PictureStrokes strokes =
-      io::read_scribble_pictures(request.scribbles, {lf.grid(), lf.height(), lf.width()}, labels);
-  for (const std::string& note : strokes.notes) job.note(note);
-  return std::move(strokes.scribbles);
-}
-
 Scribbles load_scribbles(const LabelRequest& request, Scene& scene, Job& job) {
-  if (io::holds_scribble_pictures(request.scribbles)) return load_pictures(request, scene, job);
-  if (!request.scribbles.empty()) {
-    return io::read_scribbles(request.scribbles, scene, job.progress());
+  if (!request.scribbles.file.empty()) {
+    return load_labels(request.scribbles, scene, job, job.progress().part(0, 0));
   }
   if (scene.scribbles.empty() && !request.given.empty() && request.archive.empty()) return {};
   if (scene.scribbles.empty()) {
@@ -169,25 +153,6 @@ Scribbles load_scribbles(const LabelRequest& request, Scene& scene, Job& job) {
                        " has no scribbles next to it; name a file of scribbles with --scribbles");
   }
   return std::move(scene.scribbles);
-}
-
-/// Names painted ids that the true labels do not have: they can only be wrong.
-void note_unknown_labels(const Scribbles& scribbles, const Scene& scene, Job& job) {
-  const ViewStack<std::int32_t>& truth = scene.truth->labels;
-  if (truth.empty()) return;
-  std::set<std::int32_t> known(truth.data(), truth.data() + truth.size());
-  known.erase(0);
-  std::set<std::int32_t> unknown;
-  for (const ViewScribbles& one : scribbles.views) {
-    for (const std::int32_t id : one.labels) {
-      if (id > 0 && !known.contains(id)) unknown.insert(id);
-    }
-  }
-  if (unknown.empty()) return;
-  const auto text = [](std::int32_t id) { return std::to_string(id); };
-  job.note("GT_LABELS do not have " + std::string(unknown.size() == 1 ? "label " : "labels ") +
-           joined(unknown, ", ", text) + ", but " + joined(known, ", ", text) +
-           "; pixels of the former count as wrong");
 }
 
 Labeling label_views(Labeler& labeler, const Scribbles& scribbles, const Scene& scene,
@@ -294,7 +259,8 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   Scene scene = load_input(request.input, request.read, progress.part(0, 0.1));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
   const Scribbles scribbles = load_scribbles(request, scene, job);
-  note_unknown_labels(scribbles, scene, job);
+  const std::string unknown = unknown_labels_text(scribbles, scene.truth->labels);
+  if (!unknown.empty()) job.note(unknown);
   const Stopwatch watch;
   const LabelingDisparity disparity = find_labeling_disparity(
       scene, request.parameters, request.disparity, progress.part(0.1, 0.2), device);
@@ -314,12 +280,15 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   write_segmentation(request.output, segmentation,
                      from.is(request.input) ? std::string() : request.input, request.probabilities,
                      progress.part(0.95, 1));
-  LabelAnswer answer{*labeling, {}, seconds, {request.output}};
+  std::vector<std::string> written{request.output};
   std::ranges::move(write_archive(scene, scribbles, request, disparity, job),
-                    std::back_inserter(answer.written));
-  std::ranges::move(write_masks(segmentation, request, job), std::back_inserter(answer.written));
-  answer.scores = judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
-                                 *scene.truth, disparity.field.get(), progress.part(1, 1));
+                    std::back_inserter(written));
+  std::ranges::move(write_masks(segmentation, request, job), std::back_inserter(written));
+  const LabelAnswer answer{
+      *labeling,
+      judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
+                     *scene.truth, disparity.field.get(), progress.part(1, 1)),
+      seconds, std::move(written)};
   job.finish();
   request.is_json ? print_json_answer(request, answer, job) : print_text_answer(request, answer);
 }

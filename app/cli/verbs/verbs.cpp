@@ -20,6 +20,7 @@ constexpr Verb kVerbs[] = {
     {"synthesize", "Render a built-in scene with exact ground truth", run_synthesize},
     {"label", "Segment a light field from scribbles", run_label},
     {"benchmark", "Rank methods over scenes: tables, pictures, parameter search", run_benchmark},
+    {"decode", "Make a light field of a raw picture of a plenoptic camera", run_decode},
     {"calibrate", "Calibrate a camera from photographs of a pattern", run_calibrate},
     {"rectify", "Make a light field of photographs taken on a grid", run_rectify},
     {"pose", "Find where a mesh lies before the camera", run_pose},

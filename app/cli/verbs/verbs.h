@@ -35,6 +35,7 @@ void run_synthesize(const VerbArguments& arguments, std::stop_token stop);
 void run_label(const VerbArguments& arguments, std::stop_token stop);
 void run_validate(const VerbArguments& arguments, std::stop_token stop);
 void run_calibrate(const VerbArguments& arguments, std::stop_token stop);
+void run_decode(const VerbArguments& arguments, std::stop_token stop);
 void run_rectify(const VerbArguments& arguments, std::stop_token stop);
 void run_pose(const VerbArguments& arguments, std::stop_token stop);
 void run_ground_truth(const VerbArguments& arguments, std::stop_token stop);

@@ -99,12 +99,13 @@ inline constexpr int kCarry = 3;
 
 }  // namespace annotate_section
 
-/// Sections of the submenu Label.
+/// Sections of the submenu Labels.
 namespace label_section {
 
 inline constexpr int kLabels = 0;
 inline constexpr int kEdit = 1;
 inline constexpr int kLook = 2;
+inline constexpr int kFiles = 3;
 
 }  // namespace label_section
 

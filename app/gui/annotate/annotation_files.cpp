@@ -2,6 +2,7 @@
 #include "app/gui/annotate/annotation_files.h"
 
 #include "annotation/exchange.h"
+#include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/shell/commands.h"
@@ -13,8 +14,8 @@
 #include "engine/core/shear.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/models/labels/label_import.h"
 #include "engine/io/models/scribble_file.h"
-#include "engine/io/models/scribble_picture.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/panels/brush_panel.h"
 
@@ -53,14 +54,15 @@ AnnotationFiles::AnnotationFiles(const Workbench& bench, AnnotationBar* bar)
 void AnnotationFiles::addCommand(const QString& id, const QString& text, const QString& tip,
                                  const QString& icon, const QList<QKeySequence>& keys,
                                  void (AnnotationFiles::*run)()) {
+  const bool is_export = id == "export_scribbles";
   bench_.commands.add({.id = "file." + id,
-                       .menu = Menu::File,
+                       .menu = is_export ? Menu::Export : Menu::Labels,
                        .text = text,
                        .tip = tip,
                        .icon = icon,
                        .keys = keys,
                        .run = [this, run] { (this->*run)(); },
-                       .section = section::kScribbles,
+                       .section = is_export ? section::kLabels : label_section::kFiles,
                        .enabled = [this] { return session_.scene() != nullptr; }});
 }
 
@@ -77,7 +79,7 @@ void AnnotationFiles::addCommands() {
   addCommand("compare_labels", tr("Compare with true labels…"),
              tr("Compares the segmentation with the GT_LABELS of another file"), "open", {},
              &AnnotationFiles::compareDialog);
-  addCommand("export_scribbles", tr("Export scribbles as images…"),
+  addCommand("export_scribbles", tr("Scribbles as images…"),
              tr("Writes a PNG image of each painted view"), "picture", {},
              &AnnotationFiles::exportDialog);
   for (const char* id : {"file.save_scribbles", "file.import_scribbles", "file.export_scribbles"}) {
@@ -258,35 +260,28 @@ void AnnotationFiles::importDialog() {
   ask_for_file(&bench_.window,
                {.name = "import_scribbles",
                 .title = tr("Import scribbles"),
-                .filter = tr("Archive labels or pictures of strokes (*.h5 *.hdf5 *.png *.bmp "
-                             "*.tif *.tiff *.pgm);;All files (*)")},
+                .filter = tr("Labels and pictures of strokes (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff "
+                             "*.pgm *.npy *.npz *.mat);;All files (*)")},
                [this](const QString& path) { importFrom(path); });
 }
 
 void AnnotationFiles::importFrom(const QString& path) {
   if (!document_.document()) return;
-  const bool has_pictures = io::holds_scribble_pictures(path_of(path));
   // A picture that was exported stands for all of them.
   const bool is_exported = QFileInfo(path).fileName().startsWith("scribbles_");
-  const QString place = has_pictures && is_exported ? QFileInfo(path).path() : path;
+  const QString place = is_exported ? QFileInfo(path).path() : path;
   const std::uint64_t generation = session_.generation();
-  bench_.jobs.start<std::shared_ptr<io::PictureStrokes>>(
+  bench_.jobs.start<std::shared_ptr<io::ImportedLabels>>(
       Lane::Load, tr("Importing %1").arg(QFileInfo(path).fileName()),
-      [scene = session_.scene(), place, has_pictures,
+      [scene = session_.scene(), place,
        known = document_.document()->labels().labels()](const Progress& progress) {
-        auto read = std::make_shared<io::PictureStrokes>();
-        if (!has_pictures) {
-          read->scribbles = io::read_scribbles(path_of(place), *scene, progress);
-          return read;
-        }
-        const LightField& field = *scene->light_field;
-        *read = io::read_scribble_pictures(path_of(place),
-                                           {field.grid(), field.height(), field.width()},
-                                           {.known = {known.begin(), known.end()}});
-        read->scribbles = sheared(read->scribbles, field.center(), scene->convention.focus_px);
+        auto read = std::make_shared<io::ImportedLabels>(io::read_labels(
+            {path_of(place)}, *scene, {.known = {known.begin(), known.end()}}, progress));
+        const std::string renumbered = io::renumber_labels(read->scribbles, LabelSet::kMaxId);
+        if (!renumbered.empty()) read->notes.push_back(renumbered);
         return read;
       },
-      [this, path, generation](const std::shared_ptr<io::PictureStrokes>& read) {
+      [this, path, generation](const std::shared_ptr<io::ImportedLabels>& read) {
         if (generation != session_.generation()) return;
         const bool is_new = document_.edit(
             [&](AnnotationDocument& document) { import_scribbles(document, read->scribbles); });
@@ -396,6 +391,10 @@ void export_segmentation(const Workbench& bench, const SegmentController& segmen
         bench.jobs, bench.messages, path,
         [file, segmentation, source = bench.session.input()](const Progress& progress) {
           write_segmentation(file, *segmentation, source, StoredProbabilities::All, progress);
+        },
+        [&session = bench.session, scene = bench.session.generation(),
+         labeling = bench.session.labels().labeling] {
+          session.mark_labels_saved(scene, labeling);
         });
     return;
   }

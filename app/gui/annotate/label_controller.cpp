@@ -57,7 +57,7 @@ void LabelController::addChoiceCommands() {
   const auto has_label = [this] { return labels_.current() != 0; };
   for (int id = 1; id <= kLabelKeys; ++id) {
     bench_.commands.add({.id = QString("annotate.label_%1").arg(id),
-                         .menu = Menu::Label,
+                         .menu = Menu::Labels,
                          .text = tr("Label %1").arg(id),
                          .tip = tr("Paints with label %1").arg(id),
                          .keys = {QKeySequence(Qt::Key_0 + id)},
@@ -73,7 +73,7 @@ void LabelController::addChoiceCommands() {
                              }});
   }
   bench_.commands.add({.id = "annotate.next_label",
-                       .menu = Menu::Label,
+                       .menu = Menu::Labels,
                        .text = tr("Next label"),
                        .tip = tr("Paints with the next label"),
                        .keys = {Qt::Key_N},
@@ -81,7 +81,7 @@ void LabelController::addChoiceCommands() {
                        .section = label_section::kEdit,
                        .enabled = has_label});
   bench_.commands.add({.id = "annotate.swap_labels",
-                       .menu = Menu::Label,
+                       .menu = Menu::Labels,
                        .text = tr("Swap labels"),
                        .tip = tr("Returns to the label used before"),
                        .keys = {Qt::Key_X},
@@ -95,7 +95,7 @@ void LabelController::addEditCommands() {
                               const QString& icon, const QList<QKeySequence>& keys,
                               std::function<void()> run) {
     bench_.commands.add({.id = "annotate." + id,
-                         .menu = Menu::Label,
+                         .menu = Menu::Labels,
                          .text = text,
                          .tip = tip,
                          .icon = icon,
@@ -291,7 +291,7 @@ void LabelLookController::addCommands() {
   const auto marks = [this]() -> const LabelMarks& { return bench_.session.place().label_marks; };
   bench_.commands.add(
       {.id = "annotate.hide_label",
-       .menu = Menu::Label,
+       .menu = Menu::Labels,
        .text = tr("Hide label"),
        .tip = tr("Neither shows the current label nor paints over it"),
        .icon = "eye_off",
@@ -301,7 +301,7 @@ void LabelLookController::addCommands() {
        .enabled = has_label,
        .checked = [=] { return marks().hidden.contains(current()); }});
   bench_.commands.add({.id = "annotate.only_label",
-                       .menu = Menu::Label,
+                       .menu = Menu::Labels,
                        .text = tr("Show only this label"),
                        .tip = tr("Hides all other labels; a second time shows them again"),
                        .run = [this, current] { showOnly(current()); },
@@ -309,7 +309,7 @@ void LabelLookController::addCommands() {
                        .enabled = has_label});
   bench_.commands.add(
       {.id = "annotate.lock_label",
-       .menu = Menu::Label,
+       .menu = Menu::Labels,
        .text = tr("Lock label"),
        .tip = tr("The current label is neither painted nor painted over"),
        .icon = "lock",
@@ -320,7 +320,7 @@ void LabelLookController::addCommands() {
        .checked = [=] { return marks().locked.contains(current()); }});
   bench_.commands.add(
       {.id = "annotate.drawing",
-       .menu = Menu::Label,
+       .menu = Menu::Labels,
        .text = tr("Draw labels as areas, contours or both"),
        .tip = tr("Draws strokes and segments as areas, as contours, or as faint areas with "
                  "contours"),

@@ -95,7 +95,7 @@ void LabelingSource::provide() {
     return;
   }
   own_[generation] = {};
-  const quint64 job = jobs_.start<FinishedEstimate>(
+  job_ = jobs_.start<FinishedEstimate>(
       Lane::Estimate, job_title(tr("Disparity for labels"), session_),
       [scene](const Progress& progress) {
         return run_estimator(*scene, find_estimator(kQuickEstimator), {}, {}, progress);
@@ -105,7 +105,7 @@ void LabelingSource::provide() {
         if (own != own_.end()) own->second = disparity_of(finished.estimate, kQuickEstimator);
       },
       [this] { emit changed(); });
-  jobs_.setScene(job, generation);
+  jobs_.setScene(job_, generation);
 }
 
 EdgeSource::EdgeSource(Session& session, QObject* parent)

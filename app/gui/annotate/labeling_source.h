@@ -39,6 +39,8 @@ class LabelingSource : public QObject {
   void provide();
   /// Whether a disparity is being computed.
   [[nodiscard]] bool isComing() const;
+  /// Whether this job estimates a disparity for labels alone.
+  [[nodiscard]] bool isProvidedBy(quint64 job) const { return job != 0 && job == job_; }
 
  signals:
   /// The disparity found, or the choices, may have changed.
@@ -57,6 +59,7 @@ class LabelingSource : public QObject {
   int choice_ = Automatic;
   // Estimated for labels alone, by scene; without a field as long as it is not there.
   std::map<std::uint64_t, LabelingDisparity> own_;
+  quint64 job_ = 0;  // the newest of them
 };
 
 /// Edge weights from a file beside the light field, read in the background when a scene is opened.

@@ -46,6 +46,10 @@ SegmentController::SegmentController(const Workbench& bench, SegmentPanel* panel
   bench.cancels.add(CancelRank::LiveSegmentation, [this] { return cancel(); });
   connect(&jobs_, &Jobs::removed, this, [this] {
     if (is_live_ || is_wanted_) source_.provide();
+    goOnWithAllViews();
+  });
+  connect(&jobs_, &Jobs::cancelling, this, [this](quint64 id) {
+    if (source_.isProvidedBy(id) && awaiting_.erase(session_.generation()) > 0) showState();
   });
   session_.on_changed([this](Parts parts) { update(parts); });
   showState();
@@ -66,6 +70,7 @@ void SegmentController::connectDocument() {
         live_.has_input() &&
         live_.input()->disparity == source_.find(live_.input()->parameters.features).field;
     is_same ? showState() : noteInput();
+    goOnWithAllViews();
   });
   connect(&edges_, &EdgeSource::changed, this, &SegmentController::noteInput);
   connect(&edges_, &EdgeSource::failed, &bench_.messages, &Messages::hint);
@@ -77,14 +82,25 @@ void SegmentController::connectPanel() {
   connect(panel_, &SegmentPanel::sourceEdited, this, [this] { source_.choose(panel_->source()); });
   connect(panel_, &SegmentPanel::parametersEdited, this, &SegmentController::noteInput);
   connect(panel_, &SegmentPanel::smoothingEdited, this, &SegmentController::smoothBoundaries);
-  connect(panel_, &SegmentPanel::keepsAllViewsEdited, this, &SegmentController::followLabeler);
+  connect(panel_, &SegmentPanel::keepsAllViewsEdited, this, [this] {
+    if (is_live_) begin();
+    followLabeler();
+  });
+}
+
+bool SegmentController::hasSegmentation() const {
+  return live_.labeling(session_.view()) && std::as_const(document_).document() &&
+         live_.has_input();
+}
+
+bool SegmentController::isSegmentationUpToDate() const {
+  return live_.is_widest_up_to_date(session_.view());
 }
 
 std::optional<Segmentation> SegmentController::segmentation() const {
-  LabelingPtr labeling = live_.labeling(session_.view());
+  if (!hasSegmentation()) return std::nullopt;
   const AnnotationDocument* document = std::as_const(document_).document();
-  if (!labeling || !document || !live_.has_input()) return std::nullopt;
-  return Segmentation{std::move(labeling), document->labels().labels(),
+  return Segmentation{live_.widest(session_.view()), document->labels().labels(),
                       labeler_schema().values(possible_parameters(*live_.input())),
                       live_.input()->light_field->info().reading, finish()};
 }
@@ -112,7 +128,7 @@ bool SegmentController::isComing() const {
   const bool lacks_strokes = live_.state() == LiveState::Hint || live_.state() == LiveState::Failed;
   const KeptLabels& kept = session_.labels();
   return live_.is_running() || is_wanted_ || (is_live_ && !lacks_strokes) || isSegmentingAll() ||
-         (!kept.labeling && !kept.file.empty());
+         awaiting_.contains(session_.generation()) || (!kept.labeling && !kept.file.empty());
 }
 
 QString SegmentController::title(render::Quantity quantity) const {
@@ -203,16 +219,27 @@ void SegmentController::noteInput() {
     input.scribbles = std::make_shared<const ScribbleLayer>(document->scribbles());
     live_.set_input(std::move(input));
     restore();
+    const LabelingPtr all = live_.labeling(session_.view());
+    const bool is_back = all && all->labels.grid().count() > 1 && isSegmentationUpToDate();
+    if (is_back) keep(all, *live_.input());
     if (is_live_ || is_wanted_) begin();
   }
   publish();
+  goOnWithAllViews();
 }
 
 void SegmentController::begin() {
   if (!live_.has_input()) return;
   if (!live_.input()->disparity) source_.provide();
-  live_.label(session_.view());
-  if (live_.is_running()) clock_.start();
+  const ViewIndex view = session_.view();
+  const bool was_running = live_.is_running();
+  if (panel_->keepsAllViews() && live_.can_correct()) {
+    live_.correct(view);
+  } else if (is_wanted_ || !live_.is_before_strokes(view)) {
+    live_.label(view);
+  }
+  if (live_.is_running() && !was_running) clock_.start();
+  if (is_live_ && panel_->keepsAllViews()) live_.prepare(view);
   endWish();
 }
 
@@ -290,6 +317,9 @@ QString SegmentController::missing() const {
     return QString::fromStdString(live_.sentence());
   }
   if (!live_.has_input() || live_.input()->disparity) return {};
+  if (awaiting_.contains(session_.generation())) {
+    return tr("All views are segmented once the disparity is estimated.");
+  }
   if (live_.input()->parameters.features == FeatureSet::ImageTruth) {
     return tr(
         "There is no ground-truth disparity for all views: labels are based on the images alone.");
@@ -300,6 +330,13 @@ QString SegmentController::missing() const {
   return {};
 }
 
+// How far the correction of all views is.
+QString SegmentController::correcting() const {
+  return tr("correcting views: %1 of %2 …")
+      .arg(live_.corrected_views().size())
+      .arg(session_.light_field()->grid().count());
+}
+
 SegmentController::State SegmentController::state() const {
   const QString seconds = tr("%1 s").arg(seconds_, 0, 'f', 1);
   switch (live_.state()) {
@@ -308,6 +345,7 @@ SegmentController::State SegmentController::state() const {
     case LiveState::Labeling:
       return {tr("labeling …"), ChipMood::Busy};
     case LiveState::Refining:
+      if (!live_.corrected_views().empty()) return {correcting(), ChipMood::Busy};
       return {tr("refining … %1").arg(seconds), ChipMood::Busy};
     case LiveState::Hint:
       return {tr("waiting"), ChipMood::Hint};
@@ -318,7 +356,15 @@ SegmentController::State SegmentController::state() const {
       break;
   }
   if (!session_.scene()) return {{}, ChipMood::Quiet};
-  if (!live_.labeling(session_.view())) return {tr("idle"), ChipMood::Quiet};
+  if (!live_.labeling(session_.view()) && !awaiting_.contains(session_.generation())) {
+    return {tr("idle"), ChipMood::Quiet};
+  }
+  if (awaiting_.contains(session_.generation())) {
+    return {tr("waiting for the disparity …"), ChipMood::Busy};
+  }
+  if (live_.is_before_strokes(session_.view())) {
+    return {tr("before the last stroke"), ChipMood::Stale};
+  }
   if (!live_.is_up_to_date(session_.view())) return {tr("out of date"), ChipMood::Stale};
   return {tr("idle · %1").arg(seconds), ChipMood::Quiet};
 }
@@ -329,8 +375,12 @@ void SegmentController::showState() {
       shown.text, shown.mood,
       tr("State of the segmentation of this view, and how long it took.") + '\n' + edges_.origin());
   panel_->setSmoothing(smoothing());
-  const QString sentence = missing();
-  panel_->setNote(sentence.isEmpty() ? scores_ : sentence);
+  QStringList notes{missing().isEmpty() ? scores_ : missing()};
+  if (live_.is_up_to_date(session_.view()) && !isSegmentationUpToDate()) {
+    notes << tr("Other views: before the last stroke.");
+  }
+  notes.removeAll({});
+  panel_->setNote(notes.join('\n'));
   bench_.commands.refresh();
 }
 
@@ -374,11 +424,38 @@ void SegmentController::showScores(const LabelingScores& scores) {
 
 void SegmentController::segmentAllViews() {
   if (!live_.has_input()) return;
-  const auto input = live_.input();
-  if (!input->disparity) source_.provide();
-  tried_all_ = input;
   wants_to_show_ = true;
+  if (!live_.input()->disparity) source_.provide();
+  if (awaitsDisparity()) {
+    awaiting_.insert(session_.generation());
+    showState();
+  } else {
+    startAllViews();
+  }
+}
+
+// Whether a disparity is being estimated, or has not yet become part of the input.
+bool SegmentController::awaitsDisparity() const {
+  return !live_.input()->disparity &&
+         (source_.isComing() || source_.find(live_.input()->parameters.features).field);
+}
+
+void SegmentController::goOnWithAllViews() {
+  if (!awaiting_.contains(session_.generation()) || !live_.has_input()) return;
+  if (!live_.input()->disparity) source_.provide();
+  if (awaitsDisparity()) return;
+  if (!live_.input()->disparity) {
+    bench_.messages.hint(
+        tr("There is no disparity of all views: all views are segmented by the images alone."));
+  }
+  startAllViews();
+}
+
+void SegmentController::startAllViews() {
+  const auto input = live_.input();
+  tried_all_ = input;
   const std::uint64_t scene = session_.generation();
+  awaiting_.erase(scene);
   quint64& job = all_views_[scene];
   jobs_.cancel(job);
   job = jobs_.start<LabelingPtr>(
@@ -404,11 +481,14 @@ void SegmentController::finishAll(const LabelingPtr& labeling,
                                   const std::shared_ptr<const LabelingInput>& input) {
   keep(labeling, *input);
   live_.take(labeling, input);
+  panel_->setKeepsAllViews(true);
+  if (is_live_) begin();
   seconds_ = labeling->seconds;
   publish();
 }
 
 void SegmentController::endAllViewsOfClosed() {
+  std::erase_if(awaiting_, [this](std::uint64_t each) { return !session_.find_scene(each); });
   for (auto each = all_views_.begin(); each != all_views_.end();) {
     const bool is_open = session_.find_scene(each->first) != nullptr;
     if (!is_open) jobs_.cancel(each->second);
@@ -459,8 +539,13 @@ void SegmentController::adopt(const KeptLabels& kept) {
   }
   // What was painted since makes them out of date.
   const bool is_of_now = hash_of(*live_.input()->scribbles) == kept.strokes;
-  live_.take(kept.labeling,
-             is_of_now ? live_.input() : std::make_shared<const LabelingInput>(*live_.input()));
+  auto input = live_.input();
+  if (!is_of_now) {
+    LabelingInput former = *input;
+    former.scribbles = nullptr;
+    input = std::make_shared<const LabelingInput>(std::move(former));
+  }
+  live_.take(kept.labeling, input);
   publish();
 }
 
@@ -468,9 +553,8 @@ namespace {
 
 using render::Quantity;
 
-// Sections of the menu.
+// Section of the menu.
 constexpr int kSegmentSection = 0;
-constexpr int kSegmentMapSection = 1;
 
 }  // namespace
 
@@ -509,22 +593,24 @@ void SegmentController::addRunCommands() {
 void SegmentController::addExportCommands() {
   bench_.commands.add(
       {.id = "segment.export",
-       .menu = Menu::Segmentation,
-       .text = tr("Export segmentation…"),
+       .menu = Menu::Export,
+       .text = tr("Segmentation…"),
        .tip = tr("Writes labels and probabilities as HDF5, or the labels of this view as PNG"),
        .icon = "export",
        .run = [this] { ask_to_export_segmentation(bench_, *this); },
-       .section = kSegmentSection,
-       .enabled = [this] { return segmentation().has_value(); }});
+       .section = section::kLabels,
+
+       .enabled = [this] { return hasSegmentation(); }});
   bench_.commands.add(
       {.id = "segment.export_masks",
-       .menu = Menu::Segmentation,
-       .text = tr("Export masks…"),
+       .menu = Menu::Export,
+       .text = tr("Masks of labels…"),
        .tip = tr("Writes a black and white PNG of every label in every segmented view to a folder"),
        .icon = "export",
        .run = [this] { ask_to_export_masks(bench_, *this); },
-       .section = kSegmentSection,
-       .enabled = [this] { return segmentation().has_value(); }});
+       .section = section::kLabels,
+
+       .enabled = [this] { return hasSegmentation(); }});
 }
 
 void SegmentController::addSmoothingCommands() {
@@ -563,7 +649,7 @@ void SegmentController::addOverlayCommands() {
     const Quantity quantity = row.quantity;
     QAction* action = bench_.commands.add(
         {.id = row.id,
-         .menu = Menu::Segmentation,
+         .menu = Menu::Map,
          .text = quantity_button(quantity),
          .tip = quantity_tip(quantity),
          .keys = row.keys,
@@ -572,10 +658,11 @@ void SegmentController::addOverlayCommands() {
                const bool is_shown = overlay.quantity() == quantity;
                overlay.setQuantity(is_shown ? Quantity::View : quantity);
              },
-         .section = kSegmentMapSection,
+         .section = section::kMaps,
          .enabled = [&overlay, quantity] { return overlay.isAvailable(quantity); },
-         .checked = [&overlay, quantity] { return overlay.quantity() == quantity; },
-         .choice = "overlay"});
+         .checked = [&overlay, quantity] { return overlay.chosenQuantity() == quantity; },
+         .choice = "overlay",
+         .visible = [&overlay, quantity] { return overlay.isAvailable(quantity); }});
     panel_->addOverlay(action, QString("button.%1").arg(row.id));
   }
 }

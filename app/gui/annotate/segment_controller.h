@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace episcope {
 
@@ -33,7 +34,8 @@ class SegmentController : public QObject, public MapProvider {
   void setLive(bool is_live);
   /// Segments this view once.
   void updateNow();
-  /// Segments all views as a job, which continues while other scenes are shown.
+  /// Segments all views as a job, which continues while other scenes are shown. If the disparity is
+  /// still to be estimated, begins when it is there.
   void segmentAllViews();
   /// Ends the current computation for this view; false if there is none.
   bool cancel();
@@ -41,8 +43,12 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] const LiveLabeler& labeler() const { return live_; }
   /// Whether all views of the shown scene are being segmented.
   [[nodiscard]] bool isSegmentingAll() const;
-  /// Labels that cover the current view, as files store them; none if there are none.
+  [[nodiscard]] bool hasSegmentation() const;
+  /// Labels that cover the current view, as files store them, and all others if all were segmented;
+  /// none if there are none. Takes a moment if single views have newer labels than the others.
   [[nodiscard]] std::optional<Segmentation> segmentation() const;
+  /// Whether those are of the present strokes and settings in all their views.
+  [[nodiscard]] bool isSegmentationUpToDate() const;
   /// Smooths the boundaries of all labels, as one step of the history.
   void smoothBoundaries(double smoothing_px);
 
@@ -79,6 +85,9 @@ class SegmentController : public QObject, public MapProvider {
   void begin();
   void endWish();
   void finishAll(const LabelingPtr& labeling, const std::shared_ptr<const LabelingInput>& input);
+  void startAllViews();
+  void goOnWithAllViews();
+  [[nodiscard]] bool awaitsDisparity() const;
   void endAllViewsOfClosed();
   void followLabeler();
   void publish();
@@ -86,6 +95,7 @@ class SegmentController : public QObject, public MapProvider {
   void restore();
   void adopt(const KeptLabels& kept);
   [[nodiscard]] State state() const;
+  [[nodiscard]] QString correcting() const;
   void showState();
   void score();
   void showLabels();
@@ -113,6 +123,7 @@ class SegmentController : public QObject, public MapProvider {
   LabelingPtr shown_labeling_;
   std::shared_ptr<const LabelingInput> tried_all_;
   std::map<std::uint64_t, quint64> all_views_;  // the newest job of each scene
+  std::set<std::uint64_t> awaiting_;            // scenes whose views are segmented after that
   std::uint64_t restored_ = 0;                  // scene whose kept labels were brought back
   LatestJob score_job_;
   LiveLabeler live_;

@@ -505,7 +505,7 @@ InfoController::InfoController(const Workbench& bench)
                           .tip = tr("Overrides the detected order of views, units or file names"),
                           .keys = {tr("Ctrl+Shift+R")},
                           .run = [this] { askForConventions(); },
-                          .section = section::kOpen,
+                          .section = section::kReading,
                           .enabled = [this] { return !bench_.opener.reopenable().isEmpty(); }});
   panel_->setConventionsAction(conventions);
   reverse_ = bench.commands.add(
@@ -514,7 +514,7 @@ InfoController::InfoController(const Workbench& bench)
        .text = tr("Reverse near and far"),
        .tip = tr("Reverses the order of views along both axes, which swaps near and far"),
        .run = [this] { reverseSign(); },
-       .section = section::kOpen,
+       .section = section::kReading,
        .enabled = [this] { return canReverseSign(); }});
   connect(&bench.viewer_area, &ViewerArea::previewChanged, this, &InfoController::show);
   connect(&bench.opener, &SceneOpener::changed, &bench.commands, &Commands::refresh);

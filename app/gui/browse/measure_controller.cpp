@@ -58,7 +58,7 @@ void MeasureController::addCommand(const Row& row) {
   const bool needs_current = row.run != &MeasureController::keep;
   bench_.commands.add(
       {.id = row.id,
-       .menu = Menu::Measurements,
+       .menu = row.run == &MeasureController::save ? Menu::Export : Menu::Measurements,
        .text = row.text,
        .tip = row.tip,
        .icon = row.icon,
@@ -94,7 +94,7 @@ void MeasureController::addCommands() {
               "copy",
               &MeasureController::copy});
   addCommand({"measure.save",
-              tr("Save measurements…"),
+              tr("Measurements…"),
               tr("Saves all measured lines as a table (CSV)"),
               {},
               "export",

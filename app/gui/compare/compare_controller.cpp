@@ -62,7 +62,12 @@ CompareController::CompareController(const Workbench& bench, CompareBar* bar)
           [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
   connect(bar_, &CompareBar::bChosen, this,
           [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
-  connect(&overlay_, &Overlay::choiceChanged, this, &CompareController::listChoices);
+  connect(&overlay_, &Overlay::choiceChanged, this, [this] {
+    // Of a light field that is just coming, the mode follows.
+    const bool is_of_scene = mode_ == session_.place().comparison.mode;
+    if (overlay_.showsDifference() && mode_ != CompareMode::Wall && is_of_scene) leave();
+    listChoices();
+  });
   listChoices();
   session_.on_changed([this](Parts parts) { update(parts); });
 }
@@ -170,11 +175,6 @@ bool CompareController::leave() {
   if (mode_ == CompareMode::Single) return false;
   setMode(CompareMode::Single);
   return true;
-}
-
-void CompareController::toggleDifference() {
-  if (!overlay_.showsDifference() && mode_ != CompareMode::Wall) leave();
-  overlay_.setDifference(!overlay_.showsDifference());
 }
 
 void CompareController::showMode() {
@@ -332,37 +332,40 @@ void CompareController::addOverlayCommands() {
     const Quantity quantity = info.quantity;
     bench_.commands.add(
         {.id = "overlay." + (quantity == Quantity::View ? QString("none") : QString(info.id)),
-         .menu = Menu::Compare,
+         .menu = Menu::Map,
          .text = quantity_button(quantity),
          .tip = quantity_tip(quantity),
          .run = [this, quantity] { overlay_.setQuantity(quantity); },
-         .section = compare_section::kMaps,
-         .bar = info.has_button ? BarSection::Maps : BarSection::None,
+         .section = section::kMaps,
          .enabled = [this, quantity] { return overlay_.isAvailable(quantity); },
-         .checked = [this, quantity] { return overlay_.quantity() == quantity; },
-         .choice = "overlay"});
+         .checked = [this, quantity] { return overlay_.chosenQuantity() == quantity; },
+         .choice = "overlay",
+         .visible =
+             [this, quantity] {
+               return quantity == Quantity::View || overlay_.isAvailable(quantity);
+             }});
   }
   QAction* color = bench_.commands.add(
       {.id = "overlay.color",
-       .menu = Menu::Compare,
+       .menu = Menu::Map,
        .text = tr("Colored view under maps"),
        .tip = tr("Keeps the colors of the view under maps; without, it is grey, so that only the "
                  "map has colors"),
        .icon = "color",
        .run = [this] { overlay_.setViewColored(!overlay_.isViewColored()); },
-       .section = compare_section::kMaps,
+       .section = section::kMapLook,
        .checked = [this] { return overlay_.isViewColored(); }});
   bench_.viewer_area.overlayBar()->addOpacityAction(color);
 }
 
 void CompareController::addChoiceCommands() {
   bench_.commands.add({.id = "compare.next_map",
-                       .menu = Menu::Compare,
+                       .menu = Menu::Map,
                        .text = tr("Next map"),
                        .tip = tr("Shows the next map over the view"),
                        .keys = {Qt::Key_M},
                        .run = [this] { overlay_.selectNextQuantity(); },
-                       .section = compare_section::kChoice});
+                       .section = section::kMapLook});
   bench_.commands.add(
       {.id = "compare.flip",
        .menu = Menu::Compare,
@@ -383,16 +386,17 @@ void CompareController::addChoiceCommands() {
 void CompareController::addPairCommands() {
   bench_.commands.add(
       {.id = "compare.difference",
-       .menu = Menu::Compare,
+       .menu = Menu::Map,
        .text = tr("Difference A − B"),
        .tip = tr("Shows A minus B, the result shown minus the one it is compared with"),
        .icon = "difference",
        .keys = {Qt::Key_D},
-       .run = [this] { toggleDifference(); },
-       .section = compare_section::kChoice,
-       .bar = BarSection::Compare,
+       .run = [this] { overlay_.setDifference(!overlay_.showsDifference()); },
+       .section = section::kMaps,
        .enabled = [this] { return session_.side_b() != nullptr; },
-       .checked = [this] { return overlay_.showsDifference(); }});
+       .checked = [this] { return overlay_.showsDifference(); },
+       .choice = "overlay",
+       .visible = [this] { return session_.side_b() != nullptr; }});
   bench_.commands.add(
       {.id = "compare.swap",
        .menu = Menu::Compare,
@@ -442,6 +446,10 @@ void CompareController::addCommands() {
   addModeCommands();
   addChoiceCommands();
   addPairCommands();
+  for (const char* id :
+       {"overlay.disparity", "overlay.error", "overlay.absolute_error", "overlay.bad_pixels"}) {
+    bar_->addMap(bench_.commands.find(id), QString("button.%1").arg(id));
+  }
   for (const char* id :
        {"compare.wipe", "compare.sides", "compare.tiles", "compare.difference", "compare.swap"}) {
     bar_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));

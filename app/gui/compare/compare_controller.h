@@ -58,7 +58,6 @@ class CompareController : public QObject {
   /// Returns to the single picture; false if it is shown already.
   bool leave();
   /// Shows A − B instead of the quantity, which ends a wipe.
-  void toggleDifference();
 
  private:
   struct Entry {
@@ -109,9 +108,8 @@ class CompareController : public QObject {
 namespace episcope::compare_section {
 
 // Sections of the menu Compare, in their order.
-inline constexpr int kMaps = 0;
-inline constexpr int kChoice = 1;
-inline constexpr int kRange = 2;
-inline constexpr int kModes = 3;
+inline constexpr int kChoice = 0;
+inline constexpr int kRange = 1;
+inline constexpr int kModes = 2;
 
 }  // namespace episcope::compare_section

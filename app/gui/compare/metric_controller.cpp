@@ -2,6 +2,7 @@
 #include "app/gui/compare/metric_controller.h"
 
 #include "app/gui/compare/region_controller.h"
+#include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/command_line.h"
@@ -80,12 +81,31 @@ MetricController::MetricController(const Workbench& bench, MetricTable* table,
                              : tr("Copied the numbers of %1 results as %2").arg(count).arg(form));
   });
   connect(table_, &MetricTable::saveRequested, this, &MetricController::save);
+  addCommands();
   connect(&region_, &RegionController::changed, this, [this] {
     scored_.clear();
     update(Part::Evaluations);
   });
   session_.on_changed([this](Parts parts) { update(parts); });
   update(Part::Scene);
+}
+
+void MetricController::addCommands() {
+  const auto add = [this](const QString& suffix, const QString& text, const QString& tip) {
+    bench_.commands.add(
+        {.id = "file.save_metrics_" + suffix,
+         .menu = Menu::Export,
+         .text = text,
+         .tip = tip,
+         .run = [this,
+                 suffix] { save(suffix, suffix == "csv" ? table_->toCsv() : table_->toLatex()); },
+         .section = section::kResults,
+         .enabled = [this] { return !table_->isEmpty(); }});
+  };
+  add("csv", tr("Table of metrics (CSV)…"),
+      tr("Writes the metrics of all results with every column, as numbers for a program"));
+  add("tex", tr("Table of metrics (LaTeX)…"),
+      tr("Writes the metrics of all results as they are shown, as a LaTeX table"));
 }
 
 void MetricController::update(Parts parts) {

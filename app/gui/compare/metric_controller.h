@@ -43,6 +43,7 @@ class MetricController : public QObject {
     PartScore score;
   };
 
+  void addCommands();
   void update(Parts parts);
   void fillTable();
   void addPixels(std::vector<MetricColumn>& columns) const;

@@ -82,21 +82,21 @@ void ask_for_map(const Workbench& bench) {
 void add_picture_export(const Workbench& bench) {
   const auto has_scene = [&session = bench.session] { return session.scene() != nullptr; };
   bench.commands.add({.id = "file.save_picture",
-                      .menu = Menu::File,
-                      .text = PictureExportText::tr("Save picture…"),
+                      .menu = Menu::Export,
+                      .text = PictureExportText::tr("Picture…"),
                       .tip = PictureExportText::tr(
                           "Saves the view as it is shown, with its brightness and overlay, as PNG"),
                       .icon = "save",
                       .keys = {PictureExportText::tr("Ctrl+Shift+E")},
                       .run = [bench] { ask_for_picture(bench); },
-                      .section = section::kExport,
+                      .section = section::kPictures,
                       .enabled = has_scene});
   bench.commands.add({.id = "file.save_map",
-                      .menu = Menu::File,
-                      .text = PictureExportText::tr("Save map…"),
+                      .menu = Menu::Export,
+                      .text = PictureExportText::tr("Map…"),
                       .tip = PictureExportText::tr("Saves the map drawn over the view as PNG"),
                       .run = [bench] { ask_for_map(bench); },
-                      .section = section::kExport,
+                      .section = section::kPictures,
                       .enabled = has_scene});
 }
 
@@ -193,12 +193,12 @@ MovieExport::MovieExport(const Workbench& bench)
   connect(panel_, &MoviePanel::saveRequested, this, &MovieExport::ask);
   connect(panel_, &MoviePanel::cancelRequested, dialog_, &QDialog::reject);
   bench.commands.add({.id = "file.save_movie",
-                      .menu = Menu::File,
-                      .text = tr("Save movie…"),
+                      .menu = Menu::Export,
+                      .text = tr("Movie…"),
                       .tip = tr("Parallax, refocusing or flips as MP4, WebM or GIF"),
                       .keys = {tr("Ctrl+Shift+M")},
                       .run = [this] { open(); },
-                      .section = section::kExport,
+                      .section = section::kPictures,
                       .enabled = [this] { return bench_.session.scene() != nullptr; }});
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/estimate_controller.h"
 
+#include "app/gui/estimate/method_range.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/estimate/sweep_controller.h"
 #include "app/gui/scene/scene_opener.h"
@@ -75,8 +76,8 @@ std::vector<MethodDescription> described_methods() {
   std::vector<MethodDescription> methods;
   for (const Estimator& estimator : registered_estimators()) {
     const EstimatorInfo& info = estimator.info;
-    methods.push_back(
-        {info.id, info.name, info.summary, info.reference, info.all_views, estimator.parameters});
+    methods.push_back({info.id, info.name, info.summary, info.reference, info.all_views,
+                       estimator.parameters, info.main_parameters});
   }
   return methods;
 }
@@ -115,6 +116,7 @@ EstimateController::EstimateController(const Workbench& bench)
   addTab();
   addCommands();
   add_measured_range(bench_, method_);
+  new MethodRange(bench_, *method_);
   method_->setMethods(described_methods());
   new LiveController(bench, *method_);
   new SweepController(bench, *method_);
@@ -124,14 +126,22 @@ EstimateController::EstimateController(const Workbench& bench)
   connect(method_, &MethodPanel::copyCommandRequested, this, &EstimateController::copyCommand);
   connectResults();
   connect(&runs_, &MethodRuns::changed, this, &EstimateController::showRunning);
-  // The demo scene is estimated at once, so that there is something to see. Photographs of the
-  // gantry are rectified first.
-  connect(&bench.opener, &SceneOpener::opened, this, [this](const QString& input) {
-    const std::string id = builtin_scene_id(input.toStdString());
-    if (!id.empty() && !is_gantry(id)) run({kFirstMethod, {}, {}});
+  connect(&bench.opener, &SceneOpener::opened, this, &EstimateController::runFirst);
+  connect(&bench.frame, &Frame::started, this, [this] { is_settled_ = false; });
+  connect(&bench.frame, &Frame::settled, this, [this] {
+    if (!std::exchange(is_settled_, true) && session_.scene() && session_.estimates().empty()) {
+      runFirst(QString::fromStdString(session_.input()));
+    }
   });
   session_.on_changed([this](Parts parts) { update(parts); });
   update(Part::Scene);
+}
+
+// A built-in scene is estimated at once, so that there is something to see; while earlier work is
+// offered, not before that is decided. Photographs of the gantry are rectified first.
+void EstimateController::runFirst(const QString& input) {
+  const std::string id = builtin_scene_id(input.toStdString());
+  if (is_settled_ && !id.empty() && !is_gantry(id)) run({kFirstMethod, {}, {}});
 }
 
 void EstimateController::addTab() {
@@ -431,22 +441,22 @@ void EstimateController::addResultCommands() {
                        .section = kResultSection,
                        .enabled = [this] { return canRestore(); }});
   bench_.commands.add({.id = "file.export",
-                       .menu = Menu::File,
-                       .text = tr("Export result…"),
+                       .menu = Menu::Export,
+                       .text = tr("Result…"),
                        .tip = tr("Writes the shown result: HDF5, PFM, TIFF or PLY"),
                        .icon = "export",
                        .keys = {tr("Ctrl+E")},
                        .run = [this] { ask_to_export(bench_, *session_.shown()); },
-                       .section = section::kExport,
+                       .section = section::kResults,
                        .bar = BarSection::Files,
                        .enabled = has_result});
   bench_.commands.add({.id = "file.export_submission",
-                       .menu = Menu::File,
-                       .text = tr("Export for submission…"),
+                       .menu = Menu::Export,
+                       .text = tr("Result for a submission…"),
                        .tip = tr("Adds the shown result to a submission to the 2016 benchmark"),
                        .icon = "export",
                        .run = [this] { ask_to_submit(bench_, *session_.shown()); },
-                       .section = section::kExport,
+                       .section = section::kResults,
                        .enabled = has_result});
 }
 

@@ -47,6 +47,7 @@ class EstimateController : public QObject {
   };
 
   void remove(int id);
+  void runFirst(const QString& input);
   void addTab();
   void addCommands();
   void addResultCommands();
@@ -68,6 +69,7 @@ class EstimateController : public QObject {
   ResultList* results_;
   MethodRuns runs_;
   std::vector<Removed> removed_;  // the latest last
+  bool is_settled_ = true;        // no earlier work is offered
 };
 
 /// `range` with one end moved to a disparity. The other end stays, or is set 0.5 px away if it is

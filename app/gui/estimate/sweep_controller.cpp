@@ -5,6 +5,7 @@
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/scene_switcher.h"
+#include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
@@ -162,6 +163,13 @@ void SweepController::addTab() {
                        .widget = panel_,
                        .waits = true,
                        .key = QKeySequence()});  // “Sweep parameters…” has one
+  bench_.commands.add({.id = "sweep.save",
+                       .menu = Menu::Export,
+                       .text = tr("Sweep (CSV)…"),
+                       .tip = tr("Writes the points of the sweep that is shown in the Sweep tab"),
+                       .run = [this] { save(); },
+                       .section = section::kResults,
+                       .enabled = [this] { return current() != nullptr; }});
 }
 
 void SweepController::connectPanel() {

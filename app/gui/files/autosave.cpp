@@ -191,6 +191,7 @@ SessionRecovery::SessionRecovery(const Workbench& bench, Autosave& autosave)
   bar_->setObjectName("sessionRecoveryBar");
   bench.frame.addFloating(bar_);
   connect(&bench.frame, &Frame::started, this, &SessionRecovery::look);
+  connect(bar_, &MessageBar::closed, this, &SessionRecovery::offerNext);
 }
 
 void SessionRecovery::look() {
@@ -265,15 +266,16 @@ void SessionRecovery::takeOver(const OrphanedWorkspace& left) {
           autosave_.takeOver(left.folder);
         } catch (const IoError& error) {
           bench_.messages.warn(QString::fromUtf8(error.what()));
-          return;
+          return offerNext();
         }
-        const auto kept = show_project(bench_, std::move(*read), ProjectOrigin::Crash);
+        const auto kept = show_project(bench_, std::move(*read), ProjectOrigin::Crash, [this] {
+          bench_.messages.success(tr("Recovered what was open."));
+        });
         autosave_.setProjectFile(saved_as);
         for (const std::filesystem::path& each : kept) {
           // What lies elsewhere is of a project of the user's.
           if (each.parent_path() == bench_.document.journalFolder()) discard_journal(each);
         }
-        bench_.messages.success(tr("Recovered what was open."));
         offerNext();
       });
 }
@@ -310,7 +312,7 @@ void make_way(const Workbench& bench, const Project& project, ProjectOrigin orig
 }  // namespace
 
 std::vector<std::filesystem::path> show_project(const Workbench& bench, ReadProject read,
-                                                ProjectOrigin origin) {
+                                                ProjectOrigin origin, std::function<void()> shown) {
   const bool is_saved = origin == ProjectOrigin::File;
   make_way(bench, read.project, origin);
   bench.session.set_bad_threshold(read.project.bad_threshold_px);
@@ -337,7 +339,7 @@ std::vector<std::filesystem::path> show_project(const Workbench& bench, ReadProj
     bench.scenes.sweeps().add(std::move(sweep));
   }
   if (!read.failures.isEmpty()) bench.messages.warn(read.failures.join(' '));
-  bench.scenes.show(current);
+  bench.scenes.show(current, std::move(shown));
   return kept;
 }
 

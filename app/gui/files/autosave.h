@@ -14,6 +14,7 @@
 #include <QTimer>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <utility>
@@ -83,7 +84,7 @@ class Autosave : public QObject {
 class MessageBar;
 
 /// Offers scenes, results and scribbles of a session that ended unexpectedly, in a bar that does
-/// not block.
+/// not block. Closed without an answer, it keeps them for the next start.
 class SessionRecovery : public QObject {
   Q_OBJECT
 
@@ -123,9 +124,10 @@ enum class ProjectOrigin {
   Crash,  ///< A crashed session, unsaved; scenes opened since then stay.
 };
 
-/// Opens the scenes of a project and shows the current one. Returns the stroke files that have
-/// journals again.
+/// Opens the scenes of a project and shows the current one, then calls `shown`. Returns the stroke
+/// files that have journals again.
 std::vector<std::filesystem::path> show_project(const Workbench& bench, ReadProject read,
-                                                ProjectOrigin origin);
+                                                ProjectOrigin origin,
+                                                std::function<void()> shown = nullptr);
 
 }  // namespace episcope

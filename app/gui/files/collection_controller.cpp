@@ -175,20 +175,20 @@ CollectionController::CollectionController(const Workbench& bench)
 void CollectionController::addStep(const QString& id, const QString& text, const QString& tip,
                                    Qt::Key key, int step) {
   bench_.commands.add({.id = "collection." + id,
-                       .menu = Menu::File,
+                       .menu = Menu::Open,
                        .text = text,
                        .tip = tip,
                        .keys = {QKeySequence(key)},
                        .run = [this, step] { this->step(step); },
-                       .section = section::kOpen,
+                       .section = section::kScene,
                        .enabled = [this] { return list_->rowCount() > 0; }});
 }
 
 void CollectionController::addCommands() {
   QAction* open = bench_.commands.add(
       {.id = "collection.open",
-       .menu = Menu::File,
-       .text = tr("Open collection…"),
+       .menu = Menu::Open,
+       .text = tr("Collection…"),
        .tip = tr("Lists every light field in a folder and in the folders inside"),
        .icon = "open",
        .run =

@@ -2,6 +2,7 @@
 #include "app/gui/files/file_controller.h"
 
 #include "annotation/exchange.h"
+#include "app/gui/files/start_strip.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/scene_switcher.h"
@@ -161,6 +162,7 @@ FileController::FileController(const Workbench& bench)
   addSaveCommand();
   addLeaveCommands();
   fillRecentMenu();
+  new StartStrip(bench, recent_menu_);
   bench.window.setAcceptDrops(true);
   bench.window.installEventFilter(this);
   for (const auto what :
@@ -185,7 +187,7 @@ void FileController::addOpenCommands() {
   const auto add = [this](const QString& id, const QString& text, const QString& tip,
                           const QList<QKeySequence>& keys, void (FileController::*run)()) {
     return Command{.id = id,
-                   .menu = Menu::File,
+                   .menu = Menu::Open,
                    .text = text,
                    .tip = tip,
                    .keys = keys,
@@ -193,7 +195,7 @@ void FileController::addOpenCommands() {
                    .section = section::kOpen};
   };
   Command open =
-      add("file.open", tr("Open…"),
+      add("file.open", tr("File or folder…"),
           tr("Opens a file or a folder: a light field, a folder of several, a result or a project"),
           {QKeySequence::Open, tr("Ctrl+Shift+O")}, &FileController::ask);
   open.icon = "open";
@@ -203,23 +205,25 @@ void FileController::addOpenCommands() {
       add("file.read_again", tr("Read again"),
           tr("Reads the open light field again, with what a program has added to its file since"),
           {tr("Ctrl+F5")}, &FileController::readAgain);
+  again.menu = Menu::File;
+  again.section = section::kReading;
   again.enabled = [this] { return !bench_.opener.reopenable().isEmpty(); };
   bench_.commands.add(std::move(again));
   Command result =
-      add("file.open_result", tr("Open result…"), tr("Adds a result from a file to the list"),
+      add("file.open_result", tr("Result…"), tr("Adds a result from a file to the list"),
           {tr("Ctrl+R")}, &FileController::askForResult);
   result.enabled = [this] { return bench_.session.scene() != nullptr; };
   bench_.commands.add(std::move(result));
   bench_.commands.add({.id = "file.recent",
-                       .menu = Menu::File,
-                       .text = tr("Open recent"),
+                       .menu = Menu::Open,
+                       .text = tr("Recent"),
                        .tip = tr("Reopens a recent light field"),
                        .section = section::kOpen,
                        .enabled = [this] { return !recent_menu_->isEmpty(); },
                        .submenu = recent_menu_});
   bench_.commands.add({.id = "file.demo",
-                       .menu = Menu::File,
-                       .text = tr("Open demo"),
+                       .menu = Menu::Open,
+                       .text = tr("Demo"),
                        .tip = tr("Opens the built-in demo scene"),
                        .run = [this] { bench_.opener.open("demo"); },
                        .section = section::kOpen});
@@ -231,10 +235,10 @@ void FileController::addOpenCommands() {
 void FileController::addSaveCommand() {
   bench_.commands.add(
       {.id = "file.save_as",
-       .menu = Menu::File,
-       .text = tr("Save light field as"),
+       .menu = Menu::Export,
+       .text = tr("Light field"),
        .tip = tr("Writes the light field, its ground truth and its labels in another form"),
-       .section = section::kExport,
+       .section = section::kField,
        .enabled = [this] { return bench_.session.scene() != nullptr; },
        .submenu = make_save_menu(bench_)});
 }

@@ -66,7 +66,7 @@ void ProjectController::addCommands() {
   const auto has_scene = [this] { return !bench_.session.scenes().empty(); };
   // Scribbles go to their own file, as other programs read it, until there is a project.
   bench_.commands.add({.id = "file.save",
-                       .menu = Menu::File,
+                       .menu = Menu::Project,
                        .text = tr("Save"),
                        .tip = tr("Saves the project; without one, the scribbles"),
                        .icon = "save",
@@ -79,17 +79,15 @@ void ProjectController::addCommands() {
                                save();
                              }
                            },
-                       .section = section::kProject,
                        .enabled = has_scene});
   bench_.commands.add({.id = "file.save_project",
-                       .menu = Menu::File,
-                       .text = tr("Save project as…"),
+                       .menu = Menu::Project,
+                       .text = tr("Save as…"),
                        .tip = tr("Saves all open light fields with their results and scribbles "
                                  "as a project"),
                        .icon = "save",
                        .keys = {tr("Ctrl+Alt+S")},
                        .run = [this] { saveAs(); },
-                       .section = section::kProject,
                        .enabled = has_scene});
 }
 
@@ -201,6 +199,7 @@ void ProjectController::write(const QString& path, std::function<void()> then) {
 void ProjectController::noteSaved(const QString& path, const Project& written) {
   for (const ProjectScene& scene : written.scenes) {
     bench_.session.set_labels_file(scene.id, scene.labels.labeling, scene.labels.file);
+    bench_.session.mark_labels_saved(scene.id, scene.labels.labeling);
     bench_.session.set_unread_strokes(scene.id, scene.unread_strokes);
     for (const ProjectResult& result : scene.results) {
       bench_.session.set_kept(result.id, result.file);
@@ -250,6 +249,9 @@ void ProjectController::move(quint64 scene, const QString& input) {
 
 namespace {
 
+// What takes long and ends with something to keep.
+constexpr Lane kLanesOfWork[] = {Lane::Estimate, Lane::Label};
+
 QString list_of(const std::vector<std::string>& names) {
   QStringList texts;
   for (const std::string& each : names) texts << QString::fromStdString(each);
@@ -271,13 +273,13 @@ ProjectGuard::ProjectGuard(const Workbench& bench, ProjectController& project)
                     .ask = [this](Leaving what, const Continue& go_on) { ask(what, go_on); }});
   bench.session.on_changed([this](Parts parts) {
     if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates | Part::Capture |
-                      Part::Measured)) {
+                      Part::Measured | Part::Labels)) {
       is_settled_ = false;
     }
   });
   bench.scenes.sweeps().on_changed([this] { is_settled_ = false; });
   connect(&bench.jobs, &Jobs::added, this, [this] {
-    const int count = bench_.jobs.count(Lane::Estimate);
+    const int count = runningCount();
     if (count == 1 && !is_settled_) running_.start();
     if (count > settled_jobs_) is_settled_ = false;
   });
@@ -292,12 +294,7 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
     if (what == Leaving::Scene && scene->id != session.generation()) continue;
     if (!has_file && has_picks(*scene)) loss.picked.push_back(scene->name);
     if (!has_file && !scene->place.measured.list.empty()) loss.measured.push_back(scene->name);
-    for (const EstimateEntry& entry : scene->estimates) {
-      const double seconds = entry.estimate ? entry.estimate->seconds : worth_keeping_s_;
-      if (!entry.is_saved && (has_file || seconds >= worth_keeping_s_)) {
-        loss.results.push_back(job_title(QString::fromStdString(entry.name), *scene).toStdString());
-      }
-    }
+    addResults(*scene, loss);
   }
   for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
     const bool is_left = what != Leaving::Scene ||
@@ -308,9 +305,11 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
     }
   }
   if (isRunning()) {
-    for (const Jobs::Running& each : bench_.jobs.running(Lane::Estimate)) {
-      loss.running.push_back(
-          tr("%1 (%2 %)").arg(each.title).arg(percent_done(each.fraction)).toStdString());
+    for (const Lane lane : kLanesOfWork) {
+      for (const Jobs::Running& each : bench_.jobs.running(lane)) {
+        loss.running.push_back(
+            tr("%1 (%2 %)").arg(each.title).arg(percent_done(each.fraction)).toStdString());
+      }
     }
   }
   if (what != Leaving::Session) return loss;
@@ -323,8 +322,33 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
   return loss;
 }
 
+void ProjectGuard::addResults(const OpenScene& scene, Loss& loss) const {
+  const bool has_file = !project_.file().isEmpty();
+  const auto is_worth_it = [&](double seconds) { return has_file || seconds >= worth_keeping_s_; };
+  const auto add = [&](const QString& what) {
+    loss.results.push_back(job_title(what, scene).toStdString());
+  };
+  for (const EstimateEntry& entry : scene.estimates) {
+    const double seconds = entry.estimate ? entry.estimate->seconds : worth_keeping_s_;
+    if (!entry.is_saved && is_worth_it(seconds)) add(QString::fromStdString(entry.name));
+  }
+  // Labels of one view are learned again in a moment.
+  const KeptLabels& labels = scene.labels;
+  const bool is_on_disk_alone = !labels.labeling && !labels.file.empty();
+  if (labels.is_saved || !(labels.covers_many() || is_on_disk_alone)) return;
+  // What was read from a file does not say how long it took.
+  const double seconds = labels.labeling ? labels.labeling->seconds : 0;
+  if (is_worth_it(seconds > 0 ? seconds : worth_keeping_s_)) add(tr("labels of all views"));
+}
+
+int ProjectGuard::runningCount() const {
+  int count = 0;
+  for (const Lane lane : kLanesOfWork) count += bench_.jobs.count(lane);
+  return count;
+}
+
 bool ProjectGuard::isRunning() const {
-  return bench_.jobs.count(Lane::Estimate) > 0 && running_.isValid() &&
+  return runningCount() > 0 && running_.isValid() &&
          static_cast<double>(running_.elapsed()) >= 1000 * worth_keeping_s_;
 }
 
@@ -360,7 +384,7 @@ void ProjectGuard::ask(Leaving what, const Continue& go_on) {
   const bool has_unsaved = lost.has_unsaved();
   question_ = new_question_box(
       &bench_.window, {.name = "unsaved_results",
-                       .title = has_unsaved ? tr("Unsaved work") : tr("A method is running"),
+                       .title = has_unsaved ? tr("Unsaved work") : tr("Work is running"),
                        .text = sentence(lost),
                        .buttons = (has_unsaved ? QMessageBox::SaveAll : QMessageBox::NoButton) |
                                   QMessageBox::Discard | QMessageBox::Cancel});
@@ -377,7 +401,7 @@ void ProjectGuard::answer(QMessageBox::StandardButton button, Leaving what, cons
   if (button == QMessageBox::SaveAll) project_.save([this, what, go_on] { ask(what, go_on); });
   if (button != QMessageBox::Discard) return;
   is_settled_ = true;
-  settled_jobs_ = bench_.jobs.count(Lane::Estimate);
+  settled_jobs_ = runningCount();
   if (what == Leaving::Session) bench_.document.discardAll();
   go_on();
 }

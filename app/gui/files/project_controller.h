@@ -58,8 +58,8 @@ class ProjectController : public QObject {
   std::string saved_content_;  // what it holds
 };
 
-/// Asks once before losing expensive results, scribbles of other scenes, project changes or a
-/// running method; offers to save a project.
+/// Asks once before losing expensive results and labels, scribbles of other scenes, project changes
+/// or running work; offers to save a project.
 class ProjectGuard : public QObject {
   Q_OBJECT
 
@@ -79,7 +79,7 @@ class ProjectGuard : public QObject {
     std::vector<std::string> picked;     ///< of those with pairs for ground truth,
     std::vector<std::string> measured;   ///< and of those with lines kept of EPIs.
     bool of_project = false;             ///< Other changes of a project that has a file.
-    std::vector<std::string> running;    ///< Methods, with their progress.
+    std::vector<std::string> running;    ///< Methods and segmentations, with their progress.
     [[nodiscard]] bool empty() const { return !has_unsaved() && running.empty(); }
     [[nodiscard]] bool has_unsaved() const {
       return !results.empty() || !scribbled.empty() || !picked.empty() || !measured.empty() ||
@@ -88,6 +88,8 @@ class ProjectGuard : public QObject {
   };
 
   [[nodiscard]] Loss loss(Leaving what) const;
+  void addResults(const OpenScene& scene, Loss& loss) const;
+  [[nodiscard]] int runningCount() const;
   [[nodiscard]] bool isRunning() const;
   [[nodiscard]] static QString sentence(const Loss& loss);
   void ask(Leaving what, const Continue& go_on);
@@ -96,7 +98,7 @@ class ProjectGuard : public QObject {
   Workbench bench_;
   ProjectController& project_;
   double worth_keeping_s_ = 5;
-  QElapsedTimer running_;    // since the first of the methods that run was started
+  QElapsedTimer running_;    // since the first of the jobs that run was started
   int settled_jobs_ = 0;     // that ran when the user said so:
   bool is_settled_ = false;  // what is there now may go
   QPointer<QMessageBox> question_;

@@ -55,7 +55,7 @@ void Overlay::connectStage() {
   OverlayBar* bar = viewer_area_.overlayBar();
   ColorBar* scale = viewer_area_.colorBar();
   ViewCanvas* canvas = viewer_area_.canvas();
-  connect(bar, &OverlayBar::quantitySelected, this, &Overlay::setQuantity);
+  connect(bar, &OverlayBar::quantitySelected, this, &Overlay::choose);
   connect(bar, &OverlayBar::opacityChanged, this, &Overlay::setOpacity);
   connect(scale, &ColorBar::rangeEdited, this, [this](Interval range) { setRange(range); });
   connect(scale, &ColorBar::ownRangeRequested, this, [this] { setRange(std::nullopt); });
@@ -139,7 +139,7 @@ void Overlay::showAvailable() {
     if (isAvailable(info.quantity)) available.push_back(info.quantity);
   }
   viewer_area_.overlayBar()->setAvailable(available);
-  viewer_area_.overlayBar()->setQuantity(quantity_);
+  viewer_area_.overlayBar()->setQuantity(chosenQuantity());
   emit choiceChanged();
 }
 
@@ -152,6 +152,10 @@ void Overlay::setQuantity(Quantity quantity) {
   emit choiceChanged();
 }
 
+void Overlay::choose(Quantity quantity) {
+  quantity == Quantity::Difference ? setDifference(true) : setQuantity(quantity);
+}
+
 void Overlay::showResults() {
   if (!is_of_results(quantity_)) setQuantity(Quantity::Disparity);
 }
@@ -162,6 +166,7 @@ void Overlay::selectNextQuantity() {
 
 void Overlay::setDifference(bool shows_difference) {
   shows_difference_ = shows_difference && session_.side_b();
+  viewer_area_.overlayBar()->setQuantity(chosenQuantity());
   draw();
   emit choiceChanged();
 }

@@ -89,6 +89,8 @@ class Overlay : public QObject {
   void showResults();
   void selectNextQuantity();
   [[nodiscard]] render::Quantity quantity() const { return quantity_; }
+  /// As `quantity`, but Quantity::Difference while that is shown instead.
+  [[nodiscard]] render::Quantity chosenQuantity() const;
   /// Whether a quantity can be shown now.
   [[nodiscard]] bool isAvailable(render::Quantity quantity) const;
 
@@ -145,7 +147,7 @@ class Overlay : public QObject {
   [[nodiscard]] bool isTruthWithoutError(const MapChoice& choice) const;
   [[nodiscard]] bool isAwaited(render::Quantity quantity) const;
   void connectStage();
-  [[nodiscard]] render::Quantity chosenQuantity() const;
+  void choose(render::Quantity quantity);
   void setOpacity(double opacity);
   void showLook();
   void update(Parts parts);

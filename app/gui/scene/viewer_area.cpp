@@ -88,7 +88,6 @@ ViewerArea::ViewerArea(QWidget* parent)
       vertical_place_(make_place(vertical_epi_)),
       horizontal_place_(make_place(horizontal_epi_)),
       legend_(make_legend(color_bar_, this)) {
-  overlay_bar_->setSelectorVisible(false);  // the tool bar has a button for each
   arrange();
   alignColumns();
 }

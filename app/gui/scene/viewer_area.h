@@ -32,7 +32,7 @@ class ViewerArea : public QWidget {
   [[nodiscard]] EpiPane* horizontalEpi() const { return horizontal_epi_; }
   [[nodiscard]] EpiPane* verticalEpi() const { return vertical_epi_; }
   [[nodiscard]] ColorBar* colorBar() const { return color_bar_; }
-  /// Opacity and focus plane, for the tool bar.
+  /// Map, opacity and focus plane, for the tool bar.
   [[nodiscard]] OverlayBar* overlayBar() const { return overlay_bar_; }
 
   /// Shows the wall instead of the canvas, and moves the keyboard focus along.

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <ranges>
 
 namespace episcope {
 namespace {
@@ -219,24 +220,25 @@ void Commands::fillMenus(QMenuBar& bar) const {
     menu->setObjectName("menu." + menu_path(info.menu));
     menu->setToolTipsVisible(true);
     made[info.menu] = menu;
-    fillMenu(*menu, info.menu);
   }
-  for (const MenuInfo& info : menus()) {
-    if (info.is_submenu && !made[info.menu]->isEmpty()) {
-      made[info.parent]->addMenu(made[info.menu]);
-    }
-  }
+  // Submenus first: an empty one has no entry.
+  for (const MenuInfo& info : std::views::reverse(menus())) fillMenu(info.menu, made);
 }
 
-void Commands::fillMenu(QMenu& menu, Menu which) const {
-  std::vector<const Command*> entries;
+void Commands::fillMenu(Menu which, const std::map<Menu, QMenu*>& made) const {
+  std::vector<std::pair<int, QAction*>> entries;
   for (const Command& each : commands_) {
-    if (each.menu == which) entries.push_back(&each);
+    if (each.menu == which) entries.emplace_back(each.section, find(each.id));
   }
-  std::ranges::stable_sort(entries, {}, &Command::section);
+  for (const MenuInfo& info : menus()) {
+    if (!info.is_submenu || info.parent != which || made.at(info.menu)->isEmpty()) continue;
+    entries.emplace_back(info.section, made.at(info.menu)->menuAction());
+  }
+  std::ranges::stable_sort(entries, {}, &std::pair<int, QAction*>::first);
+  QMenu& menu = *made.at(which);
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (i > 0 && entries[i]->section != entries[i - 1]->section) menu.addSeparator();
-    menu.addAction(find(entries[i]->id));
+    if (i > 0 && entries[i].first != entries[i - 1].first) menu.addSeparator();
+    menu.addAction(entries[i].second);
   }
 }
 
@@ -245,8 +247,8 @@ void Commands::addBarWidget(BarSection section, QWidget* widget) {
 }
 
 void Commands::fillBar(QToolBar& bar) const {
-  for (const BarSection section : {BarSection::Files, BarSection::Maps, BarSection::Compare,
-                                   BarSection::Look, BarSection::Help}) {
+  for (const BarSection section :
+       {BarSection::Files, BarSection::Compare, BarSection::Look, BarSection::Help}) {
     const auto before = bar.actions().size();
     QAction* separator = before == 0 ? nullptr : bar.addSeparator();
     for (const auto& [place, widget] : bar_widgets_) {
@@ -266,18 +268,29 @@ constexpr const char* kMenuContext = "episcope::Menu";
 
 constexpr MenuInfo kMenus[] = {
     {Menu::File, QT_TRANSLATE_NOOP("episcope::Menu", "File")},
+    {Menu::Open, QT_TRANSLATE_NOOP("episcope::Menu", "Open"), true, Menu::File, section::kFiles},
+    {Menu::Project, QT_TRANSLATE_NOOP("episcope::Menu", "Project"), true, Menu::File,
+     section::kFiles},
+    {Menu::Export, QT_TRANSLATE_NOOP("episcope::Menu", "Export"), true, Menu::File,
+     section::kFiles},
     {Menu::View, QT_TRANSLATE_NOOP("episcope::Menu", "View")},
-    {Menu::Views, QT_TRANSLATE_NOOP("episcope::Menu", "Other views"), true, Menu::View},
-    {Menu::Measurements, QT_TRANSLATE_NOOP("episcope::Menu", "Measurements"), true, Menu::View},
-    {Menu::Tabs, QT_TRANSLATE_NOOP("episcope::Menu", "Tabs"), true, Menu::View},
-    {Menu::Panes, QT_TRANSLATE_NOOP("episcope::Menu", "Panes"), true, Menu::View},
-    {Menu::Colors, QT_TRANSLATE_NOOP("episcope::Menu", "Colors"), true, Menu::View},
-    {Menu::Language, QT_TRANSLATE_NOOP("episcope::Menu", "Language"), true, Menu::View},
+    {Menu::Map, QT_TRANSLATE_NOOP("episcope::Menu", "Map"), true, Menu::View, section::kMap},
+    {Menu::Views, QT_TRANSLATE_NOOP("episcope::Menu", "Other views"), true, Menu::View,
+     section::kMore},
+    {Menu::Measurements, QT_TRANSLATE_NOOP("episcope::Menu", "Measurements"), true, Menu::View,
+     section::kMore},
+    {Menu::Tabs, QT_TRANSLATE_NOOP("episcope::Menu", "Tabs"), true, Menu::View, section::kMore},
+    {Menu::Panes, QT_TRANSLATE_NOOP("episcope::Menu", "Panes"), true, Menu::View, section::kMore},
+    {Menu::Colors, QT_TRANSLATE_NOOP("episcope::Menu", "Colors"), true, Menu::View, section::kMore},
+    {Menu::Language, QT_TRANSLATE_NOOP("episcope::Menu", "Language"), true, Menu::View,
+     section::kMore},
     {Menu::Estimate, QT_TRANSLATE_NOOP("episcope::Menu", "Estimate")},
     {Menu::Compare, QT_TRANSLATE_NOOP("episcope::Menu", "Compare")},
     {Menu::Annotate, QT_TRANSLATE_NOOP("episcope::Menu", "Annotate")},
-    {Menu::Label, QT_TRANSLATE_NOOP("episcope::Menu", "Label"), true, Menu::Annotate},
-    {Menu::Segmentation, QT_TRANSLATE_NOOP("episcope::Menu", "Segmentation"), true, Menu::Annotate},
+    {Menu::Labels, QT_TRANSLATE_NOOP("episcope::Menu", "Labels"), true, Menu::Annotate,
+     section::kMore},
+    {Menu::Segmentation, QT_TRANSLATE_NOOP("episcope::Menu", "Segmentation"), true, Menu::Annotate,
+     section::kMore},
     {Menu::Help, QT_TRANSLATE_NOOP("episcope::Menu", "Help")}};
 
 const MenuInfo& info_of(Menu menu) {

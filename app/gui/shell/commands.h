@@ -25,8 +25,12 @@ namespace episcope {
 /// Menus of the window, in their order.
 enum class Menu {
   File,
+  Open,     ///< Submenu of File,
+  Project,  ///< like this one
+  Export,   ///< and this one: all that writes files for others.
   View,
-  Views,  ///< Submenu of View, like all up to Language.
+  Map,  ///< Submenu of View, like all up to Language.
+  Views,
   Measurements,
   Tabs,
   Panes,
@@ -35,7 +39,7 @@ enum class Menu {
   Estimate,
   Compare,
   Annotate,
-  Label,         ///< Submenu of Annotate,
+  Labels,        ///< Submenu of Annotate,
   Segmentation,  ///< like this one.
   Help
 };
@@ -46,6 +50,7 @@ struct MenuInfo {
   const char* text;  ///< Untranslated.
   bool is_submenu = false;
   Menu parent = Menu::File;  ///< Only for submenus.
+  int section = 0;           ///< Of the parent's menu, only for submenus.
 };
 
 /// Every menu; a submenu stands after its parent.
@@ -57,25 +62,36 @@ struct MenuInfo {
 [[nodiscard]] QString menu_text(Menu menu);
 
 /// Sections of menus that several features fill. A menu shows its sections by number with lines
-/// between, and commands within a section in order of addition. Submenus come last.
+/// between, commands within a section in order of addition, and then its submenus.
 namespace section {
 
-inline constexpr int kOpen = 0;       ///< File
-inline constexpr int kProject = 1;    ///< File
-inline constexpr int kScribbles = 2;  ///< File
-inline constexpr int kExport = 3;     ///< File
-inline constexpr int kLeave = 4;      ///< File
+inline constexpr int kFiles = 0;    ///< File: its submenus
+inline constexpr int kReading = 1;  ///< File
+inline constexpr int kLeave = 2;    ///< File
+
+inline constexpr int kOpen = 0;   ///< Open
+inline constexpr int kScene = 1;  ///< Open: of a collection
+
+inline constexpr int kResults = 0;   ///< Export
+inline constexpr int kPictures = 1;  ///< Export
+inline constexpr int kLabels = 2;    ///< Export
+inline constexpr int kField = 3;     ///< Export: the light field itself
+
+inline constexpr int kMaps = 0;     ///< Map
+inline constexpr int kMapLook = 1;  ///< Map
 
 inline constexpr int kWalk = 0;    ///< Views
 inline constexpr int kFrames = 1;  ///< Views
-inline constexpr int kZoom = 0;    ///< View
-inline constexpr int kFocus = 1;   ///< View
-inline constexpr int kTabs = 2;    ///< View
+inline constexpr int kMap = 0;     ///< View: its submenu
+inline constexpr int kZoom = 1;    ///< View
+inline constexpr int kFocus = 2;   ///< View
+inline constexpr int kTabs = 3;    ///< View
+inline constexpr int kMore = 9;    ///< View, Annotate: further submenus
 
 }  // namespace section
 
 /// Sections of the tool bar, in their order.
-enum class BarSection { None, Files, Maps, Compare, Look, Help };
+enum class BarSection { None, Files, Compare, Look, Help };
 
 /// Where the keys of a command are heard.
 enum class KeyScope {
@@ -164,7 +180,7 @@ class Commands : public QObject {
   [[nodiscard]] const Command* command(const QString& id) const;
   void apply(const Command& command, const QList<QKeySequence>& keys);
   void show(const Command& command);
-  void fillMenu(QMenu& menu, Menu which) const;
+  void fillMenu(Menu which, const std::map<Menu, QMenu*>& made) const;
   /// Whether a key event belongs to a held command, which is notified.
   bool hearHeld(const Command& command, const QKeyEvent& event);
 

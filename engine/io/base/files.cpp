@@ -91,7 +91,7 @@ bool is_disk_full(const std::filesystem::path& path) {
 
 }  // namespace
 
-void require_readable_file(const std::filesystem::path& path) {
+void require_openable_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -110,6 +110,10 @@ void require_readable_file(const std::filesystem::path& path) {
                             "); check its permissions");
   }
   ::close(descriptor);
+}
+
+void require_readable_file(const std::filesystem::path& path) {
+  require_openable_file(path);
   if (const std::string content = foreign_content(path); !content.empty()) {
     throw IoError(path, content);
   }

@@ -28,8 +28,7 @@ constexpr const char* kUnpack =
 constexpr const char* kPacked = "this file is compressed; unpack it, as by gunzip, and open that";
 /// Of raw pictures under microlenses: the one place that says what to do with them.
 constexpr const char* kDecode =
-    "this is a raw picture of a Lytro camera; decode it, as LFToolbox does to a .mat file, or "
-    "export it as ESLF image, and open that";
+    "this is a raw picture of a Lytro camera; make a light field of it with episcope-cli decode";
 constexpr const char* kSave =
     "this is an object that a program has saved for itself; save the array as .npy, .npz or .h5";
 constexpr const char* kDocument = "this is a document; open the images that it was made of";

@@ -324,6 +324,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   Scene scene;
   ConventionReport& report = scene.convention;
   report.format = "archive (" + path.filename().string() + group_text(file) + ")";
+  if (const auto origin = file.text("/", kOrigin)) report.format += ", " + *origin;
   compare_sizes(file, report);
   tell_faults(file, report);
   LightFieldInfo info{scene_name(path),

@@ -5,6 +5,7 @@
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_header.h"
 #include "engine/io/base/json.h"
+#include "engine/io/base/tiff_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,7 +15,6 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -143,99 +143,6 @@ std::optional<StatedPages> stated_pages(const std::string& description, int page
 
 namespace {
 
-/// Unsigned numbers of a file, in its byte order.
-class Numbers {
- public:
-  explicit Numbers(const std::filesystem::path& path) : in_(path, std::ios::binary) {
-    std::string begin(4, '\0');
-    in_.read(begin.data(), 4);
-    is_little_endian_ = begin.starts_with("II");
-    is_big_ = begin == std::string("II+\0", 4) || begin == std::string("MM\0+", 4);
-    const bool is_plain = begin == std::string("II*\0", 4) || begin == std::string("MM\0*", 4);
-    is_tiff_ = in_ && (is_plain || is_big_);
-  }
-
-  [[nodiscard]] bool is_tiff() const { return is_tiff_; }
-  [[nodiscard]] bool is_little_endian() const { return is_little_endian_; }
-
-  /// How long places, numbers of entries, and entries are.
-  [[nodiscard]] std::uint64_t place_bytes() const { return is_big_ ? 8 : 4; }
-  [[nodiscard]] std::uint64_t count_bytes() const { return is_big_ ? 8 : 2; }
-  [[nodiscard]] std::uint64_t entry_bytes() const { return is_big_ ? 20 : 12; }
-
-  [[nodiscard]] std::uint64_t place_of_first_page() { return at(is_big_ ? 8 : 4, place_bytes()); }
-
-  [[nodiscard]] std::string text(std::uint64_t place, std::uint64_t bytes) {
-    std::string read(static_cast<std::size_t>(bytes), '\0');
-    in_.clear();
-    in_.seekg(static_cast<std::streamoff>(place));
-    in_.read(read.data(), static_cast<std::streamsize>(bytes));
-    read.resize(static_cast<std::size_t>(in_.gcount()));
-    return read;
-  }
-
-  /// 0 behind the end.
-  [[nodiscard]] std::uint64_t at(std::uint64_t place, std::uint64_t bytes) {
-    std::array<unsigned char, 8> read{};
-    in_.clear();
-    in_.seekg(static_cast<std::streamoff>(place));
-    if (!in_.read(reinterpret_cast<char*>(read.data()), static_cast<std::streamsize>(bytes))) {
-      return 0;
-    }
-    std::uint64_t number = 0;
-    for (std::uint64_t i = 0; i < bytes; ++i) {
-      number = number << 8 | read[is_little_endian_ ? bytes - 1 - i : i];
-    }
-    return number;
-  }
-
- private:
-  std::ifstream in_;
-  bool is_little_endian_ = false;
-  bool is_big_ = false;
-  bool is_tiff_ = false;
-};
-
-int count_directories(const std::filesystem::path& path, int most) {
-  Numbers file(path);
-  if (!file.is_tiff()) return 0;
-  int pages = 0;
-  // Directories that lead back to themselves end at `most`.
-  std::uint64_t place = file.place_of_first_page();
-  for (; place != 0 && pages <= most; ++pages) {
-    const std::uint64_t entries = file.at(place, file.count_bytes());
-    if (entries == 0) return 0;
-    place = file.at(place + file.count_bytes() + file.entry_bytes() * entries, file.place_bytes());
-  }
-  return pages;
-}
-
-/// Value of a tag of the first page.
-struct TagValue {
-  std::uint64_t place = 0;   ///< Where the first value lies,
-  std::uint64_t bytes = 0;   ///< and how many bytes all have.
-  std::uint64_t number = 0;  ///< The first, if it is a whole number.
-};
-
-std::optional<TagValue> tag_of(Numbers& file, std::uint64_t tag) {
-  constexpr std::uint64_t kMostEntries = 1000;
-  constexpr std::array<std::uint64_t, 6> kSizes{0, 1, 1, 2, 4, 8};  // of types
-  if (!file.is_tiff()) return std::nullopt;
-  std::uint64_t entry = file.place_of_first_page();
-  const std::uint64_t entries = std::min(kMostEntries, file.at(entry, file.count_bytes()));
-  entry += file.count_bytes();
-  for (std::uint64_t i = 0; i < entries; ++i, entry += file.entry_bytes()) {
-    if (file.at(entry, 2) != tag) continue;
-    const std::uint64_t type = file.at(entry + 2, 2);
-    const std::uint64_t size = type < kSizes.size() ? kSizes[type] : 8;
-    TagValue value{entry + 4 + file.place_bytes(), size * file.at(entry + 4, file.place_bytes())};
-    if (value.bytes > file.place_bytes()) value.place = file.at(value.place, file.place_bytes());
-    value.number = file.at(value.place, size);
-    return value;
-  }
-  return std::nullopt;
-}
-
 /// Samples that follow each other without directories.
 struct RawPages {
   int count = 0;
@@ -256,9 +163,9 @@ std::optional<RawPages> raw_pages_of(const std::filesystem::path& path) {
   const std::string text = tiff_description(path);
   RawPages pages{.count = number_behind(text, "\nimages=")};
   if (!text.starts_with("ImageJ=") || pages.count < 2) return std::nullopt;
-  Numbers file(path);
+  TiffFile file(path);
   const auto number = [&](std::uint64_t tag, std::uint64_t otherwise) {
-    const auto value = tag_of(file, tag);
+    const auto value = file.tag(tag);
     return value ? value->number : otherwise;
   };
   const std::uint64_t width = number(256, 0), height = number(257, 0), channels = number(277, 1);
@@ -279,7 +186,7 @@ std::optional<RawPages> raw_pages_of(const std::filesystem::path& path) {
 }
 
 template <class T>
-Image<T> raw_page(Numbers& file, const RawPages& pages, std::uint64_t place) {
+Image<T> raw_page(TiffFile& file, const RawPages& pages, std::uint64_t place) {
   const std::string bytes = file.text(place, pages.bytes());
   Image<T> image(pages.height, pages.width, pages.channels);
   std::memcpy(image.data(), bytes.data(), std::min<std::size_t>(bytes.size(), pages.bytes()));
@@ -295,9 +202,9 @@ Image<T> raw_page(Numbers& file, const RawPages& pages, std::uint64_t place) {
 
 std::vector<AnyImage> read_imagej_pages(const std::filesystem::path& path) {
   std::vector<AnyImage> read;
-  const auto pages = count_directories(path, 1) == 1 ? raw_pages_of(path) : std::nullopt;
+  TiffFile file(path);
+  const auto pages = file.directories(1).size() == 1 ? raw_pages_of(path) : std::nullopt;
   if (!pages) return read;
-  Numbers file(path);
   for (int i = 0; i < pages->count; ++i) {
     const std::uint64_t place = pages->place + static_cast<std::uint64_t>(i) * pages->bytes();
     if (pages->is_float) read.emplace_back(raw_page<float>(file, *pages, place));
@@ -308,7 +215,7 @@ std::vector<AnyImage> read_imagej_pages(const std::filesystem::path& path) {
 }
 
 int count_tiff_pages(const std::filesystem::path& path, int most) {
-  const int directories = count_directories(path, most);
+  const auto directories = static_cast<int>(TiffFile(path).directories(most).size());
   const auto raw = directories == 1 ? raw_pages_of(path) : std::nullopt;
   return raw ? std::min(raw->count, most + 1) : directories;
 }
@@ -316,8 +223,8 @@ int count_tiff_pages(const std::filesystem::path& path, int most) {
 std::string tiff_description(const std::filesystem::path& path) {
   constexpr std::uint64_t kDescription = 270;
   constexpr std::uint64_t kMostBytes = 64 << 10;
-  Numbers file(path);
-  const auto value = tag_of(file, kDescription);
+  TiffFile file(path);
+  const auto value = file.tag(kDescription);
   if (!value) return {};
   std::string text = file.text(value->place, std::min(value->bytes, kMostBytes));
   return text.substr(0, text.find('\0'));

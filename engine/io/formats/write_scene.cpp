@@ -207,13 +207,13 @@ void write_true_labels(Hdf5Output& file, const Scene& scene, const Progress& pro
   const LightField& field = *scene.light_field;
   const bool is_center = labels.grid().count() == 1 && labels.first() == field.center();
   if (is_center || labels.grid() == field.grid()) {
-    return write_stack(file, kTrueLabels, labels, "", progress);
+    return write_label_maps(file, kTrueLabels, labels, progress);
   }
   MapGeometry maps = geometry_of(labels);
   maps.grid = field.grid();
   maps.first = {};
   const std::vector<std::int32_t> none(labels.view_size(), 0);
-  write_maps<std::int32_t>(file, kTrueLabels, maps, "", progress, [&](ViewIndex view) {
+  write_label_maps(file, kTrueLabels, maps, progress, [&](ViewIndex view) {
     return labels.contains(view) ? labels.view(view).data : none.data();
   });
 }
@@ -302,7 +302,7 @@ std::uintmax_t label_bytes(const Scene& scene) {
   const std::size_t views = scene.scribbles.views.size();
   const std::size_t painted = (views > 1 ? static_cast<std::size_t>(field.grid().count()) : views) *
                               field.height() * field.width();
-  return 4 * (labels + painted) + (1 << 16);
+  return labels + painted + (1 << 16);  // deflated
 }
 
 }  // namespace
@@ -329,6 +329,7 @@ void write_archive(const std::filesystem::path& path, const Scene& scene, const 
   AtomicFile target(path, archive_bytes(scene, form.has_disparity) + label_room);
   Hdf5Output file(target);
   write_attributes(file, scene, camera);
+  if (!form.origin.empty()) file.set_text("/", kOrigin, form.origin);
   write_light_field(file, *scene.light_field, progress.part(0, 0.6));
   const std::pair<const char*, const DisparityField*> fields[] = {
       {"", &truth.field}, {"_FOREGROUND", &truth.foreground}, {"_BACKGROUND", &truth.background}};

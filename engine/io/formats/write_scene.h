@@ -5,6 +5,7 @@
 #include "engine/core/scene.h"
 
 #include <filesystem>
+#include <string>
 
 namespace episcope::io {
 
@@ -15,6 +16,7 @@ enum class LabelFile { Usual, NamedAfter };
 struct ArchiveForm {
   LabelFile labels = LabelFile::Usual;
   bool has_disparity = false;  ///< GT_DISPARITY beside GT_DEPTH, px per view step, NaN = not known.
+  std::string origin{};  ///< How the light field was made, in a sentence; empty = nothing is said.
 };
 
 /// Writes a scene in the form of the 2013 archive: the light field and its depth to `path`, labels
@@ -43,6 +45,8 @@ inline constexpr const char* kConvention = "convention";
 inline constexpr const char* kConventionText =
     "d = dH*focalLength/Z - shift; point at (x,y) in view (v,h) is at (x-d,y) in (v,h+1) and "
     "(x,y-d) in (v+1,h)";
+/// Attribute of the root: how the light field was made (ArchiveForm::origin).
+inline constexpr const char* kOrigin = "origin";
 /// Attribute of the root: x and y of the camera of each view, row by row; and their unit.
 inline constexpr const char* kPositions = "camera_positions";
 inline constexpr const char* kPositionUnit = "camera_position_unit";

@@ -79,7 +79,7 @@ std::uintmax_t scribble_bytes(const Scribbles& scribbles, const FieldShape& shap
   const std::uintmax_t kept = fs::file_size(former, error);
   const int views = scribbles.views.size() > 1 ? shape.grid.count() : 1;
   return (error ? 0 : kept) +
-         sizeof(std::int32_t) * static_cast<std::uintmax_t>(views) * shape.height * shape.width +
+         static_cast<std::uintmax_t>(views) * shape.height * shape.width +  // deflated
          (1 << 16);
 }
 
@@ -145,6 +145,51 @@ void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Sce
   file.close();
   progress.check();
   target.commit();
+}
+
+namespace {
+
+using LabelSamples = std::function<const std::int32_t*(ViewIndex)>;
+
+template <class T>
+void write_narrowed(Hdf5Output& file, const std::string& name, const MapGeometry& maps,
+                    const Progress& progress, const LabelSamples& samples) {
+  std::vector<T> narrowed(static_cast<std::size_t>(maps.height) * maps.width);
+  write_maps<T>(file, name, maps, "", progress, [&](ViewIndex view) {
+    std::transform(samples(view), samples(view) + narrowed.size(), narrowed.begin(),
+                   [](std::int32_t label) { return static_cast<T>(label); });
+    return narrowed.data();
+  });
+}
+
+}  // namespace
+
+void write_label_maps(Hdf5Output& file, const std::string& name, const MapGeometry& maps,
+                      const Progress& progress, const LabelSamples& samples) {
+  const std::size_t size = static_cast<std::size_t>(maps.height) * maps.width;
+  std::int32_t least = 0, most = 0;
+  for (int i = 0; i < maps.grid.count(); ++i) {
+    progress.check();
+    const auto [low, high] = std::minmax_element(samples(maps.grid.view_at(i, maps.first)),
+                                                 samples(maps.grid.view_at(i, maps.first)) + size);
+    least = std::min(least, *low);
+    most = std::max(most, *high);
+  }
+  file.set_storage(Hdf5Storage::Deflated);
+  if (least >= 0 && most <= std::numeric_limits<std::uint8_t>::max()) {
+    write_narrowed<std::uint8_t>(file, name, maps, progress, samples);
+  } else if (least >= 0 && most <= std::numeric_limits<std::uint16_t>::max()) {
+    write_narrowed<std::uint16_t>(file, name, maps, progress, samples);
+  } else {
+    write_maps<std::int32_t>(file, name, maps, "", progress, samples);
+  }
+  file.set_storage(Hdf5Storage::Plain);
+}
+
+void write_label_maps(Hdf5Output& file, const std::string& name,
+                      const ViewStack<std::int32_t>& labels, const Progress& progress) {
+  write_label_maps(file, name, geometry_of(labels), progress,
+                   [&](ViewIndex view) { return labels.view(view).data; });
 }
 
 namespace {
@@ -261,7 +306,7 @@ void add_scribbles(Hdf5Output& file, const Scribbles& scribbles, const ScribbleP
   if (scribbles.views.size() == 1) {
     maps.first = flipped(scribbles.views[0].view, shape.grid, place.flip);
   }
-  write_maps<std::int32_t>(file, kName, maps, "", progress, [&](ViewIndex stored) {
+  write_label_maps(file, kName, maps, progress, [&](ViewIndex stored) {
     const auto painted = std::ranges::find(scribbles.views, flipped(stored, shape.grid, place.flip),
                                            &ViewScribbles::view);
     return painted == scribbles.views.end() ? bare.data() : painted->labels.data();
@@ -361,7 +406,7 @@ std::size_t label_count(const StoredSegmentation& labeling) {
 }
 
 std::uintmax_t segmentation_bytes(const StoredSegmentation& labeling, bool with_probabilities) {
-  const std::uintmax_t bytes = labeling.labels.size() * sizeof(std::int32_t) + (1 << 16);
+  const std::uintmax_t bytes = labeling.labels.size() + (1 << 16);  // deflated
   if (!with_probabilities) return bytes;
   return bytes + labeling.labels.size() * label_count(labeling) * sizeof(float);
 }
@@ -408,7 +453,7 @@ void write_segmentation(const std::filesystem::path& path, const StoredSegmentat
   progress.check();
   AtomicFile target(path, segmentation_bytes(labeling, static_cast<bool>(probabilities)));
   Hdf5Output file(target);
-  write_stack(file, kLabels, labeling.labels, "", progress.part(0, 0.2));
+  write_label_maps(file, kLabels, labeling.labels, progress.part(0, 0.2));
   add_label_list(file, kLabels, labeling.infos);
   if (probabilities) {
     write_probabilities(file, labeling, probabilities, progress.part(0.2, 1));

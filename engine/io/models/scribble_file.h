@@ -63,10 +63,10 @@ struct ScribblePlace {
   bool raises_labels = false;  ///< As StoredScribbles.
 };
 
-/// Adds SCRIBBLES as int32: `[y][x]` with the attribute `scribble_view` for one painted view, as in
-/// the archive, `[v][h][y][x]` for several. Names and colors go to attributes that other readers
-/// ignore: `label_ids`, `label_names` (one per line), `label_colors` (R, G, B each), `unpainted`
-/// (0). Throws IoError, Cancelled.
+/// Adds SCRIBBLES as integers (`write_label_maps`): `[y][x]` with the attribute `scribble_view` for
+/// one painted view, as in the archive, `[v][h][y][x]` for several. Names and colors go to
+/// attributes that other readers ignore: `label_ids`, `label_names` (one per line), `label_colors`
+/// (R, G, B each), `unpainted` (0). Throws IoError, Cancelled.
 void add_scribbles(Hdf5Output& file, const Scribbles& scribbles, const ScribblePlace& place,
                    const Progress& progress);
 
@@ -99,6 +99,14 @@ inline constexpr const char* kTrueLabels = "GT_LABELS";
 void add_label_list(Hdf5Output& file, const std::string& dataset,
                     const std::vector<LabelInfo>& labels);
 
+/// Writes labels as `write_maps` does, deflated, in the smallest of uint8, uint16 and int32 that
+/// holds them; datasets that are added afterwards are plain. Calls `samples` twice for each view.
+void write_label_maps(Hdf5Output& file, const std::string& name, const MapGeometry& maps,
+                      const Progress& progress,
+                      const std::function<const std::int32_t*(ViewIndex)>& samples);
+void write_label_maps(Hdf5Output& file, const std::string& name,
+                      const ViewStack<std::int32_t>& labels, const Progress& progress);
+
 /// Raises a label by one, to make room for 0 = "none". The largest integer stays.
 inline void raise_label(std::int32_t& label) {
   if (label < std::numeric_limits<std::int32_t>::max()) ++label;
@@ -125,11 +133,12 @@ struct StoredSegmentation {
   double seconds = 0;
 };
 
-/// Writes a segmentation in canonical order of views. `LABELS` is int32 [v][u][y][x], or [y][x]
-/// with the attribute `view` for a single view; it has names and colors as SCRIBBLES. If
-/// `probabilities` is set, `Probabilities` is float [v][u][y][x][label] (or [y][x][label]), with
-/// the labels of StoredSegmentation::infos. Attributes of the root: `parameters`, `source`,
-/// `seconds`, `version`, `reader`, `reading`. Atomic. Throws IoError, Cancelled.
+/// Writes a segmentation in canonical order of views. `LABELS` is [v][u][y][x] of integers
+/// (`write_label_maps`), or [y][x] with the attribute `view` for a single view; it has names and
+/// colors as SCRIBBLES. If `probabilities` is set, `Probabilities` is float [v][u][y][x][label] (or
+/// [y][x][label]), with the labels of StoredSegmentation::infos. Attributes of the root:
+/// `parameters`, `source`, `seconds`, `version`, `reader`, `reading`. Atomic. Throws IoError,
+/// Cancelled.
 void write_segmentation(const std::filesystem::path& path, const StoredSegmentation& labeling,
                         const ViewProbabilities& probabilities, const Progress& progress);
 

@@ -339,6 +339,8 @@ void write_maps(Hdf5Output& file, const std::string& name, const MapGeometry& ma
 template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, const std::string&,
                          const Progress&, const std::function<const std::uint8_t*(ViewIndex)>&);
 template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, const std::string&,
+                         const Progress&, const std::function<const std::uint16_t*(ViewIndex)>&);
+template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, const std::string&,
                          const Progress&, const std::function<const std::int32_t*(ViewIndex)>&);
 template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, const std::string&,
                          const Progress&, const std::function<const float*(ViewIndex)>&);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <stop_token>
+#include <variant>
 
 namespace episcope::in_labeler_test {
 
@@ -73,6 +74,9 @@ class LabelerTest : public QObject {
   void badInput_isToldInASentence();
   void missingGpu_isToldOnlyIfDemanded();
   void stop_cancels();
+  void stroke_correctsAllViews();
+  void newLabel_correctsAllViews();
+  void invalidPixels_haveNoLabel();
 };
 
 void LabelerTest::objects_areSegmentedInAllViews_data() {
@@ -257,6 +261,83 @@ void LabelerTest::stop_cancels() {
       Cancelled,
       (void)new_labeler().label(scene().scribbles, parameters(FeatureSet::Image, Regularizer::None),
                                 kAll, Progress(stop.get_token(), nullptr)));
+}
+
+namespace {
+
+// Strokes of the scene, but what is below the middle of the thing in the center has another label.
+Scribbles with_mistake(std::int32_t label) {
+  Scribbles painted = scene().scribbles;
+  for (ViewScribbles& view : painted.views) {
+    if (!(view.view == ViewIndex{1, 1})) continue;
+    for (int y = 60; y < 66; ++y) {
+      for (int x = 40; x < 60; ++x) view.labels.at(y, x) = label;
+    }
+  }
+  return painted;
+}
+
+std::int64_t count_of(const ViewStack<std::int32_t>& labels, std::int32_t label) {
+  return std::count(labels.data(), labels.data() + labels.size(), label);
+}
+
+}  // namespace
+
+void LabelerTest::stroke_correctsAllViews() {
+  const LabelerParameters how = parameters(FeatureSet::ImageTruth, Regularizer::Rayspace);
+  Labeler labeler = new_labeler();
+  const Scribbles mistaken = with_mistake(scene().truth->labels.view({1, 1}).at(62, 50) % 3 + 1);
+  const Labeling before = labeler.label(mistaken, how, kAll, Progress());
+  const Labeling anew = labeler.label(scene().scribbles, how, kAll, Progress());
+
+  const auto corrected =
+      labeler.correct(scene().scribbles, how, {before, mistaken, {1, 1}}, Progress());
+
+  QVERIFY(corrected);
+  QVERIFY2(accuracy(before) < accuracy(anew) - 0.005,
+           qPrintable(QString::number(accuracy(before))));
+  QVERIFY2(accuracy(*corrected) > accuracy(anew) - 0.004,
+           qPrintable(QString("%1 %2").arg(accuracy(*corrected)).arg(accuracy(anew))));
+  QVERIFY(corrected->probabilities.views.size() == 9);
+  QVERIFY(!labeler.correct(scene().scribbles, parameters(FeatureSet::ImageTruth, Regularizer::View),
+                           {before, mistaken, {1, 1}}, Progress()));
+}
+
+void LabelerTest::newLabel_correctsAllViews() {
+  const LabelerParameters how = parameters(FeatureSet::ImageTruth, Regularizer::Rayspace);
+  Labeler labeler = new_labeler();
+  const Labeling before = labeler.label(scene().scribbles, how, kAll, Progress());
+
+  const auto corrected =
+      labeler.correct(with_mistake(9), how, {before, scene().scribbles, {1, 1}}, Progress());
+
+  QVERIFY(corrected);
+  QCOMPARE(corrected->probabilities.ids, (std::vector<std::int32_t>{1, 2, 3, 9}));
+  QCOMPARE(count_of(before.labels, 9), 0);
+  QVERIFY2(count_of(corrected->labels, 9) > 9 * 60,
+           qPrintable(QString::number(count_of(corrected->labels, 9))));
+}
+
+void LabelerTest::invalidPixels_haveNoLabel() {
+  const LightField& whole = *scene().light_field;
+  ViewStack<std::uint8_t> valid(whole.grid(), whole.height(), whole.width(), 1);
+  std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
+  std::fill_n(valid.view({0, 1}).row(3), 20, std::uint8_t{0});
+  const auto part = std::visit(
+      [&](const auto& samples) {
+        return std::make_shared<const LightField>(samples.clone(), whole.info(), std::move(valid));
+      },
+      whole.samples());
+
+  for (const Regularizer regularizer : {Regularizer::None, Regularizer::Rayspace}) {
+    const Labeling labeling =
+        Labeler(part, true_disparity())
+            .label(scene().scribbles, parameters(FeatureSet::ImageTruth, regularizer), kAll,
+                   Progress());
+
+    QCOMPARE(count_of(labeling.labels, 0), 20);
+    QCOMPARE(labeling.labels.view({0, 1}).at(3, 19), 0);
+  }
 }
 
 }  // namespace episcope::in_labeler_test

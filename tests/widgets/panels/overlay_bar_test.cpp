@@ -52,6 +52,7 @@ class OverlayBarTest : public QObject {
     QSignalSpy opacity(&bar, &OverlayBar::opacityChanged);
     QSignalSpy focus(&bar, &OverlayBar::focusChanged);
 
+    bar.setAvailable({Quantity::Truth});
     bar.setQuantity(Quantity::Truth);
     bar.setOpacity(0.25);
     bar.setFocusRange({-1, 3});

@@ -112,5 +112,30 @@ file(WRITE "${WORK}/one.csv" "1,2,3,4,nothing\n")
 expect("a table that lacks colors" 1 ERR "drawing.png: has [0-9]+ px of the color #[0-9a-f]+ .*which the table of colors lacks"
        ARGS label lf.h5 --scribbles drawing.png --colors one.csv -o no.h5)
 expect("a view in colors" 0 ARGS show lf.h5 -o view.png)
-expect("a photograph" 1 ERR "view.png: has .*[0-9]+ colors, but strokes have one a label"
+expect("a photograph" 1 ERR "view.png: has .*[0-9]+ colors, but labels have one each"
        ARGS label lf.h5 --scribbles view.png -o no.h5)
+
+# Labels of other tools, there and back: as true labels, and in each form.
+foreach(form labels voc coco labelme)
+  expect("labels as ${form}" 0 ARGS convert lf.h5 as_${form} --to ${form} -q)
+  expect("labels of ${form}" 0 ARGS convert lf.h5 of_${form}.h5 --labels as_${form} -q)
+  expect("scores of ${form}" 0 ARGS label of_${form}.h5 --scribbles labels.h5 -o s_${form}.h5 --features image
+         --regularizer none --trees 4 --json)
+  string(JSON accuracy GET "${out}" accuracy_center)
+  list(APPEND accuracies ${accuracy})
+endforeach()
+list(REMOVE_DUPLICATES accuracies)
+list(LENGTH accuracies count)
+if(NOT count EQUAL 1)
+  fail_case("labels of the forms are not the same: accuracies ${accuracies}")
+endif()
+expect("a folder that is in use" 1 ERR "as_coco" ARGS convert lf.h5 as_coco --to coco)
+expect("segmented labels" 0 ARGS convert l.h5 segmented_coco --to coco --truth lf.h5 --json)
+if(NOT EXISTS "${WORK}/segmented_coco/images/00_00.png")
+  fail_case("the views of labels are not written")
+endif()
+expect("labels of a map" 2 ERR "--labels is for a light field" ARGS convert lf.h5 m.pfm --labels as_labels)
+expect("ids that are none" 2 ERR "--ignore is 'x'" ARGS convert lf.h5 m.h5 --labels as_labels --ignore x)
+expect("options of labels" 2 ERR "--ignore has no effect without --labels" ARGS convert lf.h5 m.h5 --ignore 255)
+expect("an ignored id" 0 ERR "1 \\(.* % of the pixels\\) is taken for unlabeled"
+       ARGS convert lf.h5 i.h5 --labels as_labels --ignore 1)

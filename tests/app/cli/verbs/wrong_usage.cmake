@@ -114,7 +114,7 @@ expect("one too many" 2 ERR "info: too many arguments: extra; see" ARGS info lf.
 expect("help of a method" 0 OUT "Parameters of epi_l.*--range" ARGS estimate epi_l --help)
 
 # Help fits the terminal, marks what is required, and leaves reading to a topic of its own.
-foreach(verb info list methods estimate evaluate show convert synthesize label benchmark calibrate
+foreach(verb info list methods estimate evaluate show convert synthesize label benchmark decode calibrate
              rectify pose ground-truth validate)
   set(ENV{COLUMNS} 60)
   expect("narrow help of ${verb}" 0 ARGS help ${verb})

@@ -5,13 +5,16 @@
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/panels/color_bar.h"
+#include "widgets/panels/overlay_bar.h"
 
 #include <QAction>
 #include <QClipboard>
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QGuiApplication>
 #include <QLabel>
+#include <QMenu>
 #include <QSlider>
 #include <QTabBar>
 #include <QTabWidget>
@@ -22,11 +25,20 @@ namespace episcope::in_window_overlay_test {
 
 namespace {
 
-void click_action(MainWindow& window, const QString& id) {
-  QWidget* button =
-      window.findChild<QToolBar*>()->widgetForAction(window.bench().commands.find(id));
-  QVERIFY2(button && button->isEnabled(), qPrintable(id));
-  QTest::mouseClick(button, Qt::LeftButton);
+// Chooses a map in the list of the tool bar.
+void choose_map(MainWindow& window, const QString& text) {
+  auto* maps = window.findChild<QToolBar*>()->findChild<QComboBox*>("overlay.quantity");
+  QVERIFY(maps && maps->isVisible());
+  const int place = maps->findText(text, Qt::MatchStartsWith);
+  QVERIFY2(place >= 0, qPrintable(text));
+  maps->setCurrentIndex(place);
+  emit maps->activated(place);
+}
+
+QStringList texts_of(const QComboBox& list) {
+  QStringList texts;
+  for (int i = 0; i < list.count(); ++i) texts << list.itemText(i);
+  return texts;
 }
 
 }  // namespace
@@ -36,6 +48,8 @@ class OverlayTest : public QObject {
 
  private slots:
   void errorOverlay_isOneClickAway();
+  void maps_areThoseThatExist_andAllListsAgree();
+  void difference_isOneOfTheMaps();
   void rangeOfASignedMap_hasZeroInTheMiddle();
   void colorsOfErrors_areThoseOfTheLegend();
   void view_isGreyUnderNumbersUntilColorIsAskedFor();
@@ -55,18 +69,73 @@ void OverlayTest::errorOverlay_isOneClickAway() {
   const QImage before = f.window.bench().overlay.picture();
   const QImage canvas_before = f.window.bench().viewer_area.canvas()->grab().toImage();
 
-  click_action(f.window, "overlay.error");
+  f.trigger("tab.compare");
+  f.click("button.overlay.error");
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.picture() != before, kPatience);
   QVERIFY(f.window.bench().viewer_area.canvas()->grab().toImage() != canvas_before);
   QVERIFY(f.window.bench().commands.find("overlay.error")->isChecked());
 }
 
+void OverlayTest::maps_areThoseThatExist_andAllListsAgree() {
+  WindowFixture f;
+  f.openSmall();
+  f.trigger("overlay.none");
+  const auto& maps = find<QComboBox>(*f.window.bench().viewer_area.overlayBar());
+  const auto* menu = f.window.findChild<QMenu*>("menu.View › Map");
+  const auto entries = [menu] {
+    QStringList texts;
+    for (const QAction* action : menu->actions()) {
+      const bool is_map = action->actionGroup() && action->isVisible();
+      if (is_map) texts << action->text();
+    }
+    return texts;
+  };
+  QCOMPARE(texts_of(maps), (QStringList{"None", "Ground truth", "Labels", "Edges"}));
+  QCOMPARE(entries(), texts_of(maps));
+
+  f.runAndWait();
+  QVERIFY(texts_of(maps).contains("Error"));
+  QVERIFY(!texts_of(maps).contains("Layers"));
+  QCOMPARE(entries(), texts_of(maps));
+
+  f.trigger("tab.compare");
+  f.click("button.overlay.bad_pixels");
+  QCOMPARE(maps.currentText(), QString("Bad"));
+  QVERIFY(f.window.bench().commands.find("overlay.bad_pixels")->isChecked());
+  f.trigger("tab.annotate");
+  f.click("button.segment.edges");
+  QCOMPARE(maps.currentText(), QString("Edges"));
+  choose_map(f.window, "Disp");
+  QVERIFY(f.window.bench().commands.find("overlay.disparity")->isChecked());
+  QVERIFY(!f.window.bench().commands.find("segment.edges")->isChecked());
+}
+
+void OverlayTest::difference_isOneOfTheMaps() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const auto& maps = find<QComboBox>(*f.window.bench().viewer_area.overlayBar());
+  QVERIFY(!texts_of(maps).contains("Difference"));
+  f.runAndWait();
+  f.window.bench().session.compare_with(f.window.bench().session.estimates().front().id);
+  f.trigger("compare.wipe");
+
+  choose_map(f.window, "Diff");  // of the view alone
+
+  QVERIFY(f.window.bench().overlay.showsDifference());
+  QVERIFY(!f.window.bench().commands.find("compare.wipe")->isChecked());
+  QVERIFY(f.window.bench().commands.find("compare.difference")->isChecked());
+  QVERIFY(!f.window.bench().commands.find("overlay.disparity")->isChecked());
+  choose_map(f.window, "Disp");
+  QVERIFY(!f.window.bench().overlay.showsDifference());
+}
+
 void OverlayTest::rangeOfASignedMap_hasZeroInTheMiddle() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  click_action(f.window, "overlay.error");
+  choose_map(f.window, "Error");
   auto* most = f.window.bench().viewer_area.colorBar()->findChild<QDoubleSpinBox*>("colorBar.max");
   QVERIFY(most);
 
@@ -81,7 +150,7 @@ void OverlayTest::colorsOfErrors_areThoseOfTheLegend() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  click_action(f.window, "overlay.error");
+  choose_map(f.window, "Error");
   const Overlay& overlay = f.window.bench().overlay;
   QTRY_VERIFY_WITH_TIMEOUT(overlay.isUpToDate() && overlay.map(), kPatience);
   auto* canvas = f.window.bench().viewer_area.canvas();
@@ -118,10 +187,10 @@ void OverlayTest::view_isGreyUnderNumbersUntilColorIsAskedFor() {
   const auto shown = [&] { return canvas->grab().toImage().pixelColor(f.at(pixel)); };
   f.window.findChild<QSlider*>("overlay.opacity")->setValue(0);
 
-  click_action(f.window, "overlay.labels");
+  choose_map(f.window, "Labels");
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
   QCOMPARE(shown(), view);
-  click_action(f.window, "overlay.truth");
+  choose_map(f.window, "Ground");
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.isUpToDate(), kPatience);
   const int grey = qGray(view.rgb());
   QVERIFY(view != QColor(grey, grey, grey));

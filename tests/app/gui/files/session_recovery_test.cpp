@@ -9,6 +9,7 @@
 #include <QMessageBox>
 #include <QProcess>
 #include <QPushButton>
+#include <QToolButton>
 
 #include <csignal>
 #include <memory>
@@ -97,6 +98,8 @@ class SessionRecoveryTest : public QObject {
  private slots:
   void killedSession_losesNothingThatWasKept();
   void recoveredSession_isKeptAgain();
+  void recoveredSession_isToldWhenItIsShown();
+  void offer_isKeptByItsCross_andTheDemoWaitsForIt();
   void discardedSession_isGone();
   void sceneThatWasOnlyLookedAt_comesBackClean();
   void leftWindow_leavesNothingBehind();
@@ -152,6 +155,53 @@ void SessionRecoveryTest::recoveredSession_isKeptAgain() {
   QCOMPARE(third.resultCount(), results + 1);
   QVERIFY(third.strokeCount() >= told.strokes);
   third.window.bench().document.discardAll();
+}
+
+namespace {
+
+// A session of one scene with a result that nobody decided about.
+void leave_session(const WindowFixture& files, const QString& state) {
+  Recovering f(state);
+  f.open(files.writeScene("edge", WindowFixture::smallOptions()), 1);
+  f.estimate();
+  QTRY_VERIFY(!f.session().estimates()[0].kept.empty());
+  QTRY_VERIFY(f.autosave().isIdle());
+}
+
+}  // namespace
+
+void SessionRecoveryTest::recoveredSession_isToldWhenItIsShown() {
+  const QTemporaryDir state;
+  const WindowFixture files;
+  leave_session(files, state.path());
+  Recovering f(state.path());
+  f.window.bench().frame.start();
+  QTRY_VERIFY(f.bar()->isVisible());
+
+  f.bar()->findChild<QPushButton*>("message.action")->click();
+
+  const auto* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY_WITH_TIMEOUT(messages->isVisible() && messages->text().startsWith("Recovered"),
+                           kScenePatience);
+  QVERIFY(f.session().scene());
+  QCOMPARE(f.resultCount(), std::size_t{1});
+}
+
+void SessionRecoveryTest::offer_isKeptByItsCross_andTheDemoWaitsForIt() {
+  const QTemporaryDir state;
+  const WindowFixture files;
+  leave_session(files, state.path());
+  Recovering f(state.path());
+  f.window.start("demo?size=64&grid=3x3");
+  QTRY_VERIFY_WITH_TIMEOUT(f.session().scene() && f.bar()->isVisible(), kScenePatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kScenePatience);
+  QVERIFY(f.session().estimates().empty());
+
+  f.bar()->findChild<QToolButton*>("message.close")->click();
+
+  QVERIFY(!f.bar()->isVisible());
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().estimates().size(), std::size_t{1}, kScenePatience);
+  QCOMPARE(orphaned_workspaces((state.path() + "/sessions").toStdString()).size(), std::size_t{1});
 }
 
 void SessionRecoveryTest::discardedSession_isGone() {

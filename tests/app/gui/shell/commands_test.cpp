@@ -21,6 +21,7 @@
 #include <QSet>
 #include <QSettings>
 #include <QSignalSpy>
+#include <QTextBrowser>
 #include <QTreeWidget>
 
 #include <tuple>
@@ -36,6 +37,9 @@ class CommandsTest : public QObject {
   void everyCommand_hasTextAndTip();
   void everyCommand_isInAMenu();
   void exclusiveChoices_haveRadioMarks();
+  void fileMenu_opensSavesAndExports();
+  void labelFiles_areInTheMenuOfLabels();
+  void manual_opensAndFollowsLinks();
   void menus_fitASmallScreen();
   void sweep_showsItsKeyInTheMenu();
   void everyCommandWithKeys_isInTheShortcutWindow();
@@ -126,6 +130,67 @@ void CommandsTest::sweep_showsItsKeyInTheMenu() {
   f.key(Qt::Key_F5, Qt::ControlModifier | Qt::ShiftModifier);
 
   QCOMPARE(f.window.bench().frame.shownTab(), QString("sweep"));
+}
+
+namespace {
+
+// Ids of the entries of a menu and of those inside.
+QStringList entries_of(const QMenu* menu) {
+  QStringList ids;
+  for (const QAction* action : menu->actions()) {
+    if (action->isSeparator()) continue;
+    ids << action->objectName();
+    if (action->menu()) ids << entries_of(action->menu());
+  }
+  return ids;
+}
+
+}  // namespace
+
+void CommandsTest::fileMenu_opensSavesAndExports() {
+  WindowFixture f;
+  const auto menu = [&f](const char* name) { return f.window.findChild<QMenu*>(name); };
+  QStringList first;
+  for (const QAction* action : menu("menu.File")->actions().mid(0, 3)) {
+    first << action->menu()->objectName();
+  }
+  QCOMPARE(first, (QStringList{"menu.File › Open", "menu.File › Project", "menu.File › Export"}));
+  QVERIFY(menu("menu.File")->actions()[3]->isSeparator());
+
+  QVERIFY(entries_of(menu("menu.File › Open")).contains("file.open"));
+  QVERIFY(entries_of(menu("menu.File › Project")).contains("file.save_project"));
+  const QStringList written = entries_of(menu("menu.File › Export"));
+  for (const char* id : {"file.export", "file.export_submission", "file.save_metrics_csv",
+                         "file.save_metrics_tex", "measure.save", "sweep.save", "file.save_picture",
+                         "file.save_map", "file.save_movie", "cloud.export", "segment.export",
+                         "segment.export_masks", "file.export_scribbles", "file.save_as.npz"}) {
+    QVERIFY2(written.contains(id), id);
+  }
+}
+
+void CommandsTest::labelFiles_areInTheMenuOfLabels() {
+  WindowFixture f;
+  const QStringList labels = entries_of(f.window.findChild<QMenu*>("menu.Annotate › Labels"));
+  for (const char* id : {"annotate.add_label", "file.save_scribbles", "file.import_scribbles"}) {
+    QVERIFY2(labels.contains(id), id);
+  }
+}
+
+void CommandsTest::manual_opensAndFollowsLinks() {
+  WindowFixture f;
+
+  f.trigger("help.manual");
+
+  auto* pages = f.window.findChild<QTextBrowser*>("manual.pages");
+  QVERIFY(pages->isVisible());
+  QVERIFY2(pages->toPlainText().startsWith("Episcope"), qPrintable(pages->toPlainText().left(80)));
+  QVERIFY(!f.window.findChild<QPushButton*>("manual.back")->isEnabled());
+  pages->setSource(QUrl("window.md"));  // as a click on the link does
+  QVERIFY2(pages->window()->windowTitle().contains("The window"),
+           qPrintable(pages->window()->windowTitle()));
+  QVERIFY(pages->toHtml().contains("pictures/window.png"));
+  f.window.findChild<QPushButton*>("manual.back")->click();
+  QVERIFY(pages->toPlainText().startsWith("Episcope"));
 }
 
 // Those that do not are broken into columns, which cover the window.

@@ -4,12 +4,12 @@
 #include "engine/io/open.h"
 #include "tests/test_main.h"
 
-#include <QTemporaryDir>
 #include <hdf5.h>
+#include <QTemporaryDir>
 
+#include <malloc.h>
 #include <filesystem>
 #include <fstream>
-#include <malloc.h>
 #include <sstream>
 #include <string>
 

@@ -54,6 +54,8 @@ class SegmentationFileTest : public QObject {
  private slots:
   void roundTrip_data();
   void roundTrip();
+  void labels_takeLittleRoom_data();
+  void labels_takeLittleRoom();
   void probabilities_mayBeLeftOut();
   void datasets_areNamedAsInTheArchive();
   void unknownReading_staysUnknown();
@@ -109,6 +111,32 @@ void SegmentationFileTest::roundTrip() {
     QVERIFY(std::abs(p.at(3, 5, 0) - (10 * i + 5) / 255.0F) < 1e-6F);
     QVERIFY(std::abs(p.at(3, 5, 1) - (250 - 10 * i) / 255.0F) < 1e-6F);
   }
+}
+
+void SegmentationFileTest::labels_takeLittleRoom_data() {
+  QTest::addColumn<int>("id");
+  QTest::addColumn<int>("type");
+  QTest::newRow("bytes") << 255 << static_cast<int>(io::Hdf5Type::UInt8);
+  QTest::newRow("16 bits") << 300 << static_cast<int>(io::Hdf5Type::UInt16);
+  QTest::newRow("32 bits") << 70000 << static_cast<int>(io::Hdf5Type::Integer);
+}
+
+void SegmentationFileTest::labels_takeLittleRoom() {
+  QFETCH(int, id);
+  QFETCH(int, type);
+  constexpr int kSide = 128;
+  io::StoredSegmentation stored = labeling({9, 9}, {});
+  stored.labels = ViewStack<std::int32_t>({9, 9}, kSide, kSide);
+  for (std::size_t i = 0; i < stored.labels.size(); ++i) {
+    stored.labels.data()[i] = i % kSide < kSide / 2 ? 1 : id;
+  }
+
+  io::write_segmentation(path("small.h5"), stored, nullptr, Progress());
+
+  QCOMPARE(static_cast<int>(io::Hdf5Input(path("small.h5")).dataset("LABELS").type), type);
+  QVERIFY(std::filesystem::file_size(path("small.h5")) < stored.labels.size() / 8);
+  const Image<std::int32_t> read = io::SegmentationFile(path("small.h5")).labels({4, 7});
+  QVERIFY(std::equal(read.begin(), read.end(), stored.labels.view({4, 7}).data));
 }
 
 void SegmentationFileTest::probabilities_mayBeLeftOut() {

@@ -45,6 +45,7 @@ class SmoothBoundariesTest : public QObject {
   void raggedBoundary_becomesStraight_whereItIs();
   void specks_vanish_andPaintedPixelsStay();
   void straightBoundaries_stay();
+  void pixelsWithoutLabel_stay();
   void negativeSmoothing_isRefused();
 };
 
@@ -85,6 +86,14 @@ void SmoothBoundariesTest::straightBoundaries_stay() {
 
   QVERIFY(same(smooth_boundaries(labels, {}, 2.3), labels));
   QVERIFY(same(smooth_boundaries(lying, {}, 6), lying));
+}
+
+void SmoothBoundariesTest::pixelsWithoutLabel_stay() {
+  Image<std::int32_t> labels(40, 40, 1, 2);
+  for (int y = 0; y < 20; ++y) std::fill_n(labels.row(y), 20 - y, 0);
+  labels.at(30, 30) = 0;
+
+  QVERIFY(same(smooth_boundaries(labels, {}, 3), labels));
 }
 
 void SmoothBoundariesTest::negativeSmoothing_isRefused() {

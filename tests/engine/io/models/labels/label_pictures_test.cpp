@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/models/scribble_picture.h"
 #include "engine/core/error.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/models/labels/color_table.h"
+#include "engine/io/models/labels/label_import.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>
@@ -14,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace episcope::in_scribble_picture_test {
+namespace episcope::in_label_pictures_test {
 
 namespace {
 
@@ -78,11 +79,11 @@ void write_indices(const std::filesystem::path& path, int first, int second, boo
   file << chunk("IDAT", packed) << chunk("IEND", "");
 }
 
-int id_at(const io::PictureStrokes& strokes, int x) {
+int id_at(const io::ImportedLabels& strokes, int x) {
   return strokes.scribbles.views.at(0).labels.at(5, x);
 }
 
-std::string told(const io::PictureStrokes& strokes) {
+std::string told(const io::ImportedLabels& strokes) {
   std::string all;
   for (const std::string& note : strokes.notes) all += note + "\n";
   return all;
@@ -104,7 +105,7 @@ void compare(const Scribbles& a, const Scribbles& b) {
 
 }  // namespace
 
-class ScribblePictureTest : public QObject {
+class LabelPicturesTest : public QObject {
   Q_OBJECT
 
  private:
@@ -132,14 +133,14 @@ class ScribblePictureTest : public QObject {
     const auto files = io::write_scribble_pictures(path(""), scribbles);
 
     QCOMPARE(files.size(), std::size_t{6});
-    const io::PictureStrokes read = io::read_scribble_pictures(path(""), kShape);
+    const io::ImportedLabels read = io::read_label_files({path("")}, {kShape});
     compare(read.scribbles, scribbles);
     QVERIFY(read.notes.empty());
     QVERIFY_THROWS_EXCEPTION(IoError,
-                             (void)io::read_scribble_pictures(path(""), {{2, 5}, kHeight, kWidth}));
+                             (void)io::read_label_files({path("")}, {{{2, 5}, kHeight, kWidth}}));
     QVERIFY_THROWS_EXCEPTION(IoError,
-                             (void)io::read_scribble_pictures(path(""), {{5, 5}, kHeight, 3}));
-    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_scribble_pictures(path("none"), kShape));
+                             (void)io::read_label_files({path("")}, {{{5, 5}, kHeight, 3}}));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_label_files({path("none")}, {kShape}));
   }
 
   void onePicture_isOfTheCentreViewUnlessItsNameSaysAnother() {
@@ -149,11 +150,9 @@ class ScribblePictureTest : public QObject {
     const auto renamed = path("strokes.png");
     std::filesystem::copy_file(file, renamed);
 
-    QVERIFY(io::holds_scribble_pictures(path("")) && io::holds_scribble_pictures(renamed));
-    QVERIFY(!io::holds_scribble_pictures("") && !io::holds_scribble_pictures("labels.h5"));
-    compare(io::read_scribble_pictures(file, kShape).scribbles, scribbles);
+    compare(io::read_label_files({file}, {kShape}).scribbles, scribbles);
     scribbles.views.front().view = {2, 2};
-    compare(io::read_scribble_pictures(renamed, kShape).scribbles, scribbles);
+    compare(io::read_label_files({renamed}, {kShape}).scribbles, scribbles);
   }
 
   void previews_areReadAsTheirIds() {
@@ -162,13 +161,13 @@ class ScribblePictureTest : public QObject {
     scribbles.views.front().labels.at(3, 3) = 2;
     const auto preview = io::write_scribble_pictures(path(""), scribbles).back();
 
-    compare(io::read_scribble_pictures(preview, kShape).scribbles, scribbles);
+    compare(io::read_label_files({preview}, {kShape}).scribbles, scribbles);
   }
 
   void indices_areLabels() {
     write_indices(path("indexed.png"), 1, 2, false);
 
-    const io::PictureStrokes strokes = io::read_scribble_pictures(path("indexed.png"), kShape);
+    const io::ImportedLabels strokes = io::read_label_files({path("indexed.png")}, {kShape});
 
     QCOMPARE(id_at(strokes, 3), 1);
     QCOMPARE(id_at(strokes, 9), 2);
@@ -182,7 +181,7 @@ class ScribblePictureTest : public QObject {
   void transparentIndices_areUnpainted() {
     write_indices(path("indexed.png"), 1, 3, true);
 
-    const io::PictureStrokes strokes = io::read_scribble_pictures(path("indexed.png"), kShape);
+    const io::ImportedLabels strokes = io::read_label_files({path("indexed.png")}, {kShape});
 
     QCOMPARE(id_at(strokes, 3), 1);
     QCOMPARE(id_at(strokes, 9), 0);
@@ -194,8 +193,8 @@ class ScribblePictureTest : public QObject {
     write_indices(path("indexed.png"), 1, 2, false);
     const auto colors = table("r,g,b,id,name\n255,255,255,0,paper\n0,255,0,7,a tree\n0;0;255;4\n");
 
-    const io::PictureStrokes strokes = io::read_scribble_pictures(
-        path("indexed.png"), kShape, {.table = io::read_color_table(colors)});
+    const io::ImportedLabels strokes = io::read_label_files(
+        {path("indexed.png")}, {kShape}, {.table = io::read_color_table(colors)});
 
     QCOMPARE(id_at(strokes, 3), 7);
     QCOMPARE(id_at(strokes, 9), 4);
@@ -216,7 +215,7 @@ class ScribblePictureTest : public QObject {
     QFETCH(bool, is_clear);
     const auto file = write(drawing(is_clear ? kNothing : kWhite, kGreen, kBlue, channels));
 
-    const io::PictureStrokes strokes = io::read_scribble_pictures(file, kShape);
+    const io::ImportedLabels strokes = io::read_label_files({file}, {kShape});
 
     QCOMPARE(id_at(strokes, 3), 2);
     QCOMPARE(id_at(strokes, 9), 1);
@@ -233,7 +232,7 @@ class ScribblePictureTest : public QObject {
     const auto file = write(drawing(kWhite, kGreen, kBlue, 3));
     const std::vector<LabelInfo> known{{3, "wall", {0, 0, 200}}, {5, "plant", {0, 255, 0}}};
 
-    const io::PictureStrokes strokes = io::read_scribble_pictures(file, kShape, {.known = known});
+    const io::ImportedLabels strokes = io::read_label_files({file}, {kShape}, {.known = known});
 
     QCOMPARE(id_at(strokes, 3), 5);
     QCOMPARE(id_at(strokes, 9), 3);
@@ -246,7 +245,7 @@ class ScribblePictureTest : public QObject {
     const std::vector<LabelInfo> known{
         {1, "paper", {255, 255, 255}}, {3, "wall", {0, 0, 200}}, {5, "plant", {0, 255, 0}}};
 
-    const io::PictureStrokes strokes = io::read_scribble_pictures(file, kShape, {.known = known});
+    const io::ImportedLabels strokes = io::read_label_files({file}, {kShape}, {.known = known});
 
     QCOMPARE(id_at(strokes, 0), 1);
     QVERIFY2(told(strokes).find("every pixel is painted") != std::string::npos,
@@ -258,7 +257,7 @@ class ScribblePictureTest : public QObject {
     const auto colors = io::read_color_table(table("0 255 0 1 tree\n"));
 
     try {
-      (void)io::read_scribble_pictures(file, kShape, {.table = colors});
+      (void)io::read_label_files({file}, {kShape}, {.table = colors});
       QFAIL("a color without a label was read");
     } catch (const IoError& error) {
       QVERIFY2(std::string(error.what()).find("12 px of the color #0000c8 (0,0,200)") !=
@@ -274,17 +273,15 @@ class ScribblePictureTest : public QObject {
     }
     const auto file = write(photograph);
 
-    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_scribble_pictures(file, kShape));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_label_files({file}, {kShape}));
   }
 
   void jpeg_isRefused() {
     for (const char* name : {"strokes.jpg", "strokes.png"}) {
       const std::filesystem::path file = folder_->filePath(name).toStdString();
       std::ofstream(file, std::ios::binary) << "\xFF\xD8\xFF\xE0 and so on";
-
-      QVERIFY(io::holds_scribble_pictures(file));
       try {
-        (void)io::read_scribble_pictures(file, kShape);
+        (void)io::read_label_files({file}, {kShape});
         QFAIL("a JPEG picture is read");
       } catch (const IoError& error) {
         QVERIFY(QString(error.what()).contains("JPEG") && QString(error.what()).contains("PNG"));
@@ -295,7 +292,7 @@ class ScribblePictureTest : public QObject {
   void grayInColor_isOfNumbers() {
     const auto file = write(drawing({0, 0, 0, 255}, {1, 1, 1, 255}, {2, 2, 2, 255}, 3));
 
-    const io::PictureStrokes strokes = io::read_scribble_pictures(file, kShape);
+    const io::ImportedLabels strokes = io::read_label_files({file}, {kShape});
 
     QCOMPARE(id_at(strokes, 3), 1);
     QCOMPARE(id_at(strokes, 9), 2);
@@ -304,7 +301,7 @@ class ScribblePictureTest : public QObject {
   void nothingPainted_isRefused() {
     const auto file = write(drawing(kNothing, kNothing, kNothing, 4));
 
-    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_scribble_pictures(file, kShape));
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_label_files({file}, {kShape}));
   }
 
   void badTables_nameTheLine_data() {
@@ -326,7 +323,7 @@ class ScribblePictureTest : public QObject {
   }
 };
 
-}  // namespace episcope::in_scribble_picture_test
+}  // namespace episcope::in_label_pictures_test
 
-EPISCOPE_TEST(scribble_picture_test, ScribblePictureTest)
-#include "scribble_picture_test.moc"
+EPISCOPE_TEST(label_pictures_test, LabelPicturesTest)
+#include "label_pictures_test.moc"

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/models/scribble_picture.h"
+#include "engine/io/models/labels/label_pictures.h"
 
 #include "engine/core/error.h"
-#include "engine/core/numbers.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
-#include "engine/io/base/image_file.h"
+#include "engine/io/models/labels/color_table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <regex>
+#include <set>
 #include <utility>
 
 namespace episcope::io {
@@ -26,13 +25,6 @@ constexpr int kRgba = 4;
 
 std::string stem_of(ViewIndex view) {
   return fmt::format("scribbles_{:02}_{:02}", view.v, view.u);
-}
-
-std::optional<ViewIndex> view_of(const std::string& name) {
-  static const std::regex pattern("scribbles_([0-9]{2,5})_([0-9]{2,5})\\.png");
-  std::smatch found;
-  if (!std::regex_match(name, found, pattern)) return std::nullopt;
-  return ViewIndex{std::stoi(found[1]), std::stoi(found[2])};
 }
 
 template <class T>
@@ -77,167 +69,28 @@ std::vector<fs::path> write_scribble_pictures(const fs::path& folder, const Scri
   return written;
 }
 
-bool holds_scribble_pictures(const fs::path& path) {
-  // JPEG to say why it is refused.
-  constexpr std::array kSuffixes{".png", ".bmp", ".tif", ".tiff", ".pgm", ".jpg", ".jpeg"};
-  std::error_code ignored;
-  return fs::is_directory(path, ignored) ||
-         std::ranges::find(kSuffixes, suffix_of(path)) != kSuffixes.end();
+std::optional<ViewIndex> view_of_scribble_picture(const std::string& name) {
+  static const std::regex pattern("scribbles_([0-9]{2,5})_([0-9]{2,5})\\.png");
+  std::smatch found;
+  if (!std::regex_match(name, found, pattern)) return std::nullopt;
+  return ViewIndex{std::stoi(found[1]), std::stoi(found[2])};
+}
+
+bool ViewPicture::is_painted(int y, int x) const {
+  constexpr std::uint8_t kOpaque = 128;  // from here on a pixel is painted
+  return picture.alpha.empty() || picture.alpha.at(y, x) >= kOpaque;
+}
+
+Rgb ViewPicture::color(int y, int x) const {
+  const std::uint8_t* pixel = &picture.colors.at(y, x);
+  return {pixel[0], pixel[1], pixel[2]};
 }
 
 namespace {
-
-/// Begins of a line that are separated as a table is; the last holds the rest.
-std::vector<std::string> cells_of(const std::string& line, std::size_t most) {
-  const std::string marks = line.find(',') != std::string::npos   ? ","
-                            : line.find(';') != std::string::npos ? ";"
-                                                                  : " \t";
-  const auto trimmed = [](std::string text) {
-    constexpr const char* blank = " \t\r\"";
-    const std::size_t begin = text.find_first_not_of(blank);
-    if (begin == std::string::npos) return std::string();
-    return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
-  };
-  std::vector<std::string> cells;
-  std::string rest = trimmed(line);
-  while (!rest.empty() && cells.size() + 1 < most) {
-    const std::size_t end = rest.find_first_of(marks);
-    cells.push_back(trimmed(rest.substr(0, end)));
-    rest = end == std::string::npos ? "" : trimmed(rest.substr(end + 1));
-  }
-  if (!rest.empty()) cells.push_back(rest);
-  return cells;
-}
-
-std::optional<int> whole_number(const std::string& text, int most) {
-  const auto number = parse_number(text);
-  const auto whole = number ? whole_int(*number) : std::nullopt;
-  return whole && *whole >= 0 && *whole <= most ? whole : std::nullopt;
-}
-
-std::string color_text(const Rgb& color) {
-  return fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
-}
-
-constexpr int kMostId = 65535;
-
-/// Empty if the line is no row of a table.
-std::optional<LabelInfo> row_of(const std::string& line) {
-  constexpr std::size_t kCells = 5;
-  const std::vector<std::string> cells = cells_of(line, kCells);
-  if (cells.size() + 1 < kCells) return std::nullopt;
-  LabelInfo row;
-  for (std::size_t c = 0; c < row.color.size(); ++c) {
-    const auto level = whole_number(cells[c], 255);
-    if (!level) return std::nullopt;
-    row.color[c] = static_cast<std::uint8_t>(*level);
-  }
-  const auto id = whole_number(cells[3], kMostId);
-  if (!id) return std::nullopt;
-  row.id = *id;
-  row.name = cells.size() == kCells ? cells.back() : color_text(row.color);
-  return row;
-}
-
-}  // namespace
-
-std::vector<LabelInfo> read_color_table(const fs::path& path) {
-  require_readable_file(path);
-  std::ifstream in(path);
-  std::vector<LabelInfo> table;
-  int number = 0;
-  bool may_be_heading = true;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    if (line.find_first_not_of(" \t\r") == std::string::npos || line.starts_with('#')) continue;
-    const auto row = row_of(line);
-    if (!row && !std::exchange(may_be_heading, false)) {
-      throw IoError(path, fmt::format("line {} is '{}', but must be r,g,b,id,name with levels from "
-                                      "0 to 255 and an id from 0 to {}",
-                                      number, line, kMostId));
-    }
-    may_be_heading = false;
-    if (!row) continue;
-    if (std::ranges::find(table, row->color, &LabelInfo::color) != table.end()) {
-      throw IoError(path, fmt::format("line {} repeats the color {}; give each color one label",
-                                      number, color_text(row->color)));
-    }
-    table.push_back(*row);
-  }
-  if (table.empty()) throw IoError(path, "has no line r,g,b,id,name; write one for each color");
-  return table;
-}
-
-namespace {
-
-constexpr std::uint8_t kOpaque = 128;  ///< From here on a pixel is painted.
-
-struct ReadPicture {
-  fs::path path;
-  ViewIndex view;
-  LabelPicture picture;
-
-  [[nodiscard]] bool is_painted(int y, int x) const {
-    return picture.alpha.empty() || picture.alpha.at(y, x) >= kOpaque;
-  }
-  [[nodiscard]] Rgb color(int y, int x) const {
-    const std::uint8_t* pixel = &picture.colors.at(y, x);
-    return {pixel[0], pixel[1], pixel[2]};
-  }
-};
-
-ViewIndex require_view(const fs::path& path, ViewIndex view, GridShape grid) {
-  if (grid.contains(view)) return view;
-  throw IoError(path, "the light field has no view (" + view_text(view) +
-                          "); choose pictures of this light field");
-}
-
-/// JPEG mixes the colors of strokes with those beside them.
-void require_exact_colors(const fs::path& path) {
-  constexpr std::array<char, 3> kJpeg{'\xFF', '\xD8', '\xFF'};
-  std::array<char, 3> begin{};
-  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
-  if (begin != kJpeg) return;
-  throw IoError(path,
-                "is a JPEG picture, which changes the colors of strokes; save the drawing as PNG");
-}
-
-ReadPicture read_picture(const fs::path& path, ViewIndex view, const FieldShape& shape) {
-  require_exact_colors(path);
-  ReadPicture read{path, require_view(path, view, shape.grid), decode_label_picture(path)};
-  const LabelPicture& picture = read.picture;
-  if (picture.height() == shape.height && picture.width() == shape.width) return read;
-  throw IoError(
-      path,
-      fmt::format(
-          "the picture has {}×{} px, but views have {}×{} px; choose pictures of this light field",
-          picture.height(), picture.width(), shape.height, shape.width));
-}
-
-std::vector<ReadPicture> read_pictures(const fs::path& path, const FieldShape& shape) {
-  std::error_code error;
-  std::vector<ReadPicture> pictures;
-  if (!fs::is_directory(path, error)) {
-    const ViewIndex view = view_of(path.filename().string()).value_or(shape.grid.center());
-    pictures.push_back(read_picture(path, view, shape));
-    return pictures;
-  }
-  for (const auto& entry : fs::directory_iterator(path, error)) {
-    const auto view = view_of(entry.path().filename().string());
-    if (view) pictures.push_back(read_picture(entry.path(), *view, shape));
-  }
-  if (error) throw IoError(path, "the folder cannot be read; check its permissions");
-  if (pictures.empty()) {
-    throw IoError(path, "there is no picture scribbles_<v>_<u>.png here; choose another folder");
-  }
-  std::ranges::sort(pictures, {},
-                    [](const ReadPicture& one) { return std::pair(one.view.v, one.view.u); });
-  return pictures;
-}
 
 /// Calls `visit(y, x)` for each pixel that is painted, or for each that is not.
 template <class Visit>
-void for_pixels(const ReadPicture& one, bool are_painted, const Visit& visit) {
+void for_pixels(const ViewPicture& one, bool are_painted, const Visit& visit) {
   for (int y = 0; y < one.picture.height(); ++y) {
     for (int x = 0; x < one.picture.width(); ++x) {
       if (one.is_painted(y, x) == are_painted) visit(y, x);
@@ -310,26 +163,26 @@ void take_levels(LabelPicture& picture) {
 }
 
 /// With a table, colors and palettes are colors; without, pictures that are all gray are numbers.
-void settle_kinds(std::vector<ReadPicture>& pictures, bool has_table) {
-  for (ReadPicture& one : pictures) {
+void settle_kinds(std::vector<ViewPicture>& pictures, bool has_table) {
+  for (ViewPicture& one : pictures) {
     if (has_table && !one.picture.palette.empty()) resolve_palette(one.picture);
   }
-  const auto are_gray = [](const ReadPicture& one) { return is_gray(one.picture); };
+  const auto are_gray = [](const ViewPicture& one) { return is_gray(one.picture); };
   if (has_table || !std::ranges::all_of(pictures, are_gray)) return;
-  for (ReadPicture& one : pictures) take_levels(one.picture);
+  for (ViewPicture& one : pictures) take_levels(one.picture);
 }
 
 [[noreturn]] void refuse_colors(const fs::path& path, const std::string& count) {
-  throw IoError(path, fmt::format("has {} colors, but strokes have one a label, at most {}; draw "
-                                  "them with a hard brush on a ground of one color, and save them "
-                                  "as PNG",
-                                  count, kMostStrokeColors));
+  throw IoError(path, fmt::format("has {} colors, but labels have one each, at most {}; draw "
+                                  "strokes with a hard brush on a ground of one color, and save "
+                                  "labels as PNG",
+                                  count, kMostLabelColors));
 }
 
-PixelCensus<Rgb> count_colors(const std::vector<ReadPicture>& pictures, const fs::path& path) {
+PixelCensus<Rgb> count_colors(const std::vector<ViewPicture>& pictures, const fs::path& path) {
   constexpr std::size_t kEnough = 4096;  // nobody draws so many by hand
   PixelCensus<Rgb> census;
-  for (const ReadPicture& one : pictures) {
+  for (const ViewPicture& one : pictures) {
     for_pixels(one, true, [&](int y, int x) {
       ++census.counts[one.color(y, x)];
       if (census.counts.size() > kEnough) refuse_colors(path, fmt::format("over {}", kEnough));
@@ -337,7 +190,7 @@ PixelCensus<Rgb> count_colors(const std::vector<ReadPicture>& pictures, const fs
     for_pixels(one, false, [&](int, int) { ++census.transparent; });
   }
   const std::size_t count = census.counts.size();
-  if (count > kMostStrokeColors + 1) refuse_colors(path, std::to_string(count));
+  if (count > kMostLabelColors + 1) refuse_colors(path, std::to_string(count));
   return census;
 }
 
@@ -362,16 +215,34 @@ std::vector<LabelInfo> usual_labels() {
   return labels;
 }
 
+/// Colors that tell more than that somebody took red or blue.
+bool are_telling(const SharedColors& table, const std::vector<Rgb>& colors) {
+  constexpr std::ptrdiff_t kFewest = 3;
+  const auto labels =
+      std::ranges::count_if(colors, [](const Rgb& color) { return color != Rgb{}; });
+  return table.name == "voc" || labels >= kFewest;
+}
+
 /// What colors without a table stand for: labels of the light field, else the usual ones.
-std::optional<std::vector<LabelInfo>> known_labels(const std::vector<Rgb>& colors,
-                                                   const PictureLabels& labels) {
-  const auto found = all_known(colors, labels.known);
-  return found ? found : all_known(colors, usual_labels());
+struct KnownColors {
+  std::vector<LabelInfo> labels;
+  std::string title;  ///< Of what others have, too.
+};
+
+std::optional<KnownColors> known_labels(const std::vector<Rgb>& colors,
+                                        const LabelReading& labels) {
+  if (const auto found = all_known(colors, labels.known)) return KnownColors{*found, {}};
+  if (const auto found = all_known(colors, usual_labels())) return KnownColors{*found, {}};
+  for (const SharedColors& table : shared_colors()) {
+    const auto found = all_known(colors, table.labels);
+    if (found && are_telling(table, colors)) return KnownColors{*found, table.title};
+  }
+  return std::nullopt;
 }
 
 /// The color that is unpainted; none where pixels are transparent, where the table names it, and
 /// where every color is one of a known label.
-std::optional<Rgb> find_ground(const PixelCensus<Rgb>& census, const PictureLabels& labels) {
+std::optional<Rgb> find_ground(const PixelCensus<Rgb>& census, const LabelReading& labels) {
   const std::vector<LabelInfo>& table = labels.table;
   const auto has_zero = std::ranges::find(table, 0, &LabelInfo::id) != table.end();
   if (census.transparent > 0 || has_zero || census.counts.empty()) return std::nullopt;
@@ -386,7 +257,7 @@ std::optional<Rgb> find_ground(const PixelCensus<Rgb>& census, const PictureLabe
 }
 
 std::vector<LabelInfo> labels_of(const std::vector<Rgb>& colors, const PixelCensus<Rgb>& census,
-                                 const PictureLabels& labels, const fs::path& path) {
+                                 const LabelReading& labels, const fs::path& path) {
   if (!labels.table.empty()) {
     if (const auto found = all_known(colors, labels.table)) return *found;
     const auto missing = std::ranges::find_if(colors, [&](const Rgb& color) {
@@ -397,7 +268,7 @@ std::vector<LabelInfo> labels_of(const std::vector<Rgb>& colors, const PixelCens
                                     census.counts.at(*missing), color_text(*missing), (*missing)[0],
                                     (*missing)[1], (*missing)[2]));
   }
-  if (const auto found = known_labels(colors, labels)) return *found;
+  if (const auto found = known_labels(colors, labels)) return found->labels;
   std::vector<LabelInfo> counted;
   for (const Rgb& color : colors) {
     const int id = static_cast<int>(counted.size()) + 1;
@@ -428,8 +299,8 @@ std::string ground_of(const PixelCensus<Rgb>& census, const std::map<Rgb, int>& 
   return joined(unpainted, ", ", color_text) + " (" + share_text(pixels, census.all()) + ")";
 }
 
-PictureStrokes strokes_of_colors(const std::vector<ReadPicture>& pictures,
-                                 const PictureLabels& labels, const fs::path& path) {
+ImportedLabels strokes_of_colors(const std::vector<ViewPicture>& pictures,
+                                 const LabelReading& labels, const fs::path& path) {
   const PixelCensus<Rgb> census = count_colors(pictures, path);
   const std::optional<Rgb> ground = find_ground(census, labels);
   std::vector<Rgb> colors;
@@ -439,9 +310,13 @@ PictureStrokes strokes_of_colors(const std::vector<ReadPicture>& pictures,
   const std::vector<LabelInfo> found = labels_of(colors, census, labels, path);
   std::map<Rgb, int> ids;
   if (ground) ids[*ground] = 0;
-  for (std::size_t i = 0; i < colors.size(); ++i) ids[colors[i]] = found[i].id;
-  PictureStrokes strokes;
-  for (const ReadPicture& one : pictures) {
+  const std::vector<std::int32_t> ignored = labels.ignored.value_or(std::vector<std::int32_t>{});
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const bool is_ignored = std::ranges::find(ignored, found[i].id) != ignored.end();
+    ids[colors[i]] = is_ignored ? 0 : found[i].id;
+  }
+  ImportedLabels strokes;
+  for (const ViewPicture& one : pictures) {
     Image<std::int32_t> painted(one.picture.height(), one.picture.width());
     for_pixels(one, true, [&](int y, int x) { painted.at(y, x) = ids.at(one.color(y, x)); });
     strokes.scribbles.views.push_back({one.view, std::move(painted)});
@@ -451,10 +326,14 @@ PictureStrokes strokes_of_colors(const std::vector<ReadPicture>& pictures,
   strokes.notes = {
       name + "a label is a color: " + joined(strokes.scribbles.labels, ", ", label_text),
       name + ground_text(ground_of(census, ids), census.transparent, census.all())};
-  if (labels.table.empty() && !known_labels(colors, labels)) {
+  if (!labels.table.empty()) return strokes;
+  const auto usual = known_labels(colors, labels);
+  if (!usual) {
     strokes.notes.push_back(name +
                             "the numbers of its labels follow the codes of the colors, which may "
                             "not be those of other labels; a table of colors states them");
+  } else if (!usual->title.empty()) {
+    strokes.notes.push_back(name + "the labels have the numbers of " + usual->title);
   }
   return strokes;
 }
@@ -462,9 +341,9 @@ PictureStrokes strokes_of_colors(const std::vector<ReadPicture>& pictures,
 /// Names of the numbers that are painted: of the table, else of the light field; colors are those
 /// of the palette. Empty where none of these says anything.
 std::vector<LabelInfo> labels_of(const PixelCensus<std::int32_t>& census,
-                                 const LabelPicture& picture, const PictureLabels& labels) {
+                                 const LabelPicture& picture, const LabelReading& labels) {
   std::vector<LabelInfo> found;
-  if (picture.palette.empty() && labels.table.empty()) return found;
+  if (picture.palette.empty() && labels.table.empty() && labels.stated.empty()) return found;
   for (const auto& [id, count] : census.counts) {
     if (id == 0) continue;
     LabelInfo label{id, "label " + std::to_string(id), label_color(id)};
@@ -477,16 +356,56 @@ std::vector<LabelInfo> labels_of(const PixelCensus<std::int32_t>& census,
       const auto known = std::ranges::find(*list, id, &LabelInfo::id);
       if (known != list->end()) label.name = known->name;
     }
+    const auto stated = std::ranges::find(labels.stated, id, &LabelInfo::id);
+    if (stated != labels.stated.end()) label = *stated;
+    const auto named = std::ranges::find(labels.palette_names, label.color, &LabelInfo::color);
+    if (named != labels.palette_names.end()) label.name = named->name;
     found.push_back(std::move(label));
   }
   return found;
 }
 
-PictureStrokes strokes_of_numbers(const std::vector<ReadPicture>& pictures,
-                                  const PictureLabels& labels, const fs::path& path) {
-  PictureStrokes strokes;
+/// Marks unlabeled numbers by 0. Returns a sentence about those that are not negative, or nothing.
+std::string mark_unlabeled(std::vector<ViewPicture>& pictures, const LabelReading& labels) {
+  constexpr std::int32_t kVoid = 255;
+  std::map<std::int32_t, std::size_t> counts;
+  std::size_t all = 0;
+  for (const ViewPicture& one : pictures) {
+    std::int32_t last = 0;
+    std::size_t* count = &counts[last];
+    for (const std::int32_t id : one.picture.numbers) {
+      if (id != last) count = &counts[last = id];
+      ++*count;
+    }
+    all += one.picture.numbers.size();
+  }
+  const bool is_void = counts.rbegin()->first == kVoid && counts.upper_bound(0)->first < kVoid &&
+                       !pictures.front().is_own;
+  std::vector<std::int32_t> ignored = labels.ignored.value_or(std::vector<std::int32_t>{});
+  if (!labels.ignored && is_void) ignored.push_back(kVoid);
+  std::erase_if(ignored, [&](std::int32_t id) { return id <= 0 || !counts.contains(id); });
+  if (ignored.empty() && counts.begin()->first >= 0) return {};
+  const std::set<std::int32_t> none(ignored.begin(), ignored.end());
+  std::size_t pixels = 0;
+  for (const std::int32_t id : none) pixels += counts.at(id);
+  for (ViewPicture& one : pictures) {
+    for (std::int32_t& id : one.picture.numbers) {
+      if (id < 0 || none.contains(id)) id = 0;
+    }
+  }
+  if (none.empty()) return {};
+  return fmt::format("{} ({}) {} unlabeled",
+                     joined(none, ", ", [](int id) { return std::to_string(id); }),
+                     share_text(pixels, all), none.size() == 1 ? "is taken for" : "are taken for");
+}
+
+ImportedLabels strokes_of_numbers(std::vector<ViewPicture>& pictures, const LabelReading& labels,
+                                  const fs::path& path) {
+  ImportedLabels strokes;
+  const std::string unlabeled = mark_unlabeled(pictures, labels);
+  if (!unlabeled.empty()) strokes.notes.push_back(path.string() + ": " + unlabeled);
   PixelCensus<std::int32_t> census;
-  for (const ReadPicture& one : pictures) {
+  for (const ViewPicture& one : pictures) {
     Image<std::int32_t> painted(one.picture.height(), one.picture.width());
     for_pixels(one, true, [&](int y, int x) {
       painted.at(y, x) = one.picture.numbers.at(y, x);
@@ -513,26 +432,22 @@ PictureStrokes strokes_of_numbers(const std::vector<ReadPicture>& pictures,
   return strokes;
 }
 
-bool is_anything_painted(const Scribbles& scribbles) {
-  return std::ranges::any_of(scribbles.views, [](const ViewScribbles& one) {
-    return std::ranges::any_of(one.labels, [](std::int32_t id) { return id != 0; });
-  });
-}
-
 }  // namespace
 
-PictureStrokes read_scribble_pictures(const fs::path& path, const FieldShape& shape,
-                                      const PictureLabels& labels) {
-  std::vector<ReadPicture> pictures = read_pictures(path, shape);
-  settle_kinds(pictures, !labels.table.empty());
-  const auto has_colors = [](const ReadPicture& one) { return !one.picture.colors.empty(); };
+ImportedLabels labels_of_pictures(std::vector<ViewPicture> pictures, const LabelReading& reading,
+                                  const fs::path& path) {
+  settle_kinds(pictures, !reading.table.empty());
+  const auto has_colors = [](const ViewPicture& one) { return !one.picture.colors.empty(); };
   const auto colored = std::ranges::count_if(pictures, has_colors);
   if (colored > 0 && static_cast<std::size_t>(colored) < pictures.size()) {
     throw IoError(path, "holds pictures of colors beside pictures of numbers; save all alike");
   }
-  PictureStrokes strokes = colored > 0 ? strokes_of_colors(pictures, labels, path)
-                                       : strokes_of_numbers(pictures, labels, path);
-  if (is_anything_painted(strokes.scribbles)) return strokes;
+  ImportedLabels labels = colored > 0 ? strokes_of_colors(pictures, reading, path)
+                                      : strokes_of_numbers(pictures, reading, path);
+  std::erase_if(labels.scribbles.views, [](const ViewScribbles& one) {
+    return std::ranges::all_of(one.labels, [](std::int32_t id) { return id == 0; });
+  });
+  if (!labels.scribbles.views.empty()) return labels;
   throw IoError(path, "nothing is painted: every pixel is unpainted or transparent; draw strokes");
 }
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/shell/workbench.h"
+
+#include <QWidget>
+
+class QMenu;
+
+namespace episcope {
+
+/// What to do first, over the demo: open a light field of one's own, or three steps to try. Gone
+/// for good once a light field that is not built in was opened, or its cross was clicked.
+class StartStrip : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// `recent` lists recent inputs and outlives this.
+  StartStrip(const Workbench& bench, QMenu* recent);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  QWidget* makeButtons(QMenu* recent);
+  void update();
+
+  Workbench bench_;
+  bool is_over_ = false;
+};
+
+}  // namespace episcope

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/plenoptic/decode_files.h"
+
+#include "engine/capture/plenoptic/white_pictures.h"
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/io/base/files.h"
+#include "engine/io/formats/write_scene.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace episcope::capture {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \t\r\"");
+  if (begin == text.npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r\"") - begin + 1);
+}
+
+/// Values by "section.key".
+std::map<std::string, std::string> read_sections(const fs::path& path) {
+  io::require_openable_file(path);
+  constexpr std::uintmax_t kLargestText = 1 << 20;
+  if (fs::file_size(path) > kLargestText) {
+    throw IoError(path, "this is too large for a description of a camera; choose another file");
+  }
+  std::ifstream file(path);
+  std::map<std::string, std::string> values;
+  std::string section;
+  for (std::string line; std::getline(file, line);) {
+    line = trimmed(line);
+    if (line.starts_with('[')) {
+      section = line.substr(1, line.find(']') - 1);
+      continue;
+    }
+    const auto equals = line.find('=');
+    if (equals == line.npos) continue;
+    values[section + "." + trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+  }
+  return values;
+}
+
+void take_mosaic(RawPicture& picture, const std::optional<Mosaic>& mosaic) {
+  if (mosaic && picture.mosaic == Mosaic::Gray) picture.mosaic = *mosaic;
+}
+
+/// Facts of the optics where the camera itself says nothing.
+void add_facts(RawFacts& facts, const RawFacts& optics) {
+  if (facts.model.empty()) facts.model = optics.model;
+  if (!facts.pixel_pitch_um) facts.pixel_pitch_um = optics.pixel_pitch_um;
+  if (!facts.lens_pitch_um) facts.lens_pitch_um = optics.lens_pitch_um;
+  if (!facts.focal_length_mm) facts.focal_length_mm = optics.focal_length_mm;
+}
+
+void find_white(const PictureFiles& files, std::optional<RawPicture> own, FoundPictures& found) {
+  RawPicture& raw = found.pictures.raw;
+  if (files.white.empty() && own) {
+    found.pictures.white = std::move(own);
+    found.notes.push_back("white picture: the one in the file of the raw picture");
+    return;
+  }
+  const fs::path path = files.white.empty() ? find_beside(files.raw, "white") : files.white;
+  if (path.empty()) return;
+  ChosenWhite chosen = read_white(path, raw);
+  take_mosaic(chosen.picture, files.mosaic);
+  found.pictures.white = std::move(chosen.picture);
+  found.notes.push_back(std::move(chosen.reason));
+}
+
+void find_dark(const PictureFiles& files, FoundPictures& found) {
+  const fs::path path = files.dark.empty() ? find_beside(files.raw, "dark") : files.dark;
+  if (path.empty()) return;
+  found.pictures.dark = read_raw(path).raw;
+  take_mosaic(*found.pictures.dark, files.mosaic);
+  found.notes.push_back("dark picture " + found.pictures.dark->name);
+}
+
+}  // namespace
+
+FoundPictures read_pictures(const PictureFiles& files) {
+  FoundPictures found;
+  RawFile file = read_raw(files.raw);
+  found.pictures.raw = std::move(file.raw);
+  take_mosaic(found.pictures.raw, files.mosaic);
+  if (!files.camera.empty()) add_facts(found.pictures.raw.facts, read_optics(files.camera));
+  find_white(files, std::move(file.white), found);
+  find_dark(files, found);
+  require_matching(found.pictures);
+  return found;
+}
+
+RawFacts read_optics(const fs::path& path) {
+  const std::map<std::string, std::string> values = read_sections(path);
+  const auto number = [&](const char* key, double factor) -> std::optional<double> {
+    const auto value = values.find(key);
+    if (value == values.end()) return {};
+    const auto read = io::parse_number(value->second);
+    return read && *read > 0 ? std::optional(*read * factor) : std::nullopt;
+  };
+  RawFacts facts;
+  if (const auto model = values.find("sensor.model"); model != values.end()) {
+    facts.model = model->second;
+  }
+  facts.pixel_pitch_um = number("sensor.pixel_size_x", 1e3);
+  facts.lens_pitch_um = number("micro_lens.physical_size_s", 1e3);
+  facts.focal_length_mm = number("main_lens.f1", 1);
+  if (facts.table().empty()) {
+    throw IoError(path,
+                  "this describes no camera: [sensor] pixel_size_x, [micro_lens] "
+                  "physical_size_s or [main_lens] f1 is expected, in mm");
+  }
+  return facts;
+}
+
+Scene scene_of(const Decoded& decoded, const FoundPictures& found) {
+  Scene scene;
+  scene.light_field = decoded.light_field;
+  scene.truth = std::make_shared<const GroundTruth>();
+  scene.convention.format = origin_text(decoded, found.pictures.raw);
+  scene.convention.order = "canonical order";
+  scene.convention.order_check = "a pixel right of a lens's center sees from the right";
+  scene.convention.samples = decoded.is_gamma_encoded ? "uint16, gamma-encoded" : "uint16, linear";
+  scene.convention.warnings = decoded.warnings;
+  return scene;
+}
+
+std::string origin_text(const Decoded& decoded, const RawPicture& raw) {
+  const LensGrid& grid = decoded.grid;
+  std::string text = fmt::format(
+      "decoded from {}: {} lenses of {:.2f} px, turned by {:.3f}°, views {:.3g} px apart, {} "
+      "samples",
+      raw.name, grid.lattice == LensLattice::Hexagonal ? "hexagonal" : "square", grid.pitch_px,
+      grid.rotation_degrees, decoded.step_px,
+      decoded.is_gamma_encoded ? "gamma-encoded" : "linear");
+  const auto facts = raw.facts.table();
+  if (facts.empty()) return text;
+  return text + "; " +
+         joined(facts, ", ", [](const auto& fact) { return fact.first + " " + fact.second; });
+}
+
+void write_decoded(const fs::path& path, const Decoded& decoded, const FoundPictures& found,
+                   const Progress& progress) {
+  io::ArchiveForm form;
+  form.origin = origin_text(decoded, found.pictures.raw);
+  io::write_archive(path, scene_of(decoded, found), progress, form);
+}
+
+}  // namespace episcope::capture

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/capture/plenoptic/decode.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::capture {
+
+/// The files of one exposure, as a user names them.
+struct PictureFiles {
+  std::filesystem::path raw;
+  /// A file, folder or tar (read_white); empty = the white picture that the raw file holds or that
+  /// lies beside it (find_beside), else none.
+  std::filesystem::path white{};
+  std::filesystem::path dark{};    ///< Empty = the one beside the raw file, else none.
+  std::filesystem::path camera{};  ///< Optics of a laboratory camera (read_optics).
+  std::optional<Mosaic> mosaic{};  ///< Of a picture whose file does not tell; else gray.
+};
+
+/// Pictures that were read, and sentences for users about which were taken and why.
+struct FoundPictures {
+  PlenopticPictures pictures;
+  std::vector<std::string> notes;
+};
+
+/// Throws IoError, InvalidInput if they do not match.
+[[nodiscard]] FoundPictures read_pictures(const PictureFiles& files);
+
+/// Facts out of a small text file of lines "key = value" below "[section]", lengths in mm: [sensor]
+/// model, pixel_size_x; [micro_lens] physical_size_s; [main_lens] f1. Other keys are ignored.
+/// Throws IoError for a file that has none of these.
+[[nodiscard]] RawFacts read_optics(const std::filesystem::path& path);
+
+/// What was decoded, as a scene that can be written or shown.
+[[nodiscard]] Scene scene_of(const Decoded& decoded, const FoundPictures& found);
+
+/// Raw picture, lenses and facts in one line; it is kept in the file (io::ArchiveForm::origin).
+[[nodiscard]] std::string origin_text(const Decoded& decoded, const RawPicture& raw);
+
+/// Writes the light field in the form of the archive, with mask and origin. Throws IoError,
+/// Cancelled.
+void write_decoded(const std::filesystem::path& path, const Decoded& decoded,
+                   const FoundPictures& found, const Progress& progress);
+
+}  // namespace episcope::capture

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/labels/label_export.h"
+
+#include "engine/core/error.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/label_pages.h"
+#include "engine/io/models/labels/color_table.h"
+#include "engine/io/models/labels/label_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace episcope::io {
+
+Names<LabelForm> names_of(LabelForm) {
+  return {{LabelForm::Indexed, "labels", "PNG with a palette"},
+          {LabelForm::Voc, "voc", "PASCAL VOC"},
+          {LabelForm::Coco, "coco", "COCO"},
+          {LabelForm::Labelme, "labelme", "labelme"}};
+}
+
+LabelSource source_of(const ViewStack<std::int32_t>& maps, std::vector<LabelInfo> infos) {
+  LabelSource source;
+  for (int i = 0; i < maps.grid().count(); ++i) source.views.push_back(maps.view_at(i));
+  source.labels_of = [&maps](ViewIndex view) {
+    Image<std::int32_t> labels(maps.height(), maps.width());
+    std::copy_n(maps.view(view).data, labels.size(), labels.data());
+    return labels;
+  };
+  source.infos = std::move(infos);
+  return source;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int32_t kLargestIndex = 255;
+constexpr std::int32_t kLargestGray = 65535;
+
+std::string name_of(ViewIndex view) {
+  return fmt::format("{:02}_{:02}", view.v, view.u);
+}
+
+/// Labels that are painted or have a name, by id.
+std::vector<LabelInfo> infos_of(const LabelSource& source, const Progress& progress) {
+  std::set<std::int32_t> ids;
+  for (std::size_t i = 0; i < source.views.size(); ++i) {
+    progress.report(static_cast<double>(i) / static_cast<double>(source.views.size()));
+    std::int32_t last = 0;
+    for (const std::int32_t id : source.labels_of(source.views[i])) {
+      if (id != last && id > 0) ids.insert(id);
+      last = id;
+    }
+  }
+  std::vector<LabelInfo> infos = source.infos;
+  std::erase_if(infos, [](const LabelInfo& label) { return label.id <= 0; });
+  for (const std::int32_t id : ids) {
+    if (std::ranges::find(infos, id, &LabelInfo::id) != infos.end()) continue;
+    infos.push_back({id, "label " + std::to_string(id), label_color(id)});
+  }
+  std::ranges::sort(infos, {}, &LabelInfo::id);
+  return infos;
+}
+
+/// A view in 8 bits.
+void write_view(const fs::path& path, const LightField& field, ViewIndex view) {
+  if (field.sample_type() == SampleType::UInt8) {
+    return write_png(path, field.view<std::uint8_t>(view));
+  }
+  Image<std::uint8_t> picture(field.height(), field.width(), field.channels());
+  std::vector<float> row(static_cast<std::size_t>(field.width()) * field.channels());
+  for (int y = 0; y < field.height(); ++y) {
+    field.read_row(view, y, 0, field.width(), row.data());
+    std::ranges::transform(row, picture.row(y), [](float sample) {
+      return static_cast<std::uint8_t>(std::lround(std::clamp(sample, 0.0F, 1.0F) * 255));
+    });
+  }
+  write_png(path, picture.view());
+}
+
+/// Folder that is being filled.
+struct LabelFolder {
+  fs::path place;
+  std::vector<LabelInfo> infos;
+  std::int32_t largest = 0;  ///< Of the ids.
+  std::vector<std::array<std::uint8_t, 3>> palette{};
+
+  LabelFolder(fs::path folder, std::vector<LabelInfo> labels)
+      : place(std::move(folder)), infos(std::move(labels)) {
+    if (!infos.empty()) largest = infos.back().id;
+    for (std::int32_t id = 0; id <= std::min(largest, kLargestIndex); ++id) {
+      const auto known = std::ranges::find(infos, id, &LabelInfo::id);
+      palette.push_back(known == infos.end() ? label_color(id) : known->color);
+    }
+  }
+
+  void write_picture(const fs::path& path, const Image<std::int32_t>& labels) const {
+    if (largest > kLargestGray) {
+      throw IoError(path, fmt::format("pictures hold ids up to {}, but a label has {}; choose COCO "
+                                      "or labelme",
+                                      kLargestGray, largest));
+    }
+    if (largest > kLargestIndex) return write_png(path, narrowed<std::uint16_t>(labels).view());
+    write_indexed_png(path, narrowed<std::uint8_t>(labels).view(), palette);
+  }
+
+ private:
+  template <class T>
+  [[nodiscard]] static Image<T> narrowed(const Image<std::int32_t>& labels) {
+    Image<T> ids(labels.height(), labels.width());
+    std::ranges::transform(labels, ids.begin(),
+                           [](std::int32_t id) { return static_cast<T>(std::max(id, 0)); });
+    return ids;
+  }
+};
+
+fs::path picture_folder(LabelForm form) {
+  return form == LabelForm::Voc ? "JPEGImages" : form == LabelForm::Coco ? "images" : "";
+}
+
+void write_views(const LabelFolder& folder, LabelForm form, const LabelSource& source,
+                 const Progress& progress) {
+  const fs::path labels_in =
+      form == LabelForm::Voc ? folder.place / "SegmentationClass" : folder.place;
+  CocoFile coco(folder.infos);
+  std::string list;
+  for (std::size_t i = 0; i < source.views.size(); ++i) {
+    progress.report(static_cast<double>(i) / static_cast<double>(source.views.size()));
+    progress.check();
+    const ViewIndex view = source.views[i];
+    const std::string name = name_of(view);
+    const std::string picture = name + ".png";
+    const Image<std::int32_t> labels = source.labels_of(view);
+    if (form == LabelForm::Coco) {
+      coco.add(picture, labels.view());
+    } else if (form == LabelForm::Labelme) {
+      write_labelme(labels_in / (name + ".json"), picture, labels.view(), folder.infos);
+    } else {
+      folder.write_picture(labels_in / picture, labels);
+    }
+    if (source.pictures && form != LabelForm::Indexed) {
+      write_view(folder.place / picture_folder(form) / picture, *source.pictures, view);
+    }
+    list += name + "\n";
+  }
+  if (form == LabelForm::Coco) coco.write(folder.place / "annotations" / "instances_default.json");
+  if (form == LabelForm::Voc) {
+    write_atomically(folder.place / "ImageSets" / "Segmentation" / "default.txt", list);
+  }
+}
+
+}  // namespace
+
+void write_label_folder(const fs::path& folder, LabelForm form, const LabelSource& source,
+                        const Progress& progress) {
+  progress.check();
+  progress.step("writing " + folder.filename().string());
+  AtomicFolder target(folder);
+  const LabelFolder filled(target.temporary(), infos_of(source, progress.part(0, 0.2)));
+  if (source.pictures) make_folder(filled.place / picture_folder(form));
+  if (form == LabelForm::Voc) {
+    make_folder(filled.place / "SegmentationClass");
+    make_folder(filled.place / "ImageSets" / "Segmentation");
+  }
+  if (form == LabelForm::Coco) make_folder(filled.place / "annotations");
+  write_views(filled, form, source, progress.part(0.2, 1));
+  if (form == LabelForm::Voc || form == LabelForm::Indexed) {
+    write_label_map_text(filled.place / "labelmap.txt", filled.infos);
+  }
+  progress.check();
+  target.commit();
+  progress.report(1);
+}
+
+}  // namespace episcope::io

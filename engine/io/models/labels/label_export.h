@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/core/schema.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace episcope::io {
+
+/// Folders in which other programs read labels. Views are named by row and column: `04_04`.
+enum class LabelForm {
+  Indexed,  ///< `04_04.png`, whose pixels are ids, with a palette; `labelmap.txt`.
+  Voc,     ///< The same in `SegmentationClass`; `ImageSets/Segmentation/default.txt`; `JPEGImages`.
+  Coco,    ///< `annotations/instances_default.json` in packed runs; `images`.
+  Labelme  ///< `04_04.json` beside `04_04.png`.
+};
+[[nodiscard]] Names<LabelForm> names_of(LabelForm);
+
+/// Labels of views, as they are to be written.
+struct LabelSource {
+  std::vector<ViewIndex> views;                                  ///< At least one.
+  std::function<Image<std::int32_t>(ViewIndex view)> labels_of;  ///< `[y][x]`, 0 = unlabeled.
+  std::vector<LabelInfo> infos{};                                ///< Labels without are named after
+                                                                 ///< their ids.
+  LightFieldPtr pictures{};  ///< Views to write beside the labels, in 8 bits; null = none.
+};
+
+/// Maps as a source, which they must outlive.
+[[nodiscard]] LabelSource source_of(const ViewStack<std::int32_t>& maps,
+                                    std::vector<LabelInfo> infos);
+
+/// Writes a folder that `read_label_files` reads back exactly. Indexed pictures of ids above 255
+/// are gray ones of 16 bits. Atomic. Throws IoError, also if the folder holds files, and for ids
+/// above 65535 in pictures; Cancelled.
+void write_label_folder(const std::filesystem::path& folder, LabelForm form,
+                        const LabelSource& source, const Progress& progress);
+
+}  // namespace episcope::io

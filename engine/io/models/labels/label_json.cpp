@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/labels/label_json.h"
+
+#include "engine/core/error.h"
+#include "engine/core/version.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/json.h"
+#include "engine/io/base/label_pages.h"
+#include "engine/io/models/labels/label_shapes.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kLongestSide = 1 << 16;  ///< In px.
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+constexpr const char* kOwn = "episcope";
+
+/// Runs `read`, and says of failures that the file is no file of `form`.
+template <class Read>
+auto reading(const fs::path& path, const char* form, const Read& read) {
+  try {
+    return read(read_json<Json>(path));
+  } catch (const Json::exception& error) {
+    throw IoError(path, fmt::format("is no file of {} ({}); export it again", form, error.what()));
+  } catch (const InvalidInput& error) {
+    throw IoError(path, fmt::format("is no file of {}: {}; export it again", form, error.what()));
+  }
+}
+
+/// Without labels.
+Image<std::int32_t> empty_map(const Json& height, const Json& width) {
+  const int rows = int_of(height), columns = int_of(width);
+  const bool is_sound = rows > 0 && columns > 0 && rows <= kLongestSide &&
+                        columns <= kLongestSide &&
+                        static_cast<std::int64_t>(rows) * columns <= kMostPixels;
+  if (!is_sound) throw InvalidInput(fmt::format("a picture has {}×{} px", columns, rows));
+  return {rows, columns};
+}
+
+Polygon corners_of(const Json& points) {
+  Polygon corners;
+  for (const Json& point : points) {
+    corners.push_back({point.at(0).get<double>(), point.at(1).get<double>()});
+  }
+  return corners;
+}
+
+void draw_mask(const fs::path& path, const Json& shape, const Polygon& corners,
+               Image<std::int32_t>& map, std::int32_t label) {
+  const Image<std::uint8_t> mask =
+      decode_mask(path, from_base64(shape.at("mask").get<std::string>()));
+  const auto corner = [](double value) { return static_cast<int>(std::clamp(value, -1e6, 1e6)); };
+  const int y0 = corner(corners.at(0).y), x0 = corner(corners.at(0).x);
+  for (int y = std::max(0, -y0); y < mask.height() && y + y0 < map.height(); ++y) {
+    for (int x = std::max(0, -x0); x < mask.width() && x + x0 < map.width(); ++x) {
+      if (mask.at(y, x) != 0) map.at(y + y0, x + x0) = label;
+    }
+  }
+}
+
+void draw_shape(const fs::path& path, const Json& shape, Image<std::int32_t>& map,
+                std::int32_t label) {
+  constexpr double kRadius = 5;  // px, of labelme's lines and points
+  const std::string type = shape.value("shape_type", "polygon");
+  const Polygon corners = corners_of(shape.at("points"));
+  if (corners.empty()) throw InvalidInput("a shape has no points");
+  const Corner& first = corners.front();
+  const Corner& last = corners.back();
+  if (type == "polygon") return fill_polygon(map, corners, label);
+  if (type == "rectangle") {
+    return fill_polygon(
+        map, {{first.x, first.y}, {last.x, first.y}, {last.x, last.y}, {first.x, last.y}}, label);
+  }
+  if (type == "circle") {
+    return draw_line(map, {first}, std::hypot(last.x - first.x, last.y - first.y), label);
+  }
+  if (type == "line" || type == "linestrip") return draw_line(map, corners, kRadius, label);
+  if (type == "point") return draw_line(map, {first}, kRadius, label);
+  if (type == "points") {
+    for (const Corner& one : corners) draw_line(map, {one}, kRadius, label);
+    return;
+  }
+  if (type == "mask") return draw_mask(path, shape, corners, map, label);
+  throw InvalidInput("a shape is of the unknown type '" + type + "'");
+}
+
+Rgb color_of(const Json& json, std::int32_t id) {
+  if (!json.is_array() || json.size() != 3) return label_color(id);
+  Rgb color{};
+  for (std::size_t c = 0; c < color.size(); ++c) {
+    color[c] = static_cast<std::uint8_t>(std::clamp(int_of(json[c]), 0, 255));
+  }
+  return color;
+}
+
+Json json_of(const Rgb& color) {
+  return Json::array({color[0], color[1], color[2]});
+}
+
+}  // namespace
+
+LabelNames::LabelNames(const std::vector<LabelInfo>& known) {
+  for (const LabelInfo& label : known) {
+    by_name_.emplace(label.name, label);
+    names_.emplace(label.id, label.name);
+  }
+}
+
+void LabelNames::state(const LabelInfo& label) {
+  if (label.id < 1 || by_name_.contains(label.name) || names_.contains(label.id)) return;
+  by_name_.emplace(label.name, label);
+  names_.emplace(label.id, label.name);
+}
+
+std::int32_t LabelNames::id_of(const std::string& name) {
+  auto known = by_name_.find(name);
+  if (known == by_name_.end()) {
+    std::int32_t id = 1;
+    while (names_.contains(id)) ++id;
+    known = by_name_.emplace(name, LabelInfo{id, name, label_color(id)}).first;
+    names_.emplace(id, name);
+  }
+  if (std::ranges::find(used_, known->second.id, &LabelInfo::id) == used_.end()) {
+    used_.push_back(known->second);
+  }
+  return known->second.id;
+}
+
+std::vector<LabelInfo> LabelNames::labels() const {
+  std::vector<LabelInfo> labels = used_;
+  std::ranges::sort(labels, {}, &LabelInfo::id);
+  return labels;
+}
+
+LabelJson label_json_kind(const fs::path& path) {
+  return reading(path, "labels", [](const Json& json) {
+    if (!json.is_object()) return LabelJson::None;
+    if (json.contains("shapes")) return LabelJson::Labelme;
+    const bool is_coco = json.contains("images") && json.contains("annotations");
+    return is_coco ? LabelJson::Coco : LabelJson::None;
+  });
+}
+
+JsonPicture read_labelme(const fs::path& path, LabelNames& names) {
+  return reading(path, "labelme", [&](const Json& json) {
+    if (json.contains(kOwn)) {
+      for (const Json& label : json.at(kOwn).at("labels")) {
+        const std::int32_t id = int_of(label.at("id"));
+        names.state({id, label.at("name").get<std::string>(), color_of(label.at("color"), id)});
+      }
+    }
+    JsonPicture picture{json.value("imagePath", ""),
+                        empty_map(json.at("imageHeight"), json.at("imageWidth"))};
+    for (const Json& shape : json.at("shapes")) {
+      draw_shape(path, shape, picture.labels, names.id_of(shape.at("label").get<std::string>()));
+    }
+    return picture;
+  });
+}
+
+namespace {
+
+/// False if there is neither an outline nor a mask.
+bool draw_segmentation(const Json& segmentation, Image<std::int32_t>& map, std::int32_t label) {
+  if (segmentation.is_object()) {
+    const Json& size = segmentation.at("size");
+    if (int_of(size.at(0)) != map.height() || int_of(size.at(1)) != map.width()) {
+      throw InvalidInput("a mask has another size than its picture");
+    }
+    const Json& counts = segmentation.at("counts");
+    const Runs runs = counts.is_string() ? unpacked_runs(counts.get<std::string>())
+                                         : counts.get<std::vector<std::uint32_t>>();
+    fill_runs(map, runs, label);
+    return true;
+  }
+  for (const Json& flat : segmentation) {
+    Polygon polygon;
+    for (std::size_t i = 0; i + 1 < flat.size(); i += 2) {
+      polygon.push_back({flat[i].get<double>(), flat[i + 1].get<double>()});
+    }
+    fill_polygon(map, polygon, label);
+  }
+  return !segmentation.empty();
+}
+
+/// Id of a picture or a category, which other programs write as number or text.
+std::string key_of(const Json& id) {
+  return id.is_string() ? id.get<std::string>() : id.dump();
+}
+
+std::vector<LabelInfo> categories_of(const Json& json) {
+  std::vector<LabelInfo> labels;
+  for (const Json& category : json.at("categories")) {
+    LabelInfo label{int_of(category.at("id")), category.value("name", ""), {}};
+    label.color =
+        category.contains("color") ? color_of(category["color"], label.id) : label_color(label.id);
+    labels.push_back(std::move(label));
+  }
+  const bool has_zero = std::ranges::find(labels, 0, &LabelInfo::id) != labels.end();
+  for (LabelInfo& label : labels) {
+    if (has_zero) ++label.id;
+    if (label.name.empty()) label.name = "label " + std::to_string(label.id);
+  }
+  return labels;
+}
+
+CocoLabels coco_of(const Json& json) {
+  CocoLabels coco;
+  coco.labels = categories_of(json);
+  std::map<std::string, std::int32_t> ids;
+  for (std::size_t i = 0; i < coco.labels.size(); ++i) {
+    ids[key_of(json.at("categories")[i].at("id"))] = coco.labels[i].id;
+  }
+  std::map<std::string, std::size_t> places;
+  for (const Json& image : json.at("images")) {
+    places[key_of(image.at("id"))] = coco.pictures.size();
+    coco.pictures.push_back(
+        {image.value("file_name", ""), empty_map(image.at("height"), image.at("width"))});
+  }
+  int without = 0;
+  for (const Json& annotation : json.at("annotations")) {
+    const auto place = places.find(key_of(annotation.at("image_id")));
+    const auto id = ids.find(key_of(annotation.at("category_id")));
+    if (place == places.end() || id == ids.end()) {
+      throw InvalidInput("an annotation names a picture or a category that is not there");
+    }
+    const bool is_drawn = annotation.contains("segmentation") &&
+                          draw_segmentation(annotation["segmentation"],
+                                            coco.pictures[place->second].labels, id->second);
+    if (!is_drawn) ++without;
+  }
+  if (without > 0) {
+    coco.notes.push_back(fmt::format("{} annotations have no outline and are left out", without));
+  }
+  return coco;
+}
+
+}  // namespace
+
+CocoLabels read_coco(const fs::path& path) {
+  return reading(path, "COCO", coco_of);
+}
+
+namespace {
+
+Json shape_of(const LabelRegion& region, const std::string& name) {
+  Json points = Json::array();
+  const PixelRect& box = region.box;
+  if (region.has_holes) {
+    points = {{box.x0, box.y0}, {box.x1 - 1, box.y1 - 1}};
+  } else {
+    for (const Corner& corner : region.outline) points.push_back({corner.x, corner.y});
+  }
+  Json shape{{"label", name},
+             {"points", std::move(points)},
+             {"group_id", nullptr},
+             {"description", ""},
+             {"shape_type", region.has_holes ? "mask" : "polygon"},
+             {"flags", Json::object()},
+             {"mask", nullptr}};
+  if (!region.has_holes) return shape;
+  Image<std::uint8_t> mask(box.y1 - box.y0, box.x1 - box.x0);
+  for (const auto [y, x] : region.pixels) mask.at(y - box.y0, x - box.x0) = 255;
+  const std::vector<std::uint8_t> png = encode_mask(mask.view());
+  shape["mask"] = to_base64({png.begin(), png.end()});
+  return shape;
+}
+
+std::string name_of(std::int32_t id, const std::vector<LabelInfo>& infos) {
+  const auto known = std::ranges::find(infos, id, &LabelInfo::id);
+  return known == infos.end() ? "label " + std::to_string(id) : known->name;
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+void write_labelme(const fs::path& path, const std::string& picture,
+                   ImageView<const std::int32_t> labels, const std::vector<LabelInfo>& infos) {
+  Json own = Json::array();
+  for (const LabelInfo& label : infos) {
+    own.push_back({{"id", label.id}, {"name", label.name}, {"color", json_of(label.color)}});
+  }
+  Json shapes = Json::array();
+  for (const LabelRegion& region : regions_of(labels)) {
+    shapes.push_back(shape_of(region, name_of(region.label, infos)));
+  }
+  const Json json{{"version", "5.5.0"},          {"flags", Json::object()},
+                  {"shapes", std::move(shapes)}, {"imagePath", picture},
+                  {"imageData", nullptr},        {"imageHeight", labels.height},
+                  {"imageWidth", labels.width},  {kOwn, {{"labels", std::move(own)}}}};
+  write_atomically(path, text_of(json));
+}
+
+void CocoFile::add(const std::string& file_name, ImageView<const std::int32_t> labels) {
+  const Json image{{"id", ++image_count_},
+                   {"width", labels.width},
+                   {"height", labels.height},
+                   {"file_name", file_name}};
+  images_ += (images_.empty() ? "" : ",\n") + text_of(image);
+  std::map<std::int32_t, std::pair<PixelRect, std::int64_t>> found;
+  for (int y = 0; y < labels.height; ++y) {
+    for (int x = 0; x < labels.width; ++x) {
+      if (labels.at(y, x) <= 0) continue;
+      auto& [box, pixels] = found[labels.at(y, x)];
+      box.include({y, x, y + 1, x + 1});
+      ++pixels;
+    }
+  }
+  for (const auto& [id, region] : found) {
+    const auto& [box, pixels] = region;
+    if (std::ranges::find(labels_, id, &LabelInfo::id) == labels_.end()) {
+      labels_.push_back({id, name_of(id, labels_), label_color(id)});
+    }
+    const Json annotation{
+        {"id", ++annotation_count_},
+        {"image_id", image_count_},
+        {"category_id", id},
+        {"segmentation",
+         {{"size", {labels.height, labels.width}}, {"counts", packed_runs(runs_of(labels, id))}}},
+        {"area", pixels},
+        {"bbox", {box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0}},
+        {"iscrowd", 0}};
+    annotations_ += (annotations_.empty() ? "" : ",\n") + text_of(annotation);
+  }
+}
+
+void CocoFile::write(const fs::path& path) const {
+  Json categories = Json::array();
+  for (const LabelInfo& label : labels_) {
+    categories.push_back({{"id", label.id},
+                          {"name", label.name},
+                          {"supercategory", ""},
+                          {"color", json_of(label.color)}});
+  }
+  const Json info{
+      {"description", std::string("Labels of light-field views, Episcope ") + kVersion}};
+  write_atomically(path, "{\"info\": " + text_of(info) + ",\n\"licenses\": [],\n\"images\": [\n" +
+                             images_ + "\n],\n\"annotations\": [\n" + annotations_ +
+                             "\n],\n\"categories\": " + text_of(categories) + "}\n");
+}
+
+}  // namespace episcope::io

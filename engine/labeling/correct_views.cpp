@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/correct_views.h"
+
+#include "engine/core/parallel.h"
+#include "engine/labeling/label_review.h"
+#include "engine/labeling/ray_vote.h"
+#include "engine/labeling/regularizer.h"
+#include "engine/labeling/solve_views.h"
+#include "engine/solvers/simplex_labeling.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+
+Image<std::uint8_t> news_of(VolumeView<const std::uint8_t> before,
+                            VolumeView<const std::uint8_t> after,
+                            ImageView<const std::uint8_t> painted) {
+  Image<std::uint8_t> differs(before.height, before.width);
+  for (int y = 0; y < before.height; ++y) {
+    std::uint8_t* const row = differs.row(y);
+    for (int l = 0; l < before.layers; ++l) {
+      const std::uint8_t *const a = before.row(y, l), *const b = after.row(y, l);
+      for (int x = 0; x < before.width; ++x) row[x] |= std::abs(a[x] - b[x]) >= kNewsOfCode;
+    }
+  }
+  Image<std::uint8_t> news(before.height, before.width);
+  for (const Blob& blob : blobs_of(differs, Neighbors::Corners, kFewestNews)) {
+    for (int y = blob.bounds.y0; y < blob.bounds.y1; ++y) {
+      for (int x = blob.bounds.x0; x < blob.bounds.x1; ++x) {
+        if (blob.contains({y, x})) news.at(y, x) = 1;
+      }
+    }
+  }
+  if (painted.empty()) return news;
+  for (int y = 0; y < news.height(); ++y) {
+    for (int x = 0; x < news.width(); ++x) news.at(y, x) |= painted.at(y, x) != 0;
+  }
+  return news;
+}
+
+namespace {
+
+// Colors must agree that much for a ray to see the same scene point.
+constexpr float kLeastTrust = 0.25F;
+
+void copy_pixel(VolumeView<const std::uint8_t> from, std::int32_t pixel,
+                VolumeView<std::uint8_t> to, int y, int x) {
+  const int from_y = pixel / from.width, from_x = pixel % from.width;
+  for (int l = 0; l < to.layers; ++l) to.row(y, l)[x] = from.row(from_y, l)[from_x];
+}
+
+// Rows of one view that see the news of another.
+class NewsRow {
+ public:
+  NewsRow(const ViewNews& news, const DisparityField& disparity, const RayColors& colors)
+      : news_(news),
+        disparity_(disparity),
+        colors_(colors),
+        targets_(static_cast<std::size_t>(news.news.width)),
+        trusts_(targets_.size()) {}
+
+  void carry(ViewIndex view, int y, VolumeView<std::uint8_t> into, std::uint8_t* changed) {
+    find_ray_targets(disparity_.view(view), disparity_.view(news_.view),
+                     {news_.view.v - view.v, news_.view.u - view.u}, y, targets_.data());
+    const int width = news_.news.width;
+    const bool has_news = std::any_of(targets_.begin(), targets_.end(), [&](std::int32_t target) {
+      return target >= 0 && news_.news.data[target] != 0;
+    });
+    if (!has_news) return;
+    colors_.trusts(colors_.pair(view, y, news_.view), {0, width}, targets_.data(), trusts_.data());
+    for (int x = 0; x < width; ++x) {
+      if (targets_[x] < 0 || news_.news.data[targets_[x]] == 0 || trusts_[x] < kLeastTrust)
+        continue;
+      copy_pixel(news_.probabilities, targets_[x], into, y, x);
+      changed[x] = 1;
+    }
+  }
+
+ private:
+  const ViewNews& news_;
+  const DisparityField& disparity_;
+  const RayColors& colors_;
+  std::vector<std::int32_t> targets_;
+  std::vector<float> trusts_;
+};
+
+void take_news(const ViewNews& news, VolumeView<std::uint8_t> into,
+               ImageView<std::uint8_t> changed) {
+  for (int y = 0; y < into.height; ++y) {
+    for (int x = 0; x < into.width; ++x) {
+      if (news.news.at(y, x) == 0) continue;
+      copy_pixel(news.probabilities, y * into.width + x, into, y, x);
+      changed.at(y, x) = 1;
+    }
+  }
+}
+
+}  // namespace
+
+void carry_news(const ViewNews& news, const DisparityField& disparity, const RayColors& colors,
+                const Progress& progress, LabelProbabilities& into, ChangedRays& changed) {
+  parallel_for_workers(into.grid.count(), progress, [&] {
+    return [&, row = NewsRow(news, disparity, colors)](int i) mutable {
+      const ViewIndex view = into.view_at(i);
+      const VolumeView<std::uint8_t> of_view = into.view(view).view();
+      const ImageView<std::uint8_t> marks = changed.view(view);
+      if (view == news.view) return take_news(news, of_view, marks);
+      if (!disparity.contains(view)) return;
+      for (int y = 0; y < of_view.height; ++y) row.carry(view, y, of_view, marks.row(y));
+    };
+  });
+}
+
+namespace {
+
+// What a held pixel pays for another label: more than all its boundaries.
+float price_of_held(double smoothness) {
+  return static_cast<float>(8 * smoothness + 8);
+}
+
+// The changed pixels of a view, and those around them.
+Image<std::uint8_t> around(ImageView<const std::uint8_t> changed) {
+  const int height = changed.height, width = changed.width;
+  // First along rows, then along columns: a square around each.
+  Image<std::uint8_t> wide(height, width), all(height, width);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (changed.at(y, x) == 0) continue;
+      const int begin = std::max(x - kReach_px, 0), end = std::min(x + kReach_px + 1, width);
+      std::fill(wide.row(y) + begin, wide.row(y) + end, std::uint8_t{1});
+    }
+  }
+  for (int y = 0; y < height; ++y) {
+    const int end = std::min(y + kReach_px + 1, height);
+    for (int from = std::max(y - kReach_px, 0); from < end; ++from) {
+      std::transform(all.row(y), all.row(y) + width, wide.row(from), all.row(y),
+                     [](std::uint8_t a, std::uint8_t b) { return a | b; });
+    }
+  }
+  return all;
+}
+
+// A part of a view that is solved again, with a border of one pixel that is held.
+struct Part {
+  const Blob& blob;
+  PixelRect rect;
+  std::vector<int> layers{};  // The labels that come into question.
+
+  [[nodiscard]] int height() const { return rect.y1 - rect.y0; }
+  [[nodiscard]] int width() const { return rect.x1 - rect.x0; }
+};
+
+class ViewCorrector {
+ public:
+  ViewCorrector(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+                const RayColors& colors)
+      : input_(input),
+        parameters_(parameters),
+        colors_(colors),
+        table_(cost_table(parameters.floor)),
+        targets_(static_cast<std::size_t>(input.probabilities->views[0].width())),
+        trusts_(targets_.size()) {}
+
+  // Replaces labels of the view, layers, around its changed pixels.
+  SimplexResult correct(ViewIndex view, ImageView<const std::uint8_t> changed,
+                        const Progress& progress, ImageView<std::int32_t> layers) {
+    SimplexResult sum;
+    for (const Blob& blob : blobs_of(around(changed), Neighbors::Corners)) {
+      const PixelRect& own = blob.bounds;
+      const SimplexResult part =
+          solve(view,
+                {blob,
+                 {std::max(own.y0 - 1, 0), std::max(own.x0 - 1, 0),
+                  std::min(own.y1 + 1, changed.height), std::min(own.x1 + 1, changed.width)}},
+                progress, layers);
+      sum.energy += part.energy;
+      sum.bound += part.bound;
+      sum.iterations = std::max(sum.iterations, part.iterations);
+    }
+    return sum;
+  }
+
+ private:
+  SimplexResult solve(ViewIndex view, Part part, const Progress& progress,
+                      ImageView<std::int32_t> layers);
+  [[nodiscard]] Volume<float> costs_of(ViewIndex view, const Part& part);
+  void add_rays(ViewIndex view, ViewIndex other, int y, const Part& part, VolumeView<float> costs,
+                std::vector<float>& weights);
+  [[nodiscard]] Volume<float> chosen_costs(VolumeView<const float> all, Part& part,
+                                           ImageView<const std::int32_t> layers) const;
+  [[nodiscard]] Image<float> weights_of(ViewIndex view, const Part& part) const;
+
+  const RayLabelingInput& input_;
+  const RayLabelingParameters& parameters_;
+  const RayColors& colors_;
+  CostTable table_;
+  std::vector<std::int32_t> targets_;
+  std::vector<float> trusts_;
+};
+
+void ViewCorrector::add_rays(ViewIndex view, ViewIndex other, int y, const Part& part,
+                             VolumeView<float> costs, std::vector<float>& weights) {
+  const VolumeView<const std::uint8_t> there = input_.probabilities->view(other).view();
+  // Rays are found for as many columns at once at least.
+  const int begin = std::max(std::min(part.rect.x0, there.width - kRayColumns), 0);
+  const ColumnRange columns{begin,
+                            std::min(std::max(part.rect.x1, begin + kRayColumns), there.width)};
+  find_ray_targets(input_.disparity->view(view), input_.disparity->view(other),
+                   {other.v - view.v, other.u - view.u}, y, columns, targets_.data());
+  colors_.trusts(colors_.pair(view, y, other), columns, targets_.data(), trusts_.data());
+  for (int x = part.rect.x0; x < part.rect.x1; ++x) {
+    const float trust = targets_[x] < 0 ? 0.0F : trusts_[x];
+    if (trust <= 0) continue;
+    const int at_y = targets_[x] / there.width, at_x = targets_[x] % there.width;
+    weights[static_cast<std::size_t>(x - part.rect.x0)] += trust;
+    for (int l = 0; l < there.layers; ++l) {
+      costs.row(y - part.rect.y0, l)[x - part.rect.x0] += trust * table_[there.row(at_y, l)[at_x]];
+    }
+  }
+}
+
+// As fill_track_costs.
+Volume<float> ViewCorrector::costs_of(ViewIndex view, const Part& part) {
+  const LabelProbabilities& p = *input_.probabilities;
+  const VolumeView<const std::uint8_t> own = p.view(view).view();
+  const std::vector<ViewIndex> others = near_views({p.first, p.grid}, view);
+  Volume<float> costs(part.height(), own.layers, part.width());
+  std::vector<float> weights;
+  for (int y = part.rect.y0; y < part.rect.y1; ++y) {
+    weights.assign(static_cast<std::size_t>(part.width()), 1.0F);
+    for (int l = 0; l < own.layers; ++l) {
+      for (int x = 0; x < part.width(); ++x) {
+        costs.view().at(y - part.rect.y0, l, x) = table_[own.row(y, l)[x + part.rect.x0]];
+      }
+    }
+    for (const ViewIndex other : others) {
+      if (input_.disparity->contains(other)) add_rays(view, other, y, part, costs.view(), weights);
+    }
+    for (int l = 0; l < own.layers; ++l) {
+      float* const row = costs.view().row(y - part.rect.y0, l);
+      std::transform(row, row + part.width(), weights.begin(), row, std::divides());
+    }
+  }
+  return costs;
+}
+
+// Of the labels that come into question: that held pixels have, or that cost some pixel little more
+// than its best one.
+Volume<float> ViewCorrector::chosen_costs(VolumeView<const float> all, Part& part,
+                                          ImageView<const std::int32_t> layers) const {
+  const int count = all.layers;
+  constexpr float kLittle = 1;
+  std::vector<bool> counts(static_cast<std::size_t>(count));
+  for (int y = 0; y < part.height(); ++y) {
+    for (int x = 0; x < part.width(); ++x) {
+      counts[static_cast<std::size_t>(layers.at(y + part.rect.y0, x + part.rect.x0))] = true;
+      float least = all.at(y, 0, x);
+      for (int l = 1; l < count; ++l) least = std::min(least, all.at(y, l, x));
+      for (int l = 0; l < count; ++l) {
+        if (all.at(y, l, x) < least + kLittle) counts[static_cast<std::size_t>(l)] = true;
+      }
+    }
+  }
+  for (int l = 0; l < count; ++l) {
+    if (counts[static_cast<std::size_t>(l)]) part.layers.push_back(l);
+  }
+  const float held = price_of_held(parameters_.smoothness);
+  Volume<float> chosen(part.height(), static_cast<int>(part.layers.size()), part.width());
+  for (int y = 0; y < part.height(); ++y) {
+    for (int x = 0; x < part.width(); ++x) {
+      const PixelIndex at{y + part.rect.y0, x + part.rect.x0};
+      const bool is_free = part.blob.contains(at);
+      for (int l = 0; l < chosen.layers(); ++l) {
+        const int layer = part.layers[static_cast<std::size_t>(l)];
+        chosen.view().at(y, l, x) = is_free                          ? all.at(y, layer, x)
+                                    : layers.at(at.y, at.x) == layer ? 0.0F
+                                                                     : held;
+      }
+    }
+  }
+  return chosen;
+}
+
+Image<float> ViewCorrector::weights_of(ViewIndex view, const Part& part) const {
+  if (input_.edges == nullptr || input_.edges->empty() || !input_.edges->contains(view)) return {};
+  const Image<float> all = boundary_weights(input_.edges->view(view));
+  Image<float> weights(part.height(), part.width());
+  for (int y = 0; y < part.height(); ++y) {
+    std::copy_n(all.row(y + part.rect.y0) + part.rect.x0, part.width(), weights.row(y));
+  }
+  return weights;
+}
+
+SimplexResult ViewCorrector::solve(ViewIndex view, Part part, const Progress& progress,
+                                   ImageView<std::int32_t> layers) {
+  const Volume<float> costs = chosen_costs(costs_of(view, part).view(), part, layers);
+  const Image<float> g = weights_of(view, part);
+  SimplexOptions options;
+  options.gap = parameters_.gap_all_views;
+  options.max_iterations = parameters_.max_iterations;
+  options.check_every = kGapCheckEvery;
+  options.racing_iterations = kRacingIterations;
+  SimplexSolver solver(part.height(), costs.layers(), part.width());
+  Image<int> solved(part.height(), part.width());
+  const SimplexResult result =
+      solver.solve({costs.view(), g, parameters_.smoothness}, options, progress, solved.view());
+  for (int y = 0; y < part.height(); ++y) {
+    for (int x = 0; x < part.width(); ++x) {
+      const PixelIndex at{y + part.rect.y0, x + part.rect.x0};
+      if (part.blob.contains(at)) {
+        layers.at(at.y, at.x) = part.layers[static_cast<std::size_t>(solved.at(y, x))];
+      }
+    }
+  }
+  return result;
+}
+
+// The first one, then by distance from it.
+std::vector<ViewIndex> outwards(const LabelProbabilities& p, ViewIndex first) {
+  std::vector<ViewIndex> views;
+  for (int i = 0; i < p.grid.count(); ++i) views.push_back(p.view_at(i));
+  std::ranges::stable_sort(views, {}, [first](ViewIndex view) {
+    const int v = view.v - first.v, u = view.u - first.u;
+    return v * v + u * u;
+  });
+  return views;
+}
+
+ViewStack<std::int32_t> layers_of(const ViewStack<std::int32_t>& labels,
+                                  const std::vector<std::int32_t>& ids) {
+  ViewStack<std::int32_t> layers(labels.grid(), labels.height(), labels.width(), 1, labels.first());
+  std::transform(labels.data(), labels.data() + labels.size(), layers.data(), [&](std::int32_t id) {
+    const auto found = std::ranges::lower_bound(ids, id);
+    return found == ids.end() ? 0 : static_cast<std::int32_t>(found - ids.begin());
+  });
+  return layers;
+}
+
+}  // namespace
+
+RayLabeling correct_rays(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+                         const RayCorrection& correction, const Progress& progress) {
+  const LabelProbabilities& p = *input.probabilities;
+  const RayColors colors = input.light_field == nullptr ? RayColors()
+                                                        : RayColors(*input.light_field, p.grid,
+                                                                    p.first, progress.part(0, 0));
+  const ViewStack<std::int32_t> before = layers_of(correction.labels, p.ids);
+  RayLabeling result;
+  result.labels = before.clone();
+  const std::vector<ViewIndex> views = outwards(p, correction.first);
+  std::vector<SimplexResult> parts(views.size());
+  progress.step("views");
+  const auto correct = [&](ViewCorrector& corrector, std::size_t i, const Progress& part) {
+    const ImageView<std::int32_t> layers = result.labels.view(views[i]);
+    parts[i] = corrector.correct(views[i], correction.changed.view(views[i]), part, layers);
+    if (correction.on_view) correction.on_view(views[i], layers);
+  };
+  ViewCorrector first(input, parameters, colors);
+  correct(first, 0, progress.part(0, 0.05));
+  const Progress alone = progress.part(0, 0).on_one_thread();
+  parallel_for_workers(static_cast<int>(views.size()) - 1, progress.part(0.05, 0.9), [&] {
+    return [&, corrector = ViewCorrector(input, parameters, colors)](int i) mutable {
+      correct(corrector, static_cast<std::size_t>(i) + 1, alone);
+    };
+  });
+  for (const SimplexResult& part : parts) {
+    result.energy += part.energy;
+    result.bound += part.bound;
+    result.iterations = std::max(result.iterations, part.iterations);
+  }
+  const RayVotes votes{static_cast<int>(p.ids.size()), *input.disparity, colors};
+  progress.step("rays");
+  ViewStack<std::int32_t> voted =
+      vote_again_along_rays(before, result.labels, votes, progress.part(0.9, 0.97));
+  for (int round = 1; round < kVotes; ++round) {
+    ViewStack<std::int32_t> next =
+        vote_again_along_rays(result.labels, voted, votes, progress.part(0.97, 1));
+    result.labels = std::move(voted);
+    voted = std::move(next);
+  }
+  result.labels = std::move(voted);
+  replace_layers_by_ids(p.ids, result);
+  return result;
+}
+
+}  // namespace episcope

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/image.h"
+#include "engine/core/indices.h"
+#include "engine/core/progress.h"
+#include "engine/labeling/ray_labeling.h"
+
+#include <cstdint>
+#include <functional>
+
+namespace episcope {
+
+/// How much a probability must change, of 255, to count as news. A forest that is trained again
+/// changes all of them a little.
+inline constexpr int kNewsOfCode = 51;
+/// News of fewer connected pixels do not count, unless they are painted.
+inline constexpr int kFewestNews = 12;
+
+/// The pixels of a view of which strokes said something new, `[y][x]`, 1 = news: where a
+/// probability differs by kNewsOfCode or more, in connected sets of kFewestNews pixels, and where
+/// `painted` (0 = no) says so. `before` and `after` `[y][label][x]` have one shape.
+[[nodiscard]] Image<std::uint8_t> news_of(VolumeView<const std::uint8_t> before,
+                                          VolumeView<const std::uint8_t> after,
+                                          ImageView<const std::uint8_t> painted);
+
+/// Which rays have new probabilities, `[v][u][y][x]`, 1 = new.
+using ChangedRays = ViewStack<std::uint8_t>;
+
+/// What strokes said about one view; borrowed.
+struct ViewNews {
+  ViewIndex view;
+  ImageView<const std::uint8_t> news;              ///< As `news_of`.
+  VolumeView<const std::uint8_t> probabilities{};  ///< Of the view, after the strokes.
+};
+
+/// Carries the news of one view along the rays: each ray of any view that sees a scene point with
+/// news takes its new probabilities, where the colors of both rays agree. Marks those rays in
+/// `changed`. Other rays keep what they have. Throws Cancelled.
+void carry_news(const ViewNews& news, const DisparityField& disparity, const RayColors& colors,
+                const Progress& progress, LabelProbabilities& into, ChangedRays& changed);
+
+/// Rays within so many px of a changed one are solved again.
+inline constexpr int kReach_px = 12;
+
+/// What `correct_rays` begins with; borrowed.
+struct RayCorrection {
+  const ViewStack<std::int32_t>& labels;  ///< Of all views, ids or 0, before the change.
+  const ChangedRays& changed;
+  ViewIndex first;  ///< The view that is solved first; the others follow by their distance.
+  /// Called for each view that is solved, from any thread, the first one before all others.
+  std::function<void(ViewIndex, ImageView<const std::int32_t> layers)> on_view{};
+};
+
+/// Labels of all views, ids, after the probabilities of some rays have changed, as `smooth_rays`
+/// would give them: rays within kReach_px of a changed one are solved again in each view, while
+/// all others keep their labels; then rays vote again whose evidence has changed. Costs, gap and
+/// votes are those of `smooth_rays`. Energy and bound are of the parts that were solved, with what
+/// borders them held. Precondition: `input` has disparities and probabilities of all views. Throws
+/// Cancelled.
+[[nodiscard]] RayLabeling correct_rays(const RayLabelingInput& input,
+                                       const RayLabelingParameters& parameters,
+                                       const RayCorrection& correction, const Progress& progress);
+
+}  // namespace episcope
