@@ -208,7 +208,7 @@ std::vector<ReadingChoice> possible_lenslets(const Question& question) {
 /// What cameras record under lenslets has any pitch, and often a rotation.
 constexpr const char* kRectify =
     "; a raw picture, whose lenslets are no whole number of pixels apart or turned, must be "
-    "rectified before";
+    "rectified before, as episcope-cli decode does";
 
 [[noreturn]] void refuse(const Question& question) {
   const std::string size = fmt::format("of {}×{} px", question.width, question.height);

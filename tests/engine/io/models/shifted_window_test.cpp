@@ -160,6 +160,45 @@ class ShiftedWindowTest : public QObject {
     QVERIFY2(step == 0 ? refusal.isEmpty() : refusal.contains(expected), qPrintable(refusal));
   }
 
+  void pagesOfATurnedCamera_areUpright_data() {
+    QTest::addColumn<bool>("is_one_file");
+    QTest::newRow("pages of one file") << true;
+    QTest::newRow("a file each") << false;
+  }
+  void pagesOfATurnedCamera_areUpright() {
+    QFETCH(bool, is_one_file);
+    const auto upside_down = [](std::size_t) { return std::vector<Tag>{{274, 4, {3}}}; };
+    std::vector<Image<std::uint8_t>> turned;
+    std::vector<ImageView<const std::uint8_t>> views;
+    for (const auto& view : pages()) {
+      Image<std::uint8_t>& image = turned.emplace_back(view.height, view.width);
+      for (int y = 0; y < view.height; ++y) {
+        for (int x = 0; x < view.width; ++x) {
+          image.at(y, x) = view.at(view.height - 1 - y, view.width - 1 - x, 0);
+        }
+      }
+    }
+    for (const auto& image : turned) views.push_back(image.view());
+    if (is_one_file) {
+      write_tiff_pages(folder_->path("pages.tif"), views, upside_down);
+    } else {
+      folder_->for_views(LayeredFolder::named("{}_{}.tif"),
+                         [&](const fs::path& path, ViewIndex view) {
+                           const auto at = static_cast<std::size_t>(view.v * 3 + view.u);
+                           write_tiff_pages(path, {views[at]}, upside_down);
+                         });
+    }
+
+    const Scene scene = folder_->open(is_one_file ? "pages.tif" : "", {.grid = "3x3"});
+
+    const auto& found = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
+    for (int i = 0; i < 9; ++i) {
+      const ViewIndex view{i / 3, i % 3};
+      QCOMPARE(found.view(view).at(7, 11, 0), folder_->scene.views.view(view).at(7, 11, 0));
+      QCOMPARE(found.view(view).at(50, 60, 0), folder_->scene.views.view(view).at(50, 60, 0));
+    }
+  }
+
   void cropsOfRawPictures_areRefusedWhereTheyDiffer_data() {
     QTest::addColumn<int>("tag");
     QTest::addColumn<int>("step");
