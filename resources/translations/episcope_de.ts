@@ -270,10 +270,6 @@
         <translation>Vergleicht die Segmentierung mit den GT_LABELS einer anderen Datei</translation>
     </message>
     <message>
-        <source>Export scribbles as images…</source>
-        <translation>Striche als Bilder exportieren…</translation>
-    </message>
-    <message>
         <source>Writes a PNG image of each painted view</source>
         <translation>Schreibt von jeder bemalten Ansicht ein PNG-Bild</translation>
     </message>
@@ -362,12 +358,16 @@
         <translation>%1 · nur im Projekt</translation>
     </message>
     <message>
-        <source>Archive labels or pictures of strokes (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm);;All files (*)</source>
-        <translation>Labels im Archivformat oder Bilder von Strichen (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm);;Alle Dateien (*)</translation>
-    </message>
-    <message>
         <source>%1 exists. Replace its labels and scribbles? What else it holds stays.</source>
         <translation>%1 gibt es schon. Labels und Striche darin ersetzen? Was die Datei sonst enthält, bleibt.</translation>
+    </message>
+    <message>
+        <source>Scribbles as images…</source>
+        <translation>Striche als Bilder…</translation>
+    </message>
+    <message>
+        <source>Labels and pictures of strokes (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm *.npy *.npz *.mat);;All files (*)</source>
+        <translation>Labels und Bilder von Strichen (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm *.npy *.npz *.mat);;Alle Dateien (*)</translation>
     </message>
 </context>
 <context>
@@ -955,10 +955,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Shift+F4</translation>
     </message>
     <message>
-        <source>Save 3D view…</source>
-        <translation>3D-Ansicht speichern…</translation>
-    </message>
-    <message>
         <source>Ctrl+Alt+E</source>
         <translation>Ctrl+Alt+E</translation>
     </message>
@@ -1009,6 +1005,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Writes the points or surfaces that the 3D view shows, in their colors, as PLY</source>
         <translation>Schreibt die Punkte oder Flächen der 3D-Ansicht in ihren Farben als PLY</translation>
+    </message>
+    <message>
+        <source>3D view…</source>
+        <translation>3D-Ansicht…</translation>
     </message>
 </context>
 <context>
@@ -1256,10 +1256,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Zeigt die Lichtfelder eines Ordners</translation>
     </message>
     <message>
-        <source>Open collection…</source>
-        <translation>Sammlung öffnen…</translation>
-    </message>
-    <message>
         <source>Lists every light field in a folder and in the folders inside</source>
         <translation>Listet alle Lichtfelder eines Ordners und seiner Unterordner auf</translation>
     </message>
@@ -1290,6 +1286,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Choose a scene in the list.</source>
         <translation>Wählen Sie eine Szene in der Liste.</translation>
+    </message>
+    <message>
+        <source>Collection…</source>
+        <translation>Sammlung…</translation>
     </message>
 </context>
 <context>
@@ -1359,6 +1359,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>no result</source>
         <translation>kein Ergebnis</translation>
+    </message>
+    <message>
+        <source>Map</source>
+        <translation>Karte</translation>
     </message>
 </context>
 <context>
@@ -1775,20 +1779,12 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Ctrl+Shift+Delete</translation>
     </message>
     <message>
-        <source>Export result…</source>
-        <translation>Ergebnis exportieren…</translation>
-    </message>
-    <message>
         <source>Writes the shown result: HDF5, PFM, TIFF or PLY</source>
         <translation>Schreibt das angezeigte Ergebnis: HDF5, PFM, TIFF oder PLY</translation>
     </message>
     <message>
         <source>Ctrl+E</source>
         <translation>Ctrl+E</translation>
-    </message>
-    <message>
-        <source>Export for submission…</source>
-        <translation>Für Einreichung exportieren…</translation>
     </message>
     <message>
         <source>Adds the shown result to a submission to the 2016 benchmark</source>
@@ -1854,6 +1850,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Belongs to another light field: %1. Its errors may be meaningless.</source>
         <translation>Gehört zu einem anderen Lichtfeld: %1. Seine Fehler besagen vielleicht nichts.</translation>
     </message>
+    <message>
+        <source>Result…</source>
+        <translation>Ergebnis…</translation>
+    </message>
+    <message>
+        <source>Result for a submission…</source>
+        <translation>Ergebnis zum Einreichen…</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FileController</name>
@@ -1874,10 +1878,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Ctrl+F5</translation>
     </message>
     <message>
-        <source>Open result…</source>
-        <translation>Ergebnis öffnen…</translation>
-    </message>
-    <message>
         <source>Adds a result from a file to the list</source>
         <translation>Fügt der Liste ein Ergebnis aus einer Datei hinzu</translation>
     </message>
@@ -1886,16 +1886,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Ctrl+R</translation>
     </message>
     <message>
-        <source>Open recent</source>
-        <translation>Zuletzt geöffnet</translation>
-    </message>
-    <message>
         <source>Reopens a recent light field</source>
         <translation>Öffnet ein kürzlich geöffnetes Lichtfeld</translation>
-    </message>
-    <message>
-        <source>Open demo</source>
-        <translation>Demo öffnen</translation>
     </message>
     <message>
         <source>Opens the built-in demo scene</source>
@@ -1908,10 +1900,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Opens one of the built-in scenes, or a random one of a seed</source>
         <translation>Öffnet eine der eingebauten Szenen oder eine zufällige zu einem Startwert</translation>
-    </message>
-    <message>
-        <source>Save light field as</source>
-        <translation>Lichtfeld speichern als</translation>
     </message>
     <message>
         <source>Writes the light field, its ground truth and its labels in another form</source>
@@ -1962,10 +1950,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Eines aus der Liste oben links wählen.</translation>
     </message>
     <message>
-        <source>Open…</source>
-        <translation>Öffnen…</translation>
-    </message>
-    <message>
         <source>Opens a file or a folder: a light field, a folder of several, a result or a project</source>
         <translation>Öffnet eine Datei oder einen Ordner: ein Lichtfeld, einen Ordner mit mehreren, ein Ergebnis oder ein Projekt</translation>
     </message>
@@ -2008,6 +1992,26 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Add</source>
         <translation>Hinzufügen</translation>
+    </message>
+    <message>
+        <source>File or folder…</source>
+        <translation>Datei oder Ordner…</translation>
+    </message>
+    <message>
+        <source>Result…</source>
+        <translation>Ergebnis…</translation>
+    </message>
+    <message>
+        <source>Recent</source>
+        <translation>Zuletzt geöffnet</translation>
+    </message>
+    <message>
+        <source>Demo</source>
+        <translation>Demo</translation>
+    </message>
+    <message>
+        <source>Light field</source>
+        <translation>Lichtfeld</translation>
     </message>
 </context>
 <context>
@@ -2132,6 +2136,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Shows version and license</source>
         <translation>Zeigt Version und Lizenz</translation>
+    </message>
+    <message>
+        <source>Manual</source>
+        <translation>Handbuch</translation>
+    </message>
+    <message>
+        <source>Opens the pages of the manual</source>
+        <translation>Öffnet die Seiten des Handbuchs</translation>
     </message>
 </context>
 <context>
@@ -3079,6 +3091,33 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
 </context>
 <context>
+    <name>episcope::ManualWindow</name>
+    <message>
+        <source>Page of the manual</source>
+        <translation>Seite des Handbuchs</translation>
+    </message>
+    <message>
+        <source>Contents</source>
+        <translation>Inhalt</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Zurück</translation>
+    </message>
+    <message>
+        <source>The pages of the manual are not installed with the program, in share/episcope/manual. Install it anew.</source>
+        <translation>Die Seiten des Handbuchs fehlen in share/episcope/manual. Das Programm neu installieren.</translation>
+    </message>
+    <message>
+        <source>Manual</source>
+        <translation>Handbuch</translation>
+    </message>
+    <message>
+        <source>%1 — Manual</source>
+        <translation>%1 – Handbuch</translation>
+    </message>
+</context>
+<context>
     <name>episcope::MeasureController</name>
     <message>
         <source>row %1</source>
@@ -3141,10 +3180,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Kopiert alle gemessenen Linien als Tabelle</translation>
     </message>
     <message>
-        <source>Save measurements…</source>
-        <translation>Messungen speichern…</translation>
-    </message>
-    <message>
         <source>Saves all measured lines as a table (CSV)</source>
         <translation>Speichert alle gemessenen Linien als Tabelle (CSV)</translation>
     </message>
@@ -3186,6 +3221,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>CSV (*.csv)</source>
         <translation>CSV (*.csv)</translation>
+    </message>
+    <message>
+        <source>Measurements…</source>
+        <translation>Messungen…</translation>
     </message>
 </context>
 <context>
@@ -3265,10 +3304,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Annotieren</translation>
     </message>
     <message>
-        <source>Label</source>
-        <translation>Label</translation>
-    </message>
-    <message>
         <source>Segmentation</source>
         <translation>Segmentierung</translation>
     </message>
@@ -3291,6 +3326,26 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Colors</source>
         <translation>Farben</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Öffnen</translation>
+    </message>
+    <message>
+        <source>Project</source>
+        <translation>Projekt</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>Exportieren</translation>
+    </message>
+    <message>
+        <source>Map</source>
+        <translation>Karte</translation>
+    </message>
+    <message>
+        <source>Labels</source>
+        <translation>Labels</translation>
     </message>
 </context>
 <context>
@@ -3492,6 +3547,22 @@ s</translation>
     <message>
         <source>LaTeX (*.tex)</source>
         <translation>LaTeX (*.tex)</translation>
+    </message>
+    <message>
+        <source>Table of metrics (CSV)…</source>
+        <translation>Tabelle der Maße (CSV)…</translation>
+    </message>
+    <message>
+        <source>Writes the metrics of all results with every column, as numbers for a program</source>
+        <translation>Schreibt die Maße aller Ergebnisse mit allen Spalten, als Zahlen für ein Programm</translation>
+    </message>
+    <message>
+        <source>Table of metrics (LaTeX)…</source>
+        <translation>Tabelle der Maße (LaTeX)…</translation>
+    </message>
+    <message>
+        <source>Writes the metrics of all results as they are shown, as a LaTeX table</source>
+        <translation>Schreibt die Maße aller Ergebnisse, wie sie gezeigt werden, als LaTeX-Tabelle</translation>
     </message>
 </context>
 <context>
@@ -3824,10 +3895,6 @@ s</translation>
         <translation>Film speichern</translation>
     </message>
     <message>
-        <source>Save movie…</source>
-        <translation>Film speichern…</translation>
-    </message>
-    <message>
         <source>Parallax, refocusing or flips as MP4, WebM or GIF</source>
         <translation>Parallaxe, Refokussieren oder Umschalten als MP4, WebM oder GIF</translation>
     </message>
@@ -3842,6 +3909,10 @@ s</translation>
     <message>
         <source>MP4 (*.mp4);;WebM (*.webm);;GIF (*.gif)</source>
         <translation>MP4 (*.mp4);;WebM (*.webm);;GIF (*.gif)</translation>
+    </message>
+    <message>
+        <source>Movie…</source>
+        <translation>Film…</translation>
     </message>
 </context>
 <context>
@@ -3979,14 +4050,6 @@ s</translation>
 <context>
     <name>episcope::OverlayBar</name>
     <message>
-        <source>Overlay</source>
-        <translation>Überlagerung</translation>
-    </message>
-    <message>
-        <source>Overlay of the view (M: next)</source>
-        <translation>Was über die Ansicht gelegt wird (M: nächste)</translation>
-    </message>
-    <message>
         <source>Opacity of the overlay</source>
         <translation>Deckkraft der Überlagerung</translation>
     </message>
@@ -4007,12 +4070,20 @@ s</translation>
         <translation>Fokusebene auf 0 px zurücksetzen</translation>
     </message>
     <message>
-        <source>Opacity</source>
-        <translation>Deckkraft</translation>
-    </message>
-    <message>
         <source>Focus</source>
         <translation>Fokus</translation>
+    </message>
+    <message>
+        <source>Map over the view</source>
+        <translation>Karte über der Ansicht</translation>
+    </message>
+    <message>
+        <source>Map over the view (M: next)</source>
+        <translation>Karte über der Ansicht (M: nächste)</translation>
+    </message>
+    <message>
+        <source>Map</source>
+        <translation>Karte</translation>
     </message>
 </context>
 <context>
@@ -4026,14 +4097,6 @@ s</translation>
         <translation>auto</translation>
     </message>
     <message>
-        <source>found</source>
-        <translation>ermittelt</translation>
-    </message>
-    <message>
-        <source>From the images, whatever the files say</source>
-        <translation>Aus den Bildern, gleich was die Dateien sagen</translation>
-    </message>
-    <message>
         <source>Row of the view</source>
         <translation>Zeile der Ansicht</translation>
     </message>
@@ -4041,9 +4104,60 @@ s</translation>
         <source>Column of the view</source>
         <translation>Spalte der Ansicht</translation>
     </message>
+    <message>
+        <source>Found: %1</source>
+        <translation>Gefunden: %1</translation>
+    </message>
+    <message>
+        <source>Found in the images</source>
+        <translation>In den Bildern gefunden</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>Automatisch</translation>
+    </message>
+    <message>
+        <source>From the file: %1</source>
+        <translation>Aus der Datei: %1</translation>
+    </message>
+    <message>
+        <source>By hand</source>
+        <translation>Von Hand</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ParameterForm</name>
+    <message>
+        <source>Reset to the default, %1</source>
+        <translation>Auf den Standard zurücksetzen, %1</translation>
+    </message>
+    <message>
+        <source>What this parameter does</source>
+        <translation>Was dieser Parameter bewirkt</translation>
+    </message>
+    <message>
+        <source>Help on %1</source>
+        <translation>Hilfe zu %1</translation>
+    </message>
+    <message>
+        <source>Advanced (%1)</source>
+        <translation>Weitere (%1)</translation>
+    </message>
+    <message>
+        <source>Advanced (%1, %2 changed)</source>
+        <translation>Weitere (%1, davon %2 geändert)</translation>
+    </message>
+    <message>
+        <source>Hides the parameters that are rarely changed</source>
+        <translation>Verbirgt die Parameter, die selten geändert werden</translation>
+    </message>
+    <message>
+        <source>Shows the parameters that are rarely changed</source>
+        <translation>Zeigt die Parameter, die selten geändert werden</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ParameterHelp</name>
     <message>
         <source>Range %1</source>
         <translation>Bereich %1</translation>
@@ -4051,10 +4165,6 @@ s</translation>
     <message>
         <source>Default %1</source>
         <translation>Standard %1</translation>
-    </message>
-    <message>
-        <source>Reset to the default, %1</source>
-        <translation>Auf den Standard zurücksetzen, %1</translation>
     </message>
 </context>
 <context>
@@ -4284,10 +4394,6 @@ s</translation>
         <translation>Karte speichern</translation>
     </message>
     <message>
-        <source>Save picture…</source>
-        <translation>Bild speichern…</translation>
-    </message>
-    <message>
         <source>Saves the view as it is shown, with its brightness and overlay, as PNG</source>
         <translation>Speichert die Ansicht wie gezeigt, mit Helligkeit und Überlagerung, als PNG</translation>
     </message>
@@ -4296,12 +4402,16 @@ s</translation>
         <translation>Ctrl+Shift+E</translation>
     </message>
     <message>
-        <source>Save map…</source>
-        <translation>Karte speichern…</translation>
-    </message>
-    <message>
         <source>Saves the map drawn over the view as PNG</source>
         <translation>Speichert die über die Ansicht gelegte Karte als PNG</translation>
+    </message>
+    <message>
+        <source>Picture…</source>
+        <translation>Bild…</translation>
+    </message>
+    <message>
+        <source>Map…</source>
+        <translation>Karte…</translation>
     </message>
 </context>
 <context>
@@ -4335,10 +4445,6 @@ s</translation>
     <message>
         <source>Saves the project; without one, the scribbles</source>
         <translation>Speichert das Projekt; ohne Projekt die Striche</translation>
-    </message>
-    <message>
-        <source>Save project as…</source>
-        <translation>Projekt speichern unter…</translation>
     </message>
     <message>
         <source>Saves all open light fields with their results and scribbles as a project</source>
@@ -4384,6 +4490,10 @@ s</translation>
         <source>Reloading replaces the open light fields.</source>
         <translation>Neuladen ersetzt, was hier geöffnet ist.</translation>
     </message>
+    <message>
+        <source>Save as…</source>
+        <translation>Speichern unter…</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ProjectGuard</name>
@@ -4404,10 +4514,6 @@ s</translation>
         <translation>Nicht gespeicherte Arbeit</translation>
     </message>
     <message>
-        <source>A method is running</source>
-        <translation>Ein Verfahren läuft</translation>
-    </message>
-    <message>
         <source>sweep of %1</source>
         <translation>Versuchsreihe mit %1</translation>
     </message>
@@ -4426,6 +4532,14 @@ s</translation>
     <message>
         <source>Still running, and would be lost: %1.</source>
         <translation>Läuft noch und ginge verloren: %1.</translation>
+    </message>
+    <message>
+        <source>labels of all views</source>
+        <translation>Labels aller Ansichten</translation>
+    </message>
+    <message>
+        <source>Work is running</source>
+        <translation>Es wird noch gerechnet</translation>
     </message>
 </context>
 <context>
@@ -4814,6 +4928,10 @@ s</translation>
         <source>Saved: %1.</source>
         <translation>Geschrieben: %1.</translation>
     </message>
+    <message>
+        <source>Quilt for light-field displays</source>
+        <translation>Quilt für Lichtfeld-Displays</translation>
+    </message>
 </context>
 <context>
     <name>episcope::SceneChooser</name>
@@ -5042,10 +5160,6 @@ s</translation>
         <translation>Addiert zu den Kosten, was die Interpolation vom Rauschen wegmittelt, damit Labels, die Ansichten um ganze Pixel verschieben, nicht im Nachteil sind</translation>
     </message>
     <message>
-        <source>Aggregation</source>
-        <translation>Aggregation</translation>
-    </message>
-    <message>
         <source>Axes</source>
         <translation>Achsen</translation>
     </message>
@@ -5058,24 +5172,12 @@ s</translation>
         <translation>Ersetzt vor dem ersten Durchgang die Disparität von Strahlen, durch die andere Ansichten hindurchsehen</translation>
     </message>
     <message>
-        <source>Bend</source>
-        <translation>Knick</translation>
-    </message>
-    <message>
         <source>Beside jumps, take the median of the surroundings, weighted by likeness of color</source>
         <translation>Nimmt neben Sprüngen den Median der Umgebung, gewichtet nach Ähnlichkeit der Farbe</translation>
     </message>
     <message>
         <source>Between neighboring positions of the gantry, in the unit of the mesh; with 1, depth is in steps</source>
         <translation>Abstand benachbarter Positionen des Kameraportals, in der Einheit des Netzes; mit 1 ist die Tiefe in Schritten</translation>
-    </message>
-    <message>
-        <source>Cap offset</source>
-        <translation>Versatz der Kappung</translation>
-    </message>
-    <message>
-        <source>Cap ε</source>
-        <translation>Kappung ε</translation>
     </message>
     <message>
         <source>Check lines</source>
@@ -5118,10 +5220,6 @@ s</translation>
         <translation>Gleicht Helligkeitsunterschiede zwischen den Ansichten und ihren Randabfall aus, wo es sie gibt</translation>
     </message>
     <message>
-        <source>Cost</source>
-        <translation>Kosten</translation>
-    </message>
-    <message>
         <source>Relative cost of curvature to jumps in the final denoising</source>
         <translation>Kosten eines Knicks gegenüber denen eines Sprungs im abschließenden Entrauschen</translation>
     </message>
@@ -5150,16 +5248,8 @@ s</translation>
         <translation>Querskala</translation>
     </message>
     <message>
-        <source>Cycles</source>
-        <translation>Zyklen</translation>
-    </message>
-    <message>
         <source>Dataset</source>
         <translation>Datensatz</translation>
-    </message>
-    <message>
-        <source>Decision</source>
-        <translation>Entscheidung</translation>
     </message>
     <message>
         <source>Defaults of the other parameters: tuned, the best known; paper, the method as published. Parameters that are given keep their value</source>
@@ -5182,10 +5272,6 @@ s</translation>
         <translation>Unterschiede entlang einer Linie werden darunter quadratisch bestraft</translation>
     </message>
     <message>
-        <source>Directions</source>
-        <translation>Richtungen</translation>
-    </message>
-    <message>
         <source>Disparity range</source>
         <translation>Disparitätsbereich</translation>
     </message>
@@ -5194,16 +5280,8 @@ s</translation>
         <translation>Abstand</translation>
     </message>
     <message>
-        <source>Distance of side views</source>
-        <translation>Abstand der Seitenansichten</translation>
-    </message>
-    <message>
         <source>Divide each view by its gain, as measured against the center</source>
         <translation>Teilt jede Ansicht durch ihre gegen die mittlere gemessene Verstärkung</translation>
-    </message>
-    <message>
-        <source>Doubt</source>
-        <translation>Zweifel</translation>
     </message>
     <message>
         <source>EPI_L, denoised over all views with occlusion ordering along the lines</source>
@@ -5362,10 +5440,6 @@ s</translation>
         <translation>Iterationen des Labelings</translation>
     </message>
     <message>
-        <source>Jump</source>
-        <translation>Sprung</translation>
-    </message>
-    <message>
         <source>Jumps by more labels cost no more</source>
         <translation>Sprünge um mehr Labels kosten nicht mehr</translation>
     </message>
@@ -5378,36 +5452,12 @@ s</translation>
         <translation>Labels</translation>
     </message>
     <message>
-        <source>Labels in doubt stay where the denoised pixels differ by no more than this</source>
-        <translation>Zweifelhafte Labels bleiben, wo die entrauschten Pixel höchstens um diesen Wert abweichen</translation>
-    </message>
-    <message>
-        <source>Minimum cap</source>
-        <translation>Kleinste Kappung</translation>
-    </message>
-    <message>
-        <source>Minimum confidence</source>
-        <translation>Kleinste Konfidenz</translation>
-    </message>
-    <message>
-        <source>Minimum weight</source>
-        <translation>Kleinstes Gewicht</translation>
-    </message>
-    <message>
-        <source>Leeway</source>
-        <translation>Spielraum</translation>
-    </message>
-    <message>
         <source>Lenslet</source>
         <translation>Linsenbild</translation>
     </message>
     <message>
         <source>Levels</source>
         <translation>Pegel</translation>
-    </message>
-    <message>
-        <source>Limit K</source>
-        <translation>Grenze K</translation>
     </message>
     <message>
         <source>Local multi-view stereo over all views</source>
@@ -5438,10 +5488,6 @@ s</translation>
         <translation>Max. Iterationen</translation>
     </message>
     <message>
-        <source>Minimum distance</source>
-        <translation>Kleinster Abstand</translation>
-    </message>
-    <message>
         <source>Mosaic</source>
         <translation>Mosaik</translation>
     </message>
@@ -5468,10 +5514,6 @@ s</translation>
     <message>
         <source>Noise floor</source>
         <translation>Rauschschwelle</translation>
-    </message>
-    <message>
-        <source>Noise of the map σ₀</source>
-        <translation>Rauschen der Karte σ₀</translation>
     </message>
     <message>
         <source>Number of equidistant disparities tested</source>
@@ -5526,20 +5568,12 @@ s</translation>
         <translation>Außerhalb zweischichtiger Gebiete wird die totale Variation mit exp(−β·|Gradient der Ansicht|) gewichtet; 0 lässt Bildkanten außer Acht</translation>
     </message>
     <message>
-        <source>Passes</source>
-        <translation>Durchläufe</translation>
-    </message>
-    <message>
         <source>Pixels along a side of a lenslet of a mosaic; 0 = detected</source>
         <translation>Pixel entlang einer Seite eines Linsenbilds des Mosaiks; 0 = ermittelt</translation>
     </message>
     <message>
         <source>Place silhouettes</source>
         <translation>Silhouetten setzen</translation>
-    </message>
-    <message>
-        <source>Positions of cameras</source>
-        <translation>Kamerapositionen</translation>
     </message>
     <message>
         <source>Profile</source>
@@ -5570,10 +5604,6 @@ s</translation>
         <translation>Verdecktes ersetzen</translation>
     </message>
     <message>
-        <source>Rounds</source>
-        <translation>Runden</translation>
-    </message>
-    <message>
         <source>Row and column of the view to estimate; auto = center view</source>
         <translation>Zeile und Spalte der zu schätzenden Ansicht; auto = mittlere Ansicht</translation>
     </message>
@@ -5584,10 +5614,6 @@ s</translation>
     <message>
         <source>Rows and columns of views, where the files do not tell: 9x9, or 1x49 for a scan along a line</source>
         <translation>Zeilen und Spalten von Ansichten, wo die Dateien sie nicht nennen: 9x9, oder 1x49 für eine Fahrt entlang einer Linie</translation>
-    </message>
-    <message>
-        <source>Rule for K</source>
-        <translation>Regel für K</translation>
     </message>
     <message>
         <source>ST_AV_L, denoised with total variation (TV-L2)</source>
@@ -5608,10 +5634,6 @@ s</translation>
     <message>
         <source>Seed of the random numbers used to train the forest</source>
         <translation>Startwert der Zufallszahlen, mit denen der Random Forest trainiert wird</translation>
-    </message>
-    <message>
-        <source>Settling</source>
-        <translation>Einpendeln</translation>
     </message>
     <message>
         <source>Shear step</source>
@@ -5636,10 +5658,6 @@ s</translation>
     <message>
         <source>Snake</source>
         <translation>Schlangenlinie</translation>
-    </message>
-    <message>
-        <source>Softness</source>
-        <translation>Weichheit</translation>
     </message>
     <message>
         <source>Spacing of the shears that bring every line close to upright before its orientation is measured; rounded to half pixels; 0 = whole pixels, and only if the range exceeds ±1.2 px</source>
@@ -5690,14 +5708,6 @@ s</translation>
         <translation>Durchgänge</translation>
     </message>
     <message>
-        <source>TGV²</source>
-        <translation>TGV²</translation>
-    </message>
-    <message>
-        <source>TGV² iterations</source>
-        <translation>TGV²-Iterationen</translation>
-    </message>
-    <message>
         <source>Texture with less contrast than this loses confidence</source>
         <translation>Textur mit weniger Kontrast verliert an Konfidenz</translation>
     </message>
@@ -5736,10 +5746,6 @@ s</translation>
     <message>
         <source>The total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, as in the paper</source>
         <translation>Die totale Variation wird mit exp(−β·|Gradient der Ansicht|) gewichtet; 0 lässt Bildkanten außer Acht, wie im Artikel</translation>
-    </message>
-    <message>
-        <source>Tolerance</source>
-        <translation>Toleranz</translation>
     </message>
     <message>
         <source>Trees</source>
@@ -5808,10 +5814,6 @@ s</translation>
     <message>
         <source>Where neighboring disparities scatter less than this, in px, the data term gets more weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper</source>
         <translation>Wo benachbarte Disparitäten weniger streuen als dies, in px, erhält der Datenterm mehr Gewicht, damit Schrägen nicht abgeflacht werden; 0 behandelt alle Pixel gleich, wie im Artikel</translation>
-    </message>
-    <message>
-        <source>Where the mean confidence of a region is below this, its pixels are placed by denoising what each says by itself, if that is elsewhere; 0 = nowhere</source>
-        <translation>Wo die mittlere Konfidenz eines Gebiets darunter liegt, werden seine Pixel durch Entrauschen dessen gesetzt, was jedes für sich sagt, falls das anderswo liegt; 0 = nirgends</translation>
     </message>
     <message>
         <source>Whether dH of an archive file includes the factor xRes, which determines how depth is converted to disparity</source>
@@ -6314,10 +6316,6 @@ s</translation>
         <translation>Bilder werden gelesen</translation>
     </message>
     <message>
-        <source>Fill islands</source>
-        <translation>Inseln füllen</translation>
-    </message>
-    <message>
         <source>One or two pixels nearer than all their neighbors, or farther, take the median of these; off, as in the paper</source>
         <translation>Ein oder zwei Pixel, die näher oder ferner sind als alle Nachbarn, nehmen deren Median an; aus: wie im Artikel</translation>
     </message>
@@ -6489,6 +6487,158 @@ s</translation>
         <source>comparing the brightness of views</source>
         <translation>Helligkeit der Ansichten wird verglichen</translation>
     </message>
+    <message>
+        <source>Aggregation radius</source>
+        <translation>Radius der Mittelung</translation>
+    </message>
+    <message>
+        <source>Automatic limit K</source>
+        <translation>Schranke K automatisch</translation>
+    </message>
+    <message>
+        <source>Camera positions</source>
+        <translation>Kamerapositionen</translation>
+    </message>
+    <message>
+        <source>Combine directions</source>
+        <translation>Richtungen verbinden</translation>
+    </message>
+    <message>
+        <source>Compare samples</source>
+        <translation>Abtastwerte vergleichen</translation>
+    </message>
+    <message>
+        <source>Cost cap offset</source>
+        <translation>Zuschlag zur Kappung</translation>
+    </message>
+    <message>
+        <source>Cost cap ε</source>
+        <translation>Kappung der Kosten ε</translation>
+    </message>
+    <message>
+        <source>Curvature cost</source>
+        <translation>Kosten der Krümmung</translation>
+    </message>
+    <message>
+        <source>Denoising iterations</source>
+        <translation>Iterationen des Entrauschens</translation>
+    </message>
+    <message>
+        <source>Equalize brightness</source>
+        <translation>Helligkeit angleichen</translation>
+    </message>
+    <message>
+        <source>Final denoising</source>
+        <translation>Abschließendes Entrauschen</translation>
+    </message>
+    <message>
+        <source>Map noise σ₀</source>
+        <translation>Rauschen der Karte σ₀</translation>
+    </message>
+    <message>
+        <source>Match limit K</source>
+        <translation>Schranke der Übereinstimmung K</translation>
+    </message>
+    <message>
+        <source>Maximum cycles</source>
+        <translation>Höchstzahl der Durchläufe</translation>
+    </message>
+    <message>
+        <source>Maximum jump</source>
+        <translation>Größter Sprung</translation>
+    </message>
+    <message>
+        <source>Minimum cost cap</source>
+        <translation>Kleinste Kappung der Kosten</translation>
+    </message>
+    <message>
+        <source>Minimum layer distance</source>
+        <translation>Kleinster Abstand der Schichten</translation>
+    </message>
+    <message>
+        <source>Minimum neighbor weight</source>
+        <translation>Kleinstes Gewicht eines Nachbarn</translation>
+    </message>
+    <message>
+        <source>Occluder confidence</source>
+        <translation>Konfidenz des Verdeckenden</translation>
+    </message>
+    <message>
+        <source>Occlusion tolerance</source>
+        <translation>Toleranz bei Verdeckung</translation>
+    </message>
+    <message>
+        <source>Quadratic below</source>
+        <translation>Quadratisch unter</translation>
+    </message>
+    <message>
+        <source>Refinement rounds</source>
+        <translation>Runden der Verfeinerung</translation>
+    </message>
+    <message>
+        <source>Regions whose mean confidence is below this are uncertain: denoising places their pixels by what each says by itself, if that is elsewhere; 0 = none</source>
+        <translation>Regionen mit kleinerer mittlerer Konfidenz sind unsicher: Das Entrauschen setzt ihre Pixel nach dem, was jedes für sich sagt, wenn das anderswo liegt; 0 = keine</translation>
+    </message>
+    <message>
+        <source>Remove specks</source>
+        <translation>Flecken entfernen</translation>
+    </message>
+    <message>
+        <source>Side view distance</source>
+        <translation>Abstand der Seitenansichten</translation>
+    </message>
+    <message>
+        <source>Smoothing between labels</source>
+        <translation>Glättung zwischen Stufen</translation>
+    </message>
+    <message>
+        <source>Two-layer threshold</source>
+        <translation>Schwelle für zwei Schichten</translation>
+    </message>
+    <message>
+        <source>Uncertain below</source>
+        <translation>Unsicher unter</translation>
+    </message>
+    <message>
+        <source>Uncertain pixels keep their label where denoising moves them by no more than this</source>
+        <translation>Unsichere Pixel behalten ihre Stufe, wo das Entrauschen sie um höchstens so viel verschiebt</translation>
+    </message>
+    <message>
+        <source>Uncertain: tolerance</source>
+        <translation>Unsicher: Toleranz</translation>
+    </message>
+    <message>
+        <source>Visibility rounds</source>
+        <translation>Runden der Sichtbarkeit</translation>
+    </message>
+    <message>
+        <source>a pixel right of a lens&apos;s center sees from the right</source>
+        <translation>ein Pixel rechts der Linsenmitte sieht von rechts</translation>
+    </message>
+    <message>
+        <source>demosaicing</source>
+        <translation>Farben ergänzen</translation>
+    </message>
+    <message>
+        <source>finding the lenses</source>
+        <translation>Linsen finden</translation>
+    </message>
+    <message>
+        <source>one line of views, rows from the bottom (quilt)</source>
+        <translation>eine Reihe von Ansichten, Zeilen von unten (Quilt)</translation>
+    </message>
+    <message>
+        <source>removing vignetting</source>
+        <translation>Randabschattung entfernen</translation>
+    </message>
+    <message>
+        <source>sampling views</source>
+        <translation>Ansichten abtasten</translation>
+    </message>
+    <message>
+        <source>views side by side, rows from the bottom</source>
+        <translation>Ansichten nebeneinander, Zeilen von unten</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>
@@ -6540,16 +6690,8 @@ s</translation>
         <translation>Shift+U</translation>
     </message>
     <message>
-        <source>Export segmentation…</source>
-        <translation>Segmentierung exportieren…</translation>
-    </message>
-    <message>
         <source>Writes labels and probabilities as HDF5, or the labels of this view as PNG</source>
         <translation>Schreibt Labels und Wahrscheinlichkeiten als HDF5 oder die Labels dieser Ansicht als PNG</translation>
-    </message>
-    <message>
-        <source>Export masks…</source>
-        <translation>Masken exportieren…</translation>
     </message>
     <message>
         <source>Writes a black and white PNG of every label in every segmented view to a folder</source>
@@ -6659,6 +6801,38 @@ s</translation>
         <source>labels matched by overlap</source>
         <translation>Labels nach Überdeckung zugeordnet</translation>
     </message>
+    <message>
+        <source>All views are segmented once the disparity is estimated.</source>
+        <translation>Alle Ansichten werden segmentiert, sobald die Disparität geschätzt ist.</translation>
+    </message>
+    <message>
+        <source>correcting views: %1 of %2 …</source>
+        <translation>Ansichten werden korrigiert: %1 von %2…</translation>
+    </message>
+    <message>
+        <source>waiting for the disparity …</source>
+        <translation>wartet auf die Disparität…</translation>
+    </message>
+    <message>
+        <source>before the last stroke</source>
+        <translation>vor dem letzten Strich</translation>
+    </message>
+    <message>
+        <source>Other views: before the last stroke.</source>
+        <translation>Andere Ansichten: vor dem letzten Strich.</translation>
+    </message>
+    <message>
+        <source>There is no disparity of all views: all views are segmented by the images alone.</source>
+        <translation>Es gibt keine Disparität aller Ansichten: Alle Ansichten werden allein nach den Bildern segmentiert.</translation>
+    </message>
+    <message>
+        <source>Segmentation…</source>
+        <translation>Segmentierung…</translation>
+    </message>
+    <message>
+        <source>Masks of labels…</source>
+        <translation>Masken der Labels…</translation>
+    </message>
 </context>
 <context>
     <name>episcope::SegmentPanel</name>
@@ -6679,10 +6853,6 @@ s</translation>
         <translation>Disparität, die Labels von Ansicht zu Ansicht überträgt und die der Klassifikator als Merkmal nutzen kann</translation>
     </message>
     <message>
-        <source>Segments all views whenever the labels of this one are ready</source>
-        <translation>Segmentiert alle Ansichten, sobald die Labels dieser bereit sind</translation>
-    </message>
-    <message>
         <source>Disparity</source>
         <translation>Disparität</translation>
     </message>
@@ -6697,6 +6867,10 @@ s</translation>
     <message>
         <source>Smooth boundaries by</source>
         <translation>Grenzen glätten um</translation>
+    </message>
+    <message>
+        <source>Strokes change the labels of all views: they are corrected near what the strokes say, or segmented anew if that cannot be</source>
+        <translation>Striche ändern die Labels aller Ansichten: Sie werden nahe den Strichen korrigiert oder, wenn das nicht geht, neu segmentiert</translation>
     </message>
 </context>
 <context>
@@ -6921,6 +7095,29 @@ s</translation>
     </message>
 </context>
 <context>
+    <name>episcope::StartStrip</name>
+    <message>
+        <source>Try it: &lt;b&gt;1&lt;/b&gt; drag in the view to look around, &lt;b&gt;2&lt;/b&gt; &lt;a href=&quot;tab.estimate&quot;&gt;run a method&lt;/a&gt;, &lt;b&gt;3&lt;/b&gt; &lt;a href=&quot;tab.compare&quot;&gt;compare it with the ground truth&lt;/a&gt;.</source>
+        <translation>Ausprobieren: &lt;b&gt;1&lt;/b&gt; in der Ansicht ziehen, um sich umzusehen, &lt;b&gt;2&lt;/b&gt; &lt;a href=&quot;tab.estimate&quot;&gt;ein Verfahren ausführen&lt;/a&gt;, &lt;b&gt;3&lt;/b&gt; &lt;a href=&quot;tab.compare&quot;&gt;mit der Referenz vergleichen&lt;/a&gt;.</translation>
+    </message>
+    <message>
+        <source>This is a demo.</source>
+        <translation>Dies ist eine Demo.</translation>
+    </message>
+    <message>
+        <source>Open…</source>
+        <translation>Öffnen…</translation>
+    </message>
+    <message>
+        <source>Recent</source>
+        <translation>Zuletzt geöffnet</translation>
+    </message>
+    <message>
+        <source>Do not show these hints</source>
+        <translation>Diese Hinweise nicht zeigen</translation>
+    </message>
+</context>
+<context>
     <name>episcope::StatisticsController</name>
     <message>
         <source>No map is shown</source>
@@ -7130,6 +7327,14 @@ s</translation>
     <message>
         <source>%1 runs on the center view, the present values first</source>
         <translation>%1 Läufe auf der mittleren Ansicht, die jetzigen Werte zuerst</translation>
+    </message>
+    <message>
+        <source>Sweep (CSV)…</source>
+        <translation>Versuchsreihe (CSV)…</translation>
+    </message>
+    <message>
+        <source>Writes the points of the sweep that is shown in the Sweep tab</source>
+        <translation>Schreibt die Punkte der Versuchsreihe, die der Reiter Versuchsreihe zeigt</translation>
     </message>
 </context>
 <context>
