@@ -48,8 +48,10 @@ class FileDescriptor {
 /// The end of a sentence on a file without content.
 inline constexpr const char* kEmptyFile = "the file is empty; copy or download it again";
 
-/// Throws IoError with one sentence unless `path` is a file that can be opened for reading and has
-/// no content that no reader reads (foreign_content.h).
+/// Throws IoError with one sentence unless `path` is a file that can be opened for reading.
+void require_openable_file(const std::filesystem::path& path);
+
+/// The same, also for content that no reader reads (foreign_content.h).
 void require_readable_file(const std::filesystem::path& path);
 
 /// Why writing to `path` failed and what to do about it, from `errno` and the free space.

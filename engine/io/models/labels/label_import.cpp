@@ -42,11 +42,6 @@ bool is_among(const Names& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-std::string files_of(const std::vector<fs::path>& paths) {
-  return paths.size() == 1 ? paths.front().filename().string()
-                           : fmt::format("{} files", paths.size());
-}
-
 /// A label file and the view of its name.
 struct NamedFile {
   fs::path path;
