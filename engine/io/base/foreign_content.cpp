@@ -71,7 +71,12 @@ constexpr FirstBytes kForeign[] = {
      "\x80\x02"
      "c",
      kSave},
-    {0, "\x80\x03", kSave},
+    {0, "\x80\x03}", kSave},
+    {0, "\x80\x03]", kSave},
+    {0,
+     "\x80\x03"
+     "c",
+     kSave},
     {0, "\x80\x04\x95", kSave},
     {0, "\x80\x05\x95", kSave},
     {0, "%pdf-", kDocument}};

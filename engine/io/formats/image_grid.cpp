@@ -357,7 +357,7 @@ CameraGrid camera_of(const ExcerptAttributes& attributes) {
 }
 
 ViewStack<float> read_depth(const fs::path& path, int height, int width, ViewIndex center) {
-  require_readable_file(path);
+  require_openable_file(path);  // any bytes may be samples
   ViewStack<float> depth({1, 1}, height, width, 1, center);
   const std::uintmax_t bytes = fs::file_size(path);
   if (bytes != depth.size() * sizeof(float)) {
