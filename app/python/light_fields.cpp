@@ -4,9 +4,11 @@
 #include "app/python/job.h"
 #include "app/session/load_scene.h"
 #include "app/session/scene_summary.h"
+#include "engine/capture/plenoptic/decode_files.h"
 #include "engine/core/camera_grid.h"
 #include "engine/core/error.h"
 #include "engine/core/light_field.h"
+#include "engine/core/text.h"
 #include "engine/io/base/array_input.h"
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/models/array_file.h"
@@ -231,6 +233,33 @@ None without truth.)")
 
 }  // namespace
 
+namespace {
+
+OpenedScene decode_raw(const py::object& raw, const py::object& white, const py::object& dark,
+                       const py::object& camera, const std::string& mosaic, int views, double step,
+                       bool linear, const py::object& progress) {
+  const auto path = [](const py::object& file) {
+    return file.is_none() ? std::string() : path_from(file);
+  };
+  if (views < 0 || (views > 0 && views % 2 == 0) || step < 0) {
+    throw InvalidInput("views must be odd and step above 0; 0 leaves them to the lenses");
+  }
+  capture::PictureFiles files{path(raw), path(white), path(dark), path(camera), {}};
+  for (const auto& each : names_of(capture::Mosaic{})) {
+    if (mosaic == each.name) files.mosaic = each.value;
+  }
+  if (!files.mosaic) {
+    throw InvalidInput("mosaic is '" + mosaic + "', but must be one of " +
+                       joined(all_names<capture::Mosaic>(), ", "));
+  }
+  Scene scene = result_of_job(progress, 0, [&](const Progress& job) {
+    return capture::decode_files(files, {views, step, linear}, job);
+  });
+  return {std::make_shared<const Scene>(std::move(scene)), files.raw.string()};
+}
+
+}  // namespace
+
 void add_light_fields(py::module_& module) {
   add_camera(module);
   py::class_<OpenedScene> light_field(module, "LightField",
@@ -269,6 +298,22 @@ Raises IoError for what cannot be read, InvalidInput for an option that does not
 --
 
 A built-in scene with exact truth, such as 'edge', 'bars' or 'random?seed=7'.)");
+  module.def("decode", decode_raw, py::arg("raw"), py::kw_only(), py::arg("white") = py::none(),
+             py::arg("dark") = py::none(), py::arg("camera") = py::none(),
+             py::arg("mosaic") = "gray", py::arg("views") = 0, py::arg("step") = 0.0,
+             py::arg("linear") = false, py::arg("progress") = py::none(),
+             R"(decode(raw, *, white=None, dark=None, camera=None, mosaic='gray', views=0, step=0.0,
+       linear=False, progress=None)
+--
+
+A LightField of a raw picture of a plenoptic camera, as 'episcope-cli decode' makes it.
+
+raw: a container (.lfp, .lfr), a bare .raw with its JSON beside it, or a picture. white: a picture,
+or calibration data (a folder or a tar); by default what the raw file or its folder holds. mosaic:
+'gray', 'rggb', 'grbg', 'gbrg' or 'bggr', of a picture that does not tell. views: along each axis,
+odd; step: px between them below a lens; 0 = as the lenses have room. The notes of the light field
+tell what was taken.
+Raises IoError for what cannot be read, InvalidInput where no lenses are found.)");
   module.def("epi", epi_of, py::arg("light_field"), py::kw_only(), py::arg("row") = py::none(),
              py::arg("column") = py::none(), py::arg("view") = py::none(), py::arg("focus") = 0.0,
              R"(epi(light_field, *, row=None, column=None, view=None, focus=0.0)

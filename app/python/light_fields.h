@@ -92,7 +92,7 @@ struct OpenedScene {
 /// Throws TypeError, saying how to make one, for another object than a LightField.
 [[nodiscard]] const OpenedScene& scene_from(const py::object& light_field);
 
-/// Adds the class LightField, and `open`, `demo`, `epi`.
+/// Adds the class LightField, and `open`, `demo`, `decode`, `epi`.
 void add_light_fields(py::module_& module);
 
 }  // namespace episcope::python

@@ -2,7 +2,9 @@
 #include "app/session/load_scene.h"
 
 #include "app/session/collections.h"
+#include "app/session/raw_scene.h"
 #include "engine/capture/mesh_file.h"
+#include "engine/capture/plenoptic/decode_files.h"
 #include "engine/core/error.h"
 #include "engine/core/parameter.h"
 #include "engine/core/shear.h"
@@ -91,6 +93,7 @@ Scene without_truth(ViewStack<std::uint8_t> samples, const Scene& center,
 Scene load_builtin(const std::string& id, const LoadOptions& options, const Progress& progress) {
   require_builtin_input(id);
   if (is_gantry(id)) return load_gantry(id, options, progress);
+  if (id == kPlenopticScene) return load_plenoptic(progress);
   const std::string source = id == kDemo ? id : std::string(kDemo) + ":" + id;
   const scenes::BuiltinRequest request = scenes::read_request(id);
   progress.step("rendering the center view");
@@ -118,6 +121,10 @@ Scene load_builtin(const std::string& id, const LoadOptions& options, const Prog
 // A folder that cannot be opened may hold light fields below; a single one is what is meant.
 Scene open_light_field(const std::string& input, const io::OpenOptions& options,
                        const std::filesystem::path& cache_folder, const Progress& progress) {
+  if (capture::is_lfp_container(input)) {
+    Scene scene = capture::decode_files({.raw = input}, {}, progress);
+    return options.focus_px == 0 ? std::move(scene) : sheared(scene, options.focus_px, progress);
+  }
   try {
     return io::open_scene(input, options, progress);
   } catch (const io::Undecided&) {
@@ -192,7 +199,7 @@ Scene open_input(const std::string& input, io::OpenOptions open, bool needs_trut
 void store_in_cache(const std::string& input, const Scene& scene,
                     const std::filesystem::path& cache_folder, const Progress& progress) {
   const std::string id = builtin_scene_id(input);
-  const bool is_kept_elsewhere = id.empty() || is_gantry(id);
+  const bool is_kept_elsewhere = id.empty() || is_gantry(id) || id == kPlenopticScene;
   if (is_kept_elsewhere || cache_folder.empty() || scene.convention.focus_px != 0) return;
   const scenes::BuiltinRequest request = scenes::read_request(id);
   if (!is_worth_keeping(request)) return;
@@ -209,6 +216,8 @@ std::vector<scenes::BuiltinSceneInfo> builtin_inputs() {
   all.insert(random,
              {kGantryScene,
               "photographs of a gantry, to calibrate, rectify and give a depth from a scan"});
+  all.insert(std::ranges::find(all, scenes::kRandomScene, &scenes::BuiltinSceneInfo::id),
+             {kPlenopticScene, "the demo as a plenoptic camera records it, decoded"});
   return all;
 }
 
@@ -222,13 +231,16 @@ void require_builtin_input(const std::string& id) {
   }
   if (is_gantry(id)) {
     std::ignore = gantry_options(id);
+  } else if (scene == kPlenopticScene) {
+    if (id != scene) throw InvalidInput("the built-in scene plenoptic has no options");
   } else {
     std::ignore = scenes::read_request(id);
   }
 }
 
 std::string builtin_input_name(const std::string& id) {
-  return is_gantry(id) ? kGantryScene : scenes::read_request(id).name();
+  if (is_gantry(id)) return kGantryScene;
+  return id == kPlenopticScene ? kPlenopticScene : scenes::read_request(id).name();
 }
 
 namespace {

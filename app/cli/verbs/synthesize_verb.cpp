@@ -5,12 +5,15 @@
 #include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/load_scene.h"
+#include "app/session/raw_scene.h"
 #include "engine/capture/demo_folder.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/scenes/builtin.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -21,6 +24,7 @@ namespace {
 constexpr const char* kGantry = "gantry";
 constexpr int kMostViews = 101;
 constexpr int kMostPixels = 8192;
+constexpr int kLeastSensor = 240;
 constexpr double kMostNoise = 255;
 
 struct SynthesizeRequest {
@@ -30,6 +34,7 @@ struct SynthesizeRequest {
   std::optional<Extent> size;
   std::optional<double> noise;
   std::optional<int> seed;
+  std::optional<capture::CameraModel> camera;
   Overwrite overwrite = Overwrite::No;
   bool is_json = false;
   JobOptions job;
@@ -38,7 +43,8 @@ struct SynthesizeRequest {
 std::string list_of_scenes() {
   std::string list =
       "Renders a built-in scene with exact ground truth as lf.h5 in the archive form, with\n"
-      "labels.h5 next to it if the scene has labels. Scenes:\n";
+      "labels.h5 next to it if the scene has labels. With --camera, writes to a folder OUT what a\n"
+      "plenoptic camera records of it, for decode. Scenes:\n";
   for (const auto& scene : scenes::builtin_scenes()) {
     list += "  " + scene.id + ": " + scene.summary + "\n";
   }
@@ -59,7 +65,9 @@ bool parse(const VerbArguments& arguments, SynthesizeRequest& request) {
   parser.option("--grid", request.views, extent_value("VxU", kMostViews),
                 "Camera rows and columns (default 9x9)");
   parser.option("--size", request.size, extent_value("WxH", kMostPixels),
-                "Pixels of a view (default 512x512)");
+                "Pixels of a view (default 512x512), or of the sensor of --camera");
+  parser.option("--camera", request.camera, choice_of<capture::CameraModel>(),
+                "Raw picture of a plenoptic camera: 3280x3280 px, 7728x5368, 1600x1200");
   parser.option("--noise-sigma", request.noise, real_value("SIGMA", 0, kMostNoise),
                 "Standard deviation of Gaussian noise, in gray levels of 255 (default 0)");
   parser.option("--seed", request.seed, integer_value("N", 0, std::numeric_limits<int>::max()),
@@ -73,7 +81,8 @@ bool parse(const VerbArguments& arguments, SynthesizeRequest& request) {
   if (const std::string id = builtin_scene_id(request.scene); !id.empty()) request.scene = id;
   parser.check_uses({{{"--overwrite"},
                       request.scene != kGantry,
-                      "on the folder of the gantry, which must be empty"}});
+                      "on the folder of the gantry, which must be empty"},
+                     {{"--overwrite", "--grid"}, !request.camera, "with --camera"}});
   return true;
 }
 
@@ -111,6 +120,43 @@ void synthesize_gantry(const SynthesizeRequest& request, std::stop_token stop) {
   std::cout << request.output << ": photographs, pattern, mesh and picks; see readme.txt\n";
 }
 
+capture::SyntheticCamera camera_of(const SynthesizeRequest& request) {
+  capture::SyntheticCamera camera = capture::synthetic_camera(*request.camera);
+  if (request.size) {
+    camera.width = request.size->first;
+    camera.height = request.size->second;
+    if (camera.width % 4 != 0 || std::min(camera.width, camera.height) < kLeastSensor) {
+      throw UsageError(
+          fmt::format("--size is {}x{}, but a sensor has at least {} px along each "
+                      "side, and a width that divides by 4",
+                      camera.width, camera.height, kLeastSensor));
+    }
+  }
+  if (request.noise) camera.noise = *request.noise / kMostNoise;
+  if (request.seed) camera.seed = static_cast<unsigned>(*request.seed);
+  return camera;
+}
+
+/// The folder of a raw picture, in place of a light field.
+void synthesize_raw(const SynthesizeRequest& request, std::stop_token stop) {
+  const capture::SyntheticCamera camera = camera_of(request);
+  scenes::BuiltinRequest scene = scenes::read_request(request.scene);
+  if (request.seed) scene.options.seed = static_cast<unsigned>(*request.seed);
+  Job job(std::move(stop), request.job);
+  const RawFolder files = write_raw_folder(request.output, scene, camera, job.progress());
+  job.finish();
+  if (request.is_json) {
+    return print_answer(Json::object({{"scene", request.scene},
+                                      {"camera", name_of(*request.camera)},
+                                      {"raw", files.raw.string()},
+                                      {"white", files.white.string()},
+                                      {"ideal", files.ideal.string()},
+                                      {"output", request.output}}),
+                        job.notes(), {request.output});
+  }
+  std::cout << request.output << ": raw picture, white picture and ideal views; see readme.txt\n";
+}
+
 Json answer_json(const SynthesizeRequest& request, const scenes::RenderOptions& options) {
   return Json::object({{"scene", request.scene},
                        {"views", Json::object({{"v", options.grid.v}, {"u", options.grid.u}})},
@@ -126,6 +172,7 @@ void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   if (!parse(arguments, request)) return;
   if (request.scene == kGantry) return synthesize_gantry(request, std::move(stop));
   check_builtin_scene(request.scene);
+  if (request.camera) return synthesize_raw(request, std::move(stop));
   const auto [id, options] = scene_of(request);
   check_hdf5_output("synthesize", request.output);
   check_light_field_output(request.output, request.overwrite);

@@ -98,6 +98,18 @@ def open(
     path: Path, *, truth: bool = ..., progress: Optional[Listener] = ..., **reading: Any
 ) -> LightField: ...
 def demo(scene: str = ..., *, progress: Optional[Listener] = ...) -> LightField: ...
+def decode(
+    raw: Path,
+    *,
+    white: Optional[Path] = ...,
+    dark: Optional[Path] = ...,
+    camera: Optional[Path] = ...,
+    mosaic: str = ...,
+    views: int = ...,
+    step: float = ...,
+    linear: bool = ...,
+    progress: Optional[Listener] = ...,
+) -> LightField: ...
 def epi(
     light_field: LightField,
     *,

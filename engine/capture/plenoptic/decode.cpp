@@ -20,10 +20,10 @@
 namespace episcope::capture {
 namespace {
 
-constexpr float kDarkest = 0.2F;  // of the center of a lens; below, a sample is invalid
+constexpr float kDarkest = 0.3F;  // of the center of a lens; below, a sample is invalid
 constexpr double kUnit = 32768;   // of devignetted samples: what 1 is stored as
 constexpr double kMostViews = 15;
-constexpr double kBrightLenses = 0.98;  // quantile of lenses that makes 1
+constexpr double kBrightLenses = 0.995;  // quantile of lenses that makes 1
 
 using Levels = std::array<double, 3>;
 
@@ -176,14 +176,15 @@ Devignetted devignetted(const PlenopticPictures& pictures, const LensGrid& grid,
 
 /// Replaces pixels that are brighter or darker than all neighbors of their color by a third, with
 /// the mean of these.
-std::size_t replace_hot_pixels(Image<std::uint16_t>& light, Mosaic mosaic,
-                               const Progress& progress) {
+std::size_t replace_hot_pixels(Image<std::uint16_t>& light, const Image<std::uint8_t>& is_seen,
+                               Mosaic mosaic, const Progress& progress) {
   const int reach = mosaic == Mosaic::Gray ? 1 : 2;
   const Image<std::uint16_t> before = light;
   std::vector<std::size_t> counts(light.height());
   parallel_for(light.height() - 2 * reach, progress, [&](int item) {
     const int y = item + reach;
     for (int x = reach; x < light.width() - reach; ++x) {
+      if (!is_seen.empty() && is_seen.at(y, x) == 0) continue;
       double low = 65535, high = 0, sum = 0;
       for (int k = 0; k < 9; ++k) {
         if (k == 4) continue;
@@ -311,7 +312,10 @@ ViewGeometry geometry_of(const LensGrid& grid, const DecodeOptions& options, int
   const double border = g.views / 2 * g.step_px + 1;
   g.block = lens_block(grid, height, width, border);
   g.column_step = grid.lattice == LensLattice::Hexagonal ? grid.row_distance_px / grid.pitch_px : 1;
-  g.width = static_cast<int>(g.block.columns / g.column_step) + 1;
+  // A pixel of the views lies on lens (0, 0).
+  const double end = g.block.first_column + g.block.columns;
+  g.block.first_column = std::ceil(g.block.first_column / g.column_step) * g.column_step;
+  g.width = static_cast<int>((end - g.block.first_column) / g.column_step) + 1;
   const double turn = grid.rotation_degrees * std::numbers::pi / 180;
   g.u = {g.step_px * std::cos(turn), g.step_px * std::sin(turn)};
   g.v = {-g.u.y, g.u.x};
@@ -498,12 +502,16 @@ Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,
   const ViewGeometry geometry =
       geometry_of(grid, options, raw.samples.height(), raw.samples.width());
   decoded.step_px = geometry.step_px;
+  decoded.first_x =
+      static_cast<int>(std::lround(geometry.block.first_column / geometry.column_step));
+  decoded.first_y = geometry.block.first_row;
   progress.step("removing vignetting");
   const int mean = static_cast<int>(geometry.step_px + 0.5);
   Devignetted seen = raw.mosaic == Mosaic::Gray && mean > 1
                          ? devignetted_means(pictures, grid, mean | 1, progress.part(0, 0.2))
                          : devignetted(pictures, grid, progress.part(0, 0.2));
-  decoded.hot_pixels = replace_hot_pixels(seen.light, raw.mosaic, progress.part(0.2, 0.35));
+  decoded.hot_pixels =
+      replace_hot_pixels(seen.light, seen.is_seen, raw.mosaic, progress.part(0.2, 0.35));
   progress.check();
   progress.step("demosaicing");
   const Image<std::uint16_t> light = demosaiced(std::move(seen.light), raw.mosaic);
@@ -516,6 +524,7 @@ Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,
   drop_unneeded_mask(valid, decoded);
   LightFieldInfo info;
   info.name = std::filesystem::path(raw.name).stem().string();
+  info.source = raw.source;
   decoded.light_field =
       std::make_shared<const LightField>(sampler.samples(), std::move(info), std::move(valid));
   decoded.sharpness = sharpness_of(*decoded.light_field);

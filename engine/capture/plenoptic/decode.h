@@ -33,7 +33,9 @@ void require_matching(const PlenopticPictures& pictures);
 struct Decoded {
   LightFieldPtr light_field;
   LensGrid grid;
-  double step_px = 1;          ///< Distance of views on the sensor.
+  double step_px = 1;  ///< Distance of views on the sensor.
+  int first_x = 0;     ///< Of the first pixel, from the one that lens (0, 0) is.
+  int first_y = 0;
   double valid_percent = 100;  ///< Of the samples of all views.
   std::size_t hot_pixels = 0;  ///< Replaced by their neighbors.
   double sharpness = 0;        ///< Of the center view: rms of neighbor differences over contrast.
@@ -50,7 +52,7 @@ struct Decoded {
 /// hexagonal rows are interpolated (Lanczos) to a square lattice whose pixel is the row distance.
 /// Samples are uint16: 1 is the sensor's saturation at the brightest lenses' centers, times the
 /// camera's white balance and color matrix, gamma-encoded if the camera says so. Samples that
-/// the lens or the main lens shade below a fifth, and lenses cut off by the sensor, are invalid.
+/// the lens or the main lens shade below 0.3, and lenses cut off by the sensor, are invalid.
 /// A pixel right of the lens's center belongs to a view on the right. Throws InvalidInput,
 /// Cancelled.
 [[nodiscard]] Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,

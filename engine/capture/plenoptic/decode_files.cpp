@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
@@ -128,8 +130,18 @@ Scene scene_of(const Decoded& decoded, const FoundPictures& found) {
   scene.convention.order = "canonical order";
   scene.convention.order_check = "a pixel right of a lens's center sees from the right";
   scene.convention.samples = decoded.is_gamma_encoded ? "uint16, gamma-encoded" : "uint16, linear";
-  scene.convention.warnings = decoded.warnings;
+  scene.convention.warnings = found.notes;
+  std::ranges::copy(decoded.warnings, std::back_inserter(scene.convention.warnings));
   return scene;
+}
+
+Scene decode_files(const PictureFiles& files, const DecodeOptions& options,
+                   const Progress& progress) {
+  progress.step("reading " + files.raw.filename().string());
+  const FoundPictures found = read_pictures(files);
+  progress.check();
+  const LensGrid grid = find_lenses(found.pictures, progress.part(0.1, 0.4));
+  return scene_of(decode(found.pictures, grid, options, progress.part(0.4, 1)), found);
 }
 
 std::string origin_text(const Decoded& decoded, const RawPicture& raw) {

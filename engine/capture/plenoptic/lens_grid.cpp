@@ -155,10 +155,18 @@ bool can_span(const Vector2& a, const Vector2& b) {
   return ratio > 0.9 && ratio < 1.12 && (std::abs(angle - 60) < 8 || angle > 80);
 }
 
+/// Whether the third base frequency of a hexagonal lattice is there, too: sum or difference of two.
+bool has_third(const std::vector<Vector2>& frequencies, const Vector2& a, const Vector2& b) {
+  const Vector2 third = a.dot(b) < 0 ? Vector2(a + b) : Vector2(a - b);
+  return std::ranges::any_of(frequencies, [&](const Vector2& f) {
+    return std::min((f - third).norm(), (f + third).norm()) < 0.04 * a.norm();
+  });
+}
+
 /// The coarsest lattice whose base frequencies are peaks and of which the strongest peak is a
 /// harmonic: lenses that touch each other have stronger harmonics than base frequencies.
 Lattice lattice_of(const std::vector<Peak>& peaks) {
-  constexpr double kShare = 0.01;  // of the power of the strongest
+  constexpr double kShare = 0.05;  // of the power of the strongest
   constexpr double kWhole = 0.06;  // of a base frequency
   const Vector2 strongest = peaks.front().frequency;
   std::vector<Vector2> some;
@@ -177,6 +185,7 @@ Lattice lattice_of(const std::vector<Peak>& peaks) {
       const Vector2 order = base.transpose().inverse() * strongest;
       if ((order - order.array().round().matrix()).cwiseAbs().maxCoeff() > kWhole) continue;
       const bool is_hexagonal = angle_between(some[i], some[j]) < 75;
+      if (is_hexagonal && !has_third(some, some[i], some[j])) continue;
       return oriented(is_hexagonal ? LensLattice::Hexagonal : LensLattice::Square, base.inverse());
     }
   }

@@ -103,6 +103,8 @@ const LfpSection* LfpContainer::find(const std::string& reference) const {
 }
 
 bool is_lfp_container(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;  // opening a pipe would wait
   const io::FileDescriptor file(path, O_RDONLY);
   std::array<std::uint8_t, 8> bytes{};
   return file.ok() && io::read_all_at(file.id(), bytes, 0) &&

@@ -406,6 +406,7 @@ RawFile read_raw(const fs::path& path) {
     throw IoError(path, error.what());
   }
   file.raw.name = path.filename().string();
+  file.raw.source = path.string();
   if (file.white) file.white->name = file.raw.name + " (its own white picture)";
   return file;
 }

@@ -64,7 +64,8 @@ struct RawPicture {
   Mosaic mosaic = Mosaic::Gray;
   RawFacts facts{};
   RawColors colors{};
-  std::string name{};  ///< Of its file.
+  std::string name{};    ///< Of its file.
+  std::string source{};  ///< What opens it again; empty = nothing does.
 };
 
 /// What a file of a raw picture holds.

@@ -1,0 +1,33 @@
+# From a raw picture of a plenoptic camera to a light field, as its readme.txt says; bad input.
+include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
+
+expect("expose" 0 OUT "raw picture" ARGS synthesize edge --camera f01 --size 480x360 -o f01)
+expect("decode" 0 ERR "MOD_0001.RAW .*nearest of 2" OUT "hexagonal lenses: pitch 10.02"
+       ARGS decode f01/raw.lfp --white f01/calibration -o lf.h5)
+expect("what the camera said" 0 OUT "decoded from raw.lfp.*serial A000000001.*zoom step 600"
+       ARGS info lf.h5)
+expect("again" 1 ERR "--overwrite" ARGS decode f01/raw.lfp -o lf.h5)
+expect("without a white picture" 0 ERR "without a white picture"
+       ARGS decode f01/raw.lfp --views 5 -o raw_only.h5 --json)
+json_is("${out}" 5 views u)
+json_is("${out}" hexagonal lattice)
+json_near("${out}" 9.9 10.1 pitch_px)
+json_is("${out}" "600" camera "zoom step")
+expect("a container is a light field" 0 OUT "decoded from raw.lfp" ARGS info f01/raw.lfp)
+
+expect("expose a square array" 0 ARGS synthesize edge --camera square --size 480x360 -o square -q)
+expect("pictures beside" 0 ERR "white picture raw_white.png" OUT "square lenses" ARGS decode
+       square/raw.png -o square.h5)
+file(SIZE "${WORK}/f01/raw.lfp" bytes)
+math(EXPR half "${bytes} / 2")
+execute_process(COMMAND head -c ${half} "${WORK}/f01/raw.lfp" OUTPUT_FILE "${WORK}/cut.lfp")
+expect("cut off" 1 ERR "cut.lfp: section 4 .*the file is cut off" ARGS decode cut.lfp -o cut.h5)
+expect("white of another size" 1 ERR "has 480×360 px" ARGS decode f01/raw.lfp --white
+       square/raw_white.png -o other.h5)
+expect("no lenses" 1 ERR "no array of microlenses" ARGS decode square/raw_dark.png --white
+       square/raw_dark.png -o none.h5)
+expect("not there" 1 ERR "gone.png" ARGS decode gone.png -o none.h5)
+expect("a sensor too small" 2 ERR "--size is 100x100" ARGS synthesize edge --camera f01 --size 100x100
+       -o small)
+expect("no effect" 2 ERR "--grid has no effect with --camera" ARGS synthesize edge --camera f01
+       --grid 3x3 -o small)
