@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/annotation_files.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/files/project_controller.h"
@@ -50,6 +51,23 @@ class AllViews : public Annotating {
     return box && box->isVisible() ? box : nullptr;
   }
 
+  /// The light field and its strokes, but no truth.
+  QString writeWithoutTruth() {
+    Scene scene = *session().scene();
+    scene.truth = std::make_shared<GroundTruth>();
+    QDir().mkpath(path("plain"));
+    io::write_archive(path("plain/lf.h5").toStdString(), scene, Progress(1));
+    return path("plain/lf.h5");
+  }
+  /// Opens a file in place of what is open.
+  void open(const QString& file) {
+    const auto generation = session().generation();
+    window.bench().opener.open(file);
+    QTRY_VERIFY_WITH_TIMEOUT(session().generation() > generation && session().scene(),
+                             kScenePatience);
+    QTRY_VERIFY_WITH_TIMEOUT(window.bench().document.document(), kPatience);
+  }
+
   /// The light field in which the corners of all views hold nothing.
   QString writeWithDarkCorners() {
     Scene scene = *session().scene();
@@ -87,6 +105,7 @@ class AllViewsTest : public QObject {
   void exportedLabels_areNotAskedFor();
   void labelsOfAProject_areThereAgain();
   void pixelsWithoutContent_haveNoLabel();
+  void disparityOfLabels_alsoCarriesStrokes();
 };
 
 // A stroke of a new label over a thing, far from what the others say.
@@ -242,13 +261,8 @@ void AllViewsTest::labelsOfAProject_areThereAgain() {
 
 void AllViewsTest::pixelsWithoutContent_haveNoLabel() {
   AllViews f;
-  const QString file = f.writeWithDarkCorners();
-  const auto generation = f.session().generation();
-  f.window.bench().opener.open(file);
-  QTRY_VERIFY_WITH_TIMEOUT(f.session().generation() > generation && f.session().scene() &&
-                               !f.session().light_field()->valid().empty(),
-                           kScenePatience);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().document.document(), kPatience);
+  f.open(f.writeWithDarkCorners());
+  QVERIFY(!f.session().light_field()->valid().empty());
 
   f.segmentAll();
   f.segment().smoothBoundaries(2);
@@ -265,6 +279,19 @@ void AllViewsTest::pixelsWithoutContent_haveNoLabel() {
     QVERIFY(std::all_of(of_view.row(AllViews::kCorner), of_view.data + of_view.size(),
                         [](int id) { return id > 0; }));
   }
+}
+
+void AllViewsTest::disparityOfLabels_alsoCarriesStrokes() {
+  AllViews f;
+  f.open(f.writeWithoutTruth());
+  QVERIFY(!f.session().known_disparity(f.view()));
+
+  f.trigger("segment.update");
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+
+  QVERIFY(f.session().known_disparity(f.view()));
+  f.trigger("annotate.carry");
+  QTRY_VERIFY_WITH_TIMEOUT(find<ScribbleController>(f.window).carried(), kPatience);
 }
 
 }  // namespace episcope::in_all_views_test
