@@ -36,7 +36,7 @@ class AllViews : public Annotating {
 
   void segmentAll() {
     trigger("segment.all");
-    QTRY_VERIFY_WITH_TIMEOUT(window.bench().jobs.count() == 0 && all() != nullptr, kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(window.bench().jobs.count() == 0 && all() != nullptr, kScenePatience);
   }
   /// Labels of all views; null if there are none.
   LabelingPtr all() {
@@ -65,7 +65,7 @@ class AllViews : public Annotating {
     window.bench().opener.open(file);
     QTRY_VERIFY_WITH_TIMEOUT(session().generation() > generation && session().scene(),
                              kScenePatience);
-    QTRY_VERIFY_WITH_TIMEOUT(window.bench().document.document(), kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(window.bench().document.document(), kScenePatience);
   }
 
   /// The light field in which the corners of all views hold nothing.
@@ -120,7 +120,7 @@ void AllViewsTest::stroke_correctsAllViews_andIsUndoneAndRedone() {
 
   f.drag({5, 5}, {5, 60});
   QVERIFY(f.segment().labeler().is_running());
-  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented() && f.segment().isSegmentationUpToDate(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented() && f.segment().isSegmentationUpToDate(), kScenePatience);
 
   const LabelingPtr corrected = f.all();
   QVERIFY(corrected != before);
@@ -153,7 +153,7 @@ void AllViewsTest::stroke_leavesTheOtherViews_andUndoBringsAllBack() {
   f.trigger("segment.live");
 
   f.drag({5, 5}, {5, 60});
-  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kScenePatience);
 
   QVERIFY(f.labels(AllViews::kCenter) != before);
   QVERIFY2(f.panel().note().contains("Other views: before the last stroke"),
@@ -183,7 +183,7 @@ void AllViewsTest::allViewsOfAFreshFile_waitForTheDisparity() {
   QVERIFY(!f.segment().isSegmentingAll());
   QVERIFY2(f.panel().state().startsWith("waiting for the disparity"),
            qPrintable(f.panel().state()));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().jobs.count() == 0 && f.all(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().jobs.count() == 0 && f.all(), kScenePatience);
   QVERIFY(f.segment().labeler().input()->disparity);
   QVERIFY(f.segment().isSegmentationUpToDate());
 }
@@ -194,7 +194,7 @@ void AllViewsTest::cancelledDisparity_endsTheWish() {
 
   f.window.bench().cancels.cancel();
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kScenePatience);
   QVERIFY(!f.all());
   QVERIFY2(f.panel().state() == "idle", qPrintable(f.panel().state()));
 }
@@ -216,7 +216,7 @@ void AllViewsTest::quit_asksWhileAllViewsAreSegmented() {
   AllViews f;
   find<ProjectGuard>(f.window).setWorthKeeping(0);
   f.trigger("segment.update");
-  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kScenePatience);
   HeldLane held(f.window.bench().jobs, Lane::Label);
   f.trigger("segment.all");
 
@@ -236,7 +236,7 @@ void AllViewsTest::exportedLabels_areNotAskedFor() {
 
   export_segmentation(f.window.bench(), f.segment(), f.path("out.h5"));
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().guards.may_leave(Leaving::Session), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().guards.may_leave(Leaving::Session), kScenePatience);
 }
 
 void AllViewsTest::labelsOfAProject_areThereAgain() {
@@ -287,11 +287,11 @@ void AllViewsTest::disparityOfLabels_alsoCarriesStrokes() {
   QVERIFY(!f.session().known_disparity(f.view()));
 
   f.trigger("segment.update");
-  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kScenePatience);
 
   QVERIFY(f.session().known_disparity(f.view()));
   f.trigger("annotate.carry");
-  QTRY_VERIFY_WITH_TIMEOUT(find<ScribbleController>(f.window).carried(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(find<ScribbleController>(f.window).carried(), kScenePatience);
 }
 
 }  // namespace episcope::in_all_views_test
