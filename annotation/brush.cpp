@@ -73,66 +73,7 @@ PixelRegion connected_region(int height, int width, PixelIndex seed, const OpenR
   return region;
 }
 
-/// Squared norms of the color gradient along a row; one-sided at the border.
-class GradientRow {
- public:
-  explicit GradientRow(ImageView<const float> picture)
-      : picture_(picture), squares_(static_cast<std::size_t>(picture.width) * picture.channels) {}
-
-  /// 1 where the gradient is below the limit.
-  void mark_below(float limit, int y, std::uint8_t* row) {
-    add_up(y);
-    const int channels = picture_.channels;
-    const float* square = squares_.data();
-    for (int x = 0; x < picture_.width; ++x, square += channels) {
-      float sum = 0;
-      for (int c = 0; c < channels; ++c) sum += square[c];
-      row[x] = sum < limit ? 1 : 0;
-    }
-  }
-
- private:
-  // By samples, not by pixels: neighbors in memory are computed side by side.
-  void add_up(int y) {
-    const int channels = picture_.channels;
-    const int count = picture_.width * channels;
-    const float* row = picture_.row(y);
-    const float* up = picture_.row(std::max(y - 1, 0));
-    const float* down = picture_.row(std::min(y + 1, picture_.height - 1));
-    const int rows = std::min(y + 1, picture_.height - 1) - std::max(y - 1, 0);
-    const float along_y = rows > 0 ? 1.0F / static_cast<float>(rows) : 0.0F;
-    const auto square = [&](int i, int right, int left, float along_x) {
-      const float dx = (row[right] - row[left]) * along_x;
-      const float dy = (down[i] - up[i]) * along_y;
-      squares_[static_cast<std::size_t>(i)] = dx * dx + dy * dy;
-    };
-    for (int i = channels; i < count - channels; ++i) square(i, i + channels, i - channels, 0.5F);
-    const float one_sided = picture_.width > 1 ? 1.0F : 0.0F;
-    const int step = picture_.width > 1 ? channels : 0;
-    for (int c = 0; c < channels; ++c) {
-      square(c, c + step, c, one_sided);
-      const int last = count - channels + c;
-      square(last, last, last - step, one_sided);
-    }
-  }
-
-  ImageView<const float> picture_;
-  std::vector<float> squares_;
-};
-
 }  // namespace
-
-PixelRegion region_within_edges(ImageView<const float> picture, PixelIndex seed,
-                                double max_gradient) {
-  if (!(max_gradient >= 0)) {
-    throw InvalidInput(
-        fmt::format("a fill cannot stop at a gradient of {:f}; choose 0 or more", max_gradient));
-  }
-  const auto limit = static_cast<float>(max_gradient * max_gradient);
-  GradientRow gradient(picture);
-  return connected_region(picture.height, picture.width, seed,
-                          [&](int y, std::uint8_t* row) { gradient.mark_below(limit, y, row); });
-}
 
 PixelRegion region_of_segment(ImageView<const std::int32_t> segmentation, PixelIndex seed) {
   const bool is_inside =

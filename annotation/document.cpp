@@ -67,11 +67,22 @@ void AnnotationDocument::recolor_label(int id, Rgb color) {
 }
 
 void AnnotationDocument::remove_label(int id) {
+  take_over(id, 0);
+}
+
+void AnnotationDocument::merge_label(int id, int into) {
+  if (!labels_.contains(into) || into == id) {
+    throw InvalidInput(fmt::format("label {} cannot be merged into label {}", id, into));
+  }
+  take_over(id, static_cast<std::uint8_t>(into));
+}
+
+void AnnotationDocument::take_over(int id, std::uint8_t by) {
   LabelSet changed = labels_;
   changed.remove(id);
-  PendingEdit edit(*this, EditKind::RemoveLabel);
+  PendingEdit edit(*this, by == 0 ? EditKind::RemoveLabel : EditKind::MergeLabel);
   for (const ViewIndex view : scribbles_.painted_views()) {
-    edit.paint(view, pixels_of(scribbles_.view(view), static_cast<std::uint8_t>(id)), {0, {}});
+    edit.paint(view, pixels_of(scribbles_.view(view), static_cast<std::uint8_t>(id)), {by, {}});
   }
   edit.set_labels(std::move(changed));
   edit.commit();

@@ -152,6 +152,8 @@ class AnnotationDocument {
   void recolor_label(int id, Rgb color);
   /// Also erases everything painted with it, on all views.
   void remove_label(int id);
+  /// Gives everything painted with a label to another one, and removes it.
+  void merge_label(int id, int into);
 
   /// Undoes the last edit, or redoes it; an empty change if there is none.
   DocumentChange undo();
@@ -182,6 +184,8 @@ class AnnotationDocument {
   void require_fitting(const Edit& edit) const;
   DocumentChange put(const Edit& edit, EditSide side);
   void keep(Edit edit);
+  /// Removes a label; its pixels get another one, or none (0).
+  void take_over(int id, std::uint8_t by);
   void tell(DocumentStep step, const Edit* edit) const;
   template <class Change>
   void edit_labels(EditKind kind, const Change& change);

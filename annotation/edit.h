@@ -21,11 +21,12 @@ enum class EditKind : std::uint8_t {
   Import,
   SmoothBoundaries,
   Polygon,
-  Lasso
+  Lasso,
+  MergeLabel
 };
 
 /// The last of them: journals keep their numbers, so that new ones come after it.
-inline constexpr EditKind kLastEditKind = EditKind::Lasso;
+inline constexpr EditKind kLastEditKind = EditKind::MergeLabel;
 
 /// Consecutive pixels of a row that had the same label and got the same label.
 struct LabelRun {

@@ -130,6 +130,7 @@ struct OpenScene {
   TrueLabelsPtr true_labels;
   std::vector<LabelInfo> true_label_infos{};  ///< Names of them, as far as files tell.
   KeptLabels labels;
+  std::shared_ptr<const DisparityField> label_disparity{};  ///< Estimated for labels alone.
   ScenePlace place;
   std::uint64_t last_used = 0;  ///< Larger = later.
 };

@@ -363,8 +363,12 @@ std::shared_ptr<const DisparityField> Session::known_disparity(ViewIndex view) c
   if (entry && entry->estimate->field.contains(view)) {
     return {entry->estimate, &entry->estimate->field};
   }
-  if (!now_->scene || !now_->scene->truth->field.contains(view)) return nullptr;
-  return {now_->scene->truth, &now_->scene->truth->field};
+  if (!now_->scene) return nullptr;
+  if (now_->scene->truth->field.contains(view)) {
+    return {now_->scene->truth, &now_->scene->truth->field};
+  }
+  const auto& of_labels = now_->label_disparity;
+  return of_labels && of_labels->contains(view) ? of_labels : nullptr;
 }
 
 namespace {
@@ -480,6 +484,7 @@ void Session::unload(std::uint64_t id) {
   if (!scene || scene == now_) return;
   scene->scene.reset();
   scene->true_labels.reset();
+  scene->label_disparity.reset();
   for (EstimateEntry& entry : scene->estimates) {
     evaluations_.forget(entry.id);
     entry.estimate.reset();
@@ -555,6 +560,13 @@ void Session::set_labels(std::uint64_t id, KeptLabels labels) {
   if (!scene) return;
   scene->labels = std::move(labels);
   changed(Part::Labels);
+}
+
+void Session::set_label_disparity(std::uint64_t id, std::shared_ptr<const DisparityField> field) {
+  OpenScene* scene = open_scene(id);
+  if (!scene) return;
+  scene->label_disparity = std::move(field);
+  if (scene == now_) changed(Part::Estimates);
 }
 
 void Session::set_labels_file(std::uint64_t id, const LabelingPtr& labeling,

@@ -182,8 +182,15 @@ class Session {
   /// Sets which pixels metrics of an open scene cover. Ignored for an unknown one.
   void set_judged(std::uint64_t scene, const JudgedPart& part);
 
-  /// What is known of the disparity of a view: the shown estimate, which is held, else the truth;
-  /// null if neither has that view.
+  /// Notes the disparity of all views that was estimated for the labels of an open scene; it stays
+  /// in memory with the scene. Unknown scenes are ignored.
+  void set_label_disparity(std::uint64_t scene, std::shared_ptr<const DisparityField> field);
+  /// Null if there is none.
+  [[nodiscard]] const std::shared_ptr<const DisparityField>& label_disparity() const {
+    return now_->label_disparity;
+  }
+  /// What is known of the disparity of a view: the shown estimate, which is held, else the truth,
+  /// else `label_disparity`; null if none has that view.
   [[nodiscard]] std::shared_ptr<const DisparityField> known_disparity(ViewIndex view) const;
 
   /// Keeps a segmentation with an open scene, in the place of another. Unknown scenes are ignored.

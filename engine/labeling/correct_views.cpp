@@ -102,17 +102,13 @@ void take_news(const ViewNews& news, VolumeView<std::uint8_t> into,
 }  // namespace
 
 void carry_news(const ViewNews& news, const DisparityField& disparity, const RayColors& colors,
-                const Progress& progress, LabelProbabilities& into, ChangedRays& changed) {
-  parallel_for_workers(into.grid.count(), progress, [&] {
-    return [&, row = NewsRow(news, disparity, colors)](int i) mutable {
-      const ViewIndex view = into.view_at(i);
-      const VolumeView<std::uint8_t> of_view = into.view(view).view();
-      const ImageView<std::uint8_t> marks = changed.view(view);
-      if (view == news.view) return take_news(news, of_view, marks);
-      if (!disparity.contains(view)) return;
-      for (int y = 0; y < of_view.height; ++y) row.carry(view, y, of_view, marks.row(y));
-    };
-  });
+                ViewIndex view, LabelProbabilities& into, ChangedRays& changed) {
+  const VolumeView<std::uint8_t> of_view = into.view(view).view();
+  const ImageView<std::uint8_t> marks = changed.view(view);
+  if (view == news.view) return take_news(news, of_view, marks);
+  if (!disparity.contains(view)) return;
+  NewsRow row(news, disparity, colors);
+  for (int y = 0; y < of_view.height; ++y) row.carry(view, y, of_view, marks.row(y));
 }
 
 namespace {
@@ -162,7 +158,7 @@ class ViewCorrector {
         parameters_(parameters),
         colors_(colors),
         table_(cost_table(parameters.floor)),
-        targets_(static_cast<std::size_t>(input.probabilities->views[0].width())),
+        targets_(static_cast<std::size_t>(input.disparity->disparity.width())),
         trusts_(targets_.size()) {}
 
   // Replaces labels of the view, layers, around its changed pixels.
@@ -330,14 +326,29 @@ std::vector<ViewIndex> outwards(const LabelProbabilities& p, ViewIndex first) {
   return views;
 }
 
-ViewStack<std::int32_t> layers_of(const ViewStack<std::int32_t>& labels,
-                                  const std::vector<std::int32_t>& ids) {
-  ViewStack<std::int32_t> layers(labels.grid(), labels.height(), labels.width(), 1, labels.first());
-  std::transform(labels.data(), labels.data() + labels.size(), layers.data(), [&](std::int32_t id) {
+// Of a view; 0 where a pixel has none of them.
+void find_layers(ImageView<const std::int32_t> labels, const std::vector<std::int32_t>& ids,
+                 ImageView<std::int32_t> layers) {
+  std::int32_t last = ids.front(), layer = 0;
+  std::transform(labels.data, labels.data + labels.size(), layers.data, [&](std::int32_t id) {
+    if (id == last) return layer;
     const auto found = std::ranges::lower_bound(ids, id);
-    return found == ids.end() ? 0 : static_cast<std::int32_t>(found - ids.begin());
+    last = id;
+    layer = found == ids.end() || *found != id ? 0 : static_cast<std::int32_t>(found - ids.begin());
+    return layer;
   });
-  return layers;
+}
+
+// Rays whose evidence has changed since `before`.
+void vote(const ViewStack<std::int32_t>& before, const RayVotes& votes, const Progress& progress,
+          ViewStack<std::int32_t>& labels) {
+  ViewStack<std::int32_t> voted = vote_again_along_rays(before, labels, votes, progress);
+  for (int round = 1; round < kVotes; ++round) {
+    ViewStack<std::int32_t> next = vote_again_along_rays(labels, voted, votes, progress);
+    labels = std::move(voted);
+    voted = std::move(next);
+  }
+  labels = std::move(voted);
 }
 
 }  // namespace
@@ -348,21 +359,29 @@ RayLabeling correct_rays(const RayLabelingInput& input, const RayLabelingParamet
   const RayColors colors = input.light_field == nullptr ? RayColors()
                                                         : RayColors(*input.light_field, p.grid,
                                                                     p.first, progress.part(0, 0));
-  const ViewStack<std::int32_t> before = layers_of(correction.labels, p.ids);
+  const ViewStack<std::int32_t>& labels = correction.labels;
+  const auto room = [&labels] {
+    return ViewStack<std::int32_t>(labels.grid(), labels.height(), labels.width(), 1,
+                                   labels.first());
+  };
   RayLabeling result;
-  result.labels = before.clone();
+  result.labels = room();
+  ViewStack<std::int32_t> before = room();
   const std::vector<ViewIndex> views = outwards(p, correction.first);
   std::vector<SimplexResult> parts(views.size());
   progress.step("views");
   const auto correct = [&](ViewCorrector& corrector, std::size_t i, const Progress& part) {
     const ImageView<std::int32_t> layers = result.labels.view(views[i]);
+    find_layers(labels.view(views[i]), p.ids, before.view(views[i]));
+    std::copy_n(before.view(views[i]).data, layers.size(), layers.data);
     parts[i] = corrector.correct(views[i], correction.changed.view(views[i]), part, layers);
     if (correction.on_view) correction.on_view(views[i], layers);
   };
   ViewCorrector first(input, parameters, colors);
   correct(first, 0, progress.part(0, 0.05));
+  if (correction.complete) correction.complete(progress.part(0.05, 0.1));
   const Progress alone = progress.part(0, 0).on_one_thread();
-  parallel_for_workers(static_cast<int>(views.size()) - 1, progress.part(0.05, 0.9), [&] {
+  parallel_for_workers(static_cast<int>(views.size()) - 1, progress.part(0.1, 0.9), [&] {
     return [&, corrector = ViewCorrector(input, parameters, colors)](int i) mutable {
       correct(corrector, static_cast<std::size_t>(i) + 1, alone);
     };
@@ -372,17 +391,9 @@ RayLabeling correct_rays(const RayLabelingInput& input, const RayLabelingParamet
     result.bound += part.bound;
     result.iterations = std::max(result.iterations, part.iterations);
   }
-  const RayVotes votes{static_cast<int>(p.ids.size()), *input.disparity, colors};
   progress.step("rays");
-  ViewStack<std::int32_t> voted =
-      vote_again_along_rays(before, result.labels, votes, progress.part(0.9, 0.97));
-  for (int round = 1; round < kVotes; ++round) {
-    ViewStack<std::int32_t> next =
-        vote_again_along_rays(result.labels, voted, votes, progress.part(0.97, 1));
-    result.labels = std::move(voted);
-    voted = std::move(next);
-  }
-  result.labels = std::move(voted);
+  vote(before, {static_cast<int>(p.ids.size()), *input.disparity, colors}, progress.part(0.9, 1),
+       result.labels);
   replace_layers_by_ids(p.ids, result);
   return result;
 }

@@ -34,11 +34,11 @@ struct ViewNews {
   VolumeView<const std::uint8_t> probabilities{};  ///< Of the view, after the strokes.
 };
 
-/// Carries the news of one view along the rays: each ray of any view that sees a scene point with
+/// Carries the news of one view along the rays to `view`: each ray that sees a scene point with
 /// news takes its new probabilities, where the colors of both rays agree. Marks those rays in
-/// `changed`. Other rays keep what they have. Throws Cancelled.
+/// `changed`. Other rays keep what they have.
 void carry_news(const ViewNews& news, const DisparityField& disparity, const RayColors& colors,
-                const Progress& progress, LabelProbabilities& into, ChangedRays& changed);
+                ViewIndex view, LabelProbabilities& into, ChangedRays& changed);
 
 /// Rays within so many px of a changed one are solved again.
 inline constexpr int kReach_px = 12;
@@ -50,6 +50,9 @@ struct RayCorrection {
   ViewIndex first;  ///< The view that is solved first; the others follow by their distance.
   /// Called for each view that is solved, from any thread, the first one before all others.
   std::function<void(ViewIndex, ImageView<const std::int32_t> layers)> on_view{};
+  /// Called after the first view. Until then, probabilities and `changed` need to be there for the
+  /// views near it only (near_views). Empty = all are there.
+  std::function<void(const Progress&)> complete{};
 };
 
 /// Labels of all views, ids, after the probabilities of some rays have changed, as `smooth_rays`

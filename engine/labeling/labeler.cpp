@@ -212,45 +212,64 @@ struct Labeler::State {
            before.probabilities.views.size() == static_cast<std::size_t>(grid.count());
   }
 
-  /// What is corrected: probabilities and which of them are new.
-  struct News {
-    LabelProbabilities probabilities;
-    ChangedRays changed;
+  /// What strokes in one view say that is new.
+  struct SaidNews {
+    ViewIndex view;
+    Image<std::uint8_t> news;
+    ProbabilityMap after;
   };
 
-  [[nodiscard]] News start_news(const Labeling& before, const std::vector<std::int32_t>& ids,
-                                const Progress& progress) const {
-    News news{empty_probabilities(ids, {{0, 0}, light_field->grid()}),
-              ChangedRays(light_field->grid(), light_field->height(), light_field->width(), 1,
-                          {0, 0}, allocate_large_zeros)};
-    parallel_for(news.probabilities.grid.count(), progress, [&](int i) {
-      const auto at = static_cast<std::size_t>(i);
-      news.probabilities.views[at] =
-          with_layers(before.probabilities.views[at].view(), before.probabilities.ids, ids);
+  /// What is corrected: probabilities and which of them are new, in views that were brought.
+  struct Corrected {
+    LabelProbabilities probabilities;
+    ChangedRays changed;
+    std::vector<SaidNews> news;
+  };
+
+  /// Takes over the probabilities of these views, unless that was done, with all news.
+  void bring(const Labeling& before, const std::vector<ViewIndex>& views, const Progress& progress,
+             Corrected& into) const {
+    const RayColors colors(*light_field, light_field->grid(), {0, 0}, progress.part(0, 0));
+    parallel_for(static_cast<int>(views.size()), progress, [&](int i) {
+      const ViewIndex view = views[static_cast<std::size_t>(i)];
+      ProbabilityMap& own = into.probabilities.view(view);
+      if (!own.empty()) return;
+      own = with_layers(before.probabilities.view(view).view(), before.probabilities.ids,
+                        into.probabilities.ids);
+      for (const SaidNews& each : into.news) {
+        carry_news({each.view, each.news, each.after.view()}, *disparity, colors, view,
+                   into.probabilities, into.changed);
+      }
     });
-    return news;
   }
 
-  /// What the strokes of one view say that is new, carried to all views.
-  void add_news(const Scribbles& scribbles, const LabelerParameters& parameters,
-                const LabelCorrection& correction, ViewIndex view, const Progress& progress,
-                News& all) {
-    const Image<std::uint8_t> painted = new_strokes(correction.former, scribbles, view);
-    if (painted.empty()) return;
-    const std::vector<std::int32_t>& ids = all.probabilities.ids;
-    const Said& former = say(correction.former, parameters, view, progress.part(0, 0.4));
-    const ProbabilityMap before = with_layers(former.map.view(), former.ids, ids);
-    ProbabilityMap after =
-        with_layers(say(scribbles, parameters, view, progress.part(0.4, 0.8)).map.view(), ids, ids);
-    const Image<std::uint8_t> news = news_of(before.view(), after.view(), painted);
-    if (!set.with_disparity || confidence) {
-      reweight_view_by_color(*light_field, view,
-                             layers_after(correction.before.labels.view(view), news, after, ids),
-                             progress.part(0.8, 0.8), after);
+  [[nodiscard]] std::vector<SaidNews> find_news(const Scribbles& scribbles,
+                                                const std::vector<std::int32_t>& ids,
+                                                const LabelerParameters& parameters,
+                                                const LabelCorrection& correction,
+                                                const Progress& progress) {
+    std::set<std::pair<int, int>> painted;
+    for (const Scribbles* each : {&correction.former, &scribbles}) {
+      for (const ViewScribbles& view : each->views) painted.insert({view.view.v, view.view.u});
     }
-    const RayColors colors(*light_field, light_field->grid(), {0, 0}, progress.part(0.8, 0.8));
-    carry_news({view, news, after.view()}, *disparity, colors, progress.part(0.8, 1),
-               all.probabilities, all.changed);
+    std::vector<SaidNews> all;
+    for (const auto& [v, u] : painted) {
+      const ViewIndex view{v, u};
+      const Image<std::uint8_t> strokes = new_strokes(correction.former, scribbles, view);
+      if (strokes.empty()) continue;
+      const Said& former = say(correction.former, parameters, view, progress.part(0, 0.5));
+      const ProbabilityMap before = with_layers(former.map.view(), former.ids, ids);
+      const Said& now = say(scribbles, parameters, view, progress.part(0.5, 1));
+      ProbabilityMap after = with_layers(now.map.view(), ids, ids);
+      Image<std::uint8_t> news = news_of(before.view(), after.view(), strokes);
+      if (!set.with_disparity || confidence) {
+        reweight_view_by_color(*light_field, view,
+                               layers_after(correction.before.labels.view(view), news, after, ids),
+                               progress.part(1, 1), after);
+      }
+      all.push_back({view, std::move(news), std::move(after)});
+    }
+    return all;
   }
 
   /// Layers of the labels of a view, with the most probable ones where there are news.
@@ -269,25 +288,34 @@ struct Labeler::State {
     return found;
   }
 
-  [[nodiscard]] RayLabeling solve_news(const News& news, const LabelerParameters& parameters,
-                                       const LabelCorrection& correction,
-                                       const Progress& progress) {
-    find_edges({{0, 0}, light_field->grid()}, progress.part(0, 0.2));
-    const RayLabelingInput input{&news.probabilities, disparity.get(), edges.get(),
+  [[nodiscard]] RayLabeling solve_news(const LabelerParameters& parameters,
+                                       const LabelCorrection& correction, const Progress& progress,
+                                       Corrected& corrected) {
+    const ViewRectangle everything{{0, 0}, light_field->grid()};
+    find_edges(everything, progress.part(0, 0.2));
+    std::vector<ViewIndex> near = near_views(everything, correction.first);
+    near.push_back(correction.first);
+    bring(correction.before, near, progress.part(0.2, 0.25), corrected);
+    const RayLabelingInput input{&corrected.probabilities, disparity.get(), edges.get(),
                                  light_field.get()};
-    RayCorrection rays{correction.before.labels, news.changed, correction.first, {}};
+    RayCorrection rays{correction.before.labels, corrected.changed, correction.first};
+    rays.complete = [&](const Progress& part) {
+      std::vector<ViewIndex> all;
+      for (int i = 0; i < everything.grid.count(); ++i) all.push_back(everything.grid.view_at(i));
+      bring(correction.before, all, part, corrected);
+    };
     if (correction.on_view) {
       rays.on_view = [&](ViewIndex view, ImageView<const std::int32_t> layers) {
         Image<std::int32_t> labels(layers.height, layers.width);
         std::transform(layers.data, layers.data + layers.size(), labels.begin(),
                        [&](std::int32_t layer) {
-                         return news.probabilities.ids[static_cast<std::size_t>(layer)];
+                         return corrected.probabilities.ids[static_cast<std::size_t>(layer)];
                        });
         clear_invalid(view, labels.view());
         correction.on_view(view, std::move(labels));
       };
     }
-    return correct_rays(input, options_of(parameters), rays, progress.part(0.2, 1));
+    return correct_rays(input, options_of(parameters), rays, progress.part(0.25, 1));
   }
 
   void use(PixelFeatureSet wanted) {
@@ -617,21 +645,19 @@ std::optional<Labeling> Labeler::correct(const Scribbles& scribbles,
     return std::nullopt;
   }
   state_->use({uses_disparity(parameters)});
-  State::News news = state_->start_news(before, ids, progress.part(0, 0.05));
-  std::set<std::pair<int, int>> painted;
-  for (const Scribbles* each : {&correction.former, &scribbles}) {
-    for (const ViewScribbles& view : each->views) painted.insert({view.view.v, view.view.u});
-  }
   progress.step(kLabelingStep);
-  for (const auto& [v, u] : painted) {
-    state_->add_news(scribbles, parameters, correction, {v, u}, progress.part(0.05, 0.3), news);
-  }
-  const RayLabeling rays = state_->solve_news(news, parameters, correction, progress.part(0.3, 1));
+  const GridShape grid = state_->light_field->grid();
+  State::Corrected corrected{
+      empty_probabilities(ids, {{0, 0}, grid}),
+      ChangedRays(grid, before.labels.height(), before.labels.width(), 1, {0, 0},
+                  allocate_large_zeros),
+      state_->find_news(scribbles, ids, parameters, correction, progress.part(0, 0.3))};
+  RayLabeling rays = state_->solve_news(parameters, correction, progress.part(0.3, 1), corrected);
   Labeling labeling;
   labeling.gap = std::max(before.gap, rays.relative_gap());
-  labeling.labels = rays.labels.clone();
+  labeling.labels = std::move(rays.labels);
   state_->clear_invalid(labeling.labels);
-  labeling.probabilities = std::move(news.probabilities);
+  labeling.probabilities = std::move(corrected.probabilities);
   labeling.seconds = watch.seconds();
   return labeling;
 }

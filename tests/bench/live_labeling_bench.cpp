@@ -162,8 +162,55 @@ void in_the_next_view(benchmark::State& state) {
   report(state, *least, whole);
 }
 
+double right_share(const Bench& bench, const Labeling& labeling) {
+  return judge_labels(labeling.labels, bench.scene.truth->labels).share().value_or(0);
+}
+
+// Labels of all views, corrected after a stroke, against labels from nothing.
+void all_views_after_a_stroke(benchmark::State& state) {
+  const Bench& bench = Bench::get();
+  const ViewRectangle everything{{0, 0}, bench.scene.light_field->grid()};
+  Labeler labeler = bench.labeler();
+  Scribbles scribbles = bench.scene.scribbles;
+  const double whole = bench::now();
+  const double whole_processor = processor_seconds();
+  Labeling labeling = labeler.label(scribbles, {}, everything, Progress());
+  state.counters["anew_s"] = bench::now() - whole;
+  state.counters["anew_cpu_s"] = processor_seconds() - whole_processor;
+  state.counters["right_share_before"] = right_share(bench, labeling);
+  labeler.prepare_correction(scribbles, {}, bench.center(), Progress());
+  int number = 0;
+  double in_sight = 0, in_sight_processor = 0, all = 0, all_processor = 0;
+  for (auto _ : state) {
+    const Scribbles former = scribbles;
+    paint(bench.scene, number++, scribbles);
+    const double start = bench::now();
+    const double processor = processor_seconds();
+    auto corrected = labeler.correct(scribbles, {},
+                                     {labeling, former, bench.center(),
+                                      [&](ViewIndex view, const Image<std::int32_t>&) {
+                                        if (!(view == bench.center())) return;
+                                        in_sight = std::max(in_sight, bench::now() - start);
+                                        in_sight_processor = std::max(
+                                            in_sight_processor, processor_seconds() - processor);
+                                      }},
+                                     Progress());
+    all = std::max(all, bench::now() - start);
+    all_processor = std::max(all_processor, processor_seconds() - processor);
+    labeling = std::move(*corrected);
+  }
+  state.counters["in_sight_s"] = in_sight;
+  state.counters["in_sight_cpu_s"] = in_sight_processor;
+  state.counters["all_s"] = all;
+  state.counters["all_cpu_s"] = all_processor;
+  state.counters["right_share"] = right_share(bench, labeling);
+  state.counters["right_share_anew"] =
+      right_share(bench, labeler.label(scribbles, {}, everything, Progress()));
+}
+
 BENCHMARK(first_labels)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
 BENCHMARK(after_a_stroke)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(3);
+BENCHMARK(all_views_after_a_stroke)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(3);
 BENCHMARK(in_the_next_view)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(3);
 
 }  // namespace

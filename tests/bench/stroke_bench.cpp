@@ -3,6 +3,7 @@
 // to ask for every pixel of the view whether the brush covers it. A frame of the screen lasts 16
 // ms.
 #include "annotation/brush.h"
+#include "annotation/likeness.h"
 
 #include <benchmark/benchmark.h>
 
@@ -87,7 +88,7 @@ BENCHMARK(whole_stroke)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
 void fill_of_a_whole_view(benchmark::State& state) {
   const Image<float> picture(kSize, kSize, 3, 0.5F);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(region_within_edges(picture.view(), {5, 5}, 0.05));
+    benchmark::DoNotOptimize(Likeness(picture.view(), {}).region({5, 5}, 8));
   }
 }
 BENCHMARK(fill_of_a_whole_view)->Unit(benchmark::kMillisecond);

@@ -92,7 +92,9 @@ bool LassoTool::end() {
 }
 
 void PolygonTool::press(const ToolPress& press) {
-  if (!isDrawing()) {
+  if (isDrawing() && is_away_) {
+    emit pressedAway();
+  } else if (!isDrawing()) {
     begin(press);
   } else if (press.is_double) {
     closeUp();  // its first click has set the last corner
@@ -102,7 +104,15 @@ void PolygonTool::press(const ToolPress& press) {
 }
 
 void PolygonTool::hover(QPointF image) {
-  if (isDrawing()) setNext({image});
+  if (isDrawing() && !is_away_) setNext({image});
+}
+
+void PolygonTool::paintShape(QPainter& painter, const QTransform& widget_from_image) const {
+  if (!is_away_) OutlineTool::paintShape(painter, widget_from_image);
+}
+
+void PolygonTool::setAway(bool is_away) {
+  if (std::exchange(is_away_, is_away) != is_away) emit shapeChanged();
 }
 
 bool PolygonTool::closeUp() {
@@ -249,8 +259,44 @@ void StrokeTool::paintTicks(QPainter& painter, QPointF center, double radius) co
 }
 
 void FillTool::press(const ToolPress& press) {
-  emit fillRequested(
-      {press.at, press.button == Qt::RightButton, press.modifiers.testFlag(Qt::ShiftModifier)});
+  start_ = StrokeStart{press.at, press.button == Qt::RightButton,
+                       press.modifiers.testFlag(Qt::ShiftModifier)};
+  emit pressed(press.at);
+}
+
+void FillTool::drag(QPointF image) {
+  if (start_) emit dragged(std::exp2((image.x() - start_->at.x()) / kDoubling_px));
+}
+
+bool FillTool::end() {
+  const auto start = std::exchange(start_, std::nullopt);
+  if (start) emit fillRequested(*start);
+  return start.has_value();
+}
+
+bool FillTool::cancel() {
+  const bool was_filling = std::exchange(start_, std::nullopt).has_value();
+  setPreview({}, {});
+  if (was_filling) emit cancelled();
+  return was_filling;
+}
+
+void FillTool::putAway() {
+  cancel();
+}
+
+void FillTool::setPreview(const QImage& preview, QPoint at) {
+  if (preview.isNull() && preview_.isNull()) return;
+  preview_ = preview;
+  preview_at_ = at;
+  emit shapeChanged();
+}
+
+void FillTool::paintShape(QPainter& painter, const QTransform& widget_from_image) const {
+  if (preview_.isNull()) return;
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
+  painter.drawImage(widget_from_image.mapRect(QRectF(preview_at_, QSizeF(preview_.size()))),
+                    preview_);
 }
 
 }  // namespace episcope

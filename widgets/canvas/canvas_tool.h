@@ -5,7 +5,9 @@
 
 #include <QColor>
 #include <QCursor>
+#include <QImage>
 #include <QObject>
+#include <QPoint>
 #include <QPointF>
 #include <QPolygonF>
 #include <QRectF>
@@ -170,7 +172,7 @@ class LassoTool : public OutlineTool {
 };
 
 /// Outlines a region corner by corner: a click sets a corner, a double click closes it. The outline
-/// survives a change of the view.
+/// survives a change of the view, but belongs to the view where it was begun.
 class PolygonTool : public OutlineTool {
   Q_OBJECT
 
@@ -179,10 +181,20 @@ class PolygonTool : public OutlineTool {
 
   void press(const ToolPress& press) override;
   void hover(QPointF image) override;
+  void paintShape(QPainter& painter, const QTransform& widget_from_image) const override;
+  /// Tells that another view is shown: the outline is not drawn, and clicks set no corners.
+  void setAway(bool is_away);
   /// Closes the outline; false if there is none.
   bool closeUp();
   /// Removes the last corner; false if there is no outline.
   bool takeBack();
+
+ signals:
+  /// A click in a view that is not the outline's.
+  void pressedAway();
+
+ private:
+  bool is_away_ = false;
 };
 
 /// Brush and eraser: drags are strokes, and a ring shows the exact area. The right button always
@@ -239,18 +251,44 @@ class StrokeTool : public CanvasTool {
   bool erases_by_button_ = false;
 };
 
-/// Fills the region under a click; the right button erases it.
+/// Fills the region under a click, which is shown before; the right button erases it. Dragging to
+/// the right or left widens or narrows what is filled at the release.
 class FillTool : public CanvasTool {
   Q_OBJECT
 
  public:
+  /// Pixels of the picture that double what is tolerated.
+  static constexpr double kDoubling_px = 40;
+
   using CanvasTool::CanvasTool;
 
   void press(const ToolPress& press) override;
+  void drag(QPointF image) override;
+  void hover(QPointF image) override { emit hovered(image); }
+  bool end() override;
+  bool cancel() override;
+  void putAway() override;
   [[nodiscard]] QCursor cursor() const override { return Qt::CrossCursor; }
+  void paintShape(QPainter& painter, const QTransform& widget_from_image) const override;
+
+  /// Shows what a click would fill: a picture whose first pixel is at `at`; null = nothing.
+  void setPreview(const QImage& preview, QPoint at);
+  [[nodiscard]] const QImage& preview() const { return preview_; }
+  /// Whether a button is held.
+  [[nodiscard]] bool isFilling() const { return start_.has_value(); }
 
  signals:
+  void hovered(QPointF image);
+  void pressed(QPointF image);
+  /// What is tolerated is to be `factor` times as much as at the press.
+  void dragged(double factor);
   void fillRequested(const episcope::StrokeStart& start);
+  void cancelled();
+
+ private:
+  std::optional<StrokeStart> start_;
+  QImage preview_;
+  QPoint preview_at_;
 };
 
 }  // namespace episcope

@@ -24,7 +24,8 @@
 namespace episcope {
 namespace {
 
-constexpr double kFirstGradient = 8;
+constexpr double kFirstTolerance = 8;
+constexpr double kMostTolerance = 500;
 constexpr int kFirstOpacity = 70;
 
 }  // namespace
@@ -34,7 +35,7 @@ BrushPanel::BrushPanel(QWidget* parent)
       buttons_(new QHBoxLayout),
       protects_(new QCheckBox(tr("Protect other labels"), this)),
       bound_(new QComboBox(this)),
-      gradient_(new QDoubleSpinBox(this)),
+      tolerance_(new QDoubleSpinBox(this)),
       opacity_(new QSlider(Qt::Horizontal, this)) {
   setObjectName("brushPanel");
   buttons_->setSpacing(2);
@@ -94,25 +95,27 @@ BrushPanel::SizeRow BrushPanel::addSize(QFormLayout& form, const QString& name, 
 
 void BrushPanel::addFill(QFormLayout& form) {
   bound_->setObjectName("fill.bound");
-  bound_->addItem(tr("up to edges"), static_cast<int>(FillBound::Edges));
+  bound_->addItem(tr("like colors"), static_cast<int>(FillBound::Likeness));
   bound_->addItem(tr("its segment"), static_cast<int>(FillBound::Segmentation));
   bound_->setToolTip(
-      tr("Limits of a fill: edges of the view, or the segment of the current segmentation"));
-  gradient_->setObjectName("fill.gradient");
-  gradient_->setLocale(QLocale::c());
-  gradient_->setRange(0.5, 99);
-  gradient_->setDecimals(1);
-  gradient_->setValue(kFirstGradient);
-  gradient_->setToolTip(
-      tr("Edge threshold: the change of color from pixel to pixel that counts as an edge, in grey "
-         "levels (0 … 255)"));
+      tr("Limits of a fill: pixels of like color on one surface, or the segment of the current "
+         "segmentation"));
+  tolerance_->setObjectName("fill.tolerance");
+  tolerance_->setLocale(QLocale::c());
+  tolerance_->setRange(0, kMostTolerance);
+  tolerance_->setDecimals(1);
+  tolerance_->setSuffix(tr(" × noise"));
+  tolerance_->setValue(kFirstTolerance);
+  tolerance_->setToolTip(
+      tr("How much colors may differ from the color under the cursor, in units of what neighboring "
+         "pixels of this view differ by. Drag to the right or left while filling to change it."));
   auto* line = new QHBoxLayout;
   line->setSpacing(theme::kSpacing);
   line->addWidget(bound_, 1);
-  line->addWidget(gradient_);
+  line->addWidget(tolerance_);
   form.addRow(tr("Fill"), line);
   connect(bound_, &QComboBox::currentIndexChanged, this,
-          [this] { gradient_->setEnabled(fillBound() == FillBound::Edges); });
+          [this] { tolerance_->setEnabled(fillBound() == FillBound::Likeness); });
   setSegmentationAvailable(false);
 }
 
@@ -169,8 +172,13 @@ FillBound BrushPanel::fillBound() const {
   return static_cast<FillBound>(bound_->currentData().toInt());
 }
 
-double BrushPanel::fillGradient() const {
-  return gradient_->value();
+void BrushPanel::setFillTolerance(double tolerance) {
+  const QSignalBlocker blocker(tolerance_);
+  tolerance_->setValue(tolerance);
+}
+
+double BrushPanel::fillTolerance() const {
+  return tolerance_->value();
 }
 
 bool BrushPanel::protectsOthers() const {

@@ -20,7 +20,7 @@ namespace episcope {
 class ElidedLabel;
 
 /// Limit of a fill.
-enum class FillBound { Edges, Segmentation };
+enum class FillBound { Likeness, Segmentation };
 
 /// Buttons of the tools, sizes of brush and eraser, and limits of a fill. Setters never emit.
 class BrushPanel : public QWidget {
@@ -38,12 +38,13 @@ class BrushPanel : public QWidget {
   void setSizeKeys(const QString& keys);
   void setProtectsOthers(bool protects);
   void setScribbleOpacity(double opacity);
-  /// Without a segmentation, only edges can limit fills.
+  /// In units of the noise of the view.
+  void setFillTolerance(double tolerance);
+  /// Without a segmentation, only likeness can limit fills.
   void setSegmentationAvailable(bool is_available);
 
   [[nodiscard]] FillBound fillBound() const;
-  /// Least difference between neighboring pixels at an edge, in grey levels of 255.
-  [[nodiscard]] double fillGradient() const;
+  [[nodiscard]] double fillTolerance() const;
   [[nodiscard]] bool protectsOthers() const;
   [[nodiscard]] double scribbleOpacity() const;
 
@@ -68,7 +69,7 @@ class BrushPanel : public QWidget {
   SizeRow eraser_{};
   QCheckBox* protects_;
   QComboBox* bound_;
-  QDoubleSpinBox* gradient_;
+  QDoubleSpinBox* tolerance_;
   QSlider* opacity_;
 };
 

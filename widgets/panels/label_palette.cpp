@@ -5,8 +5,10 @@
 #include "widgets/controls/tool_button.h"
 
 #include <QAction>
+#include <QBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QMouseEvent>
 #include <QSignalBlocker>
@@ -28,6 +30,7 @@ int label_of(const QTreeWidgetItem* item) {
 
 LabelPalette::LabelPalette(QWidget* parent)
     : QWidget(parent),
+      filter_(new QLineEdit(this)),
       tree_(new QTreeWidget(this)),
       hint_(new QLabel(this)),
       add_(make_tool_button({"labels.add", "add", tr("Add a label"), tr("Add")}, this)),
@@ -43,6 +46,12 @@ LabelPalette::LabelPalette(QWidget* parent)
   hint_->setObjectName("labels.hint");
   hint_->setMargin(theme::kMargin);
   lay_out_list(this, hint_, tree_, {add_, rename_, remove_});
+  filter_->setObjectName("labels.filter");
+  filter_->setPlaceholderText(tr("Filter by name or number"));
+  filter_->setAccessibleName(tr("Filter of labels"));
+  filter_->setClearButtonEnabled(true);
+  qobject_cast<QBoxLayout*>(layout())->insertWidget(0, filter_);
+  connect(filter_, &QLineEdit::textChanged, this, &LabelPalette::filter);
   setLabels({});
 }
 
@@ -110,9 +119,24 @@ void LabelPalette::setLabels(const std::vector<LabelInfo>& labels) {
   }
   showMarks();
   if (has_focus) tree_->setFocus();
+  filter();
   tree_->setVisible(!labels.empty());
   hint_->setVisible(labels.empty());
   markCurrent();
+}
+
+// Of a short list, all are shown.
+void LabelPalette::filter() {
+  constexpr std::size_t kShortList = 12;
+  const bool is_long = labels_.size() > kShortList;
+  filter_->setVisible(is_long);
+  const QString wanted = is_long ? filter_->text() : QString();
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    QTreeWidgetItem* item = tree_->topLevelItem(i);
+    const bool fits =
+        item->text(kLabelName).contains(wanted, Qt::CaseInsensitive) || item->text(kId) == wanted;
+    item->setHidden(!fits);
+  }
 }
 
 void LabelPalette::setCurrent(int id) {

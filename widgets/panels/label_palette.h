@@ -13,6 +13,7 @@
 #include <vector>
 
 class QLabel;
+class QLineEdit;
 class QToolButton;
 class QTreeWidget;
 class QTreeWidgetItem;
@@ -66,11 +67,13 @@ class LabelPalette : public QWidget {
   void setUpActions();
   void showMenu(const QPoint& position);
   void markCurrent();
+  void filter();
   void showMarks();
   bool clickMark(QPoint position);
   void updateButtons();
   [[nodiscard]] QTreeWidgetItem* itemOf(int id) const;
 
+  QLineEdit* filter_;
   QTreeWidget* tree_;
   QLabel* hint_;
   QToolButton* add_;

@@ -48,6 +48,7 @@ QStringList reading_parts(const PixelReading& reading) {
     const bool is_rgb = reading.samples.contains(' ');
     parts << (is_rgb ? ValueBar::tr("rgb %1") : ValueBar::tr("grey %1")).arg(reading.samples);
   }
+  parts << reading.labels;
   if (reading.has_truth) {
     parts << (reading.truth_px ? ValueBar::tr("ground truth %1").arg(number_text(*reading.truth_px))
                                : ValueBar::tr("no ground truth here"));

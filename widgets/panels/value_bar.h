@@ -6,6 +6,7 @@
 
 #include <QColor>
 #include <QString>
+#include <QStringList>
 #include <QWidget>
 
 #include <optional>
@@ -35,10 +36,11 @@ struct PixelReading {
   std::optional<double> truth_px;  ///< none = invalid at this pixel.
   std::vector<EstimateReading> estimates;
   std::optional<double> background_truth_px = {};  ///< Second surface, where two are visible.
+  QStringList labels{};                            ///< Painted, segmented and true ones.
 };
 
-/// The line at the bottom: pixel, color, truth, every estimate with its difference (estimate −
-/// truth), and on the right a short state ("1 job · ready").
+/// The line at the bottom: pixel, color, labels, truth, every estimate with its difference
+/// (estimate − truth), and on the right a short state ("1 job · ready").
 class ValueBar : public QWidget {
   Q_OBJECT
 

@@ -91,6 +91,10 @@ void ViewGrid::setThumbnail(ViewIndex view, const QImage& thumbnail) {
   cells_->setThumbnail(view, thumbnail);
 }
 
+void ViewGrid::setDone(const std::vector<ViewIndex>& views) {
+  cells_->setDone(views);
+}
+
 void ViewGrid::setPainted(const std::vector<ViewIndex>& views) {
   cells_->setPainted(views);
 }
@@ -195,6 +199,12 @@ void ViewGridCells::setThumbnail(ViewIndex view, const QImage& thumbnail) {
   update();
 }
 
+void ViewGridCells::setDone(const std::vector<ViewIndex>& views) {
+  if (views.empty() && done_.empty()) return;
+  done_ = views;
+  update();
+}
+
 void ViewGridCells::setPainted(const std::vector<ViewIndex>& views) {
   painted_ = views;
   update();
@@ -284,6 +294,13 @@ void ViewGridCells::paintEvent(QPaintEvent*) {
   painter.drawRect(marked);
   painter.setPen(QPen(theme::kCrossHair, hasFocus() ? 2 : 1.5));
   painter.drawRect(marked);
+  constexpr double kBar = 3;
+  for (const ViewIndex view : done_) {
+    if (!grid_.contains(view)) continue;
+    const QRectF cell = cellRect(view).adjusted(0, 0, -gap, -gap);
+    painter.fillRect(QRectF(cell.left(), cell.bottom() - kBar, cell.width(), kBar),
+                     theme::kPainted);
+  }
   for (const ViewIndex view : painted_) {
     if (grid_.contains(view)) paintMark(painter, cellRect(view).adjusted(0, 0, -gap, -gap));
   }

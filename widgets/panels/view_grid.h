@@ -37,6 +37,8 @@ class ViewGrid : public QWidget {
   void setThumbnail(ViewIndex view, const QImage& thumbnail);
   /// Marks painted views.
   void setPainted(const std::vector<ViewIndex>& views);
+  /// Marks the views that are done while all are worked on; empty = no work is under way.
+  void setDone(const std::vector<ViewIndex>& views);
 
   [[nodiscard]] GridShape grid() const;
   [[nodiscard]] ViewIndex current() const;
@@ -80,6 +82,8 @@ class ViewGridCells : public QWidget {
   void setThumbnail(ViewIndex view, const QImage& thumbnail);
   /// Marks painted views.
   void setPainted(const std::vector<ViewIndex>& views);
+  void setDone(const std::vector<ViewIndex>& views);
+  [[nodiscard]] const std::vector<ViewIndex>& done() const { return done_; }
 
   [[nodiscard]] GridShape grid() const { return grid_; }
   [[nodiscard]] ViewIndex current() const { return current_; }
@@ -108,6 +112,7 @@ class ViewGridCells : public QWidget {
   GridShape grid_;
   ViewIndex current_;
   bool is_opening_ = false;
+  std::vector<ViewIndex> done_;
   std::vector<QImage> thumbnails_;
   std::vector<ViewIndex> painted_;
 };

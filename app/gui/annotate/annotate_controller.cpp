@@ -70,7 +70,10 @@ AnnotateController::AnnotateController(const Workbench& bench, BrushPanel* panel
   connect(&document_, &DocumentController::changed, &bench.commands, &Commands::refresh);
   connect(&document_, &DocumentController::steppedBack, this, &AnnotateController::goTo);
   session_.on_changed([this](Parts parts) {
-    if (parts.has(Part::View)) canvasTool()->end();
+    if (!parts.has(Part::View)) return;
+    canvasTool()->end();
+    fill_tool_->setPreview({}, {});
+    polygon_tool_->setAway(session_.view() != polygon_view_);
   });
   showMode();
 }
@@ -91,11 +94,24 @@ void AnnotateController::connectTools() {
   connect(tool, &StrokeTool::strokeFinished, &document_, &DocumentController::endStroke);
   connect(tool, &StrokeTool::strokeCancelled, &document_, &DocumentController::cancelStroke);
   connect(tool, &StrokeTool::sizeStepped, this, &AnnotateController::stepSize);
-  connect(fill_tool_, &FillTool::fillRequested, this, &AnnotateController::fill);
+  connectFill();
   connect(pick_tool_, &PointTool::pointPicked, this, &AnnotateController::pick);
   paintOutlined(*polygon_tool_, EditKind::Polygon);
   paintOutlined(*lasso_tool_, EditKind::Lasso);
-  connect(polygon_tool_, &OutlineTool::cornersChanged, &bench_.commands, &Commands::refresh);
+  connect(polygon_tool_, &OutlineTool::cornersChanged, this, [this] {
+    const bool is_open = polygon_tool_->isDrawing();
+    if (std::exchange(is_polygon_open_, is_open) != is_open) {
+      if (is_open) polygon_view_ = session_.view();
+      polygon_tool_->setAway(false);
+    }
+    bench_.commands.refresh();
+  });
+  connect(polygon_tool_, &PolygonTool::pressedAway, this, [this] {
+    bench_.messages.hint(tr("The polygon belongs to view v %1, u %2: go there to continue it. "
+                            "Return closes it, Esc ends it.")
+                             .arg(polygon_view_.v)
+                             .arg(polygon_view_.u));
+  });
 }
 
 void AnnotateController::connectPanel() {
@@ -225,6 +241,7 @@ void AnnotateController::paintOutlined(const OutlineTool& tool, EditKind kind) {
   connect(&tool, &OutlineTool::outlined, this,
           [this, kind](const QPolygonF& corners, const StrokeStart& start) {
             if (!hasDocument() || (!start.erases && !requireLabel())) return;
+            if (kind == EditKind::Polygon) session_.set_view(polygon_view_);
             std::vector<StrokePoint> points;
             for (const QPointF& each : corners) points.push_back(point_of(each));
             document_.edit([&](AnnotationDocument& document) {
@@ -236,7 +253,61 @@ void AnnotateController::paintOutlined(const OutlineTool& tool, EditKind kind) {
           });
 }
 
-PixelRegion AnnotateController::regionAt(PixelIndex seed) const {
+void AnnotateController::connectFill() {
+  FillTool* tool = fill_tool_;
+  connect(tool, &FillTool::fillRequested, this, &AnnotateController::fill);
+  connect(tool, &FillTool::hovered, this, [this](QPointF at) { previewFill(pixel_of(at)); });
+  connect(tool, &FillTool::pressed, this, [this](QPointF at) {
+    tolerance_at_press_ = panel_->fillTolerance();
+    previewFill(pixel_of(at));
+  });
+  connect(tool, &FillTool::dragged, this, [this](double factor) {
+    if (panel_->fillBound() != FillBound::Likeness) return;
+    panel_->setFillTolerance(tolerance_at_press_ * factor);
+    previewFill(fill_seed_);
+  });
+  connect(tool, &FillTool::cancelled, this,
+          [this] { panel_->setFillTolerance(tolerance_at_press_); });
+}
+
+// Half transparent, in the color of the label.
+void AnnotateController::previewFill(PixelIndex seed) {
+  constexpr int kAlpha = 120;
+  fill_seed_ = seed;
+  const PixelRegion region = hasDocument() ? regionAt(seed) : PixelRegion();
+  PixelRect bounds;
+  for (const PixelSpan& span : region) bounds.include({span.y, span.x0, span.y + 1, span.x1});
+  if (region.empty()) return fill_tool_->setPreview({}, {});
+  const LabelInfo* label = bench_.labels.info();
+  const Rgb color = label ? label->color : label_color(1);
+  QImage picture(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0, QImage::Format_ARGB32);
+  picture.fill(Qt::transparent);
+  for (const PixelSpan& span : region) {
+    auto* row = reinterpret_cast<QRgb*>(picture.scanLine(span.y - bounds.y0));
+    std::fill(row + span.x0 - bounds.x0, row + span.x1 - bounds.x0,
+              qRgba(color[0], color[1], color[2], kAlpha));
+  }
+  fill_tool_->setPreview(picture, {bounds.x0, bounds.y0});
+}
+
+// Made once for a view.
+const Likeness& AnnotateController::likeness() {
+  const ViewIndex view = session_.view();
+  const LightFieldPtr light_field = session_.light_field();
+  const auto disparity = session_.known_disparity(view);
+  const bool is_known = likeness_ && likeness_key_.view == view &&
+                        likeness_key_.light_field.lock() == light_field &&
+                        likeness_key_.disparity.lock() == disparity;
+  if (!is_known) {
+    likeness_ =
+        std::make_unique<const Likeness>(light_field->view_as_float(view).view(),
+                                         disparity ? disparity->view(view) : DisparityView{});
+    likeness_key_ = {light_field, view, disparity};
+  }
+  return *likeness_;
+}
+
+PixelRegion AnnotateController::regionAt(PixelIndex seed) {
   const ViewIndex view = session_.view();
   if (panel_->fillBound() == FillBound::Segmentation) {
     const auto source = bench_.overlay.sourceOf({render::Quantity::Segmentation});
@@ -244,29 +315,37 @@ PixelRegion AnnotateController::regionAt(PixelIndex seed) const {
       return region_of_segment(finished_labels(*source->labeling, source->finish, view), seed);
     }
   }
-  constexpr double kGreyLevels = 255;
-  return region_within_edges(session_.light_field()->view_as_float(view).view(), seed,
-                             panel_->fillGradient() / kGreyLevels);
+  return likeness().region(seed, panel_->fillTolerance());
 }
 
 void AnnotateController::fill(const StrokeStart& start) {
   if (!hasDocument() || (!start.erases && !requireLabel())) return;
   const PixelRegion region = regionAt(pixel_of(start.at));
-  if (region.empty()) {
-    bench_.messages.hint(
-        tr("There is an edge here. Click beside it, or raise the edge threshold of the fill."));
-    return;
-  }
-  document_.edit([&](AnnotationDocument& document) {
-    fill_region(document, session_.view(), region, styleOf(start));
-  });
+  fill_tool_->setPreview({}, {});
+  // A fill reaches far: it goes around strokes unless Shift was held.
+  PaintStyle style = styleOf(start);
+  style.protects_others = !start.protects_others || protects_others_;
+  document_.edit(
+      [&](AnnotationDocument& document) { fill_region(document, session_.view(), region, style); });
+}
+
+// Label of the segment at a pixel; 0 where there is none.
+int AnnotateController::segmentAt(PixelIndex pixel) const {
+  const auto source = bench_.overlay.sourceOf({render::Quantity::Segmentation});
+  if (!source) return 0;
+  const auto labels = source->labeling->labels.view(session_.view());
+  const bool is_inside =
+      pixel.y >= 0 && pixel.y < labels.height && pixel.x >= 0 && pixel.x < labels.width;
+  return is_inside ? labels.at(pixel.y, pixel.x) : 0;
 }
 
 void AnnotateController::pick(QPointF image) {
   if (!hasDocument()) return;
-  const int id = document_.document()->scribbles().label_at(session_.view(), pixel_of(image));
+  const PixelIndex pixel = pixel_of(image);
+  int id = document_.document()->scribbles().label_at(session_.view(), pixel);
+  if (id == 0) id = segmentAt(pixel);
   if (id == 0) {
-    bench_.messages.hint(tr("Nothing is painted here."));
+    bench_.messages.hint(tr("Nothing is painted or segmented here."));
     return;
   }
   bench_.labels.choose(id);
@@ -307,6 +386,8 @@ QString edit_text(EditKind kind) {
       return AnnotateController::tr("polygon");
     case EditKind::Lasso:
       return AnnotateController::tr("lasso");
+    case EditKind::MergeLabel:
+      return AnnotateController::tr("merging of labels");
   }
   return {};
 }
@@ -401,15 +482,20 @@ void AnnotateController::addToolCommands() {
 
 void AnnotateController::addPolygonCommands() {
   const auto is_drawing = [this] { return polygon_tool_->isDrawing(); };
-  bench_.commands.add({.id = "annotate.close_polygon",
-                       .menu = Menu::Annotate,
-                       .text = tr("Close the polygon"),
-                       .tip = tr("Paints the inside of the polygon being drawn"),
-                       .keys = {Qt::Key_Return, Qt::Key_Enter},
-                       .run = [this] { polygon_tool_->closeUp(); },
-                       .section = annotate_section::kTools,
-                       .scope = KeyScope::Viewer,
-                       .enabled = is_drawing});
+  bench_.commands.add(
+      {.id = "annotate.close_polygon",
+       .menu = Menu::Annotate,
+       .text = tr("Close the polygon, or accept the region in doubt"),
+       .tip = tr("Paints the inside of the polygon being drawn; without one, paints "
+                 "the marked region in doubt with the label that it has"),
+       .keys = {Qt::Key_Return, Qt::Key_Enter},
+       .run =
+           [this] {
+             if (!polygon_tool_->closeUp()) bench_.labels.acceptRegion();
+           },
+       .section = annotate_section::kTools,
+       .scope = KeyScope::Viewer,
+       .enabled = [this, is_drawing] { return is_drawing() || bench_.labels.hasRegion(); }});
   bench_.commands.add({.id = "annotate.take_corner_back",
                        .menu = Menu::Annotate,
                        .text = tr("Take the last corner back"),
@@ -506,7 +592,7 @@ void ScribbleController::addCommand() {
 
 void ScribbleController::update(Parts parts) {
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) {
-    bar_->setSources(session_.shown() != nullptr,
+    bar_->setSources(session_.shown() || session_.label_disparity(),
                      session_.scene() && session_.scene()->truth->has_disparity());
     if (field() != carried_by_) carry();
   }
@@ -570,6 +656,10 @@ std::shared_ptr<const DisparityField> ScribbleController::field() const {
   const EstimateEntry* shown = session_.shown();
   if (shown && bar_->carriedBy() == AnnotationBar::CarriedBy::Estimate) {
     return {shown->estimate, &shown->estimate->field};
+  }
+  const bool wants_truth = bar_->carriedBy() == AnnotationBar::CarriedBy::Truth;
+  if (session_.label_disparity() && !(wants_truth && scene->truth->has_disparity())) {
+    return session_.label_disparity();
   }
   return scene->truth->has_disparity()
              ? std::shared_ptr<const DisparityField>(scene->truth, &scene->truth->field)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "annotation/brush.h"
+#include "annotation/likeness.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
@@ -70,7 +71,11 @@ class AnnotateController : public QObject {
   bool requireLabel();
   void paintOutlined(const OutlineTool& tool, EditKind kind);
   void fill(const StrokeStart& start);
-  [[nodiscard]] PixelRegion regionAt(PixelIndex seed) const;
+  [[nodiscard]] PixelRegion regionAt(PixelIndex seed);
+  [[nodiscard]] const Likeness& likeness();
+  void connectFill();
+  void previewFill(PixelIndex seed);
+  [[nodiscard]] int segmentAt(PixelIndex pixel) const;
   void pick(QPointF image);
   void goTo(const DocumentChange& change);
 
@@ -84,6 +89,18 @@ class AnnotateController : public QObject {
   PolygonTool* polygon_tool_;
   LassoTool* lasso_tool_;
   PointTool* pick_tool_;
+  /// What it was made of; nothing else is kept by it.
+  struct LikenessKey {
+    std::weak_ptr<const LightField> light_field;
+    ViewIndex view;
+    std::weak_ptr<const DisparityField> disparity;
+  };
+  LikenessKey likeness_key_;
+  std::unique_ptr<const Likeness> likeness_;
+  double tolerance_at_press_ = 0;
+  PixelIndex fill_seed_;
+  ViewIndex polygon_view_;  // where it was begun
+  bool is_polygon_open_ = false;
   AnnotationTool tool_ = AnnotationTool::Brush;
   bool protects_others_ = false;
   bool is_annotating_ = false;

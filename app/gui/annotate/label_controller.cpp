@@ -11,13 +11,16 @@
 #include "widgets/panels/label_palette.h"
 
 #include <QColorDialog>
+#include <QInputDialog>
 #include <QLocale>
 #include <QPushButton>
 #include <QSettings>
+#include <QStringList>
 
 #include <algorithm>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -34,16 +37,11 @@ LabelController::LabelController(const Workbench& bench, LabelPalette* palette)
       palette_(palette) {
   addChoiceCommands();
   addEditCommands();
-  connect(palette_, &LabelPalette::currentChosen, this, &LabelController::choose);
+  connect(palette_, &LabelPalette::currentChosen, &labels_, &LabelChoice::choose);
   connect(palette_, &LabelPalette::addRequested, this, &LabelController::add);
   connect(palette_, &LabelPalette::removeRequested, this, &LabelController::remove);
   connect(palette_, &LabelPalette::colorRequested, this, &LabelController::recolor);
-  connect(palette_, &LabelPalette::renameRequested, this, [this](int id, const QString& name) {
-    const bool is_renamed = document_.edit([&](AnnotationDocument& document) {
-      document.rename_label(id, name.trimmed().toStdString());
-    });
-    if (!is_renamed) show();  // the row holds what was typed
-  });
+  connect(palette_, &LabelPalette::renameRequested, this, &LabelController::setName);
   connect(&labels_, &LabelChoice::changed, this, &LabelController::show);
   connect(&document_, &DocumentController::replaced, this, &LabelController::show);
   connect(&document_, &DocumentController::changed, this, [this](const DocumentChange& change) {
@@ -56,21 +54,23 @@ LabelController::LabelController(const Workbench& bench, LabelPalette* palette)
 void LabelController::addChoiceCommands() {
   const auto has_label = [this] { return labels_.current() != 0; };
   for (int id = 1; id <= kLabelKeys; ++id) {
-    bench_.commands.add({.id = QString("annotate.label_%1").arg(id),
-                         .menu = Menu::Labels,
-                         .text = tr("Label %1").arg(id),
-                         .tip = tr("Paints with label %1").arg(id),
-                         .keys = {QKeySequence(Qt::Key_0 + id)},
-                         .run = [this, id] { choose(id); },
-                         .section = label_section::kLabels,
-                         .enabled = [this] { return hasDocument(); },
-                         .visible = [this, id] { return find(id) || !hasDocument(); },
-                         .live_text =
-                             [this, id] {
-                               const LabelInfo* label = find(id);
-                               return label ? QString::fromStdString(label->name)
-                                            : tr("Label %1").arg(id);
-                             }});
+    bench_.commands.add(
+        {.id = QString("annotate.label_%1").arg(id),
+         .menu = Menu::Labels,
+         .text = tr("Label %1").arg(id),
+         .tip = tr("Paints with the label at place %1 of the list, or gives it to the "
+                   "marked region in doubt")
+                    .arg(id),
+         .keys = {QKeySequence(Qt::Key_0 + id)},
+         .run = [this, id] { choose(id); },
+         .section = label_section::kLabels,
+         .enabled = [this] { return hasDocument(); },
+         .visible = [this, id] { return at(id) || !hasDocument(); },
+         .live_text =
+             [this, id] {
+               const LabelInfo* label = at(id);
+               return label ? QString::fromStdString(label->name) : tr("Label %1").arg(id);
+             }});
   }
   bench_.commands.add({.id = "annotate.next_label",
                        .menu = Menu::Labels,
@@ -115,6 +115,16 @@ void LabelController::addEditCommands() {
   add_one("remove_label", tr("Remove label"),
           tr("Removes the current label and everything painted with it"), "trash", {},
           [this] { remove(labels_.current()); });
+  bench_.commands.add(
+      {.id = "annotate.merge_label",
+       .menu = Menu::Labels,
+       .text = tr("Merge into…"),
+       .tip = tr("Gives everything painted with the current label to another one, "
+                 "and removes it"),
+       .run = [this] { merge(); },
+       .section = label_section::kEdit,
+       .enabled =
+           [this] { return hasDocument() && document_.document()->labels().labels().size() > 1; }});
 }
 
 bool LabelController::hasDocument() const {
@@ -143,9 +153,23 @@ void LabelController::showHint() {
                                           : tr("Open a light field to label it."));
 }
 
-void LabelController::choose(int id) {
-  if (hasDocument() && !labels_.choose(id)) {
-    bench_.messages.hint(tr("There is no label %1.").arg(id));
+// By its place in the list, from 1.
+const LabelInfo* LabelController::at(int place) const {
+  const AnnotationDocument* document = std::as_const(document_).document();
+  if (!document) return nullptr;
+  const auto& labels = document->labels().labels();
+  return place <= static_cast<int>(labels.size()) ? &labels[static_cast<std::size_t>(place) - 1]
+                                                  : nullptr;
+}
+
+void LabelController::choose(int place) {
+  const LabelInfo* label = at(place);
+  if (!label) {
+    if (hasDocument()) bench_.messages.hint(tr("There is no label at place %1.").arg(place));
+  } else if (labels_.hasRegion()) {
+    labels_.giveRegion(label->id);
+  } else {
+    labels_.choose(label->id);
   }
 }
 
@@ -155,6 +179,54 @@ void LabelController::add() {
   if (id == 0) return;
   labels_.choose(id);
   rename();
+}
+
+void LabelController::setName(int id, const QString& typed) {
+  const std::string name = typed.trimmed().toStdString();
+  const auto& labels = document_.document()->labels().labels();
+  const bool is_taken = std::ranges::any_of(
+      labels, [&](const LabelInfo& label) { return label.id != id && label.name == name; });
+  if (is_taken) {
+    bench_.messages.hint(tr("There is a label “%1” already: choose another name, or merge the two.")
+                             .arg(typed.trimmed()));
+  }
+  const bool is_renamed = !is_taken && document_.edit([&](AnnotationDocument& document) {
+    document.rename_label(id, name);
+  });
+  if (!is_renamed) show();  // the row holds what was typed
+}
+
+void LabelController::merge() {
+  const LabelInfo* label = labels_.info();
+  if (!label) return;
+  if (bench_.session.place().label_marks.locked.contains(label->id)) {
+    bench_.messages.hint(
+        tr("“%1” is locked: unlock it to merge it.").arg(QString::fromStdString(label->name)));
+    return;
+  }
+  QStringList names;
+  std::vector<int> ids;
+  for (const LabelInfo& each : document_.document()->labels().labels()) {
+    if (each.id == label->id) continue;
+    names << QString("%1 · %2").arg(each.id).arg(QString::fromStdString(each.name));
+    ids.push_back(each.id);
+  }
+  auto* dialog = new QInputDialog(&bench_.window);
+  dialog->setObjectName("merge_labels");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setWindowTitle(tr("Merge labels"));
+  dialog->setLabelText(tr("Merge “%1” into:").arg(QString::fromStdString(label->name)));
+  dialog->setComboBoxItems(names);
+  dialog->setComboBoxEditable(false);
+  connect(dialog, &QInputDialog::textValueSelected, this,
+          [this, id = label->id, names, ids](const QString& chosen) {
+            const auto place = names.indexOf(chosen);
+            if (place < 0 || !find(id)) return;
+            const int into = ids[static_cast<std::size_t>(place)];
+            document_.edit([&](AnnotationDocument& document) { document.merge_label(id, into); });
+            labels_.choose(into);
+          });
+  dialog->open();
 }
 
 void LabelController::rename() {

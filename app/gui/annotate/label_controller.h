@@ -23,9 +23,11 @@ class LabelController : public QObject {
  public:
   LabelController(const Workbench& bench, LabelPalette* palette);
 
-  void choose(int id);
+  void choose(int place);
   void add();
   void rename();
+  /// Asks for the label that takes over what is painted with the current one.
+  void merge();
   /// Asks first if the label has been painted.
   void remove(int id);
   void recolor(int id);
@@ -38,8 +40,11 @@ class LabelController : public QObject {
   [[nodiscard]] bool hasDocument() const;
   /// Null if there is no such label.
   [[nodiscard]] const LabelInfo* find(int id) const;
+  [[nodiscard]] const LabelInfo* at(int place) const;
   [[nodiscard]] bool isPainted(int id) const;
   void removeNow(int id);
+  /// Refuses a name that another label has.
+  void setName(int id, const QString& typed);
 
   Workbench bench_;
   DocumentController& document_;

@@ -37,6 +37,7 @@ LabelReviewController::LabelReviewController(const Workbench& bench, LabelReview
           [this](int id) { bench_.labels.choose(id); });
   connect(&bench.labels, &LabelChoice::changed, this, &LabelReviewController::show);
   connect(&bench.overlay, &Overlay::drawn, this, &LabelReviewController::look);
+  connect(&bench.labels, &LabelChoice::regionChanged, &bench.commands, &Commands::refresh);
   connect(&bench.document, &DocumentController::changed, this, &LabelReviewController::look);
   bench.session.on_changed([this](Parts parts) {
     if (parts.has_any(Part::Shown | Part::Estimates)) look();
@@ -45,6 +46,7 @@ LabelReviewController::LabelReviewController(const Workbench& bench, LabelReview
     if (bench_.viewer_area.canvas()->outline().empty()) return false;
     bench_.viewer_area.canvas()->setOutline({});
     panel_->setCurrentDoubt(doubt_ = -1);
+    bench_.labels.offerRegion(0, nullptr);
     return true;
   });
   show();
@@ -77,6 +79,24 @@ void LabelReviewController::addCommands() {
     panel_->addAction(action, QString("button.%1").arg(row.id));
   }
 }
+
+namespace {
+
+PixelRegion region_of(const Blob& blob) {
+  PixelRegion region;
+  for (int y = 0; y < blob.mask.height(); ++y) {
+    const std::uint8_t* const row = blob.mask.row(y);
+    for (int x = 0; x < blob.mask.width();) {
+      const int begin = x;
+      while (x < blob.mask.width() && row[x] == row[begin]) ++x;
+      if (row[begin] == 0) continue;
+      region.push_back({blob.bounds.y0 + y, blob.bounds.x0 + begin, blob.bounds.x0 + x});
+    }
+  }
+  return region;
+}
+
+}  // namespace
 
 std::optional<LabelReviewController::Subject> LabelReviewController::subject() const {
   const AnnotationDocument* document = std::as_const(bench_.document).document();
@@ -157,6 +177,7 @@ LabelReviewPanel::Row LabelReviewController::rowOf(const LabelSummary& label,
 }
 
 void LabelReviewController::show() {
+  if (doubt_ < 0) bench_.labels.offerRegion(0, nullptr);
   if (!review_) {
     panel_->setNote(subject_ ? QString()
                     : !bench_.session.scene()
@@ -223,11 +244,23 @@ void LabelReviewController::goTo(int index) {
   doubt_ = index;
   panel_->setCurrentDoubt(index);
   mark(doubt.blob);
-  bench_.messages.hint(tr("%1 of %2: %3 pixels of %4 may be %5. A stroke here decides.")
+  bench_.labels.offerRegion(doubt.label,
+                            [this, blob = region_of(doubt.blob)](int id) { give(blob, id); });
+  bench_.messages.hint(tr("%1 of %2: %3 pixels of %4 may be %5. A stroke here decides; Return "
+                          "keeps the label, 1 … 9 give it another.")
                            .arg(index + 1)
                            .arg(review_->doubts.size())
                            .arg(doubt.blob.pixels)
                            .arg(quoted(infoOf(doubt.label)), quoted(infoOf(doubt.rival))));
+}
+
+void LabelReviewController::give(const PixelRegion& region, int id) {
+  PaintStyle style;
+  style.label = id;
+  style.protects_others = true;
+  const ViewIndex view = bench_.session.view();
+  bench_.document.edit(
+      [&](AnnotationDocument& document) { fill_region(document, view, region, style); });
 }
 
 void LabelReviewController::goToPiece(int index) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "annotation/brush.h"
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/label_review.h"
@@ -58,6 +59,8 @@ class LabelReviewController : public QObject {
   [[nodiscard]] LabelReviewPanel::Row rowOf(const LabelSummary& label, std::int64_t all) const;
   void goTo(int doubt);
   void goToPiece(int index);
+  /// Paints a region of the view.
+  void give(const PixelRegion& region, int id);
   void mark(const Blob& blob);
 
   Workbench bench_;

@@ -102,7 +102,9 @@ void LabelingSource::provide() {
       },
       [this, generation](const FinishedEstimate& finished) {
         const auto own = own_.find(generation);
-        if (own != own_.end()) own->second = disparity_of(finished.estimate, kQuickEstimator);
+        if (own == own_.end()) return;
+        own->second = disparity_of(finished.estimate, kQuickEstimator);
+        session_.set_label_disparity(generation, own->second.field);
       },
       [this] { emit changed(); });
   jobs_.setScene(job_, generation);

@@ -6,6 +6,7 @@
 #include "app/gui/shell/frame.h"
 #include "widgets/controls/text.h"
 #include "widgets/panels/segment_panel.h"
+#include "widgets/panels/view_grid.h"
 
 #include <QAction>
 
@@ -380,6 +381,7 @@ void SegmentController::showState() {
     notes << tr("Other views: before the last stroke.");
   }
   notes.removeAll({});
+  if (auto* grid = bench_.window.findChild<ViewGrid*>()) grid->setDone(live_.corrected_views());
   panel_->setNote(notes.join('\n'));
   bench_.commands.refresh();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/browse/value_controller.h"
 
+#include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
@@ -15,6 +16,7 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -84,6 +86,7 @@ void ValueController::show() {
   reading.pixel = pixel;
   reading.samples = sample_texts(*light_field, view, pixel).join(' ');
   reading.color = color_at(*light_field, view, pixel);
+  reading.labels = labelsAt(pixel);
   const GroundTruth& truth = *session_.scene()->truth;
   const DisparityPair of_truth = disparities_at(truth, view, pixel);
   reading.has_truth = truth.field.contains(view) || truth.foreground.contains(view);
@@ -95,6 +98,45 @@ void ValueController::show() {
     reading.estimates.push_back({QString::fromStdString(entry->name), found.front, found.behind});
   }
   bar_->setReading(reading);
+}
+
+namespace {
+
+QString name_in(const std::vector<LabelInfo>& infos, int id) {
+  const auto found = std::ranges::find(infos, id, &LabelInfo::id);
+  return found == infos.end() || found->name.empty() ? ValueController::tr("label %1").arg(id)
+                                                     : QString::fromStdString(found->name);
+}
+
+}  // namespace
+
+QStringList ValueController::labelsAt(PixelIndex pixel) const {
+  const AnnotationDocument* document = std::as_const(bench_.document).document();
+  if (!document) return {};
+  const ViewIndex view = session_.view();
+  const std::vector<LabelInfo>& infos = document->labels().labels();
+  QStringList texts;
+  if (const int painted = document->scribbles().label_at(view, pixel)) {
+    texts << tr("painted %1").arg(name_in(infos, painted));
+  }
+  if (const auto source = bench_.overlay.sourceOf({render::Quantity::Segmentation})) {
+    const Labeling& labeling = *source->labeling;
+    const int id = labeling.labels.view(view).at(pixel.y, pixel.x);
+    if (id > 0) texts << tr("segment %1").arg(name_in(infos, id));
+    const auto& ids = labeling.probabilities.ids;
+    const auto layer = std::ranges::find(ids, id);
+    if (labeling.probabilities.contains(view) && layer != ids.end()) {
+      const int code = labeling.probabilities.view(view).view().at(
+          pixel.y, static_cast<int>(layer - ids.begin()), pixel.x);
+      texts.back() += QString(" (%1 %)").arg(qRound(100 * code / 255.0));
+    }
+  }
+  const TrueLabelsPtr& truth = session_.true_labels();
+  if (!texts.isEmpty() && truth && truth->contains(view)) {
+    const int id = truth->view(view).at(pixel.y, pixel.x);
+    if (id > 0) texts << tr("truly %1").arg(name_in(session_.true_label_infos(), id));
+  }
+  return texts;
 }
 
 QStringList ValueController::pixelText(PixelIndex pixel) const {

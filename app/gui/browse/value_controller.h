@@ -32,6 +32,7 @@ class ValueController : public QObject {
   void show();
   void showStatus();
   [[nodiscard]] QStringList pixelText(PixelIndex pixel) const;
+  [[nodiscard]] QStringList labelsAt(PixelIndex pixel) const;
 
   Workbench bench_;
   Session& session_;

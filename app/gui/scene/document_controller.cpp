@@ -444,6 +444,19 @@ void LabelChoice::swap() {
   if (former_ != 0) choose(former_);
 }
 
+void LabelChoice::offerRegion(int label, std::function<void(int)> give) {
+  const bool had = hasRegion();
+  region_label_ = label;
+  give_ = std::move(give);
+  if (had || hasRegion()) emit regionChanged();
+}
+
+void LabelChoice::giveRegion(int id) {
+  const auto give = give_;
+  offerRegion(0, nullptr);
+  if (give) give(id);
+}
+
 }  // namespace episcope
 
 #include "moc_document_controller.cpp"

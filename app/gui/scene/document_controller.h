@@ -167,7 +167,17 @@ class LabelChoice : public QObject {
   /// Returns to the previous label.
   void swap();
 
+  /// Offers a region that can be given a label by `give(id)`, and the label that it has; an empty
+  /// function takes the offer back.
+  void offerRegion(int label, std::function<void(int)> give);
+  [[nodiscard]] bool hasRegion() const { return give_ != nullptr; }
+  /// Gives the region a label, or the one that it has. Takes the offer back.
+  void giveRegion(int id);
+  void acceptRegion() { giveRegion(region_label_); }
+
  signals:
+  /// A region was offered, or no longer is.
+  void regionChanged();
   /// Another label is current, or its name or color changed.
   void changed();
 
@@ -178,6 +188,8 @@ class LabelChoice : public QObject {
   DocumentController& document_;
   int current_ = 0;
   int former_ = 0;
+  int region_label_ = 0;
+  std::function<void(int)> give_;
 };
 
 }  // namespace episcope

@@ -276,6 +276,23 @@ class DocumentTest : public QObject {
     QCOMPARE(change.views.size(), std::size_t{2});
   }
 
+  void mergedLabel_isTakenOverOnAllViews() {
+    AnnotationDocument document = document_with_labels(3);
+    paint(document, kView, {PaintTool::Brush, 2, 5, false}, {5, 5}, {20, 20});
+    paint(document, {0, 0}, {PaintTool::Brush, 2, 5, false}, {5, 5}, {20, 20});
+    const Snapshot before = snapshot(document);
+
+    document.merge_label(2, 3);
+
+    QCOMPARE(document.scribbles().label_at(kView, {10, 10}), 3);
+    QCOMPARE(document.scribbles().label_at({0, 0}, {10, 10}), 3);
+    QVERIFY(!document.labels().contains(2));
+    document.undo();
+    QVERIFY(matches(document, before));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, document.merge_label(2, 9));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, document.merge_label(2, 2));
+  }
+
   void randomEdits_undoAndRedoToTheSameStates() {
     AnnotationDocument document(kGrid, kHeight, kWidth);
     RandomEdits edits(11);

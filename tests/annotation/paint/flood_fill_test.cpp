@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "annotation/brush.h"
+#include "annotation/likeness.h"
 #include "engine/core/error.h"
 #include "tests/annotation/drawn_region.h"
 #include "tests/test_main.h"
@@ -36,19 +37,6 @@ Image<std::uint8_t> spread(const Image<std::int32_t>& map, PixelIndex seed) {
   return reached;
 }
 
-// Central differences, one-sided at the border.
-double gradient_at(const Image<float>& picture, int y, int x) {
-  const int left = std::max(x - 1, 0), right = std::min(x + 1, picture.width() - 1);
-  const int up = std::max(y - 1, 0), down = std::min(y + 1, picture.height() - 1);
-  double sum = 0;
-  for (int c = 0; c < picture.channels(); ++c) {
-    const double dx = picture.at(y, right, c) - picture.at(y, left, c);
-    const double dy = picture.at(down, x, c) - picture.at(up, x, c);
-    sum += std::pow(dx / std::max(right - left, 1), 2) + std::pow(dy / std::max(down - up, 1), 2);
-  }
-  return std::sqrt(sum);
-}
-
 }  // namespace
 
 class FloodFillTest : public QObject {
@@ -70,81 +58,70 @@ class FloodFillTest : public QObject {
     }
   }
 
-  void fill_stopsAtEdges() {
+  void fill_isOfLikeColors() {
     Image<float> picture(20, 30, 3, 0.2F);
     for (int y = 0; y < 20; ++y) {
       for (int x = 15; x < 30; ++x) picture.at(y, x, 1) = 0.5F;  // in one channel only
     }
+    const Likeness likeness(picture.view(), {});
 
-    const auto filled = drawn(region_within_edges(picture.view(), {10, 5}, 0.1), 20, 30);
+    const auto filled = drawn(likeness.region({10, 5}, 10), 20, 30);
 
     for (int y = 0; y < 20; ++y) {
+      // The edge is two pixels wide after smoothing.
       for (int x = 0; x < 30; ++x) QCOMPARE(int{filled.at(y, x)}, x < 14 ? 1 : 0);
     }
-    QVERIFY(region_within_edges(picture.view(), {10, 15}, 0.1).empty());
+    QVERIFY(!likeness.region({10, 15}, 10).empty());
+    QCOMPARE(drawn(likeness.region({10, 5}, 100), 20, 30).at(10, 29), 1);
   }
 
-  void fill_isWhatSpreadingReachesBetweenEdges_data() {
-    QTest::addColumn<int>("height");
-    QTest::addColumn<int>("width");
-    QTest::addColumn<int>("channels");
-    QTest::newRow("rgb") << 23 << 31 << 3;
-    QTest::newRow("grey") << 17 << 40 << 1;
-    QTest::newRow("a column") << 30 << 1 << 3;
-    QTest::newRow("a row") << 1 << 30 << 3;
-    QTest::newRow("two columns") << 30 << 2 << 1;
-  }
-
-  void fill_isWhatSpreadingReachesBetweenEdges() {
-    QFETCH(int, height);
-    QFETCH(int, width);
-    QFETCH(int, channels);
-    std::mt19937 random(4);
-    std::uniform_real_distribution<float> uniform;
-    for (int i = 0; i < 20; ++i) {
-      Image<float> picture(height, width, channels);
-      for (float& value : picture) value = uniform(random);
-      constexpr double kLimit = 0.55;  // about half of the pixels
-      Image<std::int32_t> map(height, width);
-      for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) map.at(y, x) = gradient_at(picture, y, x) < kLimit ? 1 : 2;
+  // A fill that suits a dark picture also suits it brightened, with its noise.
+  void tolerance_isInUnitsOfTheNoise() {
+    std::mt19937 random(5);
+    std::normal_distribution<float> noise(0, 0.02F);
+    Image<float> dark(60, 60), bright(60, 60);
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 0; x < 60; ++x) {
+        dark.at(y, x) = (x < 30 ? 0.1F : 0.25F) + noise(random);
+        bright.at(y, x) = 3 * dark.at(y, x);
       }
-      const auto open = std::find(map.begin(), map.end(), 1) - map.begin();
-      const PixelIndex seed{static_cast<int>(open) / width, static_cast<int>(open) % width};
-
-      const auto filled = drawn(region_within_edges(picture.view(), seed, kLimit), height, width);
-
-      const auto expected = spread(map, seed);
-      QVERIFY(std::equal(filled.begin(), filled.end(), expected.begin()));
     }
+    const Likeness of_dark(dark.view(), {}), of_bright(bright.view(), {});
+
+    const auto filled = drawn(of_dark.region({30, 10}, 8), 60, 60);
+    const auto brightened = drawn(of_bright.region({30, 10}, 8), 60, 60);
+
+    QVERIFY(std::fabs(of_bright.noise() / of_dark.noise() - 3) < 1e-3);
+    QVERIFY(std::equal(filled.begin(), filled.end(), brightened.begin()));
+    const auto left = std::count(filled.begin(), filled.end(), 1);
+    QVERIFY2(left > 25 * 60 && left < 32 * 60, qPrintable(QString::number(left)));
   }
 
-  void fill_isHeldByALineOfOnePixel() {
-    Image<float> picture(20, 30, 1, 0.2F);
-    for (int y = 0; y < 20; ++y) picture.at(y, 15) = 0.9F;
-
-    const auto filled = drawn(region_within_edges(picture.view(), {10, 5}, 0.1), 20, 30);
-
-    QCOMPARE(int{filled.at(10, 13)}, 1);
-    QCOMPARE(int{filled.at(10, 25)}, 0);
-  }
-
-  void fill_crossesSlowChanges() {
-    Image<float> picture(4, 100);
-    for (int y = 0; y < 4; ++y) {
-      for (int x = 0; x < 100; ++x) picture.at(y, x) = 0.009F * static_cast<float>(x);
+  void fill_isHeldByAJumpOfDisparity() {
+    const Image<float> picture(20, 30, 1, 0.5F);
+    Image<float> disparity(20, 30);
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 30; ++x) disparity.at(y, x) = 0.1F * static_cast<float>(x);
+      for (int x = 18; x < 30; ++x) disparity.at(y, x) += 1;
     }
 
-    QCOMPARE(region_within_edges(picture.view(), {0, 0}, 0.01).size(), std::size_t{4});
-    QVERIFY(region_within_edges(picture.view(), {0, 0}, 0.008).empty());
-    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)region_within_edges(picture.view(), {0, 0}, -1));
+    const auto filled =
+        drawn(Likeness(picture.view(), {disparity.view(), {}}).region({10, 5}, 10), 20, 30);
+
+    QCOMPARE(int{filled.at(10, 17)}, 1);
+    QCOMPARE(int{filled.at(10, 19)}, 0);
+  }
+
+  void negativeTolerance_isRefused() {
+    const Image<float> picture(4, 5);
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)Likeness(picture.view(), {}).region({0, 0}, -1));
   }
 
   void seedsOutside_fillNothing() {
     const Image<float> picture(4, 5);
     const Image<std::int32_t> map(4, 5);
 
-    QVERIFY(region_within_edges(picture.view(), {4, 0}, 1).empty());
+    QVERIFY(Likeness(picture.view(), {}).region({4, 0}, 1).empty());
     QVERIFY(region_of_segment(map.view(), {0, -1}).empty());
   }
 };

@@ -116,6 +116,21 @@ class ViewGridTest : public QObject {
     QCOMPARE(cells.grab().toImage(), before);
   }
 
+  void viewsThatAreDone_areMarked() {
+    ViewGridCells cells;
+    cells.setGrid({3, 3});
+    cells.resize(150, 150);
+    const QImage before = cells.grab().toImage();
+
+    cells.setDone({{0, 2}, {7, 7}});  // one lies outside
+
+    const QRect cell = cells.cellRect({0, 2}).toRect();
+    QCOMPARE(cells.grab().toImage().pixelColor(cell.center().x(), cell.bottom() - 4),
+             theme::kPainted);
+    cells.setDone({});
+    QCOMPARE(cells.grab().toImage(), before);
+  }
+
   void play_passesEveryViewOfTheSnake() {
     ViewGrid grid;
     grid.setGrid({3, 3});

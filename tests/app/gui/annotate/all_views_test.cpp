@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/annotation_files.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/files/project_controller.h"
@@ -35,7 +36,7 @@ class AllViews : public Annotating {
 
   void segmentAll() {
     trigger("segment.all");
-    QTRY_VERIFY_WITH_TIMEOUT(window.bench().jobs.count() == 0 && all() != nullptr, kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(window.bench().jobs.count() == 0 && all() != nullptr, kScenePatience);
   }
   /// Labels of all views; null if there are none.
   LabelingPtr all() {
@@ -48,6 +49,23 @@ class AllViews : public Annotating {
   QMessageBox* question() {
     auto* box = window.findChild<QMessageBox*>("unsaved_results");
     return box && box->isVisible() ? box : nullptr;
+  }
+
+  /// The light field and its strokes, but no truth.
+  QString writeWithoutTruth() {
+    Scene scene = *session().scene();
+    scene.truth = std::make_shared<GroundTruth>();
+    QDir().mkpath(path("plain"));
+    io::write_archive(path("plain/lf.h5").toStdString(), scene, Progress(1));
+    return path("plain/lf.h5");
+  }
+  /// Opens a file in place of what is open.
+  void open(const QString& file) {
+    const auto generation = session().generation();
+    window.bench().opener.open(file);
+    QTRY_VERIFY_WITH_TIMEOUT(session().generation() > generation && session().scene(),
+                             kScenePatience);
+    QTRY_VERIFY_WITH_TIMEOUT(window.bench().document.document(), kScenePatience);
   }
 
   /// The light field in which the corners of all views hold nothing.
@@ -87,6 +105,7 @@ class AllViewsTest : public QObject {
   void exportedLabels_areNotAskedFor();
   void labelsOfAProject_areThereAgain();
   void pixelsWithoutContent_haveNoLabel();
+  void disparityOfLabels_alsoCarriesStrokes();
 };
 
 // A stroke of a new label over a thing, far from what the others say.
@@ -101,7 +120,7 @@ void AllViewsTest::stroke_correctsAllViews_andIsUndoneAndRedone() {
 
   f.drag({5, 5}, {5, 60});
   QVERIFY(f.segment().labeler().is_running());
-  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented() && f.segment().isSegmentationUpToDate(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented() && f.segment().isSegmentationUpToDate(), kScenePatience);
 
   const LabelingPtr corrected = f.all();
   QVERIFY(corrected != before);
@@ -134,7 +153,7 @@ void AllViewsTest::stroke_leavesTheOtherViews_andUndoBringsAllBack() {
   f.trigger("segment.live");
 
   f.drag({5, 5}, {5, 60});
-  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kScenePatience);
 
   QVERIFY(f.labels(AllViews::kCenter) != before);
   QVERIFY2(f.panel().note().contains("Other views: before the last stroke"),
@@ -164,7 +183,7 @@ void AllViewsTest::allViewsOfAFreshFile_waitForTheDisparity() {
   QVERIFY(!f.segment().isSegmentingAll());
   QVERIFY2(f.panel().state().startsWith("waiting for the disparity"),
            qPrintable(f.panel().state()));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().jobs.count() == 0 && f.all(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().jobs.count() == 0 && f.all(), kScenePatience);
   QVERIFY(f.segment().labeler().input()->disparity);
   QVERIFY(f.segment().isSegmentationUpToDate());
 }
@@ -175,7 +194,7 @@ void AllViewsTest::cancelledDisparity_endsTheWish() {
 
   f.window.bench().cancels.cancel();
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kScenePatience);
   QVERIFY(!f.all());
   QVERIFY2(f.panel().state() == "idle", qPrintable(f.panel().state()));
 }
@@ -197,7 +216,7 @@ void AllViewsTest::quit_asksWhileAllViewsAreSegmented() {
   AllViews f;
   find<ProjectGuard>(f.window).setWorthKeeping(0);
   f.trigger("segment.update");
-  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kScenePatience);
   HeldLane held(f.window.bench().jobs, Lane::Label);
   f.trigger("segment.all");
 
@@ -217,7 +236,7 @@ void AllViewsTest::exportedLabels_areNotAskedFor() {
 
   export_segmentation(f.window.bench(), f.segment(), f.path("out.h5"));
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().guards.may_leave(Leaving::Session), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().guards.may_leave(Leaving::Session), kScenePatience);
 }
 
 void AllViewsTest::labelsOfAProject_areThereAgain() {
@@ -242,13 +261,8 @@ void AllViewsTest::labelsOfAProject_areThereAgain() {
 
 void AllViewsTest::pixelsWithoutContent_haveNoLabel() {
   AllViews f;
-  const QString file = f.writeWithDarkCorners();
-  const auto generation = f.session().generation();
-  f.window.bench().opener.open(file);
-  QTRY_VERIFY_WITH_TIMEOUT(f.session().generation() > generation && f.session().scene() &&
-                               !f.session().light_field()->valid().empty(),
-                           kScenePatience);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().document.document(), kPatience);
+  f.open(f.writeWithDarkCorners());
+  QVERIFY(!f.session().light_field()->valid().empty());
 
   f.segmentAll();
   f.segment().smoothBoundaries(2);
@@ -265,6 +279,19 @@ void AllViewsTest::pixelsWithoutContent_haveNoLabel() {
     QVERIFY(std::all_of(of_view.row(AllViews::kCorner), of_view.data + of_view.size(),
                         [](int id) { return id > 0; }));
   }
+}
+
+void AllViewsTest::disparityOfLabels_alsoCarriesStrokes() {
+  AllViews f;
+  f.open(f.writeWithoutTruth());
+  QVERIFY(!f.session().known_disparity(f.view()));
+
+  f.trigger("segment.update");
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kScenePatience);
+
+  QVERIFY(f.session().known_disparity(f.view()));
+  f.trigger("annotate.carry");
+  QTRY_VERIFY_WITH_TIMEOUT(find<ScribbleController>(f.window).carried(), kScenePatience);
 }
 
 }  // namespace episcope::in_all_views_test

@@ -8,8 +8,10 @@
 #include "tests/app/gui/annotating.h"
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
+#include "widgets/canvas/canvas_tool.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/panels/label_palette.h"
+#include "widgets/panels/value_bar.h"
 
 #include <QAction>
 #include <QApplication>
@@ -44,6 +46,10 @@ class AnnotateTest : public QObject {
   void keys_chooseToolsSizesAndLabels();
   void tipsOfSizes_nameTheKeysOfTheTable();
   void fill_staysWithinEdges();
+  void fill_isShownBefore_andWidenedByDragging();
+  void fill_goesAroundStrokes();
+  void pick_takesTheLabelOfASegment();
+  void statusBar_namesTheLabelsUnderTheCursor();
   void pick_takesTheLabelUnderTheMouse();
   void otherView_endsTheStroke();
   void undo_jumpsToTheViewItChanges();
@@ -203,7 +209,7 @@ void AnnotateTest::fill_staysWithinEdges() {
   Annotating f("objects");
   f.trigger("annotate.add_label");
   const int label = f.window.bench().labels.current();
-  f.window.findChild<QDoubleSpinBox*>("fill.gradient")->setValue(60);
+  f.window.findChild<QDoubleSpinBox*>("fill.tolerance")->setValue(60);
   f.key(Qt::Key_F);
 
   f.press({90, 48});
@@ -211,6 +217,87 @@ void AnnotateTest::fill_staysWithinEdges() {
 
   QVERIFY(f.document().history().next_undo()->kind == EditKind::Fill);
   QCOMPARE(f.labelAt({90, 48}), label);
+}
+
+void AnnotateTest::fill_isShownBefore_andWidenedByDragging() {
+  Annotating f("objects");
+  f.trigger("annotate.add_label");
+  auto* tolerance = f.window.findChild<QDoubleSpinBox*>("fill.tolerance");
+  f.key(Qt::Key_F);
+  FillTool& tool = *f.window.findChild<FillTool*>();
+
+  f.move({90, 47});
+  f.move({90, 48});
+  QTRY_VERIFY(!tool.preview().isNull());
+  QVERIFY(f.document().scribbles().painted_views().size() == 1);  // of the scene itself
+  const double before = tolerance->value();
+  f.press({90, 20});
+  f.move({90, 60});
+  QVERIFY2(std::fabs(tolerance->value() / before - 2) < 0.1,
+           qPrintable(QString::number(tolerance->value())));
+  f.window.bench().cancels.cancel();
+  QCOMPARE(tolerance->value(), before);
+  f.release({90, 60});
+  QVERIFY(!f.document().history().next_undo() ||
+          f.document().history().next_undo()->kind != EditKind::Fill);
+
+  f.press({90, 20});
+  f.move({90, 60});
+  f.release({90, 60});
+  QVERIFY(f.document().history().next_undo()->kind == EditKind::Fill);
+  QCOMPARE(f.labelAt({90, 20}), f.window.bench().labels.current());
+}
+
+void AnnotateTest::fill_goesAroundStrokes() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  f.trigger("annotate.add_label");
+  f.window.findChild<QDoubleSpinBox*>("fill.tolerance")->setValue(500);
+  f.key(Qt::Key_F);
+
+  f.press({70, 48});
+  f.release({70, 48});
+  QCOMPARE(f.labelAt({70, 48}), 2);
+  QCOMPARE(f.labelAt({40, 40}), 1);
+
+  f.press({70, 48}, Qt::LeftButton, Qt::ShiftModifier);
+  f.release({70, 48});
+  QCOMPARE(f.labelAt({40, 40}), 2);
+}
+
+void AnnotateTest::statusBar_namesTheLabelsUnderTheCursor() {
+  Annotating f("objects");
+  f.key(Qt::Key_U);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  const int id = f.segment().labeler().labeling(f.view())->labels.view(f.view()).at(50, 48);
+  const QString name = QString::fromStdString(f.document().labels().find(id)->name);
+
+  f.move({50, 47});
+  f.move({50, 48});
+
+  const auto text = [&f] { return f.window.findChild<ValueBar*>()->text(); };
+  QTRY_VERIFY2(text().contains("segment " + name + " ("), qPrintable(text()));
+  QVERIFY2(text().contains("truly"), qPrintable(text()));
+  f.drag({50, 40}, {50, 60});
+  f.move({50, 50});
+  QTRY_VERIFY2(text().contains("painted "), qPrintable(text()));
+}
+
+void AnnotateTest::pick_takesTheLabelOfASegment() {
+  Annotating f("objects");
+  f.key(Qt::Key_U);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  const auto labels = f.segment().labeler().labeling(f.view())->labels.view(f.view());
+  const int other =
+      labels.at(2, 2) == f.window.bench().labels.current() ? labels.at(50, 48) : labels.at(2, 2);
+  const PixelIndex pixel = other == labels.at(2, 2) ? PixelIndex{2, 2} : PixelIndex{50, 48};
+  QCOMPARE(f.labelAt(pixel), 0);
+  f.key(Qt::Key_I);
+
+  f.press(pixel);
+  f.release(pixel);
+
+  QCOMPARE(f.window.bench().labels.current(), other);
 }
 
 void AnnotateTest::pick_takesTheLabelUnderTheMouse() {

@@ -9,9 +9,12 @@
 #include "widgets/canvas/canvas_tool.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/panels/label_palette.h"
 
 #include <QAction>
 #include <QHeaderView>
+#include <QInputDialog>
+#include <QLineEdit>
 #include <QTreeWidget>
 
 namespace episcope::in_label_tools_test {
@@ -53,6 +56,9 @@ class LabelToolsTest : public QObject {
  private slots:
   void lockedLabel_isNeitherPaintedNorPaintedOver();
   void lockedLabel_cannotBeRemoved();
+  void mergedLabel_isTakenOver_andComesBack();
+  void nameOfAnotherLabel_isRefused();
+  void digits_arePlacesInTheList();
   void undoOfALockedLabel_isDoneAndSaid();
   void hiddenLabel_isNeitherDrawnNorPaintedOver();
   void hiddenLabel_isShownAgainOncePainted();
@@ -63,7 +69,8 @@ class LabelToolsTest : public QObject {
   void polygon_isPaintedByReturn_andUndone();
   void polygon_isClosedByADoubleClick();
   void polygon_losesItsLastCornerByBackspace_andEndsByEscape();
-  void polygon_staysWhileOtherViewsAreShown();
+  void polygon_staysWithItsView();
+  void longLists_areFiltered();
   void polygonOfTheRightButton_erases();
   void lasso_paintsWhatItGoesAround();
   void outlinedPixels_areCarriedAsStrokesAre();
@@ -104,6 +111,52 @@ void LabelToolsTest::lockedLabel_cannotBeRemoved() {
 
   QCOMPARE(f.document().labels().labels().size(), std::size_t{1});
   QVERIFY2(f.message().contains("unlock"), qPrintable(f.message()));
+}
+
+void LabelToolsTest::mergedLabel_isTakenOver_andComesBack() {
+  Labels f;
+  f.drag({40, 20}, {40, 60});
+  f.trigger("annotate.add_label");
+  f.drag({60, 20}, {60, 60});
+
+  f.trigger("annotate.merge_label");
+  auto* dialog = f.window.findChild<QInputDialog*>("merge_labels");
+  QVERIFY(dialog && dialog->isVisible());
+  QCOMPARE(dialog->comboBoxItems().size(), 1);
+  dialog->accept();
+
+  QCOMPARE(f.document().labels().labels().size(), std::size_t{1});
+  QCOMPARE(f.labelAt({60, 40}), 1);
+  QCOMPARE(f.window.bench().labels.current(), 1);
+  f.key(Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(f.labelAt({60, 40}), 2);
+  QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+void LabelToolsTest::nameOfAnotherLabel_isRefused() {
+  Labels f;
+  f.trigger("annotate.add_label");
+  f.trigger("annotate.add_label");
+  const auto names = [&f] { return f.document().labels().labels(); };
+  const std::string first = names()[0].name, second = names()[1].name;
+
+  emit f.window.findChild<LabelPalette*>()->renameRequested(2, QString::fromStdString(first));
+
+  QCOMPARE(names()[1].name, second);
+  QVERIFY2(f.message().contains("already"), qPrintable(f.message()));
+}
+
+void LabelToolsTest::digits_arePlacesInTheList() {
+  Labels f;
+  f.trigger("annotate.add_label");
+  f.trigger("annotate.add_label");
+  f.trigger("annotate.add_label");
+  f.window.bench().document.edit([](AnnotationDocument& document) { document.remove_label(1); });
+
+  f.key(Qt::Key_1);
+  QCOMPARE(f.window.bench().labels.current(), 2);
+  f.key(Qt::Key_2);
+  QCOMPARE(f.window.bench().labels.current(), 3);
 }
 
 // As in painting programs: the history goes back whatever was locked since.
@@ -285,7 +338,7 @@ void LabelToolsTest::polygon_losesItsLastCornerByBackspace_andEndsByEscape() {
   QCOMPARE(f.document().history().count(), edits);
 }
 
-void LabelToolsTest::polygon_staysWhileOtherViewsAreShown() {
+void LabelToolsTest::polygon_staysWithItsView() {
   Labels f;
   f.trigger("annotate.add_label");
   f.key(Qt::Key_O);
@@ -293,10 +346,34 @@ void LabelToolsTest::polygon_staysWhileOtherViewsAreShown() {
 
   f.key(Qt::Key_Right);
   QTRY_VERIFY((f.view() == ViewIndex{4, 5}));
+  f.click({50, 50});
+  QCOMPARE(find<PolygonTool>(f.window).corners().size(), 3);
+  QVERIFY2(f.message().contains("polygon"), qPrintable(f.message()));
   f.key(Qt::Key_Return);
 
-  QCOMPARE(f.labelAt({30, 60}, {4, 5}), 1);
-  QCOMPARE(f.labelAt({30, 60}), 0);
+  QTRY_VERIFY((f.view() == ViewIndex{4, 4}));
+  QCOMPARE(f.labelAt({30, 60}, {4, 5}), 0);
+  QCOMPARE(f.labelAt({30, 60}), 1);
+}
+
+void LabelToolsTest::longLists_areFiltered() {
+  Labels f;
+  auto* filter = f.window.findChild<QLineEdit*>("labels.filter");
+  auto* tree = f.window.findChild<QTreeWidget*>("labels.tree");
+  QVERIFY(filter && filter->isHidden());
+  f.window.bench().document.edit([](AnnotationDocument& document) {
+    for (int i = 0; i < 15; ++i)
+      document.add_label(i == 7 ? "red chair" : "thing " + std::to_string(i));
+  });
+  QVERIFY(!filter->isHidden());
+
+  filter->setText("CHAIR");
+
+  int shown = 0;
+  for (int i = 0; i < tree->topLevelItemCount(); ++i) shown += !tree->topLevelItem(i)->isHidden();
+  QCOMPARE(shown, 1);
+  filter->clear();
+  QVERIFY(!tree->topLevelItem(0)->isHidden());
 }
 
 void LabelToolsTest::polygonOfTheRightButton_erases() {

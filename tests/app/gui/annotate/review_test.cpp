@@ -84,6 +84,8 @@ class ReviewTest : public QObject {
  private slots:
   void nextDoubt_isGoneTo_shown_andSaid();
   void strokeInADoubt_settlesIt();
+  void return_keepsTheLabelOfADoubt();
+  void digit_givesADoubtAnotherLabel();
   void withoutLabels_theKeySaysWhatToDo();
   void islandsAndHoles_areListed_andAClickGoesThere();
   void strokesOnOtherViews_count();
@@ -135,6 +137,42 @@ void ReviewTest::strokeInADoubt_settlesIt() {
     QVERIFY(!each.blob.contains(doubt.blob.inside));
   }
   QVERIFY(f.canvas()->outline().empty());
+}
+
+void ReviewTest::return_keepsTheLabelOfADoubt() {
+  Doubting f;
+  f.segmentLive();
+  const auto before = f.review().review();
+  f.key(Qt::Key_J);
+  const LabelDoubt& doubt = before->doubts[0];
+
+  f.key(Qt::Key_Return);
+
+  QCOMPARE(f.labelAt(doubt.blob.inside, f.view()), doubt.label);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmentedSince(before), kPatience);
+  QCOMPARE(f.labels().at(doubt.blob.inside.y, doubt.blob.inside.x), doubt.label);
+  for (const LabelDoubt& each : f.review().review()->doubts) {
+    QVERIFY(!each.blob.contains(doubt.blob.inside));
+  }
+}
+
+void ReviewTest::digit_givesADoubtAnotherLabel() {
+  Doubting f;
+  f.segmentLive();
+  const auto before = f.review().review();
+  f.key(Qt::Key_J);
+  const LabelDoubt& doubt = before->doubts[0];
+  const int current = f.window.bench().labels.current();
+  const auto& labels = f.document().labels().labels();
+  const auto place = std::ranges::find(labels, doubt.rival, &LabelInfo::id) - labels.begin();
+  QVERIFY(place < 9);
+
+  f.key(static_cast<Qt::Key>(Qt::Key_1 + place));
+
+  QCOMPARE(f.labelAt(doubt.blob.inside, f.view()), doubt.rival);
+  QCOMPARE(f.window.bench().labels.current(), current);
+  f.key(static_cast<Qt::Key>(Qt::Key_1 + place));
+  QCOMPARE(f.window.bench().labels.current(), doubt.rival);
 }
 
 void ReviewTest::withoutLabels_theKeySaysWhatToDo() {
@@ -217,7 +255,8 @@ void ReviewTest::smootherBoundaries_areShown_andUndone() {
 
   QCOMPARE(f.document().boundary_smoothing_px(), 3.0);
   QTRY_VERIFY_WITH_TIMEOUT(
-      f.window.bench().overlay.isUpToDate() && f.window.bench().overlay.picture() != rough, kPatience);
+      f.window.bench().overlay.isUpToDate() && f.window.bench().overlay.picture() != rough,
+      kPatience);
   QCOMPARE(f.window.findChild<NumberSpin*>("segment.smoothing")->value(), 3.0);
   QVERIFY(f.segment().labeler().is_up_to_date(f.view()));  // nothing is learnt anew
   const auto smooth = f.labels();
@@ -231,7 +270,8 @@ void ReviewTest::smootherBoundaries_areShown_andUndone() {
   }
   for (int i = 0; i < 6; ++i) f.key(Qt::Key_Z, Qt::ControlModifier);
   QTRY_VERIFY_WITH_TIMEOUT(
-      f.window.bench().overlay.isUpToDate() && f.window.bench().overlay.picture() == rough, kPatience);
+      f.window.bench().overlay.isUpToDate() && f.window.bench().overlay.picture() == rough,
+      kPatience);
 }
 
 void ReviewTest::labelOverTheViews_isShown_andAClickGoesThere() {

@@ -39,7 +39,10 @@ struct Corrected {
         news.at(y, x) = y >= kNews.y0 && y < kNews.y1 && x >= kNews.x0 && x < kNews.x1;
       }
     }
-    carry_news({kCenter, news, told.view()}, of.scene.truth->field, colors, Progress(), p, changed);
+    for (int i = 0; i < kGrid.count(); ++i) {
+      carry_news({kCenter, news, told.view()}, of.scene.truth->field, colors, kGrid.view_at(i), p,
+                 changed);
+    }
   }
   [[nodiscard]] RayLabeling correct(int threads = 0) const {
     return correct_rays(of.input(), parameters, {before.labels, changed, kCenter},
