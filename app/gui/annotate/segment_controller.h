@@ -43,6 +43,8 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] bool isSegmentingAll() const;
   /// Labels that cover the current view, as files store them; none if there are none.
   [[nodiscard]] std::optional<Segmentation> segmentation() const;
+  /// Shows labels from elsewhere in place of the newest ones, until strokes or settings change.
+  void takeLabels(const LabelingPtr& labeling);
   /// Smooths the boundaries of all labels, as one step of the history.
   void smoothBoundaries(double smoothing_px);
 
