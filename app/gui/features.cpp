@@ -4,6 +4,7 @@
 #include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/annotation_files.h"
 #include "app/gui/annotate/label_controller.h"
+#include "app/gui/annotate/label_exchange.h"
 #include "app/gui/annotate/label_review.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/browse/browse_controller.h"
@@ -71,6 +72,7 @@ void add_annotating(const Workbench& bench) {
   new LabelLookController(bench, palette);
   new ScribbleController(bench, bar);
   new AnnotationFiles(bench, bar);
+  new LabelImporter(bench, bar);
   new RecoveryController(bench);
 }
 
@@ -284,7 +286,10 @@ void add_reviewing(const Workbench& bench) {
 void add_segmenting(const Workbench& bench) {
   auto* panel = new SegmentPanel(&bench.frame);
   bench.frame.addToTab("annotate", panel);
-  new SegmentController(bench, panel);
+  auto* segment = new SegmentController(bench, panel);
+  QObject::connect(bench.owner.findChild<LabelImporter*>(), &LabelImporter::segmented, segment,
+                   &SegmentController::takeLabels);
+  add_label_export(bench, *segment);
 }
 
 }  // namespace

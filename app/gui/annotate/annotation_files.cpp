@@ -14,7 +14,7 @@
 #include "engine/core/shear.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/models/labels/label_import.h"
+#include "engine/io/models/labels/label_pictures.h"
 #include "engine/io/models/scribble_file.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/panels/brush_panel.h"
@@ -73,16 +73,13 @@ void AnnotationFiles::addCommands() {
   addCommand("save_scribbles_as", tr("Save scribbles as…"),
              tr("Saves labels and scribbles to another file"), {}, {tr("Ctrl+Shift+S")},
              &AnnotationFiles::saveAsDialog);
-  addCommand("import_scribbles", tr("Import scribbles…"),
-             tr("Adds scribbles from another file wherever nothing is painted"), "open", {},
-             &AnnotationFiles::importDialog);
   addCommand("compare_labels", tr("Compare with true labels…"),
              tr("Compares the segmentation with the GT_LABELS of another file"), "open", {},
              &AnnotationFiles::compareDialog);
   addCommand("export_scribbles", tr("Scribbles as images…"),
              tr("Writes a PNG image of each painted view"), "picture", {},
              &AnnotationFiles::exportDialog);
-  for (const char* id : {"file.save_scribbles", "file.import_scribbles", "file.export_scribbles"}) {
+  for (const char* id : {"file.save_scribbles", "file.export_scribbles"}) {
     bar_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
   }
 }
@@ -255,46 +252,6 @@ void AnnotationFiles::exportPictures(const QString& folder) {
       [this, folder](bool) { bench_.messages.written(folder); });
 }
 
-void AnnotationFiles::importDialog() {
-  if (!document_.document()) return;
-  ask_for_file(&bench_.window,
-               {.name = "import_scribbles",
-                .title = tr("Import scribbles"),
-                .filter = tr("Labels and pictures of strokes (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff "
-                             "*.pgm *.npy *.npz *.mat);;All files (*)")},
-               [this](const QString& path) { importFrom(path); });
-}
-
-void AnnotationFiles::importFrom(const QString& path) {
-  if (!document_.document()) return;
-  // A picture that was exported stands for all of them.
-  const bool is_exported = QFileInfo(path).fileName().startsWith("scribbles_");
-  const QString place = is_exported ? QFileInfo(path).path() : path;
-  const std::uint64_t generation = session_.generation();
-  bench_.jobs.start<std::shared_ptr<io::ImportedLabels>>(
-      Lane::Load, tr("Importing %1").arg(QFileInfo(path).fileName()),
-      [scene = session_.scene(), place,
-       known = document_.document()->labels().labels()](const Progress& progress) {
-        auto read = std::make_shared<io::ImportedLabels>(io::read_labels(
-            {path_of(place)}, *scene, {.known = {known.begin(), known.end()}}, progress));
-        const std::string renumbered = io::renumber_labels(read->scribbles, LabelSet::kMaxId);
-        if (!renumbered.empty()) read->notes.push_back(renumbered);
-        return read;
-      },
-      [this, path, generation](const std::shared_ptr<io::ImportedLabels>& read) {
-        if (generation != session_.generation()) return;
-        const bool is_new = document_.edit(
-            [&](AnnotationDocument& document) { import_scribbles(document, read->scribbles); });
-        if (is_new) {
-          QStringList sentences{tr("Imported: %1").arg(path)};
-          for (const std::string& note : read->notes) sentences << QString::fromStdString(note);
-          bench_.messages.success(sentences.join("\n"));
-        } else {
-          bench_.messages.hint(tr("%1 contains no new scribbles.").arg(QFileInfo(path).fileName()));
-        }
-      });
-}
-
 void AnnotationFiles::compareDialog() {
   if (!session_.scene()) return;
   ask_for_file(&bench_.window,
@@ -360,50 +317,6 @@ struct SegmentationExportText {
 };
 
 }  // namespace
-
-void ask_to_export_segmentation(const Workbench& bench, const SegmentController& segment) {
-  const auto segmentation = segment.segmentation();
-  if (!segmentation) {
-    bench.messages.hint(SegmentationExportText::tr(
-        "Nothing is segmented yet: paint two labels, then update the segmentation."));
-    return;
-  }
-  const bool has_all = segmentation->labeling->labels.grid().count() > 1;
-  ask_where_to_save(
-      bench,
-      {.name = "export_segmentation",
-       .title = SegmentationExportText::tr("Export the segmentation"),
-       .filter =
-           SegmentationExportText::tr("%1 (*.h5);;Labels of this view (*.png)")
-               .arg(has_all ? SegmentationExportText::tr("Labels and probabilities of all views")
-                            : SegmentationExportText::tr("Labels and probabilities of this view")),
-       .proposal = QString::fromStdString(bench.session.light_field()->info().name) + "_labels.h5"},
-      [bench, &segment](const QString& path) { export_segmentation(bench, segment, path); });
-}
-
-void export_segmentation(const Workbench& bench, const SegmentController& segment,
-                         const QString& path) {
-  const auto segmentation = segment.segmentation();
-  if (!segmentation || !has_suffix(path, {"h5", "png"}, bench.messages)) return;
-  const std::filesystem::path file = path.toStdString();
-  if (QFileInfo(path).suffix().toLower() != "png") {
-    write_in_background(
-        bench.jobs, bench.messages, path,
-        [file, segmentation, source = bench.session.input()](const Progress& progress) {
-          write_segmentation(file, *segmentation, source, StoredProbabilities::All, progress);
-        },
-        [&session = bench.session, scene = bench.session.generation(),
-         labeling = bench.session.labels().labeling] {
-          session.mark_labels_saved(scene, labeling);
-        });
-    return;
-  }
-  const auto source = segment.map_source(render::Quantity::Segmentation, bench.session.view());
-  if (!source) return;
-  write_in_background(bench.jobs, bench.messages, path, [file, source = *source](const Progress&) {
-    io::write_picture(file, map_picture(*make_map(source), {}).view());
-  });
-}
 
 void ask_to_export_masks(const Workbench& bench, const SegmentController& segment) {
   const auto segmentation = segment.segmentation();

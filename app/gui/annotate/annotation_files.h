@@ -26,7 +26,7 @@ namespace episcope {
 class AnnotationBar;
 class SegmentController;
 
-/// Saves, exports and imports scribbles in the background, and ensures that leaving the light field
+/// Saves and exports scribbles in the background, and ensures that leaving the light field
 /// loses none. Files hold views as stored, also while a focus plane is applied (shear.h).
 class AnnotationFiles : public QObject {
   Q_OBJECT
@@ -43,10 +43,6 @@ class AnnotationFiles : public QObject {
   /// Writes a picture of each painted view into a folder.
   void exportDialog();
   void exportPictures(const QString& folder);
-  void importDialog();
-  /// Imports an HDF5 file of labels, a picture of strokes, or all pictures that were exported with
-  /// one, and tells how their pixels were understood.
-  void importFrom(const QString& path);
   /// Compares the segmentation with the GT_LABELS of another file.
   void compareDialog();
   void compareWith(const QString& path);
@@ -81,14 +77,6 @@ class AnnotationFiles : public QObject {
   int saving_ = 0;
   QPointer<QMessageBox> question_;
 };
-
-/// Asks for a file, then calls `export_segmentation` for the current view or all views.
-void ask_to_export_segmentation(const Workbench& bench, const SegmentController& segment);
-
-/// Writes labels and probabilities (.h5), or the labels of this view in their colors (.png), in
-/// the background. Rejects other suffixes with a message.
-void export_segmentation(const Workbench& bench, const SegmentController& segment,
-                         const QString& path);
 
 /// Asks for a folder and writes masks of every label: for all views if they are segmented, else for
 /// this view.

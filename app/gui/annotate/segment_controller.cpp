@@ -532,6 +532,18 @@ void SegmentController::restore() {
   }
 }
 
+void SegmentController::takeLabels(const LabelingPtr& labeling) {
+  if (!live_.has_input()) return;
+  noteInput();
+  const KeptLabels kept{labeling,
+                        std::as_const(document_).document()->labels().labels(),
+                        hash_of(*live_.input()->scribbles),
+                        {}};
+  session_.set_labels(session_.generation(), kept);
+  wants_to_show_ = true;
+  adopt(kept);
+}
+
 void SegmentController::adopt(const KeptLabels& kept) {
   const auto& labels = kept.labeling->labels;
   const LightField& light_field = *session_.light_field();
@@ -593,16 +605,6 @@ void SegmentController::addRunCommands() {
 }
 
 void SegmentController::addExportCommands() {
-  bench_.commands.add(
-      {.id = "segment.export",
-       .menu = Menu::Export,
-       .text = tr("Segmentation…"),
-       .tip = tr("Writes labels and probabilities as HDF5, or the labels of this view as PNG"),
-       .icon = "export",
-       .run = [this] { ask_to_export_segmentation(bench_, *this); },
-       .section = section::kLabels,
-
-       .enabled = [this] { return hasSegmentation(); }});
   bench_.commands.add(
       {.id = "segment.export_masks",
        .menu = Menu::Export,

@@ -49,6 +49,8 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] std::optional<Segmentation> segmentation() const;
   /// Whether those are of the present strokes and settings in all their views.
   [[nodiscard]] bool isSegmentationUpToDate() const;
+  /// Shows labels from elsewhere in place of the newest ones, until strokes or settings change.
+  void takeLabels(const LabelingPtr& labeling);
   /// Smooths the boundaries of all labels, as one step of the history.
   void smoothBoundaries(double smoothing_px);
 

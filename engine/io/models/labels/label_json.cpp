@@ -21,8 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kLongestSide = 1 << 16;  ///< In px.
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+constexpr int kLongestSide = 1 << 16;                        ///< In px.
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 29;  ///< Of all pictures of a file.
 constexpr const char* kOwn = "episcope";
 
 /// Runs `read`, and says of failures that the file is no file of `form`.
@@ -222,7 +222,10 @@ CocoLabels coco_of(const Json& json) {
     ids[key_of(json.at("categories")[i].at("id"))] = coco.labels[i].id;
   }
   std::map<std::string, std::size_t> places;
+  std::int64_t pixels = 0;
   for (const Json& image : json.at("images")) {
+    pixels += std::int64_t{int_of(image.at("height"))} * int_of(image.at("width"));
+    if (pixels > kMostPixels) throw InvalidInput("its pictures are too large");
     places[key_of(image.at("id"))] = coco.pictures.size();
     coco.pictures.push_back(
         {image.value("file_name", ""), empty_map(image.at("height"), image.at("width"))});

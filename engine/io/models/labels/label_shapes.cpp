@@ -30,8 +30,12 @@ double distance_to(const Corner& at, const Corner& begin, const Corner& end) {
 }  // namespace
 
 void fill_polygon(Image<std::int32_t>& map, const Polygon& polygon, std::int32_t label) {
+  if (polygon.empty()) return;
+  const auto [top, bottom] = std::ranges::minmax_element(polygon, {}, &Corner::y);
+  const auto height = static_cast<double>(map.height());
+  const auto end = static_cast<int>(std::clamp(std::ceil(bottom->y), 0.0, height));
   std::vector<double> crossings;
-  for (int y = 0; y < map.height(); ++y) {
+  for (auto y = static_cast<int>(std::clamp(std::floor(top->y), 0.0, height)); y < end; ++y) {
     const double center = y + 0.5;
     crossings.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -42,9 +46,9 @@ void fill_polygon(Image<std::int32_t>& map, const Polygon& polygon, std::int32_t
     }
     std::ranges::sort(crossings);
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      const int begin = first_center(crossings[i], map.width());
-      const int end = first_center(crossings[i + 1], map.width());
-      if (begin < end) std::fill_n(&map.at(y, begin), end - begin, label);
+      const int from = first_center(crossings[i], map.width());
+      const int to = first_center(crossings[i + 1], map.width());
+      if (from < to) std::fill_n(&map.at(y, from), to - from, label);
     }
   }
 }

@@ -18,7 +18,7 @@ struct Corner {
 using Polygon = std::vector<Corner>;
 
 /// Gives `label` to the pixels whose centers lie inside, by the even-odd rule. Corners may lie
-/// outside of the map. O(corners · height + pixels).
+/// outside of the map. O(corners · rows + pixels).
 void fill_polygon(Image<std::int32_t>& map, const Polygon& polygon, std::int32_t label);
 
 /// Gives `label` to the pixels whose centers are at most `radius_px` away from a line through the

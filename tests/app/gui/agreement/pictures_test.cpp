@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pictures that the window exports are those of `show`, pixel for pixel.
-#include "app/gui/annotate/annotation_files.h"
+#include "app/gui/annotate/label_exchange.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/compare/picture_export.h"
 #include "tests/app/gui/agreement/command_line.h"
@@ -71,7 +71,8 @@ class Showing : public AgreementFixture {
     trigger("segment.update");
     QTRY_VERIFY_WITH_TIMEOUT(isSegmented(), kPatience);
     labels_ = path("labels.h5");
-    export_segmentation(window.bench(), find<SegmentController>(window), labels_);
+    export_labels(window.bench(), find<SegmentController>(window), labels_,
+                  {LabelTarget::Kind::Hdf5WithProbabilities});
     QVERIFY(waitForFile(labels_));
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is painted goes to files, and is not lost by leaving it.
 #include "app/gui/annotate/annotation_files.h"
+#include "app/gui/annotate/label_exchange.h"
 
 #include "annotation/brush.h"
 #include "annotation/exchange.h"
@@ -30,7 +31,6 @@ class AnnotationFilesTest : public QObject {
  private slots:
   void failedSave_keepsTheDocument();
   void exportedPictures_comeBackByImport();
-  void drawing_isImportedByItsColors();
   void close_asksAboutUnsavedChanges_data();
   void close_asksAboutUnsavedChanges();
   void openAnother_keepsUnsavedChanges();
@@ -63,30 +63,13 @@ void AnnotationFilesTest::exportedPictures_comeBackByImport() {
   f.trigger("annotate.undo");
   QCOMPARE(f.labelAt({40, 40}), 0);
 
-  find<AnnotationFiles>(f.window).importFrom(f.path("pictures"));
+  find<LabelImporter>(f.window).open({f.path("pictures")});
+  QTRY_VERIFY(f.window.findChild<QPushButton*>("importLabels.import"));
+  f.window.findChild<QPushButton*>("importLabels.import")->click();
   QTRY_VERIFY(told().contains("Imported"));
 
   QCOMPARE(f.labelAt({40, 40}), 1);
   QCOMPARE(f.document().history().next_undo()->kind, EditKind::Import);
-}
-
-void AnnotationFilesTest::drawing_isImportedByItsColors() {
-  Annotating f;
-  Image<std::uint8_t> drawing(96, 96, 3, 255);
-  for (int x = 20; x < 60; ++x) {
-    drawing.at(40, x, 0) = drawing.at(40, x, 2) = 0;  // green
-    drawing.at(60, x, 1) = drawing.at(60, x, 2) = 0;  // red
-  }
-  io::write_png(f.path("drawing.png").toStdString(), drawing.view());
-  const auto told = [&f] { return f.window.findChild<MessageBar*>("messageBar")->text(); };
-
-  find<AnnotationFiles>(f.window).importFrom(f.path("drawing.png"));
-  QTRY_VERIFY(told().contains("Imported"));
-
-  QCOMPARE(f.labelAt({40, 40}), 1);
-  QCOMPARE(f.labelAt({60, 40}), 2);
-  QCOMPARE(f.labelAt({50, 40}), 0);
-  QVERIFY2(told().contains("#ffffff"), qPrintable(told()));
 }
 
 void AnnotationFilesTest::close_asksAboutUnsavedChanges_data() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/annotation_files.h"
+#include "app/gui/annotate/label_exchange.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/compare/picture_export.h"
 #include "app/gui/files/project_controller.h"
@@ -260,8 +261,9 @@ void SegmentTest::allViews_areExportedAndReadAgain() {
   const LabelingPtr all = f.segment().labeler().labeling({0, 0});
   QVERIFY(all && all->labels.grid().count() == 81);
   QTRY_VERIFY(f.panel().note().contains("consistent"));
-  export_segmentation(f.window.bench(), find<SegmentController>(f.window), f.path("out.h5"));
-  export_segmentation(f.window.bench(), find<SegmentController>(f.window), f.path("out.png"));
+  using Kind = LabelTarget::Kind;
+  export_labels(f.window.bench(), f.segment(), f.path("out.h5"), {Kind::Hdf5WithProbabilities});
+  export_labels(f.window.bench(), f.segment(), f.path("out.png"), {Kind::Picture});
   QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("out.png")), kPatience);
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
 

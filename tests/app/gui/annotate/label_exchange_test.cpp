@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Labels of other tools come in by one dialog, and go out in their forms.
+#include "app/gui/annotate/label_exchange.h"
+
+#include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
+#include "app/session/session.h"
+#include "engine/io/base/image_file.h"
+#include "engine/io/base/npy.h"
+#include "engine/io/models/labels/label_import.h"
+#include "engine/io/models/scribble_file.h"
+#include "tests/app/gui/annotating.h"
+#include "tests/window_test_main.h"
+#include "widgets/controls/message_bar.h"
+
+#include <QComboBox>
+#include <QDialog>
+#include <QDropEvent>
+#include <QFile>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMimeData>
+#include <QPushButton>
+#include <QRadioButton>
+#include <QUrl>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+namespace episcope::in_label_exchange_test {
+namespace {
+
+constexpr int kSide = 96;  ///< Of the views, in px.
+
+class Exchanging : public Annotating {
+ public:
+  LabelImporter& importer() { return find<LabelImporter>(window); }
+  [[nodiscard]] QString told() const {
+    return window.findChild<MessageBar*>("messageBar")->text();
+  }
+  template <class T>
+  T* part(const QString& name) {
+    return window.findChild<T*>(name);
+  }
+
+  /// A picture of rows of label 1 and 2, and of `third` in row 80.
+  QString drawn(const QString& name, std::uint8_t third) {
+    Image<std::uint8_t> picture(kSide, kSide, 1, 0);
+    for (int x = 20; x < 60; ++x) {
+      picture.at(40, x) = 1;
+      picture.at(60, x) = 2;
+      picture.at(80, x) = third;
+    }
+    io::write_png(path(name).toStdString(), picture.view());
+    return path(name);
+  }
+  /// Labels of all views: 1 left, 2 right.
+  QString halves(const QString& name) {
+    std::vector<std::int32_t> labels(std::size_t{81} * kSide * kSide);
+    for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = i % kSide < kSide / 2 ? 1 : 2;
+    io::write_npy<std::int32_t>(path(name).toStdString(), {9, 9, kSide, kSide}, labels);
+    return path(name);
+  }
+  void accept(const QString& use) {
+    QTRY_VERIFY(part<QRadioButton>("importLabels." + use));
+    part<QRadioButton>("importLabels." + use)->click();
+    part<QPushButton>("importLabels.import")->click();
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  }
+};
+
+}  // namespace
+
+class LabelExchangeTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void drawing_isImportedByItsColors();
+  void oneOfThreeUses_isAskedFor();
+  void labelsOfAllViews_becomeTheSegmentation();
+  void trueLabels_areCompared();
+  void anotherId_isUnlabeledAtOnce();
+  void largeIds_areRenumbered();
+  void foreignFiles_areRefusedInWords();
+  void dropOnAnnotate_asks();
+  void everyForm_isExported_data();
+  void everyForm_isExported();
+  void outOfDateLabels_areTold();
+};
+
+void LabelExchangeTest::drawing_isImportedByItsColors() {
+  Exchanging f;
+  Image<std::uint8_t> drawing(kSide, kSide, 3, 255);
+  for (int x = 20; x < 60; ++x) {
+    drawing.at(40, x, 0) = drawing.at(40, x, 2) = 0;  // green
+    drawing.at(60, x, 1) = drawing.at(60, x, 2) = 0;  // red
+  }
+  io::write_png(f.path("drawing.png").toStdString(), drawing.view());
+
+  f.importer().open({f.path("drawing.png")});
+  f.accept("strokes");
+
+  QTRY_COMPARE(f.labelAt({40, 40}), 1);
+  QCOMPARE(f.labelAt({60, 40}), 2);
+  QCOMPARE(f.labelAt({50, 40}), 0);
+  QVERIFY2(f.told().contains("#ffffff"), qPrintable(f.told()));
+}
+
+void LabelExchangeTest::oneOfThreeUses_isAskedFor() {
+  Exchanging f;
+
+  f.importer().open({f.drawn("ids.png", 255)});
+
+  QTRY_VERIFY(f.part<QDialog>("importLabels"));
+  QVERIFY(!f.part<QLabel>("importLabels.preview")->pixmap().isNull());
+  const QString content = f.part<QLabel>("importLabels.content")->text();
+  QVERIFY2(content.contains("4,4") && content.contains("1") && content.contains("2"),
+           qPrintable(content));
+  QVERIFY(f.part<QLabel>("importLabels.notes")->text().contains("255"));
+  QVERIFY(f.part<QRadioButton>("importLabels.strokes")->isChecked());
+  QCOMPARE(f.labelAt({40, 40}), 0);
+  f.accept("strokes");
+  QTRY_COMPARE(f.labelAt({40, 40}), 1);
+  QCOMPARE(f.labelAt({80, 40}), 0);
+}
+
+void LabelExchangeTest::labelsOfAllViews_becomeTheSegmentation() {
+  Exchanging f;
+
+  f.importer().open({f.halves("all.npy")});
+  f.accept("segmentation");
+
+  QTRY_VERIFY(f.segment().segmentation());
+  const LabelingPtr labeling = f.segment().segmentation()->labeling;
+  QCOMPARE(labeling->labels.grid().count(), 81);
+  QCOMPARE(labeling->labels.view({0, 8}).at(5, 60), 2);
+  QCOMPARE(f.labelAt({40, 40}), 0);  // nothing is painted
+  QVERIFY(f.document().labels().contains(2));
+}
+
+void LabelExchangeTest::trueLabels_areCompared() {
+  Exchanging f;
+
+  f.importer().open({f.halves("all.npy")});
+  f.accept("truth");
+
+  QTRY_VERIFY(f.told().contains("all.npy"));
+  const TrueLabelsPtr truth = f.window.bench().session.true_labels();
+  QVERIFY(truth && truth->view({3, 3}).at(10, 10) == 1);
+}
+
+void LabelExchangeTest::anotherId_isUnlabeledAtOnce() {
+  Exchanging f;
+  f.importer().open({f.drawn("ids.png", 7)});
+  QTRY_VERIFY(f.part<QDialog>("importLabels"));
+  const auto content = [&f] { return f.part<QLabel>("importLabels.content")->text(); };
+  QVERIFY(content().contains("7"));
+
+  auto* field = f.part<QLineEdit>("importLabels.ignored");
+  field->setFocus();
+  QTest::keyClicks(field, "7");
+  QTest::keyClick(field, Qt::Key_Tab);
+
+  QTRY_VERIFY(f.part<QLabel>("importLabels.notes")->text().contains("7"));
+  f.accept("strokes");
+  QTRY_COMPARE(f.labelAt({40, 40}), 1);
+  QCOMPARE(f.labelAt({80, 40}), 0);
+}
+
+void LabelExchangeTest::largeIds_areRenumbered() {
+  Exchanging f;
+  Image<std::uint16_t> picture(kSide, kSide, 1, 0);
+  for (int x = 20; x < 60; ++x) picture.at(40, x) = 40000;
+  io::write_png(f.path("large.png").toStdString(), picture.view());
+
+  f.importer().open({f.path("large.png")});
+  f.accept("strokes");
+
+  QTRY_COMPARE(f.labelAt({40, 40}), 1);
+  QVERIFY2(f.told().contains("40000 is 1"), qPrintable(f.told()));
+}
+
+void LabelExchangeTest::foreignFiles_areRefusedInWords() {
+  Exchanging f;
+  QFile file(f.path("notes.json"));
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  file.write("[1, 2]");
+  file.close();
+
+  f.importer().open({f.path("notes.json")});
+
+  QTRY_VERIFY(f.told().contains("labelme"));
+  QVERIFY(!f.part<QDialog>("importLabels"));
+}
+
+void LabelExchangeTest::dropOnAnnotate_asks() {
+  Exchanging f;
+  f.window.bench().frame.showTab("annotate");
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(f.drawn("ids.png", 3))});
+  QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+
+  QCoreApplication::sendEvent(&f.window, &drop);
+
+  QTRY_VERIFY(f.part<QDialog>("importLabels"));
+  f.part<QDialog>("importLabels")->close();
+}
+
+void LabelExchangeTest::everyForm_isExported_data() {
+  QTest::addColumn<int>("row");
+  QTest::addColumn<QString>("place");
+  QTest::addColumn<QString>("file");
+  QTest::newRow("PNG") << 2 << "png" << "png/00_08.png";
+  QTest::newRow("VOC") << 3 << "voc" << "voc/JPEGImages/08_08.png";
+  QTest::newRow("COCO") << 4 << "coco" << "coco/annotations/instances_default.json";
+  QTest::newRow("labelme") << 5 << "labelme" << "labelme/04_04.json";
+}
+
+void LabelExchangeTest::everyForm_isExported() {
+  QFETCH(int, row);
+  QFETCH(QString, place);
+  QFETCH(QString, file);
+  Exchanging f;
+  f.importer().open({f.halves("all.npy")});
+  f.accept("segmentation");
+  QTRY_VERIFY(f.segment().segmentation());
+  const io::LabelForm form = io::names_of(io::LabelForm{})[static_cast<std::size_t>(row - 2)].value;
+
+  ask_to_export_labels(f.window.bench(), f.segment());
+  QVERIFY(f.part<QDialog>("exportLabels"));
+  QVERIFY(f.part<QLabel>("exportLabels.warning")->isHidden());
+  QCOMPARE(f.part<QComboBox>("exportLabels.form")->count(), 7);
+  f.part<QDialog>("exportLabels")->close();
+  export_labels(f.window.bench(), f.segment(), f.path(place),
+                {LabelTarget::Kind::Folder, form, true});
+  QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path(file)), kPatience);
+
+  const io::ImportedLabels read = io::read_label_files({f.path(place).toStdString()},
+                                                       {{{9, 9}, kSide, kSide}});
+  QCOMPARE(read.scribbles.views.size(), std::size_t{81});
+  QCOMPARE(read.scribbles.views[80].labels.at(5, 60), 2);
+}
+
+void LabelExchangeTest::outOfDateLabels_areTold() {
+  Exchanging f;
+  f.importer().open({f.halves("all.npy")});
+  f.accept("segmentation");
+  QTRY_VERIFY(f.segment().segmentation());
+  f.drag({40, 20}, {40, 60});
+  QTRY_VERIFY(!f.segment().labeler().is_up_to_date(f.window.bench().session.view()));
+
+  ask_to_export_labels(f.window.bench(), f.segment());
+  QVERIFY(!f.part<QLabel>("exportLabels.warning")->isHidden());
+  f.part<QDialog>("exportLabels")->close();
+  export_labels(f.window.bench(), f.segment(), f.path("out.h5"), {LabelTarget::Kind::Hdf5});
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.told().contains("out of date"), kPatience);
+  const io::SegmentationFile file(f.path("out.h5").toStdString());
+  QVERIFY(!file.has_probabilities());
+  QVERIFY(std::filesystem::file_size(f.path("out.h5").toStdString()) < 200000);
+}
+
+}  // namespace episcope::in_label_exchange_test
+
+EPISCOPE_WINDOW_TEST(label_exchange_test, LabelExchangeTest)
+
+#include "label_exchange_test.moc"
