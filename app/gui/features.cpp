@@ -63,6 +63,7 @@ void add_annotating(const Workbench& bench) {
   layout->addWidget(bar);
   bench.frame.addTab({.id = "annotate",
                       .title = AnnotateController::tr("Annotate"),
+                      .page = AnnotateController::tr("Paint"),
                       .command_text = AnnotateController::tr("Annotate tab"),
                       .command_tip = AnnotateController::tr("Shows the labels and painting tools"),
                       .widget = tab,
@@ -169,6 +170,7 @@ void add_comparing(const Workbench& bench) {
   layout->addWidget(metrics, 1);
   bench.frame.addTab({.id = "compare",
                       .title = CompareController::tr("Compare"),
+                      .page = CompareController::tr("Table"),
                       .command_text = CompareController::tr("Compare tab"),
                       .command_tip = CompareController::tr("Shows the table of metrics"),
                       .widget = tab});
@@ -243,7 +245,9 @@ void add_help(const Workbench& bench) {
   commands.add({.id = "help.palette",
                 .menu = Menu::Help,
                 .text = HelpText::tr("Find a command…"),
-                .tip = HelpText::tr("Finds any command by its name"),
+                .tip = HelpText::tr(
+                    "Finds commands, methods, open and recent light fields by words of their "
+                    "names and descriptions"),
                 .keys = {HelpText::tr("Ctrl+Shift+P")},
                 .run = [palette] { palette->popUp(); }});
   commands.add({.id = "help.about",
@@ -274,6 +278,7 @@ void add_reviewing(const Workbench& bench) {
   auto* panel = new LabelReviewPanel(&bench.frame);
   bench.frame.addTab({.id = "check",
                       .title = LabelReviewController::tr("Check"),
+                      .task = "annotate",
                       .command_text = LabelReviewController::tr("Check tab"),
                       .command_tip = LabelReviewController::tr(
                           "Shows where labels are in doubt, their islands and holes"),

@@ -80,6 +80,7 @@ class LayoutMemory {
   struct Kept {
     QPointer<QSplitter> splitter;
     QByteArray first_state;
+    bool is_by_itself = false;
   };
   std::vector<Kept> kept_;
 };
@@ -87,22 +88,23 @@ class LayoutMemory {
 LayoutMemory::LayoutMemory(const QWidget& window) {
   for (auto* splitter : window.findChildren<QSplitter*>()) {
     if (splitter->objectName().startsWith("split.")) {
-      kept_.push_back({splitter, splitter->saveState()});
+      kept_.push_back({splitter, splitter->saveState(), is_divided_by_itself(*splitter)});
     }
   }
 }
 
 void LayoutMemory::save() const {
   for (const Kept& each : kept_) {
-    if (each.splitter) QSettings().setValue(key_of(*each.splitter), each.splitter->saveState());
+    if (!each.splitter || is_divided_by_itself(*each.splitter)) continue;
+    QSettings().setValue(key_of(*each.splitter), each.splitter->saveState());
   }
 }
 
 void LayoutMemory::restore() const {
   for (const Kept& each : kept_) {
-    if (each.splitter) {
-      each.splitter->restoreState(QSettings().value(key_of(*each.splitter)).toByteArray());
-    }
+    if (!each.splitter) continue;
+    const QByteArray state = QSettings().value(key_of(*each.splitter)).toByteArray();
+    if (each.splitter->restoreState(state)) set_divided_by_itself(*each.splitter, false);
   }
 }
 
@@ -110,6 +112,7 @@ void LayoutMemory::reset() const {
   for (const Kept& each : kept_) {
     if (!each.splitter) continue;
     each.splitter->restoreState(each.first_state);
+    set_divided_by_itself(*each.splitter, each.is_by_itself);
     QSettings().remove(key_of(*each.splitter));
   }
 }
@@ -263,6 +266,7 @@ void Layout::reset() {
   bench_.frame.setPanelsShown(true);
   bench_.frame.panes().reset();
   sizes_.reset();
+  bench_.viewer_area.fitEpis();
   bench_.frame.resetLayout();
   bench_.commands.refresh();
 }

@@ -89,7 +89,8 @@ enum class JudgedPixels : std::uint8_t {
   Rectangle,
   Label,   ///< The current one.
   Common,  ///< Where all results have values.
-  Mask     ///< Of a file.
+  Mask,    ///< Of a file.
+  Region   ///< A region mask of the ground truth.
 };
 
 /// Which pixels are judged, and what it takes to find them.
@@ -97,6 +98,7 @@ struct JudgedPart {
   JudgedPixels pixels = JudgedPixels::Whole;
   PixelRect rectangle{};  ///< Stays while others are chosen; empty = none was drawn.
   std::string mask{};     ///< Path of an image; stays as well; empty = none was chosen.
+  std::string region{};   ///< Name of a region mask; stays as well; empty = none was chosen.
   friend bool operator==(const JudgedPart&, const JudgedPart&) = default;
 };
 

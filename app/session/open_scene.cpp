@@ -66,8 +66,8 @@ std::string measured_text(const Measurements& measured) {
 
 std::string judged_text(const JudgedPart& judged) {
   const PixelRect& r = judged.rectangle;
-  return fmt::format("judged {} {} {} {} {} {}\n", static_cast<int>(judged.pixels), r.y0, r.x0,
-                     r.y1, r.x1, judged.mask);
+  return fmt::format("judged {} {} {} {} {} {} {}\n", static_cast<int>(judged.pixels), r.y0, r.x0,
+                     r.y1, r.x1, judged.mask, judged.region);
 }
 
 }  // namespace

@@ -148,13 +148,15 @@ ScenePlace place_of(const Json& json) {
   return place;
 }
 
-constexpr std::array<const char*, 5> kJudged{"whole", "rectangle", "label", "common", "mask"};
+constexpr std::array<const char*, 6> kJudged{"whole",  "rectangle", "label",
+                                             "common", "mask",      "region"};
 
 Json judged_json(const JudgedPart& part, const fs::path& project) {
   Json json{{"pixels", kJudged[static_cast<std::size_t>(part.pixels)]}};
   const PixelRect& r = part.rectangle;
   if (!r.empty()) json["rectangle"] = {r.y0, r.x0, r.y1, r.x1};
   if (!part.mask.empty()) json["mask"] = source_text(part.mask, project);
+  if (!part.region.empty()) json["region"] = part.region;
   return json;
 }
 
@@ -206,6 +208,7 @@ JudgedPart judged_of(const Json& json, const fs::path& project) {
                       io::int_of(r.at(3))};
   }
   if (json.contains("mask")) part.mask = absolute_path(json.at("mask"), project);
+  part.region = json.value("region", "");
   return part;
 }
 

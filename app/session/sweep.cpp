@@ -225,7 +225,7 @@ bool is_tried(const ParameterSet& point, const SweptParameter& swept) {
 SweepLine line_of(const std::vector<SweepPoint>& points, const std::vector<SweptParameter>& swept,
                   const ParameterValue* second) {
   SweepLine line;
-  if (second) line.name = swept[1].key + " " + to_text(*second);
+  if (second) line.second = *second;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ParameterSet& point = points[i].point;
     if (!std::ranges::all_of(swept, [&](const auto& each) { return is_tried(point, each); }) ||

@@ -129,7 +129,7 @@ enum class SweepMeasure { MseTimes100, BadPix007, BadPix003, BadPix001, Seconds,
 
 /// The points along the first parameter with one value of the second.
 struct SweepLine {
-  std::string name;  ///< "scale 0.8"; empty with one parameter.
+  std::optional<ParameterValue> second{};  ///< Value of the second parameter; none with one.
   struct Place {
     double x;
     std::size_t point;  ///< Index among the points of the sweep.

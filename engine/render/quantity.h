@@ -96,8 +96,6 @@ struct QuantityInfo {
   Subject subject;
   RangeRule rule = RangeRule::None;
   Interval range{};  ///< For RangeRule::Fixed.
-  bool has_button =
-      true;  ///< Whether it is frequent enough for a button; else it is in menus only.
 
   [[nodiscard]] bool has_scale() const { return rule != RangeRule::None; }
   /// Whether zero belongs in the middle of the colors.

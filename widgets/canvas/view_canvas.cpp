@@ -4,6 +4,7 @@
 #include "widgets/canvas/canvas_tool.h"
 
 #include <QApplication>
+#include <QContextMenuEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
@@ -39,6 +40,7 @@ void ViewCanvas::setPicture(const QImage& picture) {
   if (is_new_size) {
     zoomToFit();
     if (hovered_) emit cursorMoved(hovered_ = std::nullopt);
+    emit pictureResized();
   }
   update();
 }
@@ -372,6 +374,15 @@ void ViewCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
   } else if (event->button() == Qt::LeftButton && !picture_.isNull() && !space_held_) {
     emit centerRequested();
   }
+}
+
+// The key of menus asks for the pixel of the cross-hair.
+void ViewCanvas::contextMenuEvent(QContextMenuEvent* event) {
+  const bool is_key = event->reason() == QContextMenuEvent::Keyboard;
+  const auto pixel = is_key ? cross_hair_ : pixelAt(event->pos());
+  if (tool_ || picture_.isNull() || !pixel) return event->ignore();
+  emit menuRequested(*pixel,
+                     is_key ? mapToGlobal(positionOf(*pixel).toPoint()) : event->globalPos());
 }
 
 void ViewCanvas::leaveEvent(QEvent*) {

@@ -118,11 +118,15 @@ class ViewCanvas : public QWidget {
   void ensureVisible(episcope::PixelIndex pixel);
 
  signals:
+  /// The picture has another size.
+  void pictureResized();
   void transformChanged(const episcope::CanvasTransform& transform);
   /// The user clicked a pixel.
   void crossHairRequested(episcope::PixelIndex pixel);
   void focusRequested(episcope::PixelIndex pixel);
   void centerRequested();
+  /// A menu is wanted for a pixel, at a place of the screen. Not while a tool has the mouse.
+  void menuRequested(episcope::PixelIndex pixel, QPoint place);
   /// Pixel under the mouse, or none.
   void cursorMoved(std::optional<episcope::PixelIndex> pixel);
   /// A left drag in browse mode: begin, movement since then. `views` is (du, dv), not rounded;
@@ -148,6 +152,7 @@ class ViewCanvas : public QWidget {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void tabletEvent(QTabletEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;

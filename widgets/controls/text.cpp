@@ -91,6 +91,13 @@ QString value_text(const ParameterDescription& description, const ParameterValue
   return with_unit(QString::fromStdString(to_text(value)), description.unit);
 }
 
+QString labeled_value_text(const std::vector<ParameterDescription>& descriptions,
+                           const std::string& key, const ParameterValue& value) {
+  const auto found = std::ranges::find(descriptions, key, &ParameterDescription::key);
+  if (found == descriptions.end()) return QString::fromStdString(key + " " + to_text(value));
+  return QStringLiteral("%1 %2").arg(schema_text(found->label), value_text(*found, value));
+}
+
 QString domain_text(const ParameterDescription& description) {
   const ParameterValue& value = description.default_value;
   const bool has_domain = std::holds_alternative<int>(value) ||

@@ -37,6 +37,10 @@ inline constexpr QChar kMinus(0x2212);
 [[nodiscard]] QString value_text(const ParameterDescription& description,
                                  const ParameterValue& value);
 
+/// "Inner scale 0.8 px", as the form names it; key and value if it is not described.
+[[nodiscard]] QString labeled_value_text(const std::vector<ParameterDescription>& descriptions,
+                                         const std::string& key, const ParameterValue& value);
+
 /// Domain of a number or an interval, "0 … 10 px"; empty for other types.
 [[nodiscard]] QString domain_text(const ParameterDescription& description);
 

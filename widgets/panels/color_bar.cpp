@@ -32,6 +32,11 @@ NumberSpin* make_end(const char* name, const QString& tip, QWidget* parent) {
   return spin;
 }
 
+QString swatch_text(const Rgb& color, const QString& text) {
+  return QString("<span style='background:%1'>&nbsp;&nbsp;&nbsp;</span>&nbsp;%2")
+      .arg(QColor(color[0], color[1], color[2]).name(), text.toHtmlEscaped());
+}
+
 }  // namespace
 
 ColorBar::ColorBar(QWidget* parent)
@@ -40,6 +45,7 @@ ColorBar::ColorBar(QWidget* parent)
       ramp_(new ColorRamp(this)),
       min_(make_end("colorBar.min", tr("Lower end of the range"), this)),
       max_(make_end("colorBar.max", tr("Upper end of the range"), this)),
+      swatches_(new QLabel(this)),
       invalid_(new QLabel(this)),
       lock_(make_tool_button(
           {"colorBar.lock", "unlock", tr("Lock the range: it stays when the result changes")},
@@ -51,7 +57,12 @@ ColorBar::ColorBar(QWidget* parent)
   title_->setObjectName("colorBar.title");
   title_->setTextInteractionFlags(Qt::NoTextInteraction);
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  swatches_->setObjectName("colorBar.swatches");
+  swatches_->setTextFormat(Qt::RichText);
+  swatches_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  swatches_->hide();
   invalid_->setObjectName("colorBar.invalid");
+  invalid_->setTextFormat(Qt::RichText);
   invalid_->setToolTip(tr("Color of pixels without a value"));
   lock_->setCheckable(true);
 
@@ -71,6 +82,7 @@ ColorBar::ColorBar(QWidget* parent)
   layout->setVerticalSpacing(3);
   layout->addWidget(title_, 0, 0);
   layout->addWidget(ramp_, 1, 0);
+  layout->addWidget(swatches_, 1, 0);
   layout->addLayout(ends, 2, 0);
   layout->addLayout(foot, 3, 0);
 
@@ -85,8 +97,8 @@ void ColorBar::setShading(const QString& title, const QString& unit,
                           const render::Shading& shading) {
   const QSignalBlocker min_blocker(min_);
   const QSignalBlocker max_blocker(max_);
-  title_->setText(unit.isEmpty() ? title : tr("%1 [%2]").arg(title, unit));
-  title_->setToolTip(title_->text());
+  setTitle(unit.isEmpty() ? title : tr("%1 [%2]").arg(title, unit));
+  setRampShown(true);
   // Three digits that say something, whatever the range.
   const double reach = std::max(std::abs(shading.range.min), std::abs(shading.range.max));
   const int decimals =
@@ -98,10 +110,30 @@ void ColorBar::setShading(const QString& title, const QString& unit,
   min_->setValue(shading.range.min);
   max_->setValue(shading.range.max);
   ramp_->setShading(shading);
-  const auto [red, green, blue] = shading.map.invalid;
-  invalid_->setTextFormat(Qt::RichText);
-  invalid_->setText(QString("<span style='background:%1'>&nbsp;&nbsp;&nbsp;</span>&nbsp;%2")
-                        .arg(QColor(red, green, blue).name(), tr("invalid")));
+  invalid_->setText(swatch_text(shading.map.invalid, tr("invalid")));
+}
+
+void ColorBar::setSwatches(const QString& title, const std::vector<Swatch>& swatches,
+                           const Rgb& invalid) {
+  setTitle(title);
+  setRampShown(false);
+  QStringList lines;
+  for (const Swatch& each : swatches) lines << swatch_text(each.color, each.text);
+  swatches_->setText(lines.join("<br>"));
+  invalid_->setText(swatch_text(invalid, tr("invalid")));
+}
+
+void ColorBar::setTitle(const QString& title) {
+  title_->setText(title);
+  title_->setToolTip(title);
+}
+
+void ColorBar::setRampShown(bool is_shown) {
+  for (QWidget* each :
+       std::initializer_list<QWidget*>{ramp_, min_, max_, lock_, automatic_, own_}) {
+    each->setVisible(is_shown);
+  }
+  swatches_->setVisible(!is_shown);
 }
 
 void ColorBar::setMarker(double value) {

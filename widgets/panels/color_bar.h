@@ -6,6 +6,8 @@
 #include <QString>
 #include <QWidget>
 
+#include <vector>
+
 class QAction;
 class QLabel;
 class QToolButton;
@@ -15,8 +17,9 @@ namespace episcope {
 class ColorRamp;
 class NumberSpin;
 
-/// Legend of an overlay: name and unit, the color map between two editable limits, the color of
-/// invalid pixels, a lock, and a button for the automatic range. Setters never emit.
+/// Legend of an overlay: name and unit, the color map between two editable limits or the colors of
+/// a few classes, the color of invalid pixels, a lock, and a button for the automatic range.
+/// Setters never emit.
 class ColorBar : public QWidget {
   Q_OBJECT
 
@@ -24,6 +27,12 @@ class ColorBar : public QWidget {
   explicit ColorBar(QWidget* parent = nullptr);
 
   void setShading(const QString& title, const QString& unit, const render::Shading& shading);
+  /// Shows colors with their meanings instead of a ramp: for maps of classes.
+  struct Swatch {
+    Rgb color{};
+    QString text;
+  };
+  void setSwatches(const QString& title, const std::vector<Swatch>& swatches, const Rgb& invalid);
   /// Marks a value on the ramp, e.g. at the cursor; NaN = none.
   void setMarker(double value);
   void setRangeLocked(bool locked);
@@ -43,11 +52,14 @@ class ColorBar : public QWidget {
 
  private:
   void editRange();
+  void setTitle(const QString& title);
+  void setRampShown(bool is_shown);
 
   QLabel* title_;
   ColorRamp* ramp_;
   NumberSpin* min_;
   NumberSpin* max_;
+  QLabel* swatches_;
   QLabel* invalid_;
   QToolButton* lock_;
   QToolButton* automatic_;

@@ -2,6 +2,7 @@
 #include "app/gui/annotate/label_exchange.h"
 
 #include "annotation/exchange.h"
+#include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"

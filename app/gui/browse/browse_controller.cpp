@@ -19,6 +19,7 @@
 #include "widgets/panels/view_grid.h"
 
 #include <QAction>
+#include <QMenu>
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +116,7 @@ void BrowseController::connectCanvas() {
   });
   connect(canvas, &ViewCanvas::focusRequested, this, &BrowseController::focusAt);
   connect(canvas, &ViewCanvas::centerRequested, this, &BrowseController::goToCenter);
+  connect(canvas, &ViewCanvas::menuRequested, this, &BrowseController::showMenu);
   connect(canvas, &ViewCanvas::parallaxStarted, this,
           [this] { parallax_start_ = session_.view(); });
   connect(canvas, &ViewCanvas::parallaxDragged, this, [this](QPointF views) {
@@ -126,6 +128,37 @@ void BrowseController::connectCanvas() {
   // The canvas hears Space itself, which also pans.
   connect(canvas, &ViewCanvas::spaceTapped, this,
           [this] { bench_.commands.trigger(bench_.commands.userOf(Qt::Key_Space)); });
+}
+
+void BrowseController::showMenu(PixelIndex pixel, QPoint place) {
+  if (viewer_area_.isPreviewing()) return;
+  auto* menu = new QMenu(&bench_.window);
+  menu->setObjectName("view.menu");
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  menu->addAction(tr("Focus here"), this, [this, pixel] { focusAt(pixel); })
+      ->setObjectName("view.menu.focus");
+  menu->addAction(tr("Measure here"), this, [this, pixel] { measureAt(pixel); })
+      ->setObjectName("view.menu.measure");
+  for (const char* id : {"view.center", "", "file.save_picture", "file.save_map", "", "view.tone",
+                         "view.auto_tone"}) {
+    if (*id == '\0') {
+      menu->addSeparator();
+    } else {
+      menu->addAction(bench_.commands.find(id));
+    }
+  }
+  menu->popup(place);
+}
+
+// The lines of a pixel are those of the EPIs through it.
+void BrowseController::measureAt(PixelIndex pixel) {
+  session_.set_cross_hair(pixel);
+  bench_.frame.showTab("measure");
+  const QString key = bench_.commands.keyText("measure.keep");
+  bench_.messages.hint(
+      key.isEmpty()
+          ? tr("Drag along a line of an EPI to measure its disparity.")
+          : tr("Drag along a line of an EPI to measure its disparity; %1 keeps it.").arg(key));
 }
 
 void BrowseController::connectEpis() {

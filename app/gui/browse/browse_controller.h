@@ -47,6 +47,8 @@ class BrowseController : public QObject {
                const QList<QKeySequence>& keys, void (ViewCanvas::*zoom)());
   void addFocusCommands();
   void connectCanvas();
+  void showMenu(PixelIndex pixel, QPoint place);
+  void measureAt(PixelIndex pixel);
   void connectEpis();
   void update(Parts parts);
   void setPreviewing(bool is_previewing);

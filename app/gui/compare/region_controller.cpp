@@ -46,12 +46,10 @@ RegionPtr mask_where(const LightField& light_field, IsInside is_inside) {
 
 RegionController::RegionController(const Workbench& bench, RegionBar* bar)
     : QObject(&bench.owner), bench_(bench), bar_(bar), tool_(new RectangleTool(this)) {
-  bar_->setParts({tr("Whole view"), tr("Rectangle"), tr("Current label"),
-                  tr("Where all results have values"), tr("Mask of a file…")});
+  listParts();
   addCommands(*bar);
   connectTool();
-  connect(bar_, &RegionBar::partChosen, this,
-          [this](int part) { choose(static_cast<JudgedPixels>(part)); });
+  connect(bar_, &RegionBar::partChosen, this, &RegionController::choosePart);
   connect(&bench.labels, &LabelChoice::changed, this, [this] {
     if (now().pixels == JudgedPixels::Label) refresh();
   });
@@ -142,6 +140,37 @@ void RegionController::endRectangle() {
   bench_.messages.retract(rectangle_hint());
 }
 
+// Rows before those of region masks are in the order of JudgedPixels.
+void RegionController::listParts() {
+  regions_.clear();
+  QStringList names{tr("Whole view"), tr("Rectangle"), tr("Current label"),
+                    tr("Where all results have values"), tr("Mask of a file…")};
+  if (const auto& scene = bench_.session.scene()) {
+    for (const auto& [name, mask] : scene->truth->regions) {
+      regions_.push_back(name);
+      names << tr("Region: %1").arg(QString::fromStdString(name).replace('_', ' '));
+    }
+  }
+  bar_->setParts(names);
+}
+
+void RegionController::choosePart(int row) {
+  const int region = row - static_cast<int>(JudgedPixels::Region);
+  if (region < 0) return choose(static_cast<JudgedPixels>(row));
+  JudgedPart part = now();
+  part.pixels = JudgedPixels::Region;
+  part.region = regions_[static_cast<std::size_t>(region)];
+  set(part);
+  refresh();
+}
+
+int RegionController::rowOfPart() const {
+  const auto first = static_cast<int>(JudgedPixels::Region);
+  if (now().pixels != JudgedPixels::Region) return static_cast<int>(now().pixels);
+  const auto found = std::ranges::find(regions_, now().region);
+  return found == regions_.end() ? 0 : first + static_cast<int>(found - regions_.begin());
+}
+
 void RegionController::choose(JudgedPixels pixels) {
   if (pixels == JudgedPixels::Mask) {
     askForMask();
@@ -230,7 +259,10 @@ void RegionController::update(Parts parts) {
   const bool is_new = parts.has(Part::Scene) ||
                       (pixels == JudgedPixels::Common && parts.has(Part::Estimates)) ||
                       (pixels == JudgedPixels::Label && parts.has(Part::Labels));
-  if (parts.has(Part::Scene)) endRectangle();
+  if (parts.has(Part::Scene)) {
+    endRectangle();
+    listParts();
+  }
   if (is_new) {
     refresh();
   } else if (parts.has(Part::View)) {
@@ -250,6 +282,8 @@ RegionPtr RegionController::makeRegion() {
       return commonRegion();
     case JudgedPixels::Mask:
       return maskRegion();
+    case JudgedPixels::Region:
+      return truthRegion();
     case JudgedPixels::Rectangle:
       return mask_where(*light_field, [r = clipped(now().rectangle)](int y, int x) {
         return y >= r.y0 && y < r.y1 && x >= r.x0 && x < r.x1;
@@ -263,6 +297,19 @@ RegionPtr RegionController::maskRegion() {
   const std::uint64_t scene = bench_.session.generation();
   readMask(scene, now().mask);
   return masks_[scene].pixels;
+}
+
+// A light field that lost its masks is evaluated everywhere.
+RegionPtr RegionController::truthRegion() const {
+  const auto& regions = bench_.session.scene()->truth->regions;
+  const auto found = regions.find(now().region);
+  const LightField& light_field = *bench_.session.light_field();
+  if (found == regions.end() || found->second.height() != light_field.height() ||
+      found->second.width() != light_field.width()) {
+    return nullptr;
+  }
+  return mask_where(light_field,
+                    [&mask = found->second](int y, int x) { return mask.at(y, x) != 0; });
 }
 
 // Pixels of the segmentation of the evaluated view, or of its strokes without a segmentation.
@@ -298,7 +345,7 @@ RegionPtr RegionController::commonRegion() const {
 
 void RegionController::refresh() {
   region_ = makeRegion();
-  bar_->setCurrent(static_cast<int>(now().pixels));
+  bar_->setCurrent(rowOfPart());
   const auto count = region_ ? std::count_if(region_->data(), region_->data() + region_->size(),
                                              [](std::uint8_t inside) { return inside != 0; })
                              : 0;
@@ -331,6 +378,9 @@ QString RegionController::name() const {
       return tr("where all results have values");
     case JudgedPixels::Mask:
       return tr("mask %1").arg(QFileInfo(QString::fromStdString(now().mask)).fileName());
+    case JudgedPixels::Region:
+      if (region_) return tr("region %1").arg(QString::fromStdString(now().region));
+      break;
     case JudgedPixels::Whole:
       break;
   }

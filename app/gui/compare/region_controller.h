@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace episcope {
 
@@ -24,7 +25,8 @@ class RegionBar;
 using RegionPtr = std::shared_ptr<const Image<std::uint8_t>>;
 
 /// Chooses the region that metrics evaluate, per open light field: the whole view, a rectangle, the
-/// current label, the pixels with a value in every result, or a mask file.
+/// current label, the pixels with a value in every result, a region mask of the ground truth, or a
+/// mask file.
 class RegionController : public QObject {
   Q_OBJECT
 
@@ -52,6 +54,8 @@ class RegionController : public QObject {
 
   void addCommands(RegionBar& bar);
   void connectTool();
+  void listParts();
+  void choosePart(int row);
   void choose(JudgedPixels pixels);
   void askForMask();
   void readMask(std::uint64_t scene, const std::string& path);
@@ -65,6 +69,8 @@ class RegionController : public QObject {
   void set(const JudgedPart& part);
   [[nodiscard]] RegionPtr makeRegion();
   [[nodiscard]] RegionPtr maskRegion();
+  [[nodiscard]] RegionPtr truthRegion() const;
+  [[nodiscard]] int rowOfPart() const;
   [[nodiscard]] RegionPtr labelRegion() const;
   [[nodiscard]] RegionPtr commonRegion() const;
   [[nodiscard]] PixelRect clipped(PixelRect rectangle) const;
@@ -74,6 +80,7 @@ class RegionController : public QObject {
   RectangleTool* tool_;
   CanvasTool* former_tool_ = nullptr;
   std::map<std::uint64_t, Mask> masks_;  // by scene
+  std::vector<std::string> regions_;     // of the ground truth, in the list behind the others
   RegionPtr region_;
 };
 

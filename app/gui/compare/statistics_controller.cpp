@@ -192,10 +192,10 @@ ErrorPlotController::ErrorPlotController(const Workbench& bench, const RegionCon
       job_(this) {
   bench.frame.addTab({.id = kTab,
                       .title = tr("Errors"),
+                      .task = "compare",
                       .command_text = tr("Errors tab"),
                       .command_tip = tr("Plots errors against the true disparity"),
                       .widget = panel_,
-                      .waits = true,
                       .key = tr("Ctrl+Alt+B")});
   connect(&bench.frame, &Frame::tabShown, this, &ErrorPlotController::update);
   connect(&region, &RegionController::changed, this, &ErrorPlotController::update);

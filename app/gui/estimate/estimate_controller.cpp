@@ -82,12 +82,20 @@ std::vector<MethodDescription> described_methods() {
   return methods;
 }
 
+QString named_value(const Estimate& estimate, const std::string& key, const ParameterValue& value) {
+  static const std::vector<ParameterDescription> kNone;
+  const auto methods = registered_estimators();
+  const auto found = std::ranges::find_if(
+      methods, [&](const Estimator& each) { return each.info.id == estimate.method; });
+  return labeled_value_text(found == methods.end() ? kNone : found->parameters, key, value);
+}
+
 // Distinguishes this run: whether it ended early, and its changed parameters.
 QString parameter_text(const Estimate& estimate) {
   QStringList texts;
   if (was_taken_early(estimate)) texts << EstimateController::tr("ended early");
   for (const auto& [key, value] : changed_parameters(estimate.method, estimate.parameters)) {
-    texts << QString::fromStdString(key + " " + to_text(value));
+    texts << named_value(estimate, key, value);
   }
   if (!texts.isEmpty()) return texts.join(", ");
   return estimate.parameters.empty() ? QString() : EstimateController::tr("defaults");
@@ -103,7 +111,7 @@ QString detail_text(const Estimate& estimate) {
                  .arg(number_text(estimate.range.min, 2), number_text(estimate.range.max, 2));
   }
   for (const auto& [key, value] : estimate.parameters) {
-    lines << QString::fromStdString(key + " " + to_text(value));
+    lines << named_value(estimate, key, value);
   }
   for (const std::string& note : estimate.notes) lines << with_minus(QString::fromStdString(note));
   return lines.join('\n');
@@ -118,6 +126,7 @@ EstimateController::EstimateController(const Workbench& bench)
   add_measured_range(bench_, method_);
   new MethodRange(bench_, *method_);
   method_->setMethods(described_methods());
+  addFindings();
   new LiveController(bench, *method_);
   new SweepController(bench, *method_);
   connect(method_, &MethodPanel::runRequested, this,
@@ -144,6 +153,21 @@ void EstimateController::runFirst(const QString& input) {
   if (is_settled_ && !id.empty() && !is_gantry(id)) run({kFirstMethod, {}, {}});
 }
 
+void EstimateController::addFindings() {
+  bench_.commands.addFindings([this] {
+    std::vector<Finding> found;
+    for (const MethodDescription& each : described_methods()) {
+      found.push_back(
+          {tr("Method: %1").arg(QString::fromStdString(each.name)), schema_text(each.summary),
+           QString::fromStdString(each.id + ' ' + each.reference), [this, id = each.id] {
+             bench_.frame.showTab("estimate");
+             method_->setCurrentMethod(id);
+           }});
+    }
+    return found;
+  });
+}
+
 void EstimateController::addTab() {
   auto* tab = new FittingSplitter(kLeastResults, &bench_.frame);
   method_ = new MethodPanel(tab);
@@ -152,6 +176,7 @@ void EstimateController::addTab() {
   tab->addWidget(results_);
   bench_.frame.addTab({.id = "estimate",
                        .title = tr("Estimate"),
+                       .page = tr("Method"),
                        .command_text = tr("Estimate tab"),
                        .command_tip = tr("Shows methods and results"),
                        .widget = tab});

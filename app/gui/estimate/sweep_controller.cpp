@@ -158,10 +158,10 @@ void SweepController::addTab() {
   panel_ = new SweepPanel(&bench_.frame);
   bench_.frame.addTab({.id = "sweep",
                        .title = tr("Sweep"),
+                       .task = "estimate",
                        .command_text = tr("Sweep tab"),
                        .command_tip = tr("Tries values of one or two parameters of the method"),
                        .widget = panel_,
-                       .waits = true,
                        .key = QKeySequence()});  // “Sweep parameters…” has one
   bench_.commands.add({.id = "sweep.save",
                        .menu = Menu::Export,
@@ -507,6 +507,13 @@ std::span<const Measured> measures_of(const Sweep& sweep) {
 // NaN where there is none, which is not drawn.
 using Value = std::function<std::optional<double>(std::size_t point)>;
 
+// As the form names the second parameter; empty with one.
+QString line_name(const Sweep& sweep, const SweepLine& line) {
+  if (!line.second) return {};
+  return labeled_value_text(find_estimator(sweep.base.method).parameters, sweep.swept[1].key,
+                            *line.second);
+}
+
 void add_line(SweepChart& chart, const SweepLine& line, const QString& name,
               std::optional<std::size_t> scene, const Value& value) {
   PlotSeries& series = chart.plot.series.emplace_back();
@@ -523,7 +530,8 @@ void add_scene(SweepChart& chart, const Sweep& sweep, std::size_t place, SweepMe
   const SweepScene& scene = sweep.scenes[place];
   const auto value = [&](std::size_t point) { return measure_of(scene.points[point], measure); };
   for (const SweepLine& line : lines_of(scene.points, sweep.swept)) {
-    add_line(chart, line, QString::fromStdString(is_named ? scene.name : line.name), place, value);
+    const QString name = is_named ? QString::fromStdString(scene.name) : line_name(sweep, line);
+    add_line(chart, line, name, place, value);
   }
 }
 
@@ -533,7 +541,7 @@ void add_mean(SweepChart& chart, const Sweep& sweep, SweepMeasure measure) {
   const std::vector<SweepPoint> common(all.begin(), all.begin() + count);
   const auto value = [&](std::size_t point) { return mean_of(sweep.scenes, point, measure); };
   for (const SweepLine& line : lines_of(common, sweep.swept)) {
-    const QString name = QString::fromStdString(line.name);
+    const QString name = line_name(sweep, line);
     add_line(chart, line, name.isEmpty() ? SweepPlotText::tr("Mean") : name, std::nullopt, value);
   }
 }
@@ -596,9 +604,15 @@ std::optional<PlotPlace> place_in(const SweepChart& chart, SweepPlace point) {
 }
 
 QString title_of(const Sweep& sweep) {
-  const std::string keys = joined(sweep.swept, ", ", [](const auto& each) { return each.key; });
-  const QString what =
-      QString::fromStdString(find_estimator(sweep.base.method).info.name + ", " + keys);
+  const Estimator& estimator = find_estimator(sweep.base.method);
+  QStringList parts{QString::fromStdString(estimator.info.name)};
+  for (const SweptParameter& each : sweep.swept) {
+    const auto found =
+        std::ranges::find(estimator.parameters, each.key, &ParameterDescription::key);
+    parts << (found == estimator.parameters.end() ? QString::fromStdString(each.key)
+                                                  : schema_text(found->label));
+  }
+  const QString what = parts.join(", ");
   if (sweep.scenes.size() > 1)
     return SweepPlotText::tr("%1 · %2 light fields").arg(what).arg(sweep.scenes.size());
   return sweep.scenes.empty()
@@ -617,7 +631,12 @@ QString text_of(const Sweep& sweep, SweepPlace place) {
   const SweepPoint& point = scene.points[place.point];
   QStringList texts;
   if (sweep.scenes.size() > 1) texts << QString::fromStdString(scene.name);
-  texts << QString::fromStdString(name_of(sweep, point));
+  const Estimator& estimator = find_estimator(sweep.base.method);
+  QStringList parts{QString::fromStdString(estimator.info.name)};
+  for (const auto& [key, value] : point.point) {
+    parts << labeled_value_text(estimator.parameters, key, value);
+  }
+  texts << parts.join(", ");
   if (!point.problem.empty()) texts << QString::fromStdString(point.problem);
   if (const auto mse = measure_of(point, SweepMeasure::MseTimes100)) {
     texts << SweepPlotText::tr("MSE×100 %1").arg(number_text(*mse, 3));

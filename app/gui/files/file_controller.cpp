@@ -162,6 +162,15 @@ FileController::FileController(const Workbench& bench)
   addSaveCommand();
   addLeaveCommands();
   fillRecentMenu();
+  bench.commands.addFindings([this] {
+    std::vector<Finding> found;
+    for (const QString& input : recent_inputs()) {
+      found.push_back({tr("Recent: %1").arg(input), tr("Opens it again"), {}, [this, input] {
+                         bench_.opener.open(input);
+                       }});
+    }
+    return found;
+  });
   new StartStrip(bench, recent_menu_);
   bench.window.setAcceptDrops(true);
   bench.window.installEventFilter(this);

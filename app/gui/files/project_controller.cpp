@@ -457,6 +457,16 @@ void SceneChooser::addCommands() {
                        .run = [this] { bench_.scenes.step(-1); },
                        .section = section::kTabs,
                        .enabled = has_several});
+  bench_.commands.addFindings([this] {
+    std::vector<Finding> found;
+    for (const OpenScene* scene : bench_.session.scenes()) {
+      found.push_back({tr("Open light field: %1").arg(QString::fromStdString(scene->name)),
+                       tr("Shows it: %1").arg(QString::fromStdString(scene->input)),
+                       {},
+                       [this, id = scene->id] { bench_.scenes.show(id); }});
+    }
+    return found;
+  });
 }
 
 void SceneChooser::fill() {

@@ -3,6 +3,7 @@
 
 #include "app/gui/shell/jobs.h"
 #include "engine/core/parallel.h"
+#include "engine/evaluation/metrics.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
@@ -324,8 +325,26 @@ void Overlay::showScale(const MapChoice& choice) const {
   ColorBar* scale = viewer_area_.colorBar();
   scale->setVisible(has_scale);
   if (!has_scale) return;
+  if (choice.quantity == Quantity::BadPixels || choice.quantity == Quantity::WrongLabels) {
+    return showClasses(choice.quantity);
+  }
   scale->setShading(quantity_label(choice.quantity), quantity_unit(choice.quantity),
                     shadingOf(choice.quantity));
+}
+
+// Of maps with two values, a ramp of colors would say nothing.
+void Overlay::showClasses(Quantity quantity) const {
+  const render::Shading shading = shadingOf(quantity);
+  const auto color_of = [&shading](float value) {
+    return shading.map.color(value, shading.range.min, shading.range.max);
+  };
+  const bool is_of_labels = quantity == Quantity::WrongLabels;
+  const QString threshold = number_text(session_.bad_threshold_px(), 2);
+  viewer_area_.colorBar()->setSwatches(
+      quantity_label(quantity),
+      {{color_of(kGoodPixel), is_of_labels ? tr("right") : tr("≤ %1 px").arg(threshold)},
+       {color_of(kBadPixel), is_of_labels ? tr("wrong") : tr("> %1 px").arg(threshold)}},
+      shading.map.invalid);
 }
 
 void Overlay::showCaption(const MapChoice& choice) const {

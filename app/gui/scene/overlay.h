@@ -156,6 +156,7 @@ class Overlay : public QObject {
   void draw();
   void drawMap(const MapChoice& choice);
   void showScale(const MapChoice& choice) const;
+  void showClasses(render::Quantity quantity) const;
   void showCaption(const MapChoice& choice) const;
 
   Session& session_;

@@ -15,6 +15,7 @@
 #include <QStackedLayout>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -26,6 +27,12 @@ constexpr int kCanvasWidth = 600;
 constexpr int kCanvasHeight = 500;
 constexpr int kEpiWidth = 145;  // and of the legend under it
 constexpr int kEpiHeight = 92;
+constexpr int kEpiShare = 6;  // of the room at most that an EPI takes by itself
+
+// What an EPI gets of `room` while the view needs `wanted` of it.
+int epi_size(int room, int least, int wanted) {
+  return std::clamp(room - wanted, least, std::max(least, room / kEpiShare));
+}
 
 /// Tells of each new size once its parts are in their places.
 class ToldSplitter : public QSplitter {
@@ -113,13 +120,44 @@ void ViewerArea::arrange() {
     splitter->setStretchFactor(0, 1);  // what a larger window gives belongs to the view
     splitter->setStretchFactor(1, 0);
     if (splitter != rows_) splitter->setSizes({kCanvasWidth, kEpiWidth});
+    set_divided_by_itself(*splitter, true);
   }
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(rows_);
 }
 
+void ViewerArea::fitEpis() {
+  const QSize picture = canvas_->picture().size();
+  if (picture.isEmpty() || center_->currentWidget() != canvas_) return;
+  const int height = rows_->height() - rows_->handleWidth();
+  const int width = upper_->width() - upper_->handleWidth();
+  const auto wanted = [](int other, int other_side, int side) { return other * side / other_side; };
+  const int epi_width =
+      epi_size(width, kEpiWidth, wanted(height - kEpiHeight, picture.height(), picture.width()));
+  const int epi_height =
+      epi_size(height, kEpiHeight, wanted(width - epi_width, picture.width(), picture.height()));
+  if (is_divided_by_itself(*rows_) && lower_->isVisible()) {
+    rows_->setSizes({height - epi_height, epi_height});
+  }
+  if (!is_divided_by_itself(*upper_) || !vertical_place_->isVisible()) return;
+  upper_->setSizes({width - epi_width, epi_width});
+  align(*lower_, *upper_, *vertical_place_);
+}
+
+void ViewerArea::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  fitEpis();
+}
+
 void ViewerArea::alignColumns() {
+  for (QSplitter* splitter : {rows_, upper_, lower_}) {
+    connect(splitter, &QSplitter::splitterMoved, this, [this, splitter] {
+      set_divided_by_itself(*splitter, false);
+      if (splitter != rows_) set_divided_by_itself(*upper_, false);
+    });
+  }
+  connect(canvas_, &ViewCanvas::pictureResized, this, &ViewerArea::fitEpis);
   connect(lower_, &QSplitter::splitterMoved, this, [this] { upper_->setSizes(lower_->sizes()); });
   vertical_place_->installEventFilter(this);
 }

@@ -19,7 +19,8 @@ class TileWall;
 class ViewCanvas;
 
 /// Where the light field is seen: the view, the vertical EPI beside it, the horizontal EPI below
-/// and the legend between, in adjustable sizes. A wall of tiles or a guest can replace view and
+/// and the legend between, in adjustable sizes. Until the user drags between them, the EPIs also
+/// take room that would be dark around the view. A wall of tiles or a guest can replace view and
 /// vertical EPI. While a preview is on the canvas, nothing else is drawn there.
 class ViewerArea : public QWidget {
   Q_OBJECT
@@ -44,6 +45,8 @@ class ViewerArea : public QWidget {
   /// Shows canvas or wall again. The guest stays a hidden child.
   void releaseGuest();
   [[nodiscard]] QWidget* guest() const { return guest_; }
+  /// Divides the room between view and EPIs anew, unless the user did.
+  void fitEpis();
   /// Adds the EPIs to the panes that can be detached.
   void addPanesTo(Panes& panes);
 
@@ -73,6 +76,7 @@ class ViewerArea : public QWidget {
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void arrange();

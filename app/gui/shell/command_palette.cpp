@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/shell/command_palette.h"
 
-#include "app/gui/shell/commands.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
 #include <QAction>
+#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kPaletteWidth = 520;
 constexpr int kHeight = 320;
-constexpr int kActionIdRole = Qt::UserRole;
+constexpr int kEntryRole = Qt::UserRole;
 
 // Every typed word occurs somewhere, in any order.
 bool matches(const QString& haystack, const QString& text) {
@@ -35,6 +35,56 @@ bool matches(const QString& haystack, const QString& text) {
   return std::all_of(words.begin(), words.end(), [&](const QString& word) {
     return haystack.contains(word, Qt::CaseInsensitive);
   });
+}
+
+struct Synonyms {
+  const char* id;  // of a command; with a dot or underscore at the end, of all that begin so
+  const char* words;
+};
+
+// Words that other programs use.
+constexpr Synonyms kSynonyms[] = {
+    {"file.open", QT_TRANSLATE_NOOP("episcope::Synonyms", "load import directory")},
+    {"file.builtin", QT_TRANSLATE_NOOP("episcope::Synonyms", "example sample synthetic")},
+    {"file.conventions", QT_TRANSLATE_NOOP("episcope::Synonyms", "settings options crop order")},
+    {"file.save_picture", QT_TRANSLATE_NOOP("episcope::Synonyms", "screenshot image save")},
+    {"file.save_map", QT_TRANSLATE_NOOP("episcope::Synonyms", "image heat map save")},
+    {"file.save_movie", QT_TRANSLATE_NOOP("episcope::Synonyms", "video animation save")},
+    {"file.export", QT_TRANSLATE_NOOP("episcope::Synonyms", "save depth point cloud")},
+    {"file.save_metrics_csv",
+     QT_TRANSLATE_NOOP("episcope::Synonyms", "scores errors spreadsheet save")},
+    {"file.save_metrics_tex", QT_TRANSLATE_NOOP("episcope::Synonyms", "scores errors paper save")},
+    {"cloud.export", QT_TRANSLATE_NOOP("episcope::Synonyms", "point cloud mesh save")},
+    {"view.actual_size", QT_TRANSLATE_NOOP("episcope::Synonyms", "zoom percent original")},
+    {"view.fit", QT_TRANSLATE_NOOP("episcope::Synonyms", "zoom whole window")},
+    {"view.tone", QT_TRANSLATE_NOOP("episcope::Synonyms", "contrast dark light levels")},
+    {"view.play", QT_TRANSLATE_NOOP("episcope::Synonyms", "parallax animate movie")},
+    {"view.focus_", QT_TRANSLATE_NOOP("episcope::Synonyms", "refocus shear slope")},
+    {"view.refocus", QT_TRANSLATE_NOOP("episcope::Synonyms", "shift sum synthetic aperture")},
+    {"overlay.", QT_TRANSLATE_NOOP("episcope::Synonyms", "overlay heat map")},
+    {"overlay.disparity", QT_TRANSLATE_NOOP("episcope::Synonyms", "depth")},
+    {"overlay.truth", QT_TRANSLATE_NOOP("episcope::Synonyms", "reference depth")},
+    {"overlay.bad_pixels", QT_TRANSLATE_NOOP("episcope::Synonyms", "outliers")},
+    {"compare.wipe", QT_TRANSLATE_NOOP("episcope::Synonyms", "split curtain swipe")},
+    {"compare.flip", QT_TRANSLATE_NOOP("episcope::Synonyms", "blink toggle")},
+    {"compare.difference", QT_TRANSLATE_NOOP("episcope::Synonyms", "subtract minus")},
+    {"compare.tiles", QT_TRANSLATE_NOOP("episcope::Synonyms", "grid gallery")},
+    {"annotate.brush", QT_TRANSLATE_NOOP("episcope::Synonyms", "paint draw scribble pen")},
+    {"annotate.eraser", QT_TRANSLATE_NOOP("episcope::Synonyms", "rubber delete")},
+    {"theme.dark", QT_TRANSLATE_NOOP("episcope::Synonyms", "night mode")},
+    {"help.keys", QT_TRANSLATE_NOOP("episcope::Synonyms", "shortcuts hotkeys bindings")},
+    {"help.manual", QT_TRANSLATE_NOOP("episcope::Synonyms", "documentation guide")}};
+
+QString synonyms_of(const QString& id) {
+  QStringList words;
+  for (const Synonyms& each : kSynonyms) {
+    const QString known(each.id);
+    const bool is_group = known.endsWith('.') || known.endsWith('_');
+    if (is_group ? id.startsWith(known) : id == known) {
+      words << QCoreApplication::translate("episcope::Synonyms", each.words);
+    }
+  }
+  return words.join(' ');
 }
 
 }  // namespace
@@ -46,11 +96,11 @@ CommandPalette::CommandPalette(const Commands& commands, QWidget* parent)
       list_(new QListWidget(this)) {
   setObjectName("command_palette");
   edit_->setObjectName("command_palette.edit");
-  edit_->setAccessibleName(tr("Name of a command"));
-  edit_->setPlaceholderText(tr("Type the name of a command"));
+  edit_->setAccessibleName(tr("Words of a command, method or light field"));
+  edit_->setPlaceholderText(tr("Type words of a command, method or light field"));
   edit_->installEventFilter(this);
   list_->setObjectName("command_palette.list");
-  list_->setAccessibleName(tr("Commands"));
+  list_->setAccessibleName(tr("What was found"));
   list_->setFocusPolicy(Qt::NoFocus);
   list_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::End, list_));
   auto* layout = new QVBoxLayout(this);
@@ -62,6 +112,7 @@ CommandPalette::CommandPalette(const Commands& commands, QWidget* parent)
 }
 
 void CommandPalette::popUp() {
+  entries_ = entries();
   edit_->clear();
   filter({});
   resize(kPaletteWidth, kHeight);
@@ -71,38 +122,62 @@ void CommandPalette::popUp() {
   edit_->setFocus();
 }
 
-// Commands that cannot run now are listed last, in grey.
+std::vector<CommandPalette::Entry> CommandPalette::entries() const {
+  std::vector<Entry> entries;
+  for (const Command& command : commands_.all()) {
+    if (command.submenu) continue;
+    QAction* action = commands_.find(command.id);
+    const QString title = QStringLiteral("%1: %2").arg(menu_path(command.menu), action->text());
+    entries.push_back(
+        {{title, command.tip, synonyms_of(command.id), [action] { action->trigger(); }},
+         action->shortcut().toString(QKeySequence::NativeText),
+         action->isEnabled()});
+  }
+  for (Finding& finding : commands_.findings()) entries.push_back({std::move(finding), {}});
+  return entries;
+}
+
+// Without a text, all that can run.
+CommandPalette::Rank CommandPalette::rankOf(const Entry& entry, const QString& text) {
+  const Finding& finding = entry.finding;
+  const bool is_named = matches(finding.title, text);
+  if (!is_named && !matches(finding.title + ' ' + finding.tip + ' ' + finding.words, text)) {
+    return Rank::None;
+  }
+  if (!entry.can_run) return text.isEmpty() ? Rank::None : Rank::CannotRun;
+  return is_named ? Rank::Name : Rank::Description;
+}
+
 void CommandPalette::filter(const QString& text) {
   list_->clear();
-  list(text, true);
-  if (!text.isEmpty()) list(text, false);
+  for (const Rank rank : {Rank::Name, Rank::Description, Rank::CannotRun}) {
+    for (const Entry& entry : entries_) {
+      if (rankOf(entry, text) == rank) add(entry);
+    }
+  }
   if (list_->count() == 0) {
-    (new QListWidgetItem(tr("No command has this name."), list_))->setFlags(Qt::NoItemFlags);
+    (new QListWidgetItem(tr("Nothing has this name or description."), list_))
+        ->setFlags(Qt::NoItemFlags);
   }
   list_->setCurrentRow(0);
 }
 
-void CommandPalette::list(const QString& text, bool can_run) {
-  for (const Command& command : commands_.all()) {
-    const QAction* action = commands_.find(command.id);
-    const QString title = QStringLiteral("%1: %2").arg(menu_path(command.menu), action->text());
-    if (action->isEnabled() != can_run || command.submenu || !matches(title, text)) continue;
-    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
-    auto* item = new QListWidgetItem(title, list_);
-    if (!can_run) item->setFlags(Qt::NoItemFlags);
-    item->setData(kActionIdRole, command.id);
-    item->setData(AsideDelegate::kAsideRole, keys);
-    item->setToolTip(command.tip);
-  }
+void CommandPalette::add(const Entry& entry) {
+  auto* item = new QListWidgetItem(entry.finding.title, list_);
+  if (!entry.can_run) item->setFlags(Qt::NoItemFlags);
+  item->setData(kEntryRole, static_cast<int>(&entry - entries_.data()));
+  item->setData(AsideDelegate::kAsideRole, entry.keys);
+  item->setToolTip(entry.finding.tip);
 }
 
 void CommandPalette::runCurrent() {
   const QListWidgetItem* item = list_->currentItem();
   if (!item || !item->flags().testFlag(Qt::ItemIsEnabled)) return;
-  QAction* action = commands_.find(item->data(kActionIdRole).toString());
+  const auto place = static_cast<std::size_t>(item->data(kEntryRole).toInt());
+  const auto run = entries_[place].finding.run;
   close();
   // After the popup is gone, so that the command finds the window in front.
-  QTimer::singleShot(0, action, &QAction::trigger);
+  QTimer::singleShot(0, parentWidget(), run);
 }
 
 bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
@@ -226,6 +301,7 @@ void ShortcutWindow::fillGestures() {
           {tr("Wheel"), tr("Zooms at the cursor")},
           {tr("Alt+wheel, Ctrl+wheel"), tr("Moves the focus plane")},
           {tr("Drag in an EPI"), tr("Draws a line and measures its disparity")},
+          {tr("Right click"), tr("Opens a menu for the pixel")},
       });
   addGestures(tr("In the view, while annotating"),
               {

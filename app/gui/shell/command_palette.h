@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/gui/shell/commands.h"
+
 #include <QDialog>
 #include <QKeySequence>
 #include <QString>
+
+#include <vector>
 
 class QKeySequenceEdit;
 class QLabel;
@@ -14,9 +18,8 @@ class QTreeWidget;
 
 namespace episcope {
 
-class Commands;
-
-/// Finds any command by typing parts of its name; Enter runs it.
+/// Finds commands, methods, open and recent light fields by words of their names, descriptions or
+/// synonyms; Enter runs, chooses or opens what was found. Those whose name matches come first.
 class CommandPalette : public QDialog {
   Q_OBJECT
 
@@ -30,11 +33,22 @@ class CommandPalette : public QDialog {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  struct Entry {
+    Finding finding;
+    QString keys;
+    bool can_run = true;
+  };
+  /// How well an entry matches; the best is 0.
+  enum class Rank { Name, Description, CannotRun, None };
+
+  [[nodiscard]] std::vector<Entry> entries() const;
+  [[nodiscard]] static Rank rankOf(const Entry& entry, const QString& text);
   void filter(const QString& text);
-  void list(const QString& text, bool can_run);
+  void add(const Entry& entry);
   void runCurrent();
 
   const Commands& commands_;
+  std::vector<Entry> entries_;  // as of the opening
   QLineEdit* edit_;
   QListWidget* list_;
 };

@@ -16,6 +16,7 @@
 #include <QWidget>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <ranges>
 
@@ -106,6 +107,16 @@ void Commands::show(const Command& command) {
 QAction* Commands::find(const QString& id) const {
   const auto found = actions_.find(id);
   return found == actions_.end() ? nullptr : found->second;
+}
+
+void Commands::addFindings(std::function<std::vector<Finding>()> list) {
+  findings_.push_back(std::move(list));
+}
+
+std::vector<Finding> Commands::findings() const {
+  std::vector<Finding> all;
+  for (const auto& list : findings_) std::ranges::move(list(), std::back_inserter(all));
+  return all;
 }
 
 bool Commands::trigger(const QString& id) {

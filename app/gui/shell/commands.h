@@ -122,6 +122,14 @@ struct Command {
   QMenu* submenu = nullptr;              ///< Opened by the entry, which then runs nothing.
 };
 
+/// Something that is found like a command: a method, an open light field.
+struct Finding {
+  QString title;
+  QString tip;
+  QString words{};  ///< That it is found by, besides those of title and tip.
+  std::function<void()> run;
+};
+
 /// The one table of commands, in order of addition. Call `refresh` after changes that `enabled`,
 /// `checked`, `visible` or `live_text` depend on.
 class Commands : public QObject {
@@ -137,6 +145,9 @@ class Commands : public QObject {
   /// Null for an unknown id.
   [[nodiscard]] QAction* find(const QString& id) const;
   [[nodiscard]] const std::vector<Command>& all() const { return commands_; }
+  /// Adds a list of what else can be found at the time of asking.
+  void addFindings(std::function<std::vector<Finding>()> list);
+  [[nodiscard]] std::vector<Finding> findings() const;
   /// Runs a command if it is enabled; returns whether it was.
   bool trigger(const QString& id);
 
@@ -187,6 +198,7 @@ class Commands : public QObject {
   QWidget* window_;
   QWidget* viewer_;
   std::vector<Command> commands_;
+  std::vector<std::function<std::vector<Finding>()>> findings_;
   std::map<QString, QAction*> actions_;
   std::map<QString, QActionGroup*> choices_;
   std::map<QString, QList<QKeySequence>> keys_;

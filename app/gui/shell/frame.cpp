@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kColumnWidth = 205;
 constexpr int kStageWidth = 720;
-constexpr int kTabsWidth = 372;
+constexpr int kTabsWidth = 384;
 
 QString pane_id(const QString& tab) {
   return "tab." + tab;
@@ -54,16 +54,14 @@ QToolButton* make_list_of_tabs(Frame& frame, QWidget* parent) {
   return button;
 }
 
-// Inserts a tab at its place and shows it.
-void put_in_book(QTabWidget& book, const std::vector<Tab>& tabs, const QString& id) {
-  int place = 0;
-  for (const Tab& each : tabs) {
-    if (each.id == id) {
-      book.setCurrentIndex(book.insertTab(place, each.widget, each.title));
-      return;
-    }
-    if (book.indexOf(each.widget) >= 0) ++place;
-  }
+void set_up(QTabWidget& book) {
+  book.setDocumentMode(true);
+  // What is not seen whole is in the list of all tabs; nothing scrolls away.
+  book.setUsesScrollButtons(false);
+  book.tabBar()->setElideMode(Qt::ElideRight);
+  // A neighbor nobody asked for might be one that lets the mouse paint.
+  book.tabBar()->setSelectionBehaviorOnRemove(QTabBar::SelectPreviousTab);
+  book.tabBar()->setContextMenuPolicy(Qt::CustomContextMenu);
 }
 
 // The tabs, and below them the stacked panes.
@@ -100,11 +98,7 @@ Frame::Frame(QWidget* parent)
   side_ = new QWidget(this);
   book_ = new QTabWidget(side_);
   book_->setObjectName("tabs");
-  book_->setDocumentMode(true);
-  book_->setUsesScrollButtons(true);
-  book_->tabBar()->setElideMode(Qt::ElideNone);
-  // A neighbor nobody asked for might be one that lets the mouse paint.
-  book_->tabBar()->setSelectionBehaviorOnRemove(QTabBar::SelectPreviousTab);
+  set_up(*book_);
   book_->setCornerWidget(make_list_of_tabs(*this, book_), Qt::TopRightCorner);
   auto* stack = new TabStack(side_);
   panes_->setStack(stack);
@@ -128,26 +122,30 @@ Frame::Frame(QWidget* parent)
   connect(book_, &QTabWidget::currentChanged, this, [this] { emit tabShown(shownTab()); });
   connect(panes_, &Panes::changed, this, [this](const QString& id) {
     for (const Tab& tab : tabs_) {
-      if (pane_id(tab.id) == id && panes_->isSeen(id)) emit tabShown(tab.id);
+      const bool has_moved = pane_id(tab.id) == id || pane_id(tab.task) == id;
+      if (has_moved && panes_->isSeen(pane_id(tab.id))) emit tabShown(tab.id);
     }
   });
-  book_->tabBar()->setContextMenuPolicy(Qt::CustomContextMenu);
-  connect(book_->tabBar(), &QTabBar::customContextMenuRequested, this,
-          [this](QPoint at) { askWhereTabGoes(book_->tabBar()->tabAt(at), at); });
-  connect(book_->tabBar(), &QTabBar::tabBarDoubleClicked, this, [this](int index) {
-    if (const Tab* tab = tabOf(book_->widget(index))) panes_->tear(pane_id(tab->id));
+  follow(*book_);
+}
+
+void Frame::follow(QTabWidget& book) {
+  connect(book.tabBar(), &QTabBar::customContextMenuRequested, this,
+          [this, &book](QPoint at) { askWhereTabGoes(book, at); });
+  connect(book.tabBar(), &QTabBar::tabBarDoubleClicked, this, [this, &book](int index) {
+    if (const Tab* tab = tabOf(book.widget(index))) panes_->tear(pane_id(tab->id));
   });
 }
 
-void Frame::askWhereTabGoes(int index, const QPoint& at) {
-  const Tab* tab = tabOf(book_->widget(index));
+void Frame::askWhereTabGoes(const QTabWidget& book, const QPoint& at) {
+  const Tab* tab = tabOf(book.widget(book.tabBar()->tabAt(at)));
   if (!tab) return;
   QMenu menu(this);
   menu.addAction(tr("In a window of its own"), this,
                  [this, id = pane_id(tab->id)] { panes_->tear(id); });
   menu.addAction(tr("Below the other tabs"), this,
                  [this, id = pane_id(tab->id)] { panes_->stack(id); });
-  menu.exec(book_->tabBar()->mapToGlobal(at));
+  menu.exec(book.tabBar()->mapToGlobal(at));
 }
 
 void Frame::addToColumn(QWidget* widget, bool stretches) {
@@ -165,29 +163,84 @@ void Frame::setViewerArea(QWidget* viewer_area) {
 
 void Frame::addTab(const Tab& tab) {
   tabs_.push_back(tab);
-  addPane(tab);
+  if (!tab.task.isEmpty()) {
+    panes_->add({pane_id(tab.id), tab.title, tab.widget,
+                 [this, id = tab.id] { putAmongPages(*findTab(id)); }});
+    pagesOf(*findTab(tab.task))->addTab(tab.widget, tab.title);
+    return;
+  }
+  QWidget* pane = tab.page.isEmpty() ? tab.widget : makePages(tab);
+  panes_->add({pane_id(tab.id), tab.title, pane, [this, id = tab.id] { putInBook(*findTab(id)); },
+               tab.widget});
   if (tab.waits) {
     // Not among the others, invisible: behind an invisible last one, Qt scrolls too far.
-    tab.widget->setParent(side_);
-    tab.widget->hide();
+    pane->setParent(side_);
+    pane->hide();
   } else {
-    book_->addTab(tab.widget, tab.title);
+    book_->addTab(pane, tab.title);
   }
 }
 
-void Frame::addPane(const Tab& tab) {
-  panes_->add({pane_id(tab.id), tab.title, tab.widget,
-               [this, id = tab.id] { put_in_book(*book_, tabs_, id); }});
+QTabWidget* Frame::makePages(const Tab& task) {
+  auto* pages = new QTabWidget(side_);
+  pages->setObjectName("pages." + task.id);
+  set_up(*pages);
+  pages->setTabBarAutoHide(true);
+  pages->addTab(task.widget, task.page);
+  pages_[task.id] = pages;
+  follow(*pages);
+  connect(pages, &QTabWidget::currentChanged, this, [this, pages] {
+    const Tab* page = tabOf(pages->currentWidget());
+    if (page && panes_->isSeen(pane_id(page->id))) emit tabShown(page->id);
+  });
+  return pages;
 }
 
+QTabWidget* Frame::pagesOf(const Tab& task) const {
+  const auto found = pages_.find(task.id);
+  return found == pages_.end() ? nullptr : found->second;
+}
+
+void Frame::putInBook(const Tab& tab) {
+  const auto pane = [this](const Tab& each) -> QWidget* {
+    return pagesOf(each) ? pagesOf(each) : each.widget;
+  };
+  int place = 0;
+  for (const Tab& each : tabs_) {
+    if (each.id == tab.id) break;
+    if (book_->indexOf(pane(each)) >= 0) ++place;
+  }
+  book_->setCurrentIndex(book_->insertTab(place, pane(tab), tab.title));
+}
+
+void Frame::putAmongPages(const Tab& page) {
+  const Tab* task = findTab(page.task);
+  QTabWidget* pages = pagesOf(*task);
+  int place = pages->indexOf(task->widget) + 1;
+  for (const Tab& each : tabs_) {
+    if (each.id == page.id) break;
+    if (each.task == page.task && pages->indexOf(each.widget) >= 0) ++place;
+  }
+  pages->insertTab(place, page.widget, page.title);
+  showTab(page.id);
+}
+
+const Tab* Frame::findTab(const QString& id) const {
+  const auto found = std::ranges::find(tabs_, id, &Tab::id);
+  return found == tabs_.end() ? nullptr : &*found;
+}
+
+// A tab with pages is known by them and by its own one.
 const Tab* Frame::tabOf(const QWidget* widget) const {
-  const auto found = std::ranges::find(tabs_, widget, &Tab::widget);
-  return widget && found != tabs_.end() ? &*found : nullptr;
+  const auto found = std::ranges::find_if(tabs_, [this, widget](const Tab& tab) {
+    return widget && (widget == tab.widget || widget == pagesOf(tab));
+  });
+  return found == tabs_.end() ? nullptr : &*found;
 }
 
 void Frame::addToTab(const QString& id, QWidget* widget) {
-  const auto found = std::ranges::find(tabs_, id, &Tab::id);
-  if (found != tabs_.end() && found->room) found->room->addWidget(widget);
+  const Tab* tab = findTab(id);
+  if (tab && tab->room) tab->room->addWidget(widget);
 }
 
 void Frame::addUnderTabs(QWidget* widget) {
@@ -213,22 +266,35 @@ bool Frame::arePanelsShown() const {
   return !side_->isHidden();
 }
 
-// Who asks for a tab wants to see it.
-void Frame::showTab(const QString& id) {
-  const auto found = std::ranges::find(tabs_, id, &Tab::id);
-  if (found != tabs_.end() && panes_->isTorn(pane_id(id))) {
-    panes_->tear(pane_id(id));  // raises its window
-    return;
+// Brings a detached or stacked pane to the front; false if it is at its place.
+bool Frame::raisePane(const QString& id) {
+  if (panes_->isTorn(id)) {
+    panes_->tear(id);  // raises its window
+    return true;
   }
   setPanelsShown(true);
-  if (found == tabs_.end()) return;
-  if (panes_->isStacked(pane_id(id))) return panes_->stack(pane_id(id));
-  if (book_->indexOf(found->widget) < 0) return put_in_book(*book_, tabs_, id);
-  book_->setCurrentWidget(found->widget);
+  if (panes_->isStacked(id)) panes_->stack(id);
+  return panes_->isStacked(id);
+}
+
+// Who asks for a tab wants to see it.
+void Frame::showTab(const QString& id) {
+  const Tab* tab = findTab(id);
+  if (!tab) return setPanelsShown(true);
+  const Tab* task = tab->task.isEmpty() ? tab : findTab(tab->task);
+  QTabWidget* pages = pagesOf(*task);
+  const bool is_alone = tab != task && pages->indexOf(tab->widget) < 0;
+  if (is_alone && raisePane(pane_id(id))) return;
+  if (pages) pages->setCurrentWidget(tab->widget);
+  if (raisePane(pane_id(task->id))) return;
+  QWidget* pane = pages ? pages : task->widget;
+  book_->indexOf(pane) < 0 ? putInBook(*task) : book_->setCurrentWidget(pane);
 }
 
 QString Frame::shownTab() const {
-  const Tab* tab = tabOf(book_->currentWidget());
+  const QWidget* shown = book_->currentWidget();
+  const Tab* task = tabOf(shown);
+  const Tab* tab = task && pagesOf(*task) ? tabOf(pagesOf(*task)->currentWidget()) : task;
   return tab ? tab->id : QString();
 }
 

@@ -23,10 +23,12 @@ class Floating;
 class MessageBar;
 class Panes;
 
-/// A tab on the right.
+/// A tab on the right, or a page of one: each task has a tab, and what belongs to a task is a page.
 struct Tab {
   QString id;  ///< "compare"; its command is "tab.compare".
   QString title;
+  QString task{};  ///< Id of the tab, added before, that it is a page of; empty = a tab of its own.
+  QString page{};  ///< Of a tab: title of its own page beside those of others; empty = no pages.
   QString command_text;  ///< "Compare tab"
   QString command_tip;
   QString icon{};
@@ -54,6 +56,7 @@ class Frame : public QWidget {
   /// others.
   void addToColumn(QWidget* widget, bool stretches);
   void setViewerArea(QWidget* viewer_area);
+  /// A page moves with the tab of its task, and can also be detached alone.
   void addTab(const Tab& tab);
   /// Adds a widget to the room of a tab; ignored if the tab has none.
   void addToTab(const QString& id, QWidget* widget);
@@ -69,7 +72,7 @@ class Frame : public QWidget {
 
   [[nodiscard]] const std::vector<Tab>& tabs() const { return tabs_; }
   void showTab(const QString& id);
-  /// Id of the current docked tab; empty if all are detached.
+  /// Id of the current docked tab, or of its page; empty if all are detached.
   [[nodiscard]] QString shownTab() const;
   /// Detachable parts: the tabs (by "tab.ID"), and panes of features.
   [[nodiscard]] Panes& panes() const { return *panes_; }
@@ -93,8 +96,16 @@ class Frame : public QWidget {
   void layoutReset();
 
  private:
-  void askWhereTabGoes(int index, const QPoint& at);
-  void addPane(const Tab& tab);
+  void follow(QTabWidget& book);
+  void askWhereTabGoes(const QTabWidget& book, const QPoint& at);
+  [[nodiscard]] QTabWidget* makePages(const Tab& task);
+  /// Pages of a task; null if it has none.
+  [[nodiscard]] QTabWidget* pagesOf(const Tab& task) const;
+  /// Inserts a tab at its place and shows it.
+  void putInBook(const Tab& tab);
+  void putAmongPages(const Tab& page);
+  bool raisePane(const QString& id);
+  [[nodiscard]] const Tab* findTab(const QString& id) const;
   [[nodiscard]] const Tab* tabOf(const QWidget* widget) const;
 
   QWidget* viewer_;
@@ -108,6 +119,7 @@ class Frame : public QWidget {
   QVBoxLayout* rows_;
   std::map<Line, QWidget*> lines_;
   std::vector<Tab> tabs_;
+  std::map<QString, QTabWidget*> pages_;  // of tasks
   Panes* panes_;
 };
 

@@ -16,6 +16,7 @@
 #include <QSettings>
 #include <QSpinBox>
 #include <QSplitter>
+#include <QStackedWidget>
 #include <QTabBar>
 #include <QTextEdit>
 #include <QVBoxLayout>
@@ -28,9 +29,21 @@ namespace {
 
 constexpr const char* kTorn = "layout/torn";
 constexpr const char* kStacked = "layout/stacked";
+constexpr const char* kByItself = "isDividedByItself";
 
 QString place_key(const QString& id) {
   return "layout/place/" + id;
+}
+
+// Whether no other page is in front of a widget, in any set of tabs around it.
+bool is_in_front(const QWidget& widget) {
+  if (widget.isHidden()) return false;
+  for (const QWidget* each = &widget; !each->isWindow() && each->parentWidget();
+       each = each->parentWidget()) {
+    const auto* pages = qobject_cast<const QStackedWidget*>(each->parentWidget());
+    if (pages && pages->currentWidget() != each) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -89,8 +102,7 @@ void Panes::stack(const QString& id) {
 
 bool Panes::isSeen(const QString& id) const {
   const Pane* pane = find(id);
-  if (!pane) return false;
-  return isStacked(id) ? stack_->isInFront(pane->widget) : !pane->widget->isHidden();
+  return pane && is_in_front(pane->face ? *pane->face : *pane->widget);
 }
 
 QString Panes::stackedPane(const QWidget* widget) const {
@@ -167,6 +179,14 @@ void PaneWindow::closeEvent(QCloseEvent* event) {
   emit closed();
 }
 
+bool is_divided_by_itself(const QSplitter& splitter) {
+  return splitter.property(kByItself).toBool();
+}
+
+void set_divided_by_itself(QSplitter& splitter, bool is_by_itself) {
+  splitter.setProperty(kByItself, is_by_itself);
+}
+
 const QWidget* main_window_of(const QWidget& widget) {
   const QWidget* window = widget.window();
   const auto* pane = qobject_cast<const PaneWindow*>(window);
@@ -177,8 +197,8 @@ TabStack::TabStack(QWidget* parent) : QTabWidget(parent) {
   setObjectName("tabs.stack");
   setDocumentMode(true);
   setTabsClosable(true);
-  setUsesScrollButtons(true);
-  tabBar()->setElideMode(Qt::ElideNone);
+  setUsesScrollButtons(false);
+  tabBar()->setElideMode(Qt::ElideRight);
   tabBar()->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(tabBar(), &QTabBar::customContextMenuRequested, this, &TabStack::askWhereTabGoes);
   hide();
@@ -225,10 +245,6 @@ int TabStack::placeOf(const QWidget* pane) const {
 
 void TabStack::bringToFront(QWidget* pane) {
   setCurrentIndex(placeOf(pane));
-}
-
-bool TabStack::isInFront(const QWidget* pane) const {
-  return currentIndex() >= 0 && placeOf(pane) == currentIndex();
 }
 
 void TabStack::release(QWidget* pane) {

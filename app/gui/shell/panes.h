@@ -12,6 +12,7 @@
 #include <vector>
 
 class QKeyEvent;
+class QSplitter;
 class QWidget;
 
 namespace episcope {
@@ -25,6 +26,7 @@ struct Pane {
   QString title;
   QWidget* widget = nullptr;
   std::function<void()> put_back;  ///< Gives the widget its place in the main window again.
+  QWidget* face = nullptr;         ///< The part that is seen or not; null = the widget.
 };
 
 /// Panes that can be detached into windows, or stacked behind tabs. Detached panes stay above the
@@ -45,7 +47,8 @@ class Panes : public QObject {
   /// Detaches a pane into a window with its last geometry; raises that window if it exists. Ignores
   /// unknown ids.
   void tear(const QString& id);
-  /// Whether the pane is visible at its place. False for an unknown id.
+  /// Whether the pane is visible at its place, and no other page in front of it; also while the
+  /// place is hidden as a whole. False for an unknown id.
   [[nodiscard]] bool isSeen(const QString& id) const;
   /// Stacks a pane behind a tab and shows it there. Ignores unknown ids.
   void stack(const QString& id);
@@ -96,6 +99,11 @@ class PaneWindow : public QWidget {
   void closeEvent(QCloseEvent* event) override;
 };
 
+/// Whether a splitter divides its room by a rule until the user drags in it. Then its sizes are not
+/// worth remembering. False by default.
+[[nodiscard]] bool is_divided_by_itself(const QSplitter& splitter);
+void set_divided_by_itself(QSplitter& splitter, bool is_by_itself);
+
 /// Main window of a widget, also for a widget in a detached pane.
 [[nodiscard]] const QWidget* main_window_of(const QWidget& widget);
 
@@ -112,7 +120,6 @@ class TabStack : public QTabWidget {
   /// Adds a pane in front; it scrolls if there is little room.
   void take(QWidget* pane, const QString& title);
   void bringToFront(QWidget* pane);
-  [[nodiscard]] bool isInFront(const QWidget* pane) const;
   /// Removes a pane, for others to place.
   void release(QWidget* pane);
 

@@ -9,8 +9,10 @@
 #include "widgets/panels/value_bar.h"
 #include "widgets/panels/view_grid.h"
 
+#include <QContextMenuEvent>
 #include <QDir>
 #include <QLabel>
+#include <QMenu>
 #include <QSlider>
 #include <QWheelEvent>
 
@@ -39,6 +41,7 @@ class BrowseTest : public QObject {
   void click_movesTheCrossHairAndTheEpis();
   void shiftClick_focusesAtThePixel();
   void withoutEstimate_sliderAndShiftClickKnowTheRange();
+  void rightClick_opensAMenuForThePixel();
   void valuesAtTheCursor_areRead();
   void samples_areSaidInShort_andInFullInTheTip();
   void gpu_isAskedForOnAWorker();
@@ -47,6 +50,34 @@ class BrowseTest : public QObject {
   void wheelWithAltOrCtrl_movesTheFocusPlane_data();
   void wheelWithAltOrCtrl_movesTheFocusPlane();
 };
+
+void BrowseTest::rightClick_opensAMenuForThePixel() {
+  WindowFixture f;
+  f.openSmall();
+  const auto menu_at = [&f](PixelIndex pixel) {
+    const QPoint at = f.canvas()->positionOf(pixel).toPoint();
+    QContextMenuEvent event(QContextMenuEvent::Mouse, at, f.canvas()->mapToGlobal(at));
+    QCoreApplication::sendEvent(f.canvas(), &event);
+    return f.window.findChild<QMenu*>("view.menu");
+  };
+
+  QMenu* menu = menu_at({20, 30});
+  QVERIFY(menu && menu->isVisible());
+  QStringList ids;
+  for (const QAction* action : menu->actions()) ids << action->objectName();
+  for (const char* id :
+       {"view.menu.focus", "view.menu.measure", "view.center", "view.tone", "file.save_picture"}) {
+    QVERIFY2(ids.contains(id), id);
+  }
+  menu->findChild<QAction*>("view.menu.measure")->trigger();
+  QCOMPARE(f.window.bench().session.cross_hair(), (PixelIndex{20, 30}));
+  QCOMPARE(f.window.bench().frame.shownTab(), QString("measure"));
+  menu->close();
+  QTRY_VERIFY(!f.window.findChild<QMenu*>("view.menu"));
+
+  f.trigger("annotate.mode");  // the right button erases there
+  QVERIFY(!menu_at({20, 30}));
+}
 
 void BrowseTest::viewsWithStrokesOfTheFile_areMarked() {
   WindowFixture f;

@@ -66,6 +66,7 @@ class RegionTest : public QObject {
   void label_isJudged();
   void commonPixels_leaveOutWhatAResultLacks();
   void mask_isReadFromAFile();
+  void regionsOfTheTruth_canBeChosen();
   void maskOfAnotherSize_isRefused();
   void everyScene_hasItsOwnPart();
   void part_comesBackWithTheProject();
@@ -214,6 +215,33 @@ void RegionTest::part_comesBackWithTheProject() {
   g.window.bench().scenes.show(session.scenes()[0]->id);
   QTRY_VERIFY_WITH_TIMEOUT(summary().startsWith("320"), kScenePatience);
   QVERIFY(find<RegionController>(g.window).name().startsWith("rectangle x 3–22"));
+}
+
+void RegionTest::regionsOfTheTruth_canBeChosen() {
+  Judging f({0.5F});
+  const std::uint64_t first = f.session().generation();
+  f.window.bench().opener.open("demo?size=96");  // files of the archive hold no regions
+  QTRY_VERIFY_WITH_TIMEOUT(f.session().generation() != first && !f.session().estimates().empty(),
+                           kScenePatience);
+  const auto& regions = f.session().scene()->truth->regions;
+  const auto edges = regions.find("discontinuities");
+  QVERIFY(edges != regions.end());
+  const auto inside =
+      std::count_if(edges->second.data(), edges->second.data() + edges->second.size(),
+                    [](std::uint8_t each) { return each != 0; });
+  const auto* parts = f.window.findChild<QComboBox*>("region.part");
+  const int row = parts->findText("Region: discontinuities");
+  QVERIFY(row > 0);
+
+  f.choose(row);
+
+  QCOMPARE(f.region().name(), QString("region discontinuities"));
+  QCOMPARE(f.summary().remove(',').section(' ', 0, 0).toLongLong(), inside);
+  QCOMPARE(parts->currentIndex(), row);
+  QTRY_COMPARE_WITH_TIMEOUT(f.cell(0, "region"), QString("region discontinuities"), kPatience);
+  f.window.bench().scenes.show(first);
+  QTRY_COMPARE(f.region().name(), QString("whole view"));
+  QTRY_COMPARE(parts->findText("Region: discontinuities"), -1);
 }
 
 void RegionTest::missingMask_isTold_andTheWholeViewIsJudged() {

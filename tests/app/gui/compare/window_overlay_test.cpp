@@ -50,6 +50,7 @@ class OverlayTest : public QObject {
   void errorOverlay_isOneClickAway();
   void maps_areThoseThatExist_andAllListsAgree();
   void difference_isOneOfTheMaps();
+  void badPixels_haveTwoSwatchesWithTheThreshold();
   void rangeOfASignedMap_hasZeroInTheMiddle();
   void colorsOfErrors_areThoseOfTheLegend();
   void view_isGreyUnderNumbersUntilColorIsAskedFor();
@@ -129,6 +130,30 @@ void OverlayTest::difference_isOneOfTheMaps() {
   QVERIFY(!f.window.bench().commands.find("overlay.disparity")->isChecked());
   choose_map(f.window, "Disp");
   QVERIFY(!f.window.bench().overlay.showsDifference());
+}
+
+void OverlayTest::badPixels_haveTwoSwatchesWithTheThreshold() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  f.trigger("overlay.bad_pixels");
+  const Overlay& overlay = f.window.bench().overlay;
+  QTRY_VERIFY_WITH_TIMEOUT(overlay.isUpToDate() && !overlay.picture().isNull(), kPatience);
+
+  const auto* swatches = f.window.findChild<QLabel*>("colorBar.swatches");
+  QVERIFY(swatches->isVisible() && !f.window.findChild<ColorRamp*>()->isVisible());
+  QVERIFY2(swatches->text().contains("≤ 0.07 px") && swatches->text().contains("&gt; 0.07 px"),
+           qPrintable(swatches->text()));
+  const QImage picture = overlay.picture();
+  for (int y = 20; y < picture.height() - 20; ++y) {
+    const QString color = picture.pixelColor(picture.width() / 2, y).name();
+    QVERIFY2(swatches->text().contains(color), qPrintable(color));
+  }
+  f.window.bench().session.set_bad_threshold(0.2);
+  QTRY_VERIFY(swatches->text().contains("0.20 px"));
+
+  f.trigger("overlay.error");
+  QVERIFY(!swatches->isVisible() && f.window.findChild<ColorRamp*>()->isVisible());
 }
 
 void OverlayTest::rangeOfASignedMap_hasZeroInTheMiddle() {

@@ -119,7 +119,7 @@ void SweepWindowTest::twoParameters_giveALineForEachValueOfTheSecond() {
   f.run();
   const auto& series = f.upper().plot().series;
   QCOMPARE(series.size(), 3U);
-  QVERIFY(series[1].name.contains("outer_scale 1"));
+  QVERIFY(series[1].name.startsWith("Outer scale 1"));
   QCOMPARE(series[1].points.size(), 2U);
 }
 
@@ -132,7 +132,7 @@ void SweepWindowTest::point_showsItsMap_andTheNextTakesItsPlace() {
   f.clickPoint(f.upper(), {0, 1});
   QCOMPARE(f.session().estimates().size(), before + 1);
   QVERIFY(f.session().shown()->name.find("inner_scale 1.2") != std::string::npos);
-  QVERIFY(f.text("sweep.chosen").contains("inner_scale"));
+  QVERIFY(f.text("sweep.chosen").contains("Inner scale 1.2 px"));
   QVERIFY(f.lower().mark() == (PlotPlace{0, 1}));
 
   f.clickPoint(f.lower(), {0, 0});

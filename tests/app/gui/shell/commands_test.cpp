@@ -48,6 +48,8 @@ class CommandsTest : public QObject {
   void listOfKeys_isSearched();
   void palette_findsAndRunsACommand();
   void palette_namesWhatCannotBeRunNow();
+  void palette_findsByDescriptionSynonymMethodAndLightField_data();
+  void palette_findsByDescriptionSynonymMethodAndLightField();
   void chosenColours_areAppliedAndRemembered();
   void changedKey_worksIsShownAndRemembered();
   void keysOfTheView_areThoseOfTheTable_data();
@@ -297,7 +299,40 @@ void CommandsTest::palette_namesWhatCannotBeRunNow() {
 
   QTest::keyClicks(edit, " xyzzy");
   QCOMPARE(list->count(), 1);
-  QVERIFY2(list->item(0)->text().startsWith("No command"), qPrintable(list->item(0)->text()));
+  QVERIFY2(list->item(0)->text().startsWith("Nothing"), qPrintable(list->item(0)->text()));
+}
+
+void CommandsTest::palette_findsByDescriptionSynonymMethodAndLightField_data() {
+  QTest::addColumn<QString>("words");
+  QTest::addColumn<QString>("title");
+  QTest::newRow("name") << "quit"
+                        << "File: Quit";
+  QTest::newRow("description") << "exposure gamma"
+                               << "View: Brightness…";
+  QTest::newRow("synonym") << "screenshot"
+                           << "File › Export: Picture…";
+  QTest::newRow("synonym of a group") << "heat map behind"
+                                      << "View › Map: Truth behind";
+  QTest::newRow("method") << "Wanner Goldluecke 2012"
+                          << "Method: EPI_L";
+  QTest::newRow("open") << "open light field edge"
+                        << "Open light field: edge";
+  QTest::newRow("recent") << "recent lf.h5"
+                          << "Recent: ";
+}
+
+void CommandsTest::palette_findsByDescriptionSynonymMethodAndLightField() {
+  QFETCH(QString, words);
+  QFETCH(QString, title);
+  WindowFixture f;
+  f.openSmall();
+  f.trigger("help.palette");
+  auto* list = f.window.findChild<QListWidget*>("command_palette.list");
+
+  QTest::keyClicks(f.window.findChild<QLineEdit*>("command_palette.edit"), words);
+
+  QVERIFY2(!list->findItems(title, Qt::MatchStartsWith).isEmpty(),
+           qPrintable(list->item(0)->text()));
 }
 
 void CommandsTest::palette_findsAndRunsACommand() {
@@ -308,10 +343,10 @@ void CommandsTest::palette_findsAndRunsACommand() {
   auto* list = f.window.findChild<QListWidget*>("command_palette.list");
   const int all = list->count();
 
-  QTest::keyClicks(edit, "zoom percent");
-  QCOMPARE(list->findItems("No command", Qt::MatchStartsWith).size(), 1);
+  QTest::keyClicks(edit, "zoom xyzzy");
+  QCOMPARE(list->findItems("Nothing", Qt::MatchStartsWith).size(), 1);
   edit->clear();
-  QTest::keyClicks(edit, "100 view");
+  QTest::keyClicks(edit, "zoom percent");
   QCOMPARE(list->count(), 1);
   QVERIFY(all > 1);
   QTest::keyClick(edit, Qt::Key_Return);

@@ -15,6 +15,8 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QSet>
+#include <QTabBar>
+#include <QTabWidget>
 
 #include <clocale>
 #include <cstdlib>
@@ -115,6 +117,8 @@ class LanguageTest : public QObject {
   void mnemonics_areUniqueInAMenu();
   void noText_isCut_data();
   void noText_isCut();
+  void tabs_doNotScroll_data();
+  void tabs_doNotScroll();
 };
 
 void LanguageTest::languageOfTheDesktop_isTheFirstThatIsThere_data() {
@@ -248,10 +252,45 @@ void LanguageTest::noText_isCut() {
   for (const Tab& tab : f.window.bench().frame.tabs()) {
     f.window.bench().frame.showTab(tab.id);
     QCoreApplication::processEvents();
-    QCOMPARE(cut_texts(f.window), QStringList());
+    QCOMPARE(cut_texts(f.window).join(" | "), QString());
   }
   const auto* surplus = f.window.findChild<QWidget*>("qt_toolbar_ext_button");
   QVERIFY(surplus && !surplus->isVisible());
+}
+
+void LanguageTest::tabs_doNotScroll_data() {
+  QTest::addColumn<QString>("language");
+  for (const char* language : {"de", "en"}) QTest::newRow(language) << language;
+}
+
+// Also those that come when they are asked for, and the pages of a task.
+void LanguageTest::tabs_doNotScroll() {
+  QFETCH(QString, language);
+  QVERIFY(apply_language(language));
+  WindowFixture f;
+  f.openSmall();
+  const auto* tabs = f.window.findChild<QTabWidget*>("tabs");
+  QCOMPARE(tabs->count(), 5);
+  for (int i = 0; i < tabs->count(); ++i) {
+    const QRect tab = tabs->tabBar()->tabRect(i);
+    QVERIFY2(tabs->tabBar()->rect().contains(tab), qPrintable(tabs->tabText(i)));
+    QVERIFY2(tab.width() > tabs->fontMetrics().horizontalAdvance(tabs->tabText(i)),
+             qPrintable(tabs->tabText(i)));
+  }
+
+  for (const Tab& tab : f.window.bench().frame.tabs()) f.window.bench().frame.showTab(tab.id);
+  QCoreApplication::processEvents();
+
+  QCOMPARE(tabs->count(), 7);
+  for (const auto* bar : f.window.findChildren<QTabBar*>()) {
+    if (bar->count() == 0 || !bar->isVisible()) continue;
+    QVERIFY2(bar->rect().contains(bar->tabRect(bar->count() - 1)),
+             qPrintable(QString("%1 ends at %2 of %3")
+                            .arg(bar->tabText(bar->count() - 1))
+                            .arg(bar->tabRect(bar->count() - 1).right())
+                            .arg(bar->width())));
+    QVERIFY(bar->tabRect(0).left() >= 0);
+  }
 }
 
 }  // namespace episcope::in_language_test

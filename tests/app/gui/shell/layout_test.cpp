@@ -3,6 +3,7 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/canvas_geometry.h"
+#include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/panels/value_bar.h"
@@ -12,6 +13,7 @@
 #include <QPointer>
 #include <QScreen>
 #include <QSettings>
+#include <QSplitter>
 #include <QTabBar>
 #include <QTabWidget>
 
@@ -42,6 +44,7 @@ class LayoutTest : public QObject {
  private slots:
   void message_movesNothing();
   void message_coversNoCaptionAtTheTop();
+  void epis_takeTheDarkMarginsOfALargeWindow();
   void jobs_moveNothing();
   void longMessage_isSeenWhole();
   void firstWindow_fitsTheScreen();
@@ -150,6 +153,30 @@ void LayoutTest::message_coversNoCaptionAtTheTop() {
   const QRect view = place_of(*f.canvas(), f.window);
   QVERIFY(message.top() >= view.top() + caption_depth(QFontMetricsF(f.canvas()->font())));
   QVERIFY(message.intersects(view));
+}
+
+// Until the user divides the room.
+void LayoutTest::epis_takeTheDarkMarginsOfALargeWindow() {
+  WindowFixture f;
+  f.openSmall();
+  const auto* epi = f.window.bench().viewer_area.verticalEpi();
+  const int first = epi->width();
+
+  f.window.resize(2560, 1440);
+  QTRY_VERIFY2(epi->width() > first + 100, qPrintable(QString::number(epi->width())));
+  QVERIFY(f.canvas()->width() >= f.canvas()->height());  // the view loses nothing
+  f.window.resize(1280, 800);
+  QTRY_COMPARE(epi->width(), first);
+
+  auto* upper = f.window.findChild<QSplitter*>("split.upper");
+  QTest::mousePress(upper->handle(1), Qt::LeftButton, {}, {2, 20});
+  QTest::mouseMove(upper->handle(1), {-60, 20});
+  QTest::mouseRelease(upper->handle(1), Qt::LeftButton, {}, {2, 20});
+  const int dragged = epi->width();
+  QVERIFY(dragged > first);
+  f.window.resize(1400, 800);
+  QCoreApplication::processEvents();
+  QCOMPARE(epi->width(), dragged);
 }
 
 void LayoutTest::jobs_moveNothing() {

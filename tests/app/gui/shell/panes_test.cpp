@@ -13,6 +13,8 @@
 #include <QTabWidget>
 #include <QToolButton>
 
+#include <tuple>
+
 // Panes can be sized, torn off, and come back; the window remembers it.
 
 namespace episcope::in_panes_test {
@@ -59,6 +61,8 @@ class PanesTest : public QObject {
   void stack_takesHalfOfTheColumn_whereThereIsRoom();
   void stackedPane_mayBeTornOff();
   void stack_isRememberedAndReset();
+  void pages_areThoseOfTheirTask();
+  void page_mayBeDetachedAlone();
   void everyTab_isInTheList();
 };
 
@@ -314,6 +318,53 @@ void PanesTest::stack_isRememberedAndReset() {
   QCOMPARE(stack->count(), 0);
   QVERIFY(!stack->isVisible());
   QTRY_COMPARE_WITH_TIMEOUT(other.bench().jobs.count(), 0, kScenePatience);
+}
+
+void PanesTest::pages_areThoseOfTheirTask() {
+  WindowFixture f;
+  f.openSmall();
+  Frame& frame = f.window.bench().frame;
+  const auto* tabs = f.window.findChild<QTabWidget*>("tabs");
+  for (const auto& [page, task, title] :
+       {std::tuple("sweep", "estimate", "Estimate"), std::tuple("errors", "compare", "Compare"),
+        std::tuple("check", "annotate", "Annotate")}) {
+    frame.showTab(task);
+    QVERIFY(!frame.panes().isSeen(QString("tab.") + page));
+    frame.showTab(page);
+
+    QCOMPARE(frame.shownTab(), QString(page));
+    QCOMPARE(tabs->tabText(tabs->currentIndex()), QString(title));
+    QVERIFY(frame.panes().isSeen(QString("tab.") + page));
+    QVERIFY(!frame.panes().isSeen(QString("tab.") + task));
+    auto* pages = f.window.findChild<QTabWidget*>(QString("pages.") + task);
+    QCOMPARE(pages->count(), 2);
+    QTest::mouseClick(pages->tabBar(), Qt::LeftButton, {}, pages->tabBar()->tabRect(0).center());
+    QCOMPARE(frame.shownTab(), QString(task));
+  }
+  frame.showTab("estimate");
+  QVERIFY(!frame.panes().isSeen("tab.annotate"));  // its page is in front, but not itself
+}
+
+void PanesTest::page_mayBeDetachedAlone() {
+  WindowFixture f;
+  f.openSmall();
+  Frame& frame = f.window.bench().frame;
+  auto* pages = f.window.findChild<QTabWidget*>("pages.compare");
+  frame.showTab("errors");
+  const QWidget* errors = pages->currentWidget();
+
+  f.trigger("panes.tab");
+
+  QVERIFY(frame.panes().isTorn("tab.errors") && errors->isVisible());
+  QVERIFY(errors->window() != &f.window && !pages->tabBar()->isVisible());
+  QCOMPARE(frame.shownTab(), QString("compare"));
+  f.trigger("panes.tab");  // then the task, without it
+  QVERIFY(frame.panes().isTorn("tab.compare"));
+  errors->window()->close();  // docks it where its task is
+  QVERIFY(pages->isVisible() && pages->window() != &f.window && pages->isAncestorOf(errors));
+  pages->window()->close();
+  QCOMPARE(frame.shownTab(), QString("errors"));
+  QVERIFY(f.window.findChild<QTabWidget*>("tabs")->isAncestorOf(errors));
 }
 
 // However many there are, and however long their titles.

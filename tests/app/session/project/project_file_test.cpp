@@ -28,7 +28,8 @@ Project sample(const std::filesystem::path& folder) {
                  {{render::Quantity::SignedError, {-0.5, 0.5}}},
                  {0.05, 2, 1.5},
                  {CompareMode::Wipe, 0.3, true}};
-  scene.place.judged = {JudgedPixels::Mask, {1, 2, 30, 40}, (folder / "data/mask.png").string()};
+  scene.place.judged = {
+      JudgedPixels::Mask, {1, 2, 30, 40}, (folder / "data/mask.png").string(), "planes"};
   scene.place.capture.objects = {
       {.name = "scan",
        .mesh = (folder / "data/scan.ply").string(),
