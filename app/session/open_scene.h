@@ -117,6 +117,7 @@ struct OpenScene {
   std::uint64_t sample_hash = 0;       ///< LightField::sample_hash; 0 = not known yet.
   std::shared_ptr<const Scene> scene;  ///< Null while it is set aside and on disk only.
   Interval known_range{};              ///< Of truth or files; empty if neither says.
+  Interval found_range{};              ///< Found from the images; empty = not yet.
   std::vector<EstimateEntry> estimates;
   int shown = 0;
   int compared = 0;
@@ -140,23 +141,24 @@ struct OpenScene {
 
 /// The coarse parts of a session that change together.
 enum class Part : unsigned {
-  Scene = 1,         ///< Light field, truth, labels, convention.
-  Estimates = 2,     ///< The list of estimates.
-  Shown = 4,         ///< Which estimate is shown.
-  Evaluations = 8,   ///< An evaluation that was asked for is there.
-  View = 16,         ///< The current view.
-  CrossHair = 32,    ///< The current pixel.
-  Focus = 64,        ///< The focus plane.
-  TrueLabels = 128,  ///< The labels that segmentations are compared with.
-  Scenes = 256,      ///< The list of open scenes, or what is in memory of those set aside.
-  Display = 512,     ///< What is drawn over the view, and its color ranges.
-  Tone = 1024,       ///< How views are brightened.
-  Labels = 2048,     ///< The segmentation that is kept.
-  LabelLook = 4096,  ///< Which labels are hidden or locked, and how labels are drawn.
-  Measured = 8192,   ///< The disparities measured by hand that are kept.
-  Capture = 16384,   ///< The mesh and the pairs picked on it.
-  Live = 32768,      ///< The estimate that is made while parameters are tried.
-  Judged = 65536,    ///< The part of the view that metrics are of.
+  Scene = 1,            ///< Light field, truth, labels, convention.
+  Estimates = 2,        ///< The list of estimates.
+  Shown = 4,            ///< Which estimate is shown.
+  Evaluations = 8,      ///< An evaluation that was asked for is there.
+  View = 16,            ///< The current view.
+  CrossHair = 32,       ///< The current pixel.
+  Focus = 64,           ///< The focus plane.
+  TrueLabels = 128,     ///< The labels that segmentations are compared with.
+  Scenes = 256,         ///< The list of open scenes, or what is in memory of those set aside.
+  Display = 512,        ///< What is drawn over the view, and its color ranges.
+  Tone = 1024,          ///< How views are brightened.
+  Labels = 2048,        ///< The segmentation that is kept.
+  LabelLook = 4096,     ///< Which labels are hidden or locked, and how labels are drawn.
+  Measured = 8192,      ///< The disparities measured by hand that are kept.
+  Capture = 16384,      ///< The mesh and the pairs picked on it.
+  Live = 32768,         ///< The estimate that is made while parameters are tried.
+  Judged = 65536,       ///< The part of the view that metrics are of.
+  FoundRange = 131072,  ///< The range of disparities found from the images.
 };
 
 /// A set of parts.

@@ -252,6 +252,13 @@ Interval Session::known_range() const {
   return tried ? tried->display_range : Interval{};
 }
 
+void Session::set_found_range(std::uint64_t scene, Interval range) {
+  OpenScene* open = open_scene(scene);
+  if (!open || open->found_range == range) return;
+  open->found_range = range;
+  changed(Part::FoundRange);
+}
+
 void Session::set_bad_threshold(double threshold_px) {
   if (threshold_px == bad_threshold_px_) return;
   bad_threshold_px_ = threshold_px;

@@ -146,6 +146,11 @@ class Session {
   [[nodiscard]] Interval disparity_range() const;
   /// As `disparity_range`, but {0, 0} while nothing is known.
   [[nodiscard]] Interval known_range() const;
+  /// Keeps the range that was found from the images of a scene (search_range). Dropped if it was
+  /// closed.
+  void set_found_range(std::uint64_t scene, Interval range);
+  /// {0, 0} while none was found.
+  [[nodiscard]] Interval found_range() const { return now_->found_range; }
 
   /// View and cross-hair are clamped to the light field.
   void set_view(ViewIndex view);

@@ -289,7 +289,7 @@ float median_around(const Surroundings& known, Offset at, float own) {
 Schema<IslandParameters> island_schema() {
   return Schema<IslandParameters>().flag(
       kIslandsKey, &IslandParameters::islands,
-      {"Fill islands",
+      {"Remove specks",
        "One or two pixels nearer than all their neighbors, or farther, take the median of these; "
        "off, as in the paper"});
 }

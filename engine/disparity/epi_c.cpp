@@ -468,7 +468,8 @@ Schema<EpiCParameters> epi_c_schema() {
              "Cost of a line that meets something nearer, which occludes its point; at most μ₋"},
             {0, 1})
       .real("softness", &P::softness,
-            {"Softness", "Differences along a line below this are penalized quadratically", "px"},
+            {"Quadratic below", "Differences along a line below this are penalized quadratically",
+             "px"},
             {0.005, 0.5, true})
       .integer("sweeps", &P::sweeps,
                {"Sweeps", "Number of times every view is fitted to its neighbors; 0 = off"},
@@ -526,7 +527,8 @@ Estimator epi_c_estimator() {
        .all_views = true,
        .iterative = true,
        .revision = 6,
-       .devices = {Device::Cpu, Device::Cuda}},
+       .devices = {Device::Cpu, Device::Cuda},
+       .main_parameters = {"range", "lambda", "sweeps"}},
       epi_c_schema(), estimate_epi_c);
 }
 

@@ -110,7 +110,7 @@ Schema<EpiGParameters> epi_g_schema() {
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
       .choice("direction_costs", &P::direction_costs,
-              {"Directions",
+              {"Combine directions",
                "sum: horizontal and vertical estimates both count, each truncated; least: the one "
                "that is nearer to the label counts"})
       .real("truncation", &P::truncation,
@@ -175,7 +175,8 @@ Estimator epi_g_estimator() {
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .iterative = true,
        .revision = 7,
-       .devices = {Device::Cpu, Device::Cuda}},
+       .devices = {Device::Cpu, Device::Cuda},
+       .main_parameters = {"range", "labels", "smoothness"}},
       epi_g_schema(),
       [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
          const Progress& progress,

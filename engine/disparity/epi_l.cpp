@@ -482,7 +482,8 @@ Estimator epi_l_estimator() {
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .all_views = true,
        .revision = 4,
-       .devices = {Device::Cpu, Device::Cuda}},
+       .devices = {Device::Cpu, Device::Cuda},
+       .main_parameters = {"range", "inner_scale", "outer_scale"}},
       epi_l_schema(), estimate_epi_l, epi_l_in_blocks);
 }
 

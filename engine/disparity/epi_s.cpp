@@ -147,7 +147,8 @@ Estimator epi_s_estimator() {
        .all_views = true,
        .iterative = true,
        .revision = 6,
-       .devices = {Device::Cpu, Device::Cuda}},
+       .devices = {Device::Cpu, Device::Cuda},
+       .main_parameters = {"range", "lambda", "outer_scale"}},
       epi_s_schema(), estimate_epi_s, epi_s_in_blocks);
 }
 

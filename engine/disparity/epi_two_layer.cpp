@@ -342,7 +342,7 @@ Schema<EpiTwoLayerParameters> layers_schema() {
   using P = EpiTwoLayerParameters;
   return Schema<P>()
       .real("decision", &P::decision,
-            {"Decision",
+            {"Two-layer threshold",
              "Two layers are assumed where the misfit of one orientation exceeds this fraction of "
              "the misfits of one and of two orientations together"},
             {0.01, 0.99})
@@ -353,8 +353,8 @@ Schema<EpiTwoLayerParameters> layers_schema() {
              "px"},
             {0.1, 100, true})
       .real("least_distance", &P::least_distance,
-            {"Minimum distance", "Two layers closer to each other than this are treated as one",
-             "px"},
+            {"Minimum layer distance",
+             "Two layers closer to each other than this are treated as one", "px"},
             {0.05, 2})
       .real("lambda", &P::lambda,
             {"Smoothing λ",
@@ -438,7 +438,8 @@ Estimator epi_two_layer_estimator() {
        .all_views = true,
        .iterative = true,
        .revision = 7,
-       .devices = {Device::Cpu, Device::Cuda}},
+       .devices = {Device::Cpu, Device::Cuda},
+       .main_parameters = {"range", "lambda", "decision"}},
       epi_two_layer_schema(), estimate_epi_two_layer);
 }
 

@@ -124,6 +124,7 @@ struct EstimatorInfo {
   /// Views are equalized before it runs (EvenViews); else it does so itself.
   bool sees_even_views = true;
   std::string weights{};  ///< Of a learned method: their file (installed_weights).
+  std::vector<std::string> main_parameters{};  ///< Keys of the two or three that users set first.
 };
 
 /// Throws Unavailable if the method cannot compute there; with Device::Auto it always can.

@@ -104,7 +104,7 @@ Schema<GlobalLabelingParameters> global_labeling_schema() {
              "edges, as in the paper"},
             {0, 100})
       .real("settling", &P::settling,
-            {"Settling",
+            {"Smoothing between labels",
              "Strength of the TV-L2 smoothing that places disparities between labels afterwards, "
              "in label steps; 0 keeps the labels, as in the paper"},
             {0, 20})

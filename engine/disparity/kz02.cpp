@@ -344,14 +344,14 @@ Schema<Matching> matching_schema() {
               {"Comparison",
                "Whether views are compared at the nearest pixels or interpolated between them"})
       .real("limit", &P::limit,
-            {"Limit K",
+            {"Match limit K",
              "Two pixels can see the same point if their squared difference, the mean over the "
              "channels, is less; 0 finds it by the rule below",
              "(1/255)²"},
             {0, 10000})
       .choice(
           "limit_rule", &P::rule,
-          {"Rule for K",
+          {"Automatic limit K",
            "noise: three times the least difference of a pixel at any label, the median over "
            "pixels, at least 30; quarter: the mean of what a quarter of the labels fall below"});
 }
@@ -365,7 +365,7 @@ Schema<Kz02Parameters> kz02_schema() {
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
       .integer("distance", &P::distance,
-               {"Distance of side views",
+               {"Side view distance",
                 "How far the views on the left, on the right, above and below are from the "
                 "estimated one. Farther views tell disparities apart better but see less of what "
                 "is partly occluded",
@@ -379,8 +379,8 @@ Schema<Kz02Parameters> kz02_schema() {
             {0, 4})
       .integer("truncation", &P::truncation,
                {"Truncation T", "Jumps by more labels cost no more", "labels"}, {1, 64, true})
-      .integer("cycles", &P::cycles, {"Cycles", "How often every label is expanded, at most"},
-               {1, 100, true})
+      .integer("cycles", &P::cycles,
+               {"Maximum cycles", "How often every label is expanded, at most"}, {1, 100, true})
       .choice("refinement", &P::refinement,
               {"Refinement",
                "How the disparity is interpolated between labels, from the costs over all views"})
@@ -434,7 +434,8 @@ Estimator kz02_estimator() {
        .summary = "Scene reconstruction from five views by graph cuts, with visibility",
        .reference = "Kolmogorov and Zabih 2002 [KZ02]",
        .iterative = true,
-       .revision = 3},
+       .revision = 3,
+       .main_parameters = {"range", "labels", "smoothness"}},
       kz02_schema(),
       [](const LightField& light_field, const Kz02Parameters& parameters, ViewSelection,
          const Progress& progress) { return estimate_kz02(light_field, parameters, progress); });

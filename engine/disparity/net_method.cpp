@@ -189,8 +189,9 @@ class NetMethod final : public CarriedMethod {
 
 BlockwiseRun net_in_blocks(const LightField& lf, const NetMethodParameters& parameters,
                            ViewSelection views, const Progress& progress) {
-  BlockwiseRun run = carried_in_blocks(lf, std::make_unique<NetMethod>(lf, parameters, Device::Cpu, progress),
-                                       views, progress.threads());
+  BlockwiseRun run =
+      carried_in_blocks(lf, std::make_unique<NetMethod>(lf, parameters, Device::Cpu, progress),
+                        views, progress.threads());
   run.has_second = run.maps.grid.count() == 1;
   return run;
 }
@@ -209,7 +210,8 @@ Schema<NetMethodParameters> net_schema() {
                "Where a pixel shows two surfaces: mode, the more probable one; mean, the mean of "
                "both by their shares, which has the smaller squared error"})
       .integer("rounds", &P::rounds,
-               {"Rounds", "Rounds in which each pixel chooses among the disparities around it"},
+               {"Refinement rounds",
+                "Rounds in which each pixel chooses among the disparities around it"},
                {1, kMostRounds})
       .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .view(
@@ -234,7 +236,8 @@ Estimator net_estimator() {
        .reference = "Own; trained on procedural light fields alone: resources/training/README.md",
        .all_views = true,
        .devices = {Device::Cpu, Device::Cuda},
-       .weights = kNetWeights},
+       .weights = kNetWeights,
+       .main_parameters = {"range", "rounds", "silhouettes"}},
       net_schema(), estimate_by_net, net_in_blocks);
 }
 

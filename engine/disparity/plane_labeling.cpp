@@ -44,18 +44,18 @@ Schema<JumpLabelingParameters> jump_labeling_schema() {
   using P = JumpLabelingParameters;
   return Schema<P>()
       .real("smoothness", &P::smoothness,
-            {"Smoothness", "Cost of a px by which neighbors differ, relative to the cap"},
-            {0.001, 100})
+            {"Smoothness λ", "Cost of a px by which neighbors differ, relative to the cap"},
+            {0.001, 100, true})
       .real("jump", &P::jump,
-            {"Jump", "No pair of neighbors pays for a larger difference than this", "px"},
+            {"Maximum jump", "No pair of neighbors pays for a larger difference than this", "px"},
             {0.001, 20})
       .real("edge_strength", &P::edge_strength,
             {"Edge strength β",
              "A pair of neighbors is weighted by exp(−β·|difference of their colors|)"},
             {0, 100})
       .real("least_weight", &P::least_weight,
-            {"Minimum weight", "The smallest weight of a pair of neighbors"}, {0, 1})
-      .integer("passes", &P::passes, {"Passes", "Iterations of the labeling"}, {1, 200, true});
+            {"Minimum neighbor weight", "The smallest weight of a pair of neighbors"}, {0, 1})
+      .integer("passes", &P::passes, {"Iterations", "Iterations of the labeling"}, {1, 200, true});
 }
 
 PairWeights pair_weights(const LightField& lf, ViewIndex view, double beta, double least,
@@ -164,21 +164,24 @@ void settle_doubt(const PlaneRefinementData& data, const PlaneRefinementParamete
 Schema<PlaneRefinementParameters> plane_refinement_schema() {
   using P = PlaneRefinementParameters;
   return Schema<P>()
-      .real("tgv", &P::tgv, {"TGV²", "Strength of the final denoising with TGV²; 0 = off"}, {0, 10})
+      .real("tgv", &P::tgv,
+            {"Final denoising", "Strength of the final denoising with TGV²; 0 = off"}, {0, 10})
       .real("doubt", &P::doubt,
-            {"Doubt",
-             "Where the mean confidence of a region is below this, its pixels are placed by "
-             "denoising what each says by itself, if that is elsewhere; 0 = nowhere"},
+            {"Uncertain below",
+             "Regions whose mean confidence is below this are uncertain: denoising places their "
+             "pixels by what each says by itself, if that is elsewhere; 0 = none"},
             {0, 1})
       .real("leeway", &P::leeway,
-            {"Leeway", "Labels in doubt stay where the denoised pixels differ by no more than this",
+            {"Uncertain: tolerance",
+             "Uncertain pixels keep their label where denoising moves them by no more than this",
              "px"},
             {0, 20})
       .real("bend", &P::bend,
-            {"Bend", "Relative cost of curvature to jumps in the final denoising", "px"},
+            {"Curvature cost", "Relative cost of curvature to jumps in the final denoising", "px"},
             {0.01, 100, true})
       .integer("tgv_iterations", &P::tgv_iterations,
-               {"TGV² iterations", "Number of iterations of the final denoising"}, {1, 5000, true});
+               {"Denoising iterations", "Number of iterations of the final denoising"},
+               {1, 5000, true});
 }
 
 void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementParameters& parameters,

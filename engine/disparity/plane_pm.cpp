@@ -494,7 +494,7 @@ Schema<PlaneParameters> plane_pm_schema() {
       .part(&P::labeling, jump_labeling_schema())
       .part(&P::matching, stereo_matching_schema())
       .flag("even", &P::even,
-            {"Even brightness",
+            {"Equalize brightness",
              "Correct differences in brightness between the views, and their fall-off to the "
              "corners, where there are any"})
       .flag("silhouettes", &P::silhouettes,
@@ -521,7 +521,8 @@ Estimator plane_pm_estimator() {
        .iterative = true,
        .revision = 7,
        .devices = {Device::Cpu, Device::Cuda},
-       .sees_even_views = false},  // evens them itself, and again as it learns more
+       .sees_even_views = false,  // evens them itself, and again as it learns more
+       .main_parameters = {"range", "labels", "smoothness"}},
       plane_pm_schema(), estimate_planes, planes_in_blocks);
 }
 

@@ -127,7 +127,7 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
       .part(&P::denoising, denoise_schema())
       .real(
           "map_noise", &P::map_noise,
-          {"Noise of the map σ₀",
+          {"Map noise σ₀",
            "Where neighboring disparities scatter less than this, in px, the data term gets more "
            "weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper"},
           {0, 1})
@@ -362,7 +362,8 @@ Estimator st_av_l_estimator() {
                           .name = "ST_AV_L",
                           .summary = "Local multi-view stereo over all views",
                           .reference = kReference,
-                          .revision = 6},
+                          .revision = 6,
+                          .main_parameters = {"range", "labels", "aggregation"}},
                          MatchedViews::All);
 }
 
@@ -371,7 +372,8 @@ Estimator st_ch_l_estimator() {
                           .name = "ST_CH_L",
                           .summary = "Local multi-view stereo over the views of the cross-hair",
                           .reference = kReference,
-                          .revision = 6},
+                          .revision = 6,
+                          .main_parameters = {"range", "labels", "aggregation"}},
                          MatchedViews::CrossHair);
 }
 
@@ -381,7 +383,8 @@ Estimator st_av_s_estimator() {
                            .summary = "ST_AV_L, denoised with total variation (TV-L2)",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 7},
+                           .revision = 7,
+                           .main_parameters = {"range", "labels", "lambda"}},
                           MatchedViews::All, stereo_smooth_schema, estimate_stereo_smooth,
                           stereo_smooth_in_blocks);
 }
@@ -392,7 +395,8 @@ Estimator st_ch_s_estimator() {
                            .summary = "ST_CH_L, denoised with total variation (TV-L2)",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 7},
+                           .revision = 7,
+                           .main_parameters = {"range", "labels", "lambda"}},
                           MatchedViews::CrossHair, stereo_smooth_schema, estimate_stereo_smooth,
                           stereo_smooth_in_blocks);
 }
@@ -403,7 +407,8 @@ Estimator st_av_g_estimator() {
                            .summary = "Globally optimal labeling of the matching costs of ST_AV_L",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 7},
+                           .revision = 7,
+                           .main_parameters = {"range", "labels", "smoothness"}},
                           MatchedViews::All, stereo_global_schema, estimate_stereo_global);
 }
 
@@ -413,7 +418,8 @@ Estimator st_ch_g_estimator() {
                            .summary = "Globally optimal labeling of the matching costs of ST_CH_L",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 7},
+                           .revision = 7,
+                           .main_parameters = {"range", "labels", "smoothness"}},
                           MatchedViews::CrossHair, stereo_global_schema, estimate_stereo_global);
 }
 

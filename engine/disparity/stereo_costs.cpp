@@ -169,7 +169,7 @@ Schema<StereoCostParameters> stereo_matching_schema() {
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
       .real("epsilon", &P::epsilon,
-            {"Cap ε",
+            {"Cost cap ε",
              "Maximum cost that one view contributes, so that views in which the point is occluded "
              "do not dominate; 0 derives it from the noise of the light field, 2 disables the cap"},
             {0, kUncapped})
@@ -180,17 +180,17 @@ Schema<StereoCostParameters> stereo_matching_schema() {
              "Add to the costs what interpolation averages away of the noise, so that labels that "
              "move views by whole pixels are at no disadvantage"})
       .integer("aggregation", &P::aggregation,
-               {"Aggregation",
+               {"Aggregation radius",
                 "Radius of the guided filter that averages the costs of neighbors of similar "
                 "color; 0 = off",
                 "px"},
                {0, 8})
       .choice("cost", &P::cost,
-              {"Cost",
+              {"Compare samples",
                "absolute: samples are compared as they are; relative: relative to the mean around "
                "them, for views of different brightness"})
       .choice("positions", &P::positions,
-              {"Positions of cameras",
+              {"Camera positions",
                "use: views are sampled at the positions that files state, if they match better "
                "there; ignore: on the regular grid"})
       .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})

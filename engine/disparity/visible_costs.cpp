@@ -141,22 +141,23 @@ Schema<VisibilityParameters> visibility_schema() {
   using P = VisibilityParameters;
   return Schema<P>()
       .integer("rounds", &P::rounds,
-               {"Rounds",
+               {"Visibility rounds",
                 "Number of times the costs are computed again without the views in which the "
                 "last result says a point is occluded; 0 = off"},
                {0, 10})
       .real("tolerance", &P::tolerance,
-            {"Tolerance", "A surface nearer than a point by more than this occludes it", "px"},
+            {"Occlusion tolerance", "A surface nearer than a point by more than this occludes it",
+             "px"},
             {0, 2})
       .real("least_trust", &P::least_trust,
-            {"Minimum confidence",
+            {"Occluder confidence",
              "A surface whose confidence is below this, mean over its surroundings, occludes "
              "nothing"},
             {0, 1})
       .real("cap_share", &P::cap_share,
-            {"Minimum cap", "The smallest cap of a pixel, as a share of ε"}, {0, 10})
+            {"Minimum cost cap", "The smallest cap of a pixel, as a share of ε"}, {0, 10})
       .real("cap_offset", &P::cap_offset,
-            {"Cap offset",
+            {"Cost cap offset",
              "The cap of a pixel follows what a disparity that is off by this much costs there; 0 "
              "uses ε for all pixels",
              "px"},

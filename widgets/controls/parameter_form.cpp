@@ -1,103 +1,186 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/controls/parameter_form.h"
 
-#include "widgets/controls/number_spin.h"
+#include "widgets/controls/parameter_help.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QCheckBox>
-#include <QComboBox>
 #include <QEvent>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
-#include <QLineEdit>
-#include <QSignalBlocker>
-#include <QSlider>
-#include <QSpinBox>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
-#include <cmath>
 
 namespace episcope {
 namespace {
 
-QString tool_tip(const ParameterDescription& d) {
-  const QString domain = domain_text(d);
-  QStringList facts;
-  if (!domain.isEmpty()) facts << ParameterForm::tr("Range %1").arg(domain);
-  facts << ParameterForm::tr("Default %1").arg(value_text(d, d.default_value));
-  return QString("<p><b>%1</b></p><p>%2</p><p>%3<br/><code>--%4</code></p>")
-      .arg(schema_text(d.label).toHtmlEscaped(), schema_text(d.help).toHtmlEscaped(),
-           facts.join(" · ").toHtmlEscaped(), QString::fromStdString(d.key).toHtmlEscaped());
-}
+constexpr int kLineSpacing = 2;
+constexpr QSize kSmallIcon(12, 12);
 
 QString reset_tip(const ParameterDescription& d) {
   return ParameterForm::tr("Reset to the default, %1").arg(value_text(d, d.default_value));
 }
 
+bool is_among(const std::vector<std::string>& keys, const std::string& key) {
+  return std::ranges::find(keys, key) != keys.end();
+}
+
 }  // namespace
 
-ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent), layout_(new QGridLayout(this)) {
+ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent) {
   setObjectName("parameterForm");
-  layout_->setContentsMargins(0, 0, 0, 0);
-  layout_->setHorizontalSpacing(theme::kSpacing);
-  layout_->setVerticalSpacing(2);
-  layout_->setColumnStretch(0, 2);
-  layout_->setColumnStretch(1, 3);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
 }
 
-void ParameterForm::setParameters(const std::vector<ParameterDescription>& parameters) {
-  for (const auto& row : rows_) {
-    delete row.label;
-    delete row.editor;
-    delete row.reset;
-  }
+QGridLayout* ParameterForm::addGrid(QWidget* place) {
+  auto* grid = new QGridLayout(place);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(theme::kSpacing);
+  grid->setVerticalSpacing(kLineSpacing);
+  grid->setColumnStretch(0, 2);
+  grid->setColumnStretch(1, 3);
+  return grid;
+}
+
+void ParameterForm::setParameters(const std::vector<ParameterDescription>& parameters,
+                                  const std::vector<std::string>& main) {
+  delete sheet_;
   rows_.clear();
+  fold_ = nullptr;
+  advanced_ = nullptr;
   descriptions_ = parameters;
-  for (const auto& description : parameters) addRow(description);
+  sheet_ = new QWidget(this);
+  std::vector<std::size_t> first;
+  std::vector<std::size_t> others;
+  for (const auto& description : parameters) {
+    const bool is_main = main.empty() || is_among(main, description.key);
+    (is_main ? first : others).push_back(rows_.size());
+    rows_.push_back(makeRow(description, is_main));
+  }
+  std::ranges::stable_sort(first, {}, [&](std::size_t index) {
+    return std::ranges::find(main, rows_[index].description.key) - main.begin();
+  });
+  auto* layout = new QVBoxLayout(sheet_);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(kLineSpacing);
+  auto* top = new QWidget(sheet_);
+  layRows(first, addGrid(top));
+  layout->addWidget(top);
+  if (!others.empty()) {
+    fold_ = make_tool_button({"parameters.advanced", "", {}}, sheet_);
+    fold_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    connect(fold_, &QToolButton::clicked, this, [this] { setAdvancedShown(!is_advanced_shown_); });
+    advanced_ = new QWidget(sheet_);
+    layRows(others, addGrid(advanced_));
+    layout->addWidget(fold_, 0, Qt::AlignLeft);
+    layout->addWidget(advanced_);
+  }
+  this->layout()->addWidget(sheet_);
+  sheet_->show();
+  showFold();
 }
 
-void ParameterForm::addRow(const ParameterDescription& description) {
+ParameterForm::Row ParameterForm::makeRow(const ParameterDescription& description, bool is_main) {
   const QString key = QString::fromStdString(description.key);
-  auto* label = new QLabel(schema_text(description.label), this);
-  auto* editor = make_parameter_editor(description, this);
-  auto* reset = make_tool_button({key + ".reset", "reset", reset_tip(description)}, this);
+  auto* label = new QLabel(schema_text(description.label), sheet_);
+  auto* editor = make_parameter_editor(description, sheet_);
+  auto* reset = make_tool_button({key + ".reset", "reset", reset_tip(description)}, sheet_);
   label->setObjectName(key + ".label");
-  label->setToolTip(tool_tip(description));
+  label->setToolTip(parameter_help(description));
   label->setBuddy(editor);
+  label->setWordWrap(true);
   // The row has one label for all its controls.
   for (QWidget* control : editor->findChildren<QWidget*>()) {
     if (control->accessibleName().isEmpty()) control->setAccessibleName(label->text());
   }
-  label->setWordWrap(true);
-  editor->setToolTip(tool_tip(description));
-  reset->setIconSize({12, 12});
+  editor->setToolTip(parameter_help(description));
+  editor->setRangeHints(hints_);
+  reset->setIconSize(kSmallIcon);
   QSizePolicy keeps_place = reset->sizePolicy();
   keeps_place.setRetainSizeWhenHidden(true);
   reset->setSizePolicy(keeps_place);
-
   const std::size_t index = rows_.size();
-  const int line = static_cast<int>(index);
-  layout_->addWidget(label, line, 0);
-  layout_->addWidget(editor, line, 1);
-  layout_->addWidget(reset, line, 2);
-  const Row row{description, label, editor, reset};
-  rows_.push_back(row);
-  showModified(row);
   connect(editor, &ParameterEditor::edited, this, [this, index] { edit(index); });
   connect(reset, &QToolButton::clicked, this, [this, index] {
     rows_[index].editor->setValue(rows_[index].description.default_value);
     edit(index);
   });
+  return {description, label, editor, reset, is_main};
+}
+
+void ParameterForm::layRows(const std::vector<std::size_t>& rows, QGridLayout* grid) {
+  int line = 0;
+  for (const std::size_t index : rows) {
+    const Row& row = rows_[index];
+    grid->addWidget(row.label, line, 0);
+    grid->addWidget(row.editor, line, 1);
+    grid->addWidget(row.reset, line, 2);
+    grid->addWidget(makeHelp(index), line, 3);
+    showModified(row);
+    ++line;
+  }
+}
+
+QToolButton* ParameterForm::makeHelp(std::size_t index) {
+  const QString key = QString::fromStdString(rows_[index].description.key);
+  auto* help = make_tool_button({key + ".help", "help", tr("What this parameter does")}, sheet_);
+  help->setIconSize(kSmallIcon);
+  help->setAccessibleName(tr("Help on %1").arg(rows_[index].label->text()));
+  connect(help, &QToolButton::clicked, this, [this, index, help] {
+    showHelp(index, help->mapToGlobal(QPoint(help->width(), help->height())));
+  });
+  return help;
+}
+
+void ParameterForm::showHelp(std::size_t index, const QPoint& at) {
+  const Row& row = rows_[index];
+  auto* help = new ParameterHelp(row.description, row.editor->value(), this);
+  help->setAttribute(Qt::WA_DeleteOnClose);
+  help->showAt(at);
+}
+
+void ParameterForm::setAdvancedShown(bool is_shown) {
+  if (is_advanced_shown_ == is_shown) return;
+  is_advanced_shown_ = is_shown;
+  showFold();
+}
+
+// What is folded and changed is told: it acts all the same.
+void ParameterForm::showFold() {
+  if (!fold_) return;
+  int folded = 0;
+  int changed = 0;
+  for (const Row& row : rows_) {
+    if (row.is_main) continue;
+    ++folded;
+    changed += row.editor->value() != row.description.default_value ? 1 : 0;
+  }
+  const QString text = changed == 0 ? tr("Advanced (%1)").arg(folded)
+                                    : tr("Advanced (%1, %2 changed)").arg(folded).arg(changed);
+  QFont font = this->font();
+  font.setBold(changed > 0);
+  fold_->setFont(font);
+  fold_->setText(text);
+  fold_->setArrowType(is_advanced_shown_ ? Qt::DownArrow : Qt::RightArrow);
+  fold_->setToolTip(is_advanced_shown_ ? tr("Hides the parameters that are rarely changed")
+                                       : tr("Shows the parameters that are rarely changed"));
+  advanced_->setVisible(is_advanced_shown_);
+}
+
+bool ParameterForm::event(QEvent* event) {
+  const bool is_done = QWidget::event(event);
+  if (event->type() == QEvent::LayoutRequest) emit heightChanged();
+  return is_done;
 }
 
 void ParameterForm::edit(std::size_t index) {
   if (!rows_[index].description.presets.empty()) followPresets();
   showModified(rows_[index]);
+  showFold();
   emit valuesChanged();
 }
 
@@ -109,11 +192,12 @@ void ParameterForm::followPresets() {
         row.editor->value() == row.description.default_value && row.description.presets.empty();
     row.description = described[i];
     if (follows) row.editor->setValue(row.description.default_value);
-    row.label->setToolTip(tool_tip(row.description));
-    row.editor->setToolTip(tool_tip(row.description));
+    row.label->setToolTip(parameter_help(row.description));
+    row.editor->setToolTip(parameter_help(row.description));
     row.reset->setToolTip(reset_tip(row.description));
     showModified(row);
   }
+  showFold();
 }
 
 void ParameterForm::showModified(const Row& row) const {
@@ -138,6 +222,13 @@ void ParameterForm::setValues(const ParameterSet& values) {
   set(true);
   followPresets();
   set(false);
+  showFold();
+}
+
+void ParameterForm::setRangeHints(const RangeHints& hints) {
+  if (hints_ == hints) return;
+  hints_ = hints;
+  for (const Row& row : rows_) row.editor->setRangeHints(hints);
 }
 
 ParameterSet ParameterForm::values() const {
@@ -164,375 +255,6 @@ void ParameterForm::resetToDefaults() {
   }
   followPresets();
   emit valuesChanged();
-}
-
-namespace {
-
-constexpr int kLeastDecimals = 2;
-
-QString text_of(const std::string& text) {
-  return QString::fromStdString(text);
-}
-
-QString control_name(const ParameterDescription& description, const char* control) {
-  return text_of(description.key) + '.' + control;
-}
-
-QHBoxLayout* make_row(QWidget* editor) {
-  auto* row = new QHBoxLayout(editor);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(theme::kSpacing);
-  return row;
-}
-
-/// Lets the wheel scroll the form unless the control has the focus.
-class WheelGuard : public QObject {
- public:
-  explicit WheelGuard(QWidget* control) : QObject(control), control_(control) {
-    control->setFocusPolicy(Qt::StrongFocus);
-    control->installEventFilter(this);
-  }
-
- protected:
-  bool eventFilter(QObject*, QEvent* event) override {
-    if (event->type() != QEvent::Wheel || control_->hasFocus()) return false;
-    event->ignore();
-    return true;
-  }
-
- private:
-  QWidget* control_;
-};
-
-NumberSpin* make_spin(const ParameterDescription& description, const char* control,
-                      QWidget* parent) {
-  auto* spin = new NumberSpin(parent);
-  spin->setObjectName(control_name(description, control));
-  const bool is_integer = std::holds_alternative<int>(description.default_value);
-  const NumberScale scale(description);
-  spin->setDecimals(is_integer ? 0 : scale.decimals());
-  spin->setRange(description.min, description.max);
-  spin->setSingleStep(is_integer ? 1 : (description.max - description.min) / 100);
-  if (description.logarithmic) spin->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  if (!description.unit.empty()) spin->setSuffix(' ' + schema_text(description.unit));
-  spin->setLeastDecimals(kLeastDecimals);
-  new WheelGuard(spin);
-  return spin;
-}
-
-/// Slider and spin box for `int` and `double`. Keeps the exact value that was set, which the spin
-/// box may show rounded.
-template <class Number>
-class NumberEditor : public ParameterEditor {
- public:
-  NumberEditor(const ParameterDescription& description, QWidget* parent)
-      : ParameterEditor(parent),
-        description_(description),
-        scale_(description),
-        slider_(new QSlider(Qt::Horizontal, this)),
-        spin_(make_spin(description, "spin", this)) {
-    slider_->setObjectName(control_name(description, "slider"));
-    slider_->setRange(0, scale_.steps());
-    slider_->setPageStep(std::max(1, scale_.steps() / 10));
-    slider_->setMinimumWidth(60);
-    new WheelGuard(slider_);
-    auto* row = make_row(this);
-    row->addWidget(slider_, 1);
-    row->addWidget(spin_);
-    // One width for all, so that the controls of a form stand in columns.
-    spin_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("00.00 1/00000000")));
-    connect(slider_, &QSlider::valueChanged, this,
-            [this](int position) { edit(rounded(scale_.value(position))); });
-    connect(spin_, &NumberSpin::valueChanged, this, [this](double value) { edit(value); });
-    NumberEditor::setValue(description.default_value);
-  }
-
-  [[nodiscard]] ParameterValue value() const override { return value_; }
-
-  void setValue(const ParameterValue& value) override {
-    if (const auto* number = std::get_if<Number>(&value); number && !std::isnan(double(*number))) {
-      show(*number);
-    }
-  }
-
- private:
-  /// To the decimals shown, inside the domain.
-  [[nodiscard]] double rounded(double value) const {
-    const double unit = std::pow(10.0, spin_->decimals());
-    return std::clamp(std::round(value * unit) / unit, description_.min, description_.max);
-  }
-  void show(double value) {
-    const QSignalBlocker slider_blocker(slider_);
-    const QSignalBlocker spin_blocker(spin_);
-    const double clamped = std::clamp(value, description_.min, description_.max);
-    value_ = static_cast<Number>(std::is_integral_v<Number> ? std::round(clamped) : clamped);
-    slider_->setValue(scale_.position(value_));
-    spin_->setValue(value_);
-  }
-  void edit(double value) {
-    const Number before = value_;
-    show(value);
-    if (value_ != before) emit edited();
-  }
-
-  ParameterDescription description_;
-  NumberScale scale_;
-  QSlider* slider_;
-  NumberSpin* spin_;
-  Number value_{};
-};
-
-class FlagEditor : public ParameterEditor {
- public:
-  FlagEditor(const ParameterDescription& description, QWidget* parent)
-      : ParameterEditor(parent), check_(new QCheckBox(this)) {
-    check_->setObjectName(control_name(description, "check"));
-    make_row(this)->addWidget(check_);
-    FlagEditor::setValue(description.default_value);
-    connect(check_, &QCheckBox::toggled, this, &ParameterEditor::edited);
-  }
-
-  [[nodiscard]] ParameterValue value() const override { return check_->isChecked(); }
-
-  void setValue(const ParameterValue& value) override {
-    const QSignalBlocker blocker(check_);
-    if (const auto* flag = std::get_if<bool>(&value)) check_->setChecked(*flag);
-  }
-
- private:
-  QCheckBox* check_;
-};
-
-class ChoiceEditor : public ParameterEditor {
- public:
-  ChoiceEditor(const ParameterDescription& description, QWidget* parent)
-      : ParameterEditor(parent), combo_(new QComboBox(this)) {
-    combo_->setObjectName(control_name(description, "combo"));
-    const auto& choices = description.choices;
-    const auto& labels = description.choice_labels.empty() ? choices : description.choice_labels;
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-      combo_->addItem(schema_text(labels[i]), text_of(choices[i]));
-    }
-    new WheelGuard(combo_);
-    make_row(this)->addWidget(combo_, 1);
-    ChoiceEditor::setValue(description.default_value);
-    connect(combo_, &QComboBox::currentIndexChanged, this, &ParameterEditor::edited);
-  }
-
-  [[nodiscard]] ParameterValue value() const override {
-    return combo_->currentData().toString().toStdString();
-  }
-
-  void setValue(const ParameterValue& value) override {
-    const auto* text = std::get_if<std::string>(&value);
-    if (!text || combo_->findData(text_of(*text)) < 0) return;
-    const QSignalBlocker blocker(combo_);
-    combo_->setCurrentIndex(combo_->findData(text_of(*text)));
-  }
-
- private:
-  QComboBox* combo_;
-};
-
-class TextEditor : public ParameterEditor {
- public:
-  TextEditor(const ParameterDescription& description, QWidget* parent)
-      : ParameterEditor(parent), line_(new QLineEdit(this)) {
-    line_->setObjectName(control_name(description, "text"));
-    line_->setPlaceholderText(ParameterEditor::tr("automatic"));
-    make_row(this)->addWidget(line_);
-    TextEditor::setValue(description.default_value);
-    connect(line_, &QLineEdit::textEdited, this, &ParameterEditor::edited);
-  }
-
-  [[nodiscard]] ParameterValue value() const override { return line_->text().toStdString(); }
-
-  void setValue(const ParameterValue& value) override {
-    if (const auto* text = std::get_if<std::string>(&value)) line_->setText(text_of(*text));
-  }
-
- private:
-  QLineEdit* line_;
-};
-
-/// "auto", "found", or two ends of which the lower one stays below the upper one.
-class IntervalEditor : public ParameterEditor {
- public:
-  IntervalEditor(const ParameterDescription& description, QWidget* parent)
-      : ParameterEditor(parent),
-        domain_{description.min, description.max},
-        automatic_(new QCheckBox(ParameterEditor::tr("auto"), this)),
-        found_(new QCheckBox(ParameterEditor::tr("found"), this)),
-        min_(make_spin(description, "min", this)),
-        max_(make_spin(description, "max", this)) {
-    automatic_->setObjectName(control_name(description, "auto"));
-    found_->setObjectName(control_name(description, "found"));
-    found_->setToolTip(ParameterEditor::tr("From the images, whatever the files say"));
-    min_->setSuffix({});
-    for (auto* end : {min_, max_}) end->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    min_->setMinimumWidth(44);
-    ends_ = {std::max(domain_.min, -1.0), std::min(domain_.max, 1.0)};
-    if (ends_.length() <= 0) ends_ = domain_;
-    auto* row = make_row(this);
-    auto* choices = new QVBoxLayout;
-    choices->setSpacing(0);
-    choices->addWidget(automatic_);
-    choices->addWidget(found_);
-    row->addLayout(choices);
-    row->addWidget(min_, 1);
-    row->addWidget(new QLabel("…", this));
-    row->addWidget(max_, 1);
-    IntervalEditor::setValue(description.default_value);
-    connect(automatic_, &QCheckBox::toggled, this, [this] { choose(found_); });
-    connect(found_, &QCheckBox::toggled, this, [this] { choose(automatic_); });
-    connect(min_, &NumberSpin::valueChanged, this, [this](double value) {
-      edit({value, std::max(ends_.max, value + least())});
-    });
-    connect(max_, &NumberSpin::valueChanged, this, [this](double value) {
-      edit({std::min(ends_.min, value - least()), value});
-    });
-  }
-
-  [[nodiscard]] ParameterValue value() const override {
-    if (found_->isChecked()) return IntervalOrAuto::found();
-    return automatic_->isChecked() ? IntervalOrAuto{} : IntervalOrAuto(ends_);
-  }
-
-  void setValue(const ParameterValue& value) override {
-    const auto* interval = std::get_if<IntervalOrAuto>(&value);
-    if (!interval) return;
-    const QSignalBlocker automatic_blocker(automatic_), found_blocker(found_);
-    automatic_->setChecked(!*interval && !interval->is_found);
-    found_->setChecked(interval->is_found);
-    enableEnds();
-    if (*interval) ends_ = **interval;
-    showEnds();
-  }
-
- private:
-  /// Least length of the interval: one unit of the last decimal.
-  [[nodiscard]] double least() const { return std::pow(10.0, -min_->decimals()); }
-
-  /// One of the boxes was clicked: the other one is not what is wanted.
-  void choose(QCheckBox* other) {
-    const QSignalBlocker blocker(other);
-    other->setChecked(false);
-    enableEnds();
-    emit edited();
-  }
-  void enableEnds() {
-    const bool is_given = !automatic_->isChecked() && !found_->isChecked();
-    min_->setEnabled(is_given);
-    max_->setEnabled(is_given);
-  }
-  void edit(Interval ends) {
-    // At the border of the domain the edited end gives way.
-    if (ends.max > domain_.max) ends = {domain_.max - least(), domain_.max};
-    if (ends.min < domain_.min) ends = {domain_.min, domain_.min + least()};
-    ends_ = ends;
-    showEnds();
-    emit edited();
-  }
-  void showEnds() {
-    const QSignalBlocker min_blocker(min_);
-    const QSignalBlocker max_blocker(max_);
-    ends_.min = std::clamp(ends_.min, domain_.min, domain_.max);
-    ends_.max = std::clamp(ends_.max, domain_.min, domain_.max);
-    min_->setValue(ends_.min);
-    max_->setValue(ends_.max);
-  }
-
-  Interval domain_;
-  Interval ends_;
-  QCheckBox* automatic_;
-  QCheckBox* found_;
-  NumberSpin* min_;
-  NumberSpin* max_;
-};
-
-/// "auto", or row and column of a view.
-class ViewEditor : public ParameterEditor {
- public:
-  ViewEditor(const ParameterDescription& description, QWidget* parent)
-      : ParameterEditor(parent),
-        automatic_(new QCheckBox(ParameterEditor::tr("auto"), this)),
-        v_(make_place(description, "v", ParameterEditor::tr("Row of the view"))),
-        u_(make_place(description, "u", ParameterEditor::tr("Column of the view"))) {
-    automatic_->setObjectName(control_name(description, "auto"));
-    auto* row = make_row(this);
-    row->addWidget(automatic_);
-    row->addWidget(v_, 1);
-    row->addWidget(new QLabel(",", this));
-    row->addWidget(u_, 1);
-    ViewEditor::setValue(description.default_value);
-    connect(automatic_, &QCheckBox::toggled, this, [this](bool checked) {
-      v_->setEnabled(!checked);
-      u_->setEnabled(!checked);
-      emit edited();
-    });
-    for (auto* place : {v_, u_}) {
-      connect(place, &QSpinBox::valueChanged, this, &ParameterEditor::edited);
-    }
-  }
-
-  [[nodiscard]] ParameterValue value() const override {
-    if (automatic_->isChecked()) return ViewOrAuto{};
-    return ViewOrAuto(ViewIndex{v_->value(), u_->value()});
-  }
-
-  void setValue(const ParameterValue& value) override {
-    const auto* view = std::get_if<ViewOrAuto>(&value);
-    if (!view) return;
-    const QSignalBlocker blockers[] = {QSignalBlocker(automatic_), QSignalBlocker(v_),
-                                       QSignalBlocker(u_)};
-    automatic_->setChecked(!*view);
-    v_->setEnabled(view->has_value());
-    u_->setEnabled(view->has_value());
-    if (!*view) return;
-    v_->setValue((*view)->v);
-    u_->setValue((*view)->u);
-  }
-
- private:
-  QSpinBox* make_place(const ParameterDescription& description, const char* name,
-                       const QString& tip) {
-    auto* place = new QSpinBox(this);
-    place->setObjectName(control_name(description, name));
-    place->setToolTip(tip);
-    place->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    return place;
-  }
-
-  QCheckBox* automatic_;
-  QSpinBox* v_;
-  QSpinBox* u_;
-};
-
-}  // namespace
-
-ParameterEditor* make_parameter_editor(const ParameterDescription& description, QWidget* parent) {
-  struct Maker {
-    const ParameterDescription& description;
-    QWidget* parent;
-    ParameterEditor* operator()(bool) const { return new FlagEditor(description, parent); }
-    ParameterEditor* operator()(int) const { return new NumberEditor<int>(description, parent); }
-    ParameterEditor* operator()(double) const {
-      return new NumberEditor<double>(description, parent);
-    }
-    ParameterEditor* operator()(const std::string&) const {
-      if (description.choices.empty()) return new TextEditor(description, parent);
-      return new ChoiceEditor(description, parent);
-    }
-    ParameterEditor* operator()(const IntervalOrAuto&) const {
-      return new IntervalEditor(description, parent);
-    }
-    ParameterEditor* operator()(const ViewOrAuto&) const {
-      return new ViewEditor(description, parent);
-    }
-  };
-  ParameterEditor* editor = std::visit(Maker{description, parent}, description.default_value);
-  editor->setObjectName(text_of(description.key));
-  return editor;
 }
 
 }  // namespace episcope

@@ -134,6 +134,7 @@ void MethodPanel::connectControls() {
     updateReset();
     emit requestChanged();
   });
+  connect(form_, &ParameterForm::heightChanged, this, &MethodPanel::updateGeometry);
   connect(live_, &QPushButton::clicked, this, &MethodPanel::liveToggled);
 }
 
@@ -165,7 +166,7 @@ void MethodPanel::showMethod(int index) {
   reference_->setVisible(!method.reference.empty());
   all_views_->setEnabled(method.all_views);
   all_views_->setChecked(method.all_views);
-  form_->setParameters(method.parameters);
+  form_->setParameters(method.parameters, method.main_parameters);
   if (const auto kept = kept_values_.find(method.id); kept != kept_values_.end()) {
     form_->setValues(kept->second);
   }

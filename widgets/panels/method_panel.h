@@ -33,6 +33,7 @@ struct MethodDescription {
   std::string reference;
   bool all_views = false;  ///< Can estimate every view at once.
   std::vector<ParameterDescription> parameters;
+  std::vector<std::string> main_parameters{};  ///< Keys; the form folds the others. Empty = none.
 };
 
 /// A requested run, by value: later changes of the form do not affect it.

@@ -167,7 +167,7 @@ void BrowseController::update(Parts parts) {
   const Parts of_view = Part::Scene | Part::View | Part::Focus | Part::Tone;
   if (parts.has_any(of_view)) showView();
   if (parts.has_any(of_view | Part::CrossHair)) showEpis();
-  if (parts.has(Part::Estimates)) showFocusReach();
+  if (parts.has_any(Part::Estimates | Part::FoundRange)) showFocusReach();
   if (parts.has_any(Part::Shown | Part::Estimates | Part::Live)) showSlopes();
 }
 
@@ -178,7 +178,6 @@ void BrowseController::showScene() {
   refocus_job_.drop();
   range_job_.drop();
   match_job_.drop();
-  found_range_ = {};
   if (!light_field) {
     thumbnail_job_.drop();
     viewer_area_.canvas()->setOverlay({});
@@ -195,7 +194,7 @@ void BrowseController::showScene() {
 
 void BrowseController::showFocusReach() {
   const Interval known_range = session_.known_range();
-  const Interval range = known_range.length() > 0 ? known_range : found_range_;
+  const Interval range = known_range.length() > 0 ? known_range : session_.found_range();
   const double known = std::max(std::abs(range.min), std::abs(range.max));
   const double reach = range.length() > 0
                            ? std::ceil(std::clamp(known, 1.0, OverlayBar::kFarthestFocus))
@@ -210,9 +209,8 @@ void BrowseController::findRange() {
       [light_field](const Progress& progress) {
         return search_range(*light_field, IntervalOrAuto(), progress);
       },
-      [this](Interval found) {
-        found_range_ = found;
-        showFocusReach();
+      [this, scene = session_.generation()](Interval found) {
+        session_.set_found_range(scene, found);
       });
 }
 

@@ -84,7 +84,6 @@ class BrowseController : public QObject {
   LatestJob thumbnail_job_;
   LatestJob range_job_;
   LatestJob match_job_;
-  Interval found_range_{};  // of the shown light field; empty = not known
 };
 
 }  // namespace episcope

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/estimate_controller.h"
 
+#include "app/gui/estimate/method_range.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/estimate/sweep_controller.h"
 #include "app/gui/scene/scene_opener.h"
@@ -75,8 +76,8 @@ std::vector<MethodDescription> described_methods() {
   std::vector<MethodDescription> methods;
   for (const Estimator& estimator : registered_estimators()) {
     const EstimatorInfo& info = estimator.info;
-    methods.push_back(
-        {info.id, info.name, info.summary, info.reference, info.all_views, estimator.parameters});
+    methods.push_back({info.id, info.name, info.summary, info.reference, info.all_views,
+                       estimator.parameters, info.main_parameters});
   }
   return methods;
 }
@@ -115,6 +116,7 @@ EstimateController::EstimateController(const Workbench& bench)
   addTab();
   addCommands();
   add_measured_range(bench_, method_);
+  new MethodRange(bench_, *method_);
   method_->setMethods(described_methods());
   new LiveController(bench, *method_);
   new SweepController(bench, *method_);

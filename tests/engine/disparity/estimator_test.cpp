@@ -70,6 +70,8 @@ class EstimatorTest : public QObject {
 
  private slots:
   void registry_listsDistinctMethods();
+  void mainParameters_areTwoOrThreeThatExist_data() { add_methods(); }
+  void mainParameters_areTwoOrThreeThatExist();
   void unknownMethod_namesTheNearest();
   void parameters_haveDistinctKeys_data() { add_methods(); }
   void parameters_haveDistinctKeys();
@@ -106,6 +108,18 @@ void EstimatorTest::registry_listsDistinctMethods() {
     }
   }
   QVERIFY(ids.contains("epi_l") && ids.contains("epi_s"));
+}
+
+void EstimatorTest::mainParameters_areTwoOrThreeThatExist() {
+  const Estimator estimator = fetched();
+  const std::vector<std::string>& keys = estimator.info.main_parameters;
+
+  QVERIFY(keys.size() == 2 || keys.size() == 3);
+  QCOMPARE(keys.front(), std::string("range"));
+  for (const std::string& key : keys) {
+    QVERIFY2(std::ranges::count(estimator.parameters, key, &ParameterDescription::key) == 1,
+             key.c_str());
+  }
 }
 
 void EstimatorTest::unknownMethod_namesTheNearest() {

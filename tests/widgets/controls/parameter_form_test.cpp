@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/controls/parameter_form.h"
 #include "engine/core/schema.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/number_spin.h"
-#include "widgets/controls/parameter_form.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -68,6 +68,14 @@ class ParameterFormTest : public QObject {
     return form_.findChild<Widget*>(name);
   }
 
+  QStringList sources() {
+    const auto* combo = control<QComboBox>("range.source");
+    QStringList texts;
+    for (int i = 0; i < combo->count(); ++i) texts << combo->itemText(i);
+    return texts;
+  }
+  void choose(const QString& source) { control<QComboBox>("range.source")->setCurrentText(source); }
+
   /// Whether every value lies in its domain.
   bool is_accepted() const {
     try {
@@ -78,7 +86,11 @@ class ParameterFormTest : public QObject {
   }
 
  private slots:
-  void init() { form_.setParameters(schema().descriptions()); }
+  void init() {
+    form_.setRangeHints({});
+    form_.setAdvancedShown(false);
+    form_.setParameters(schema().descriptions());
+  }
 
   void freshForm_holdsTheDefaults() {
     QVERIFY(form_.values() == schema().values(Parameters{}));
@@ -180,10 +192,10 @@ class ParameterFormTest : public QObject {
   }
 
   void interval_keepsItsEndsApart() {
-    control<QCheckBox>("range.auto")->click();
+    choose("By hand");
     auto* min = control<QDoubleSpinBox>("range.min");
     auto* max = control<QDoubleSpinBox>("range.max");
-    QVERIFY(min->isEnabled());
+    QVERIFY(!min->isHidden());
 
     for (const double value : {3.0, 8.0}) {
       min->setValue(value);
@@ -194,22 +206,112 @@ class ParameterFormTest : public QObject {
     max->setValue(-8);
     const auto range = get<IntervalOrAuto>(form_, "range");
     QVERIFY(range && range->min < range->max);
-    control<QCheckBox>("range.auto")->click();
+    choose("Automatic");
     QVERIFY(!get<IntervalOrAuto>(form_, "range"));
   }
 
-  void interval_isAutoFoundOrGiven() {
-    auto* automatic = control<QCheckBox>("range.auto");
-    auto* found = control<QCheckBox>("range.found");
+  void interval_isOneChoice() {
+    QSignalSpy changed(&form_, &ParameterForm::valuesChanged);
 
-    found->click();
-
+    choose("Found in the images");
     QVERIFY(get<IntervalOrAuto>(form_, "range") == IntervalOrAuto::found());
-    QVERIFY(!automatic->isChecked() && !control<QDoubleSpinBox>("range.min")->isEnabled());
+    QVERIFY(!control<QDoubleSpinBox>("range.min")->isVisibleTo(&form_));
     QVERIFY(is_accepted());
-    automatic->click();
+    choose("Automatic");
     QVERIFY(get<IntervalOrAuto>(form_, "range") == IntervalOrAuto{});
-    QVERIFY(!found->isChecked());
+    QCOMPARE(changed.size(), 2);
+    choose("By hand");
+    QVERIFY(control<QDoubleSpinBox>("range.min")->isVisibleTo(&form_));
+  }
+
+  void rangeOfTheFile_isNamedAndBeginsTheOneByHand() {
+    form_.setRangeHints({true, Interval{-1.5, 2}, {}});
+    QCOMPARE(sources(),
+             (QStringList{"From the file: −1.50 … 2.00 px", "Found in the images", "By hand"}));
+
+    choose("By hand");
+
+    QVERIFY(get<IntervalOrAuto>(form_, "range") == IntervalOrAuto(Interval{-1.5, 2}));
+  }
+
+  void rangeThatWasFound_isOneChoiceWithoutAFileThatPromisesOne() {
+    QSignalSpy changed(&form_, &ParameterForm::valuesChanged);
+
+    form_.setRangeHints({true, {}, Interval{-0.5, 0.75}});
+
+    QCOMPARE(sources(), (QStringList{"Found: −0.50 … 0.75 px", "By hand"}));
+    QVERIFY(get<IntervalOrAuto>(form_, "range") == IntervalOrAuto{});
+    // A value that asks to find it stays what it is, as one choice too.
+    form_.setValues({{"range", IntervalOrAuto::found()}});
+    QCOMPARE(sources().size(), 2);
+    QVERIFY(get<IntervalOrAuto>(form_, "range") == IntervalOrAuto::found());
+    QCOMPARE(changed.size(), 0);
+  }
+
+  void givenRange_isKeptByHints() {
+    form_.setValues({{"range", IntervalOrAuto(Interval{-3, 3})}});
+
+    form_.setRangeHints({true, Interval{-1.5, 2}, Interval{-1, 1}});
+
+    QVERIFY(get<IntervalOrAuto>(form_, "range") == IntervalOrAuto(Interval{-3, 3}));
+    QCOMPARE(control<QComboBox>("range.source")->currentText(), QString("By hand"));
+  }
+
+  void parametersBesidesTheMainOnes_areFolded() {
+    form_.setParameters(schema().descriptions(), {"range", "weight"});
+    auto* fold = control<QToolButton>("parameters.advanced");
+    const auto is_seen = [&](const char* key) {
+      return control<QLabel>((std::string(key) + ".label").c_str())->isVisibleTo(&form_);
+    };
+    QCOMPARE(fold->text(), QString("Advanced (5)"));
+    QVERIFY(is_seen("range") && is_seen("weight") && !is_seen("inner") && !is_seen("view"));
+
+    fold->click();
+    QVERIFY(is_seen("inner") && is_seen("view"));
+    // Another method leaves them as they are.
+    form_.setParameters(schema().descriptions(), {"inner"});
+    QVERIFY(is_seen("weight"));
+    form_.setAdvancedShown(false);
+    QVERIFY(is_seen("inner") && !is_seen("weight"));
+  }
+
+  void foldedParameters_haveTheirValuesAndTellChanges() {
+    form_.setParameters(schema().descriptions(), {"range"});
+
+    form_.setValues({{"inner", 2.0}, {"scales", 4}});
+
+    QCOMPARE(get<double>(form_, "inner"), 2.0);
+    QCOMPARE(control<QToolButton>("parameters.advanced")->text(),
+             QString("Advanced (6, 2 changed)"));
+    form_.resetToDefaults();
+    QCOMPARE(control<QToolButton>("parameters.advanced")->text(), QString("Advanced (6)"));
+    QVERIFY(form_.values() == schema().values(Parameters{}));
+  }
+
+  void mainParameters_comeInTheirOrder() {
+    form_.setParameters(schema().descriptions(), {"range", "inner"});
+    form_.resize(form_.sizeHint());
+    form_.show();
+
+    QVERIFY(control<QLabel>("range.label")->y() < control<QLabel>("inner.label")->y());
+    form_.hide();
+  }
+
+  void help_isOneClickAway() {
+    form_.show();
+
+    control<QToolButton>("inner.help")->click();
+
+    const auto* help = control<QLabel>("parameterHelp.text");
+    QVERIFY(help && help->isVisible());
+    QVERIFY(help->text().contains("Width of the filter."));
+    QVERIFY(!control<QWidget>("parameterHelp.picture"));  // of no key that it is drawn for
+    QTest::keyClick(help->window(), Qt::Key_Escape);
+    form_.hide();
+    form_.setParameters(schema().descriptions());
+    control<QToolButton>("range.help")->click();
+    QVERIFY(control<QWidget>("parameterHelp.picture"));
+    control<QWidget>("parameterHelp.picture")->window()->close();
   }
 
   void view_isChosenByRowAndColumn() {

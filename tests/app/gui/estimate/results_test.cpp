@@ -9,10 +9,12 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/controls/text.h"
 #include "widgets/panels/value_bar.h"
 
 #include <QAction>
 #include <QClipboard>
+#include <QComboBox>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -68,6 +70,7 @@ class ResultsTest : public QObject {
   void lightField_isNoResult();
   void copiedCommand_opensTheSameFile();
   void foundRangeThatEndsAtItsLimit_isTold();
+  void form_namesTheRangeThatARunFound();
   void cornerThatAViewDoesNotShow_hasNoDisparity();
 };
 
@@ -298,6 +301,20 @@ void ResultsTest::foundRangeThatEndsAtItsLimit_isTold() {
   const auto told = [&f] { return f.window.findChild<MessageBar*>("messageBar")->text(); };
   QTRY_VERIFY2_WITH_TIMEOUT(told().contains("may reach farther"), qPrintable(told()),
                             kScenePatience);
+}
+
+void ResultsTest::form_namesTheRangeThatARunFound() {
+  WindowFixture f;
+  f.openSmall();
+  const auto* source = f.window.findChild<QComboBox*>("range.source");
+  QCOMPARE(source->currentText(), QString("Found in the images"));
+
+  f.runAndWait();
+
+  const Interval range = f.window.bench().session.shown()->estimate->range;
+  const QString found =
+      "Found: " + number_text(range.min, 2) + " … " + number_text(range.max, 2) + " px";
+  QTRY_COMPARE_WITH_TIMEOUT(source->currentText(), found, kPatience);
 }
 
 void ResultsTest::cornerThatAViewDoesNotShow_hasNoDisparity() {
