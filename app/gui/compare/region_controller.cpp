@@ -47,7 +47,7 @@ RegionPtr mask_where(const LightField& light_field, IsInside is_inside) {
 RegionController::RegionController(const Workbench& bench, RegionBar* bar)
     : QObject(&bench.owner), bench_(bench), bar_(bar), tool_(new RectangleTool(this)) {
   bar_->setParts({tr("Whole view"), tr("Rectangle"), tr("Current label"),
-                  tr("Where all results have values"), tr("Mask of a file…")});
+                  tr("Where all results have values"), tr("Mask from a file…")});
   addCommands(*bar);
   connectTool();
   connect(bar_, &RegionBar::partChosen, this,
@@ -76,7 +76,7 @@ void RegionController::addCommands(RegionBar& bar) {
   QAction* draw = bench_.commands.add(
       {.id = "compare.rectangle",
        .menu = Menu::Compare,
-       .text = tr("Judge a rectangle"),
+       .text = tr("Evaluate a rectangle"),
        .tip = tr("The next drag on the view draws a rectangle in which metrics are computed"),
        .icon = "rectangle",
        .keys = {tr("Ctrl+Alt+R")},
@@ -85,7 +85,7 @@ void RegionController::addCommands(RegionBar& bar) {
        .enabled = [this] { return bench_.session.scene() != nullptr; }});
   bench_.commands.add({.id = "compare.whole",
                        .menu = Menu::Compare,
-                       .text = tr("Judge the whole view"),
+                       .text = tr("Evaluate the whole view"),
                        .tip = tr("Computes metrics over the whole view again"),
                        .keys = {tr("Ctrl+Alt+W")},
                        .run = [this] { choose(JudgedPixels::Whole); },

@@ -105,7 +105,7 @@ QString detail_text(const Estimate& estimate) {
   for (const auto& [key, value] : estimate.parameters) {
     lines << QString::fromStdString(key + " " + to_text(value));
   }
-  for (const std::string& note : estimate.notes) lines << with_minus(QString::fromStdString(note));
+  for (const std::string& note : estimate.notes) lines << finding_words(note);
   return lines.join('\n');
 }
 

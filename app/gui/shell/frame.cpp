@@ -143,7 +143,7 @@ void Frame::askWhereTabGoes(int index, const QPoint& at) {
   const Tab* tab = tabOf(book_->widget(index));
   if (!tab) return;
   QMenu menu(this);
-  menu.addAction(tr("In a window of its own"), this,
+  menu.addAction(tr("Detach into a window"), this,
                  [this, id = pane_id(tab->id)] { panes_->tear(id); });
   menu.addAction(tr("Below the other tabs"), this,
                  [this, id = pane_id(tab->id)] { panes_->stack(id); });
