@@ -150,6 +150,7 @@ FileInfo describe_result(const std::string& file) {
       file, info);
   add_run(estimate, info);
   json["notes"] = estimate.notes;
+  json["findings"] = findings_json(estimate.notes);
   for (const std::string& note : estimate.notes) info.lines.emplace_back("note", note);
   return info;
 }

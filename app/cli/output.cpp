@@ -4,6 +4,7 @@
 #include "app/cli/arguments.h"
 #include "app/session/load_scene.h"
 #include "app/session/result_files.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
@@ -45,6 +46,16 @@ Json interval_json(const Interval& interval) {
 
 Json view_json(ViewIndex view) {
   return Json::array({view.v, view.u});
+}
+
+Json findings_json(const std::vector<std::string>& sentences) {
+  Json findings = Json::array();
+  for (const std::string& sentence : sentences) {
+    if (const auto finding = finding_of(sentence)) {
+      findings.push_back(Json::object({{"code", finding->code}, {"values", finding->values}}));
+    }
+  }
+  return findings;
 }
 
 std::string time_text(std::int64_t seconds) {

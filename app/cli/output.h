@@ -20,6 +20,8 @@ using Json = nlohmann::ordered_json;
 /// the shortest number that reads back as the same.
 [[nodiscard]] Json interval_json(const Interval& interval);
 [[nodiscard]] Json view_json(ViewIndex view);
+/// Code and values of the notes or warnings that are findings (finding_of), in their order.
+[[nodiscard]] Json findings_json(const std::vector<std::string>& sentences);
 /// "2026-11-27T22:43:23Z" of seconds since 1970.
 [[nodiscard]] std::string time_text(std::int64_t seconds);
 /// One JSON object on standard output.

@@ -6,6 +6,7 @@
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/plenoptic/decode_files.h"
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/parameter.h"
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
@@ -176,8 +177,7 @@ void warn_of_ignored(const ParameterSet& given, Scene& scene) {
   const std::string name = reader ? reader->name : "a built-in scene";
   for (const auto& [key, value] : given) {
     if (key == Reading::kFocus || (reader && reader->has_option(key))) continue;
-    scene.convention.warnings.push_back(
-        fmt::format("--{} is ignored, because this is {}.", key, name));
+    scene.convention.warnings.push_back(fmt::format(finding_text("option.ignored"), key, name));
   }
 }
 

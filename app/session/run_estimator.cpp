@@ -26,7 +26,7 @@ namespace {
 std::string range_warning(const LightField& light_field, const Estimate& estimate) {
   const std::string note = limited_range_note(light_field, estimate.range);
   if (std::ranges::count(estimate.notes, note) == 0) return {};
-  return estimate.method + ": " + note + ".";
+  return note;
 }
 
 void add_date(Provenance& estimate) {

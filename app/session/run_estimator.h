@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/estimate.h"
+#include "engine/core/finding.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
 #include "engine/disparity/estimator.h"
@@ -23,11 +24,11 @@ struct EstimateRequest {
 struct FinishedEstimate {
   EstimatePtr estimate;    ///< With its provenance, the hash of the light field included.
   Interval display_range;  ///< Disparities that 98 % of the pixels of one view lie in.
-  std::string warning{};   ///< A sentence if the range that was found may be too narrow.
+  std::string warning{};   ///< The note that the range found may be too narrow; or empty.
 };
 
 /// Note of an estimate that was taken before the method was done.
-inline constexpr const char* kTakenEarly = "ended early";
+inline constexpr const char* kTakenEarly = finding_text("run.early").data();
 /// Whether it has that note.
 [[nodiscard]] bool was_taken_early(const Estimate& estimate);
 

@@ -2,12 +2,14 @@
 #include "app/session/user_folders.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/memory.h"
 #include "engine/core/text.h"
 #include "engine/io/formats/archive_reader.h"
 #include "engine/io/formats/sequence_reader.h"
 #include "engine/io/models/scribble_file.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -177,7 +179,8 @@ void read_kept_scribbles(Scene& scene, const Progress& progress) {
   try {
     scene.scribbles = io::read_scribbles(place, scene, progress);
   } catch (const IoError& error) {
-    scene.convention.warnings.push_back(std::string("Scribbles were not read: ") + error.what());
+    scene.convention.warnings.push_back(
+        fmt::format(finding_text("scribbles.unread"), error.what()));
   }
 }
 

@@ -5,6 +5,7 @@
 #include "engine/capture/calibrate.h"
 #include "engine/capture/rectify.h"
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/scene.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/models/open_options.h"
@@ -133,6 +134,15 @@ Texts quantity_texts() {
   return texts;
 }
 
+Texts finding_texts() {
+  Texts texts;
+  for (const FindingText& each : kFindingTexts) {
+    add(texts, numbered(each.english));
+    add(texts, std::string(each.brief));
+  }
+  return texts;
+}
+
 void print(const char* context, const Texts& texts) {
   for (const std::string& text : texts) {
     std::cout << "QT_TRANSLATE_NOOP(\"" << context << "\", \"" << text << "\")\n";
@@ -148,6 +158,7 @@ int main(int argc, char** argv) {
     texts.merge(literal_sentences(std::filesystem::path(argv[1]) / "engine"));
     print("episcope::Schema", texts);
     print("episcope::render", quantity_texts());
+    print("episcope::Finding", finding_texts());
     return std::cout.flush() ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << "episcope_texts: " << error.what() << '\n';

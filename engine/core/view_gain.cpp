@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/view_gain.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/core/view_stack.h"
@@ -436,9 +437,7 @@ std::optional<EvenLightField> make_even(const LightField& lf, const Progress& pr
   divide_by_gains(samples, correction, progress.part(0.7, 1));
   const double difference = std::abs(correction.of(correction.most_different()) - 1);
   return EvenLightField{LightField(std::move(samples), lf.info(), lf.valid().clone()),
-                        fmt::format("brightness of the views, which differs by up to {:.1f} %, was "
-                                    "evened out",
-                                    100 * difference)};
+                        fmt::format(finding_text("run.evened"), 100 * difference)};
 }
 
 }  // namespace

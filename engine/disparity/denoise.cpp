@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/denoise.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/kernels/shared_constants.h"
@@ -133,7 +134,7 @@ cuda::MapDenoising map_denoising(const DenoiseParameters& p, float min_weight, f
 }
 
 std::string gap_note(double largest) {
-  return fmt::format("largest relative duality gap {:.1e}", largest);
+  return fmt::format(finding_text("gap"), largest);
 }
 
 double denoise(const LightField& lf, const DenoiseParameters& parameters,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/disparity_range.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/image.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/block_disparities.h"
@@ -374,10 +375,7 @@ std::string limited_range_note(const LightField& lf, Interval range) {
   constexpr double near = 0.25;  // the width in which pixels are counted, and a little
   const double limit = farthest_found(lf);
   if (range.min > near - limit && range.max < limit - near) return {};
-  return fmt::format(
-      "the disparity range found, {:.2f} … {:.2f} px, ends where the search does, at ±{:.2f} px: "
-      "the scene may reach farther; give a range to search it",
-      range.min, range.max, limit);
+  return fmt::format(finding_text("range.limited"), range.min, range.max, limit);
 }
 
 Interval find_disparity_range(const LightField& lf, const Progress& progress) {
@@ -407,8 +405,7 @@ RangeSource range_source(const LightField& lf, const IntervalOrAuto& wanted) {
 }
 
 std::string found_range_note(Interval range) {
-  return fmt::format("disparity range {:.2f} … {:.2f} px, found from the images", range.min,
-                     range.max);
+  return fmt::format(finding_text("range.found"), range.min, range.max);
 }
 
 Interval search_range(const LightField& lf, const IntervalOrAuto& wanted,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi_c.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/parallel.h"
 #include "engine/cuda/line_check.h"
 #include "engine/cuda/ordering.h"
@@ -452,8 +453,7 @@ double ordering_violations(const ViewStack<float>& disparity, const Progress& pr
 }
 
 std::string ordering_note(double before, double after) {
-  return fmt::format("ordering violated by {:.3f} % of the lines, {:.3f} % before", 100 * after,
-                     100 * before);
+  return fmt::format(finding_text("ordering"), 100 * after, 100 * before);
 }
 
 Schema<EpiCParameters> epi_c_schema() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi_two_layer.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/parallel.h"
 #include "engine/cuda/host_pages.h"
 #include "engine/cuda/layer_solver.h"
@@ -252,7 +253,7 @@ void clamp_layers(const LayeredMaps& maps, Interval range, const Progress& progr
 // duality gap.
 std::vector<std::string> layer_notes(std::size_t doubles, std::size_t pixels, double gap) {
   const double share = 100.0 * static_cast<double>(doubles) / static_cast<double>(pixels);
-  return {fmt::format("two layers in {:.1f} % of the pixels", share), gap_note(gap)};
+  return {fmt::format(finding_text("layers"), share), gap_note(gap)};
 }
 
 std::size_t count_doubles(const ViewStack<std::uint8_t>& layers) {

@@ -2,6 +2,7 @@
 #include "engine/disparity/estimator.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/version.h"
 #include "engine/cuda/device.h"
 #include "engine/disparity/disparity_range.h"
@@ -141,10 +142,8 @@ void note_positions(const LightField& light_field, Provenance& estimate) {
   if (std::ranges::any_of(estimate.parameters, is_choice)) return;
   const ViewPlaces stated = view_places(light_field.info(), light_field.grid());
   if (stated.kind != PlacesKind::Irregular) return;
-  estimate.notes.push_back(fmt::format(
-      "cameras stand up to {:.2f} steps off the regular grid, which this method takes for granted; "
-      "stereo methods can use their positions",
-      stated.largest_deviation));
+  estimate.notes.push_back(
+      fmt::format(finding_text("positions.regular"), stated.largest_deviation));
 }
 
 constexpr const char* kCpu = "CPU";
@@ -176,12 +175,12 @@ Estimate estimate_on_device(Device device, const EstimatorInfo& info,
   try {
     Estimate result = estimate(Device::Cuda);
     result.device = known_cuda_device().name;
-    result.notes.push_back(fmt::format("computed on {}", known_cuda_device().name));
+    result.notes.push_back(fmt::format(finding_text("run.gpu"), known_cuda_device().name));
     return result;
   } catch (const DeviceFailure& failure) {
     if (device == Device::Cuda) throw;
     Estimate result = on_cpu();
-    result.notes.push_back(fmt::format("computed on the CPU: {}", failure.what()));
+    result.notes.push_back(fmt::format(finding_text("run.cpu"), failure.what()));
     return result;
   }
 }

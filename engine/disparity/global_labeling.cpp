@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/global_labeling.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/parallel.h"
 #include "engine/cuda/lifted_solver.h"
 #include "engine/cuda/tv_l2.h"
@@ -33,10 +34,11 @@ float sub_label_offset(float before, float here, float after, Refinement refinem
 namespace {
 
 std::string labeling_note(const LiftedResult& result, double smoothness) {
-  return fmt::format(
-      "global labeling: λ {:.5g} per px, energy {:.6g}, gap {:.1e} after {} iterations{}",
-      smoothness, result.energy, result.relative_gap(), result.iterations,
-      result.converged ? "" : " (ended early)");
+  const auto told = [&](auto text) {
+    return fmt::format(fmt::runtime(text), smoothness, result.energy, result.relative_gap(),
+                       result.iterations);
+  };
+  return told(result.converged ? finding_text("labeling.done") : finding_text("labeling.early"));
 }
 
 LiftedResult solve_labels(const GlobalLabelingData& data, const Image<float>& weights,

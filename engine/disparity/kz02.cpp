@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/kz02.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/stereo_costs.h"
@@ -420,10 +421,10 @@ Estimate estimate_kz02(const LightField& lf, const Kz02Parameters& parameters,
     progress.step("between labels");
     refine(lf, parameters, expansion.labels()[0], view, estimate, progress.part(0.95, 1));
   }
-  estimate.notes.push_back(
-      fmt::format("K = {:.1f} (1/255)²; energy fell by {:.0f} K in {} cycles{}",
-                  interactions.limit(), -static_cast<double>(expanded.change) / Interactions::kUnit,
-                  expanded.cycles, expanded.converged ? ", to a minimum" : ""));
+  estimate.notes.push_back(fmt::format(
+      fmt::runtime(expanded.converged ? finding_text("cuts.minimum") : finding_text("cuts.ended")),
+      interactions.limit(), -static_cast<double>(expanded.change) / Interactions::kUnit,
+      expanded.cycles));
   return estimate;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/disparity/net_method.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/hash.h"
 #include "engine/disparity/carried_run.h"
 #include "engine/disparity/disparity_range.h"
@@ -145,7 +146,7 @@ class NetMethod final : public CarriedMethod {
         view, range_,
         estimate_net(lf_, view, weights_->weights(), view_parameters(), progress, device_));
     if (!parameters_.weights.empty()) {
-      estimate.notes.push_back(fmt::format("weights of {}, hash {}", parameters_.weights,
+      estimate.notes.push_back(fmt::format(finding_text("run.weights"), parameters_.weights,
                                            hash_digits(weights_->hash())));
     }
     return estimate;

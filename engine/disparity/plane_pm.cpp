@@ -2,6 +2,7 @@
 #include "engine/disparity/plane_pm.h"
 
 #include "engine/core/estimate.h"
+#include "engine/core/finding.h"
 #include "engine/core/memory.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
@@ -408,7 +409,7 @@ Estimate estimate_view(EqualizedViews& data, const PlaneParameters& parameters,
   }
   for (std::string& note : cost_notes(data.stereo())) estimate.notes.push_back(std::move(note));
   if (!data.note().empty()) estimate.notes.push_back(data.note());
-  estimate.notes.push_back(fmt::format("visibility: {} of {} rounds", done - 1, rounds));
+  estimate.notes.push_back(fmt::format(finding_text("visibility"), done - 1, rounds));
   return estimate;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/disparity/propagate_planes.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/matching_cost.h"
 
@@ -189,7 +190,7 @@ void put_map(const Estimate& map, int first_row, ViewStack<float>& disparity,
 }
 
 std::string propagated_note(std::size_t views) {
-  return fmt::format("carried to all views from {} of them", views);
+  return fmt::format(finding_text("run.propagated"), views);
 }
 
 namespace {

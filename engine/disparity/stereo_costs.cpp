@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/stereo_costs.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/image.h"
 #include "engine/core/memory.h"
 #include "engine/core/numbers.h"
@@ -129,16 +130,15 @@ void choose_places(const LightField& lf, const ViewPlaces& stated, StereoCosts& 
                    Residuals& residuals, const Progress& progress) {
   costs.matching.places = std::make_shared<const std::vector<ViewPlace>>(stated.places);
   const Residuals there = find_residuals(lf, costs, progress);
-  const std::string off = fmt::format("up to {:.2f} steps off the regular grid{}",
-                                      stated.largest_deviation, outlier_text(stated.outliers));
   if (there.median < residuals.median) {
     residuals = there;
-    costs.notes.push_back("positions of cameras used, " + off);
+    costs.notes.push_back(fmt::format(finding_text("positions.used"), stated.largest_deviation,
+                                      outlier_text(stated.outliers)));
     return;
   }
   costs.matching.places = nullptr;
-  costs.notes.push_back("positions of cameras not used: " + off +
-                        ", they match no better than the grid");
+  costs.notes.push_back(fmt::format(finding_text("positions.no_better"), stated.largest_deviation,
+                                    outlier_text(stated.outliers)));
 }
 
 void make_guide(const LightField& lf, int radius, StereoCosts& costs, const Progress& progress) {
@@ -149,8 +149,8 @@ void make_guide(const LightField& lf, int radius, StereoCosts& costs, const Prog
 }
 
 std::string cap_note(const StereoCosts& costs) {
-  if (costs.matching.cap >= kUncapped) return "matching cost uncapped";
-  return fmt::format("matching cost capped at ε = {:.3f}", costs.matching.cap);
+  if (costs.matching.cap >= kUncapped) return std::string(finding_text("cap.none"));
+  return fmt::format(finding_text("cap"), costs.matching.cap);
 }
 
 }  // namespace
@@ -234,7 +234,7 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
   ViewPlaces stated;
   if (parameters.positions == Positions::Use) stated = view_places(compared.info(), lf.grid());
   if (stated.kind == PlacesKind::Implausible) {
-    costs.notes.emplace_back("positions of cameras not used: they make no grid");
+    costs.notes.emplace_back(finding_text("positions.no_grid"));
   }
   const bool is_irregular = stated.kind == PlacesKind::Irregular;
   if (parameters.compensate_noise || parameters.epsilon == 0 || is_irregular) {

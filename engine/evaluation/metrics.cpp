@@ -2,6 +2,7 @@
 #include "engine/evaluation/metrics.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/core/point_cloud.h"
@@ -108,18 +109,17 @@ PixelErrors sum_errors(const Evaluation& evaluation, bool of_missing) {
 std::string missing_text(const PixelErrors& present, const PixelErrors& missing, double farthest,
                          const EvaluationOptions& options) {
   const double all = present.count + missing.count;
-  const std::string share = fmt::format("{}: {:.2f} % of the pixels have no value and count ",
-                                        protocol_name(options.protocol), 100 * missing.count / all);
+  const auto* const protocol = protocol_name(options.protocol);
+  const double share = 100 * missing.count / all;
   if (options.invalid == InvalidEstimates::Compatible) {
-    return share + "as good pixels; means leave them out, as the 2016 tool does";
+    return fmt::format(finding_text("missing.good"), protocol, share);
   }
-  std::string without = "there is no other pixel";
-  if (present.count > 0) {
-    without = fmt::format("MSE×100 is {:.3g} with and {:.3g} without them",
-                          100 * (present.squares + missing.squares) / all,
-                          100 * present.squares / present.count);
+  if (present.count == 0) {
+    return fmt::format(finding_text("missing.all"), protocol, share, farthest);
   }
-  return share + fmt::format("as the farthest true disparity, {:.3g} px: {}", farthest, without);
+  return fmt::format(finding_text("missing.bad"), protocol, share, farthest,
+                     100 * (present.squares + missing.squares) / all,
+                     100 * present.squares / present.count);
 }
 
 /// Numbers without the pixels that have no value, if there are such pixels that count as bad; a

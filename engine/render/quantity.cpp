@@ -105,7 +105,7 @@ constexpr QuantityInfo kQuantities[] = {
      RangeRule::Fixed, kShares},
     {Quantity::Truth, "truth", "Ground truth", "ground truth", "Shows the true disparity", "px",
      "viridis", Subject::Truth, RangeRule::Disparity},
-    {Quantity::TruthBackground, "truth_background", "Truth behind", "true background",
+    {Quantity::TruthBackground, "truth_background", "True background", "true background",
      "Shows the true disparity of the background seen through a surface", "px", "viridis",
      Subject::Truth, RangeRule::Disparity},
     {Quantity::SignedError, "error", "Error", "signed error",

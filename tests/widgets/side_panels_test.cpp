@@ -15,6 +15,7 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSignalSpy>
+#include <QToolButton>
 
 namespace episcope::in_side_panels_test {
 
@@ -239,25 +240,31 @@ class SidePanelsTest : public QObject {
              QString::fromUtf8("x 2 y 1 · grey 77 · ground truth 0.000 · EPI_S −0.001 (+0.000)"));
   }
 
-  void info_wrapsSentencesAndElidesPaths() {
+  void info_givesEveryFactOneLine() {
     InfoPanel panel;
     panel.resize(180, 300);
     const QString path = "/a/very/long/path/to/a/light/field/in/some/folder/lf.h5";
-    panel.setInfo(
-        "scene",
-        {{"source", path, "", "source"}, {"units", "depth in mm, from the cfg file", "", "units"}},
-        {"The order could not be checked."});
+    const QString formula = "depth in mm, from the parameters of the cfg file";
+    panel.setInfo("scene",
+                  {{"source", path, "", "source"}, {"units", formula, "as it is stated", "units"}},
+                  {{"The order could not be checked."}});
     panel.show();
     QVERIFY(QTest::qWaitForWindowExposed(&panel));
 
     auto* source = panel.findChild<QLabel*>("info.source");
     QVERIFY(source->text() != path);
     QCOMPARE(source->toolTip(), path);
-    auto* units = panel.findChild<QLabel*>("info.units");
-    QTRY_VERIFY(units->height() > 1.5 * units->fontMetrics().height());
+    auto* units = panel.findChild<FoldedLabel*>("info.units");
+    QTRY_VERIFY(units->height() < 1.5 * units->fontMetrics().height());
+    QVERIFY(units->text() != formula);
     QVERIFY(units->width() <= panel.width());
-    QCOMPARE(panel.findChild<QLabel*>("info.warning")->text(),
+    QCOMPARE(panel.findChild<FoldedLabel*>("info.warning")->fullText(),
              QString("The order could not be checked."));
+    // All of it is one click away, and stays so when other facts change.
+    panel.findChild<QToolButton*>("info.more.units")->click();
+    QCOMPARE(panel.findChild<FoldedLabel*>("info.units")->text().simplified(), formula);
+    panel.setInfo("scene", {{"units", formula, "as it is stated", "units"}}, {});
+    QVERIFY(panel.findChild<FoldedLabel*>("info.units")->isOpen());
   }
 
   void info_showsWarningsAboveAllElse() {
@@ -266,7 +273,7 @@ class SidePanelsTest : public QObject {
     std::vector<InfoRow> rows;
     for (int i = 0; i < 20; ++i)
       rows.push_back({"row", "value of it", "", QString("row%1").arg(i)});
-    panel.setInfo("scene", rows, {"A view cannot be used."});
+    panel.setInfo("scene", rows, {{"A view cannot be used."}});
     panel.show();
     QVERIFY(QTest::qWaitForWindowExposed(&panel));
 
@@ -277,7 +284,7 @@ class SidePanelsTest : public QObject {
     QVERIFY(top_of(warning) < top_of(first));
   }
 
-  void info_foldsChecks() {
+  void info_hidesEvidenceBehindAnArrow() {
     InfoPanel panel;
     panel.resize(180, 300);
     const QString check =
@@ -286,23 +293,55 @@ class SidePanelsTest : public QObject {
     panel.setInfo("scene", {{"order", "as stored", check, "order", &action}}, {});
     panel.show();
     QVERIFY(QTest::qWaitForWindowExposed(&panel));
+    const auto* label = panel.findChild<QLabel*>("info.check");
+    const auto* button = panel.findChild<QToolButton*>("info.action");
+    QVERIFY(!label->isVisible() && !button->isVisible());
 
-    auto* label = panel.findChild<FoldedLabel*>("info.check");
-    QTRY_COMPARE(label->text().count('\n'), 1);
-    QCOMPARE(label->toolTip(), check);
-    QTest::mouseClick(label, Qt::LeftButton);
-    QVERIFY(label->text().endsWith("points"));
-    QVERIFY(label->toolTip().isEmpty());
+    auto* arrow = panel.findChild<QToolButton*>("info.more.order");
+    QTest::mouseClick(arrow, Qt::LeftButton);
+    QVERIFY(label->isVisible() && button->isVisible());
+    QVERIFY(label->text().simplified().endsWith("points"));
     QTRY_VERIFY(label->height() > 2.5 * label->fontMetrics().height());
     QVERIFY(label->width() <= panel.width());
-    QTest::mouseClick(label, Qt::LeftButton);
-    QCOMPARE(label->text().count('\n'), 1);
+    QTest::mouseClick(arrow, Qt::LeftButton);
+    QVERIFY(!label->isVisible());
+  }
+
+  void info_showsTheActionOfWhatNeedsOne() {
+    InfoPanel panel;
+    QAction reverse("Reverse near and far");
+    QAction conventions("Conventions…");
+    InfoRow sign{"sign", "not known", "no texture", "sign", &reverse};
+    sign.needs_action = true;
+    panel.setInfo("scene", {sign}, {{"The samples are dark.", "", &conventions}, {"Odd."}});
+    panel.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&panel));
+
+    QStringList shown;
+    for (const auto* each : panel.findChildren<QToolButton*>("info.action")) {
+      if (each->isVisible()) shown << each->text();
+    }
+    QCOMPARE(shown, (QStringList{"Conventions…", "Reverse near and far"}));
+  }
+
+  void info_opensAWarningThatIsTooLong() {
+    InfoPanel panel;
+    panel.setInfo("scene", {}, {{"Using the inner 10×10 of 14×14 views, rows 2 to 11.", "10×10"}});
+    panel.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&panel));
+    QCOMPARE(panel.findChild<FoldedLabel*>("info.warning")->fullText(), QString("10×10"));
+    const auto* text = panel.findChild<QLabel*>("info.warning.text");
+    QVERIFY(!text->isVisible());
+
+    panel.findChild<QToolButton*>("info.more.warning")->click();
+
+    QVERIFY(text->isVisible() && text->text().contains("rows 2 to 11"));
   }
 
   void info_breaksLongNames() {
     InfoPanel panel;
     panel.resize(120, 300);
-    panel.setInfo("scene", {}, {"GT_DEPTH_BACKGROUND_OF_ALL_VIEWS is empty"});
+    panel.setInfo("scene", {}, {{"GT_DEPTH_BACKGROUND_OF_ALL_VIEWS is empty"}});
     panel.show();
     QVERIFY(QTest::qWaitForWindowExposed(&panel));
 
@@ -310,7 +349,7 @@ class SidePanelsTest : public QObject {
     QVERIFY2(warning->minimumSizeHint().width() <= warning->width(),
              qPrintable(
                  QString("%1 > %2").arg(warning->minimumSizeHint().width()).arg(warning->width())));
-    QTRY_VERIFY(warning->height() > 2.5 * warning->fontMetrics().height());
+    QTRY_VERIFY(warning->height() > 1.5 * warning->fontMetrics().height());
   }
 };
 

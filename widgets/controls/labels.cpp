@@ -52,13 +52,12 @@ void ElidedLabel::changeEvent(QEvent* event) {
 
 namespace {
 
-constexpr int kFoldedLines = 2;
 constexpr int kSlack = 2;  // A line must not wrap again where the label draws it.
 constexpr int kLeastLabelWidth = 24;
 
 }  // namespace
 
-FoldedLabel::FoldedLabel(QWidget* parent) : QLabel(parent) {
+FoldedLabel::FoldedLabel(QWidget* parent, int lines) : QLabel(parent), lines_(lines) {
   setTextFormat(Qt::PlainText);
   setWordWrap(true);
   setAlignment(Qt::AlignLeft | Qt::AlignTop);
@@ -95,7 +94,7 @@ QStringList FoldedLabel::linesAt(int width) const {
   QStringList lines;
   for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine()) {
     line.setLineWidth(room);
-    if (!is_open_ && lines.size() == kFoldedLines - 1) {
+    if (!is_open_ && lines.size() == lines_ - 1) {
       lines << fontMetrics().elidedText(text.mid(line.textStart()), Qt::ElideRight, room);
       break;
     }
@@ -108,7 +107,7 @@ QStringList FoldedLabel::linesAt(int width) const {
 void FoldedLabel::fold() {
   const QStringList lines = linesAt(contentsRect().width());
   const bool is_folded = !lines.isEmpty() && lines.back().endsWith(QChar(0x2026));
-  const bool can_fold = is_folded || (is_open_ && lines.size() > kFoldedLines);
+  const bool can_fold = is_folded || (is_open_ && lines.size() > lines_);
   setToolTip(is_folded ? full_text_ : QString());
   setCursor(can_fold ? Qt::PointingHandCursor : Qt::ArrowCursor);
   if (const QString shown = lines.join('\n'); shown != text()) setText(shown);
@@ -127,7 +126,12 @@ void FoldedLabel::changeEvent(QEvent* event) {
 
 void FoldedLabel::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || !rect().contains(event->position().toPoint())) return;
-  is_open_ = !is_open_;
+  setOpen(!is_open_);
+  emit toggled(is_open_);
+}
+
+void FoldedLabel::setOpen(bool is_open) {
+  is_open_ = is_open;
   fold();
 }
 

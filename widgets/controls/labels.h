@@ -35,19 +35,27 @@ class ElidedLabel : public QLabel {
   QString full_text_;
 };
 
-/// A long text that shows two lines, or all of it after a click; the tool tip has all of it. Never
-/// asks for more width than it gets.
+/// A long text that shows its first lines, or all of it after a click; the tool tip has all of it.
+/// Never asks for more width than it gets.
 class FoldedLabel : public QLabel {
   Q_OBJECT
 
  public:
-  explicit FoldedLabel(QWidget* parent = nullptr);
+  /// `lines`: how many it shows while it is folded.
+  explicit FoldedLabel(QWidget* parent = nullptr, int lines = 2);
 
   void setFullText(const QString& text);
   [[nodiscard]] const QString& fullText() const { return full_text_; }
+  /// Shows all of the text, or folds it.
+  void setOpen(bool is_open);
+  [[nodiscard]] bool isOpen() const { return is_open_; }
   [[nodiscard]] QSize sizeHint() const override;
   [[nodiscard]] QSize minimumSizeHint() const override;
   [[nodiscard]] int heightForWidth(int width) const override;
+
+ signals:
+  /// A click opened or folded it.
+  void toggled(bool is_open);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -58,6 +66,7 @@ class FoldedLabel : public QLabel {
   [[nodiscard]] QStringList linesAt(int width) const;
   void fold();
 
+  int lines_;
   QString full_text_;
   bool is_open_ = false;
 };

@@ -66,7 +66,7 @@ void NumberSpin::fixup(QString& text) const {
   text = limit;
   QToolTip::showText(
       mapToGlobal(QPoint(0, height())),
-      (is_low ? tr("The least possible value is %1") : tr("The largest possible value is %1"))
+      (is_low ? tr("The minimum is %1") : tr("The maximum is %1"))
           .arg(limit));
 }
 

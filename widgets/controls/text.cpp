@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/controls/text.h"
 
+#include "engine/core/finding.h"
+
 #include <QCoreApplication>
 #include <QRegularExpression>
 
@@ -75,6 +77,56 @@ QString choice_label(const ParameterDescription& description, const std::string&
 
 QString schema_text(const std::string& text) {
   return text.empty() ? QString() : SchemaText::tr(text.c_str());
+}
+
+namespace {
+
+struct FindingWords {
+  Q_DECLARE_TR_FUNCTIONS(episcope::Finding)
+};
+
+// A number, a name, or a sentence or a literal of the engine, such as the reason in a sentence.
+QString value_words(const std::string& value) {
+  static const QRegularExpression words("^[^0-9/]* [^0-9/]*$");
+  const QString text = QString::fromStdString(value);
+  return finding_of(value) || text.contains(words) ? finding_words(value) : text;
+}
+
+QString filled(const std::string& text, const std::vector<std::string>& values) {
+  const QString translated = FindingWords::tr(text.c_str());
+  static const QRegularExpression place("%(\\d+)");
+  QString words;
+  qsizetype end = 0;
+  for (auto match = place.match(translated); match.hasMatch();
+       match = place.match(translated, end)) {
+    words += translated.mid(end, match.capturedStart() - end);
+    const std::size_t index = match.captured(1).toUInt() - 1;
+    if (index < values.size()) words += value_words(values[index]);
+    end = match.capturedEnd();
+  }
+  return words + translated.mid(end);
+}
+
+}  // namespace
+
+QString finding_words(const std::string& sentence) {
+  if (const auto finding = finding_of(sentence)) {
+    return with_minus(filled(numbered(find_finding_text(finding->code)->english), finding->values));
+  }
+  // Evidence of several kinds is joined.
+  if (const std::size_t at = sentence.find("; "); at != std::string::npos) {
+    if (schema_text(sentence) == QString::fromStdString(sentence)) {
+      return finding_words(sentence.substr(0, at)) + "; " + finding_words(sentence.substr(at + 2));
+    }
+  }
+  return with_minus(schema_text(sentence));
+}
+
+QString finding_brief(const std::string& sentence) {
+  const auto finding = finding_of(sentence);
+  if (!finding) return {};
+  const std::string_view brief = find_finding_text(finding->code)->brief;
+  return brief.empty() ? QString() : with_minus(filled(std::string(brief), finding->values));
 }
 
 QString value_text(const ParameterDescription& description, const ParameterValue& value) {

@@ -33,6 +33,14 @@ inline constexpr QChar kMinus(0x2212);
 /// kind. The engine holds these in English; translations have the context "episcope::Schema".
 [[nodiscard]] QString schema_text(const std::string& text);
 
+/// A note or warning of the engine in the language of the window; a sentence that is not among
+/// `kFindingTexts` is looked up as `schema_text`. With true minus signs.
+[[nodiscard]] QString finding_words(const std::string& sentence);
+
+/// The same in one short line, such as "Using the inner 10×10 of 14×14 views"; empty if there is
+/// none.
+[[nodiscard]] QString finding_brief(const std::string& sentence);
+
 /// Displayed form of a value: "on" or "off", "auto", the label of a choice, a number with its unit.
 [[nodiscard]] QString value_text(const ParameterDescription& description,
                                  const ParameterValue& value);

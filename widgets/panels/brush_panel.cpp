@@ -199,7 +199,7 @@ AnnotationBar::AnnotationBar(QWidget* parent)
   setObjectName("annotationBar");
   carried_->setObjectName("carry.on");
   carried_->setToolTip(
-      tr("Shows the scribbles of every view on all others, as stripes: carried along the rays, "
+      tr("Shows the scribbles of every view on all others, as stripes: propagated along rays, "
          "except where they are occluded. They never replace what you painted."));
   by_->setObjectName("carry.by");
   by_->addItem(tr("the shown estimate"), static_cast<int>(CarriedBy::Estimate));

@@ -8,7 +8,6 @@
 
 #include <QEvent>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QRegularExpression>
 #include <QScrollArea>
@@ -17,56 +16,45 @@
 namespace episcope {
 namespace {
 
+constexpr int kColumns = 3;  // key, value, arrow
+constexpr QSize kIconSize(14, 14);
+constexpr QSize kArrowSize(10, 10);
+
 // A number and its unit stay in one line.
 QString with_units(QString text) {
   static const QRegularExpression before_unit("(?<=\\d) (?=(%|px|MB)(\\W|$))");
   return text.replace(before_unit, QString(QChar::Nbsp));
 }
 
-/// Sentences wrap; a word that cannot wrap, such as a path, is elided in the middle.
-QLabel* make_value(const QString& text, QWidget* parent) {
+// A few lines: all of it after a click, or, of a path, its beginning and end.
+QLabel* make_value(const QString& text, int lines, QWidget* parent) {
   if (!text.contains(' ')) {
-    auto* label = new ElidedLabel(parent, Qt::ElideMiddle);
-    label->setFullText(text);
-    return label;
+    auto* path = new ElidedLabel(parent, Qt::ElideMiddle);
+    path->setFullText(text);
+    return path;
   }
-  auto* label = new QLabel(breakable(with_units(text)), parent);
-  label->setTextFormat(Qt::PlainText);
-  label->setWordWrap(true);
-  label->setMinimumWidth(1);
-  label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* label = new FoldedLabel(parent, lines);
+  label->setFullText(with_units(text));
   return label;
 }
 
 /// How a fact was found out: long, and read by few.
-QLabel* make_check(const QString& text, QWidget* parent) {
-  auto* label = new FoldedLabel(parent);
-  label->setFullText(text);
-  label->setObjectName("info.check");
+QLabel* make_quiet(const QString& text, const char* name, QWidget* parent) {
+  auto* label = new QLabel(breakable(with_units(text)), parent);
+  label->setObjectName(name);
+  label->setTextFormat(Qt::PlainText);
+  label->setWordWrap(true);
+  label->setMinimumWidth(1);
+  label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   label->setPalette(theme::text_palette(theme::muted_text(parent->palette())));
   return label;
-}
-
-QWidget* make_warning(const QString& text, QWidget* parent) {
-  auto* warning = new QWidget(parent);
-  auto* icon = new QLabel(warning);
-  icon->setPixmap(themed_icon("warning").pixmap(14, 14));
-  icon->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  auto* label = make_value(text, warning);
-  label->setObjectName("info.warning");
-  label->setPalette(theme::text_palette(theme::warning_text(parent->palette())));
-  auto* layout = new QHBoxLayout(warning);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(icon);
-  layout->addWidget(label, 1);
-  return warning;
 }
 
 QToolButton* make_button(QAction* action, QWidget* parent) {
   auto* button = new QToolButton(parent);
   button->setObjectName("info.action");
-  button->setAutoRaise(true);
   button->setDefaultAction(action);
+  button->setToolButtonStyle(Qt::ToolButtonTextOnly);
   return button;
 }
 
@@ -83,7 +71,6 @@ InfoPanel::InfoPanel(QWidget* parent)
   bold.setBold(true);
   title_->setFont(bold);
   conventions_->setObjectName("info.conventions");
-  conventions_->setAutoRaise(true);
   scroll_->setObjectName("info.scroll");
   scroll_->setFrameShape(QFrame::NoFrame);
   scroll_->setWidgetResizable(true);
@@ -99,7 +86,7 @@ InfoPanel::InfoPanel(QWidget* parent)
 }
 
 void InfoPanel::setInfo(const QString& title, const std::vector<InfoRow>& rows,
-                        const QStringList& warnings) {
+                        const std::vector<InfoWarning>& warnings) {
   title_->setFullText(title.isEmpty() ? tr("No light field") : title);
   if (rows == rows_ && warnings == warnings_ && scroll_->widget()) return;
   rows_ = rows;
@@ -112,35 +99,103 @@ void InfoPanel::changeEvent(QEvent* event) {
   if (event->type() == QEvent::PaletteChange) rebuild();
 }
 
+// A short line with the whole text behind its arrow; else the text, of which a click shows all.
+void InfoPanel::addWarning(const InfoWarning& warning, QGridLayout* grid) {
+  QWidget* body = grid->parentWidget();
+  auto* line = new QWidget(body);
+  auto* icon = new QLabel(line);
+  icon->setPixmap(themed_icon("warning").pixmap(kIconSize));
+  icon->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  auto* label = new FoldedLabel(line);
+  label->setFullText(with_units(warning.brief.isEmpty() ? warning.text : warning.brief));
+  label->setObjectName("info.warning");
+  label->setPalette(theme::text_palette(theme::warning_text(palette())));
+  auto* layout = new QGridLayout(line);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setHorizontalSpacing(theme::kSpacing);
+  layout->setVerticalSpacing(0);
+  layout->setColumnStretch(1, 1);
+  layout->addWidget(icon, 0, 0);
+  layout->addWidget(label, 0, 1);
+  if (!warning.brief.isEmpty()) {
+    auto* text = make_quiet(warning.text, "info.warning.text", line);
+    layout->addWidget(text, 1, 1, 1, 2);
+    layout->addWidget(
+        makeArrow({.key = warning.brief, .value = {}, .id = "warning"}, label, {text}), 0, 2,
+        Qt::AlignTop);
+  }
+  if (warning.action) layout->addWidget(make_button(warning.action, line), 2, 1, Qt::AlignLeft);
+  grid->addWidget(line, grid->rowCount(), 0, 1, kColumns);
+}
+
+QToolButton* InfoPanel::makeArrow(const InfoRow& row, QLabel* value,
+                                  const std::vector<QWidget*>& behind) {
+  auto* folded = qobject_cast<FoldedLabel*>(value);
+  auto* arrow = new QToolButton(value->parentWidget());
+  arrow->setObjectName("info.more." + row.id);
+  arrow->setAutoRaise(true);
+  arrow->setCheckable(true);
+  arrow->setAccessibleName(tr("More on %1").arg(row.key));
+  arrow->setIconSize(kArrowSize);
+  arrow->setFixedSize(kArrowSize + QSize(4, 4));
+  const auto show = [this, arrow, folded, behind, key = row.key](bool is_open) {
+    arrow->setArrowType(is_open ? Qt::DownArrow : Qt::RightArrow);
+    arrow->setToolTip(is_open ? tr("Hide the evidence") : tr("Show the evidence"));
+    arrow->setChecked(is_open);
+    if (folded) folded->setOpen(is_open);
+    for (QWidget* each : behind) each->setVisible(is_open);
+    if (is_open) {
+      open_.insert(key);
+    } else {
+      open_.erase(key);
+    }
+  };
+  connect(arrow, &QToolButton::clicked, this, show);
+  if (folded) connect(folded, &FoldedLabel::toggled, this, show);
+  show(open_.contains(row.key));
+  return arrow;
+}
+
+void InfoPanel::addRow(const InfoRow& row, QGridLayout* grid) {
+  QWidget* body = grid->parentWidget();
+  auto* key = new QLabel(row.key, body);
+  key->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  key->setPalette(theme::text_palette(theme::muted_text(palette())));
+  // With an arrow the line stays one: the arrow opens it.
+  const bool has_more = !row.tip.isEmpty() || !row.check.isEmpty() || row.action;
+  QLabel* value = make_value(row.value, has_more ? 1 : 2, body);
+  if (!row.id.isEmpty()) value->setObjectName("info." + row.id);
+  const int line = grid->rowCount();
+  grid->addWidget(key, line, 0);
+  grid->addWidget(value, line, 1, 1, has_more ? 1 : kColumns - 1);
+  std::vector<QWidget*> behind;
+  const auto add_below = [&](QWidget* widget, Qt::Alignment alignment) {
+    grid->addWidget(widget, grid->rowCount(), 1, 1, kColumns - 1, alignment);
+    return widget;
+  };
+  if (!row.tip.isEmpty()) behind.push_back(add_below(make_quiet(row.tip, "info.tip", body), {}));
+  if (!row.check.isEmpty()) {
+    behind.push_back(add_below(make_quiet(row.check, "info.check", body), {}));
+  }
+  if (row.action) {
+    QWidget* button = add_below(make_button(row.action, body), Qt::AlignLeft);
+    if (!row.needs_action) behind.push_back(button);
+  }
+  if (has_more) grid->addWidget(makeArrow(row, value, behind), line, 2, Qt::AlignTop);
+}
+
 void InfoPanel::rebuild() {
   auto* body = new QWidget;
   body->setPalette(palette());
   auto* grid = new QGridLayout(body);
   grid->setContentsMargins(0, 0, 0, 0);
-  grid->setHorizontalSpacing(theme::kMargin);
+  grid->setHorizontalSpacing(theme::kSpacing);
   grid->setVerticalSpacing(3);
   grid->setColumnStretch(1, 1);
-  int line = 0;
   // First of all: below the rows they would be out of sight.
-  for (const auto& warning : warnings_) {
-    grid->addWidget(make_warning(warning, body), line++, 0, 1, 2);
-  }
-  for (const auto& row : rows_) {
-    auto* key = new QLabel(row.key, body);
-    key->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-    key->setPalette(theme::text_palette(theme::muted_text(palette())));
-    auto* value = make_value(row.value, body);
-    if (!row.id.isEmpty()) value->setObjectName("info." + row.id);
-    if (!row.tip.isEmpty()) {
-      value->setToolTip(row.tip);
-      value->setAccessibleDescription(row.tip);
-    }
-    grid->addWidget(key, line, 0);
-    grid->addWidget(value, line++, 1);
-    if (!row.check.isEmpty()) grid->addWidget(make_check(row.check, body), line++, 1);
-    if (row.action) grid->addWidget(make_button(row.action, body), line++, 0, 1, 2);
-  }
-  grid->setRowStretch(line, 1);
+  for (const InfoWarning& warning : warnings_) addWarning(warning, grid);
+  for (const InfoRow& row : rows_) addRow(row, grid);
+  grid->setRowStretch(grid->rowCount(), 1);
   scroll_->setWidget(body);  // Deletes the body before.
   body->setAutoFillBackground(false);
 }

@@ -56,7 +56,7 @@ void MoviePanel::addKinds(QFormLayout& form) {
   kind_->setObjectName("movie.kind");
   kind_->addItem(tr("Parallax: the view moves"), static_cast<int>(MovieKind::Parallax));
   kind_->addItem(tr("Refocusing: the focus plane moves"), static_cast<int>(MovieKind::Refocus));
-  kind_->addItem(tr("Flip: A and B take turns"), static_cast<int>(MovieKind::Flip));
+  kind_->addItem(tr("Flip: A and B alternate"), static_cast<int>(MovieKind::Flip));
   path_->setObjectName("movie.path");
   path_->addItem(tr("Around the center"), static_cast<int>(CameraPath::Circle));
   path_->addItem(tr("Along the row of the center"), static_cast<int>(CameraPath::Swing));

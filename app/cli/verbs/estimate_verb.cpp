@@ -206,7 +206,10 @@ Json answer_json(const Answer& answer) {
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = io::parameters_json(estimate.parameters);
   json["range"] = interval_json(estimate.range);
-  if (!estimate.notes.empty()) json["notes"] = estimate.notes;
+  if (!estimate.notes.empty()) {
+    json["notes"] = estimate.notes;
+    json["findings"] = findings_json(estimate.notes);
+  }
   json["output"] = answer.output;
   json["written"] = Json::array({answer.output});
   if (!answer.runtime_file.empty()) json["written"].push_back(answer.runtime_file);

@@ -117,6 +117,7 @@ Json scene_json(const Scene& scene, const std::string& input) {
   add_cameras(json, light_field);
   json["units"] = units_text(scene.convention);
   json["warnings"] = scene.convention.warnings;
+  json["findings"] = findings_json(scene.convention.warnings);
   return json;
 }
 

@@ -498,7 +498,7 @@ void AnnotateController::addPolygonCommands() {
        .enabled = [this, is_drawing] { return is_drawing() || bench_.labels.hasRegion(); }});
   bench_.commands.add({.id = "annotate.take_corner_back",
                        .menu = Menu::Annotate,
-                       .text = tr("Take the last corner back"),
+                       .text = tr("Remove the last corner"),
                        .tip = tr("Removes the last corner of the polygon"),
                        .keys = {Qt::Key_Backspace},
                        .run = [this] { polygon_tool_->takeBack(); },
@@ -684,7 +684,7 @@ void ScribbleController::carry() {
   using Layer = std::shared_ptr<const ScribbleLayer>;
   is_carrying_ = true;
   carried_by_ = by;
-  bar_->setCarryState(tr("carrying …"));
+  bar_->setCarryState(tr("propagating …"));
   carry_job_.start<Layer>(
       [painted = std::make_shared<const ScribbleLayer>(document->scribbles()),
        by](const Progress& progress) -> Layer {

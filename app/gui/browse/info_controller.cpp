@@ -270,7 +270,7 @@ ParameterSet ConventionsDialog::given() const {
 struct SceneInfo {
   QString title;
   std::vector<InfoRow> rows;
-  QStringList warnings;
+  std::vector<InfoWarning> warnings;
 };
 
 struct InfoPanelText {
@@ -292,9 +292,7 @@ QString type_text(const LightField& light_field) {
 }
 
 QString sample_text(const LightField& light_field) {
-  const bool is_linear = light_field.sample_type() == SampleType::Float32;
-  const QString type = type_text(light_field) + (is_linear ? InfoPanelText::tr(", linear")
-                                                           : InfoPanelText::tr(", gamma-encoded"));
+  const QString type = type_text(light_field);
   return light_field.is_on_disk() ? type + InfoPanelText::tr(", on disk") : type;
 }
 
@@ -317,7 +315,7 @@ QString truth_text(const GroundTruth& truth, GridShape grid) {
     parts << (regions == 1 ? InfoPanelText::tr("1 region mask")
                            : InfoPanelText::tr("%1 region masks").arg(regions));
   }
-  if (truth.high_res) parts << InfoPanelText::tr("ten times the resolution for metrics");
+  if (truth.high_res) parts << InfoPanelText::tr("also at ten times the resolution");
   return parts.isEmpty() ? InfoPanelText::tr("none") : parts.join(", ");
 }
 
@@ -328,7 +326,7 @@ QString measure(double value) {
 }
 
 QString camera_text(const CameraGrid& camera) {
-  if (!camera.is_known()) return InfoPanelText::tr("unknown: disparity only, no depth");
+  if (!camera.is_known()) return InfoPanelText::tr("unknown");
   QString line = InfoPanelText::tr("B·f %1, shift %2 px")
                      .arg(measure(camera.baseline * camera.focal_length), measure(camera.shift));
   if (camera.cam_distance) line += InfoPanelText::tr(", Z₀ %1").arg(measure(*camera.cam_distance));
@@ -340,13 +338,8 @@ QString megabytes(std::size_t bytes) {
   return QString::number(count, 'f', count < 10 ? 1 : 0);
 }
 
-// A finding of the engine: translated where it is a sentence that stands in the program.
-QString finding_text(const std::string& finding) {
-  return with_minus(schema_text(finding));
-}
-
 QString by_whom(const std::string& finding, bool was_chosen) {
-  const QString shown = finding_text(finding);
+  const QString shown = finding_words(finding);
   return was_chosen ? InfoPanelText::tr("%1 (set by you)").arg(shown) : shown;
 }
 
@@ -361,10 +354,11 @@ QString names_text(const Reading& reading) {
   return InfoPanelText::tr("%1 (set by you)").arg(names);
 }
 
-// Options of the command line are named as “Conventions…” names them.
-QString in_window(const std::string& warning) {
+// A warning names options of the command line as “Conventions…” names them, which `conventions`
+// opens. Has a short line where the engine knows one.
+InfoWarning in_window(const std::string& warning, QAction* conventions) {
   static const QRegularExpression option("--([a-z-]*[a-z])( all| \\d\\S*)?");
-  QString text = QString::fromStdString(warning);
+  QString text = finding_words(warning);
   const auto schema = io::open_schema();
   bool has_options = false;
   for (auto match = option.match(text); match.hasMatch();) {
@@ -383,15 +377,15 @@ QString in_window(const std::string& warning) {
     }
     match = option.match(text, end);
   }
-  return has_options ? InfoPanelText::tr("%1 See “Conventions…”.").arg(text) : text;
+  return {text, finding_brief(warning), has_options ? conventions : nullptr};
 }
 
-// The GPU that methods compute on, or why there is none.
+// The GPU that methods compute on.
 QString gpu_text(const CudaDevice& device) {
   const auto gibibytes = [](std::size_t bytes) {
     return QString::number(static_cast<double>(bytes) / (1 << 30), 'f', 1);
   };
-  if (!device.is_available) return InfoPanelText::tr("none: %1").arg(schema_text(device.why_not));
+  if (!device.is_available) return InfoPanelText::tr("none");
   return InfoPanelText::tr("%1, %2 of %3 GiB free")
       .arg(QString::fromStdString(device.name), gibibytes(device.free_memory),
            gibibytes(device.memory));
@@ -401,22 +395,25 @@ void add_conventions(SceneInfo& info, const CameraGrid& camera,
                      const ConventionReport& convention) {
   info.rows.push_back({InfoPanelText::tr("Order"),
                        by_whom(convention.order, convention.order_was_chosen),
-                       finding_text(convention.order_check), "order"});
+                       finding_words(convention.order_check), "order"});
   info.rows.push_back(
       {InfoPanelText::tr("Sign"),
        convention.sign.empty() ? InfoPanelText::tr("not known") : InfoPanelText::tr("checked"),
-       finding_text(convention.sign_check), "sign"});
-  info.rows.push_back({InfoPanelText::tr("Camera"), camera_text(camera), {}, "camera"});
+       finding_words(convention.sign_check), "sign"});
+  info.rows.push_back(
+      {InfoPanelText::tr("Camera"), camera_text(camera),
+       camera.is_known() ? QString() : InfoPanelText::tr("There is disparity, but no depth."),
+       "camera"});
   if (!convention.units.empty()) {
     info.rows.push_back({InfoPanelText::tr("Depth"),
                          by_whom(convention.units, convention.units_were_chosen),
-                         finding_text(convention.units_check), "units"});
+                         finding_words(convention.units_check), "units"});
   }
   info.rows.push_back({InfoPanelText::tr("Format"), schema_text(convention.format), {}, "format"});
 }
 
-// `gpu`: device that methods compute on; none while unknown.
-SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
+// `gpu`: device that methods compute on; none while unknown. `conventions`: opens the dialog.
+SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu, QAction* conventions) {
   const LightField& light_field = *scene.light_field;
   const GridShape grid = light_field.grid();
   const ConventionReport& convention = scene.convention;
@@ -434,16 +431,15 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
   info.rows.push_back({.key = InfoPanelText::tr("Samples"),
                        .value = sample_text(light_field),
                        .id = "samples",
-                       .tip = schema_text(samples_text(scene))});
+                       .tip = finding_words(samples_text(scene))});
   if (!light_field.valid().empty()) {
-    info.rows.push_back(
-        {InfoPanelText::tr("Valid"),
-         InfoPanelText::tr("%1 % of the pixels").arg(number_text(valid_percent(light_field), 1)),
-         InfoPanelText::tr("The others are dark or empty and do not count.")});
+    info.rows.push_back({InfoPanelText::tr("Valid"),
+                         InfoPanelText::tr("%1 %").arg(number_text(valid_percent(light_field), 1)),
+                         InfoPanelText::tr("The others are dark or empty and do not count.")});
   }
   if (!convention.gain.empty()) {
     info.rows.push_back(
-        {InfoPanelText::tr("Brightness"), finding_text(convention.gain), {}, "gain"});
+        {InfoPanelText::tr("Brightness"), finding_words(convention.gain), {}, "gain"});
   }
   if (const Interval range = known_disparity_range(scene); range.length() > 0) {
     info.rows.push_back(
@@ -470,10 +466,11 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
   }
   info.rows.push_back({InfoPanelText::tr("Source"), utf8(light_field.info().source), {}, "source"});
   info.rows.push_back({InfoPanelText::tr("GPU"),
-                       gpu ? gpu_text(*gpu) : InfoPanelText::tr("being looked for …"),
-                       {},
-                       "gpu"});
-  for (const std::string& warning : convention.warnings) info.warnings << in_window(warning);
+                       gpu ? gpu_text(*gpu) : InfoPanelText::tr("searching …"),
+                       gpu ? schema_text(gpu->why_not) : QString(), "gpu"});
+  for (const std::string& warning : convention.warnings) {
+    info.warnings.push_back(in_window(warning, conventions));
+  }
   return info;
 }
 
@@ -498,7 +495,7 @@ InfoController::InfoController(const Workbench& bench)
     : QObject(&bench.owner), bench_(bench), panel_(new InfoPanel(&bench.frame)), gpu_job_(this) {
   panel_->setContentsMargins(theme::kSpacing, 0, theme::kSpacing, theme::kSpacing);
   bench.frame.addToColumn(panel_, true);
-  QAction* conventions =
+  conventions_ =
       bench.commands.add({.id = "file.conventions",
                           .menu = Menu::File,
                           .text = tr("Conventions…"),
@@ -507,7 +504,7 @@ InfoController::InfoController(const Workbench& bench)
                           .run = [this] { askForConventions(); },
                           .section = section::kReading,
                           .enabled = [this] { return !bench_.opener.reopenable().isEmpty(); }});
-  panel_->setConventionsAction(conventions);
+  panel_->setConventionsAction(conventions_);
   reverse_ = bench.commands.add(
       {.id = "file.reverse_sign",
        .menu = Menu::File,
@@ -537,9 +534,12 @@ void InfoController::askForGpu() {
 
 void InfoController::show() {
   if (const auto& scene = bench_.session.scene()) {
-    SceneInfo info = describe(*scene, gpu_);
+    SceneInfo info = describe(*scene, gpu_, conventions_);
     const auto sign = std::ranges::find(info.rows, QString("sign"), &InfoRow::id);
-    if (sign != info.rows.end() && canReverseSign()) sign->action = reverse_;
+    if (sign != info.rows.end() && canReverseSign()) {
+      sign->action = reverse_;
+      sign->needs_action = scene->convention.sign.empty();
+    }
     panel_->setInfo(info.title, info.rows, info.warnings);
   } else {
     panel_->setInfo(bench_.viewer_area.isPreviewing() ? tr("Opening …") : tr("Nothing is open"), {},

@@ -36,6 +36,7 @@ class InfoController : public QObject {
 
   Workbench bench_;
   InfoPanel* panel_;
+  QAction* conventions_ = nullptr;
   QAction* reverse_ = nullptr;
   std::function<CudaDevice()> question_ = cuda_device;
   LatestJob gpu_job_;

@@ -49,7 +49,7 @@ std::vector<PosedMesh> MeshResults::posedMeshes() const {
   }
   if (!posed.empty() && !left_out.isEmpty()) {
     bench_.messages.warn(
-        tr("Left out, for lack of a mesh or a pose: %1.").arg(left_out.join(QStringLiteral(", "))));
+        tr("Skipped without a mesh or a pose: %1.").arg(left_out.join(QStringLiteral(", "))));
   }
   return posed;
 }

@@ -349,7 +349,7 @@ void CompareController::addOverlayCommands() {
       {.id = "overlay.color",
        .menu = Menu::Map,
        .text = tr("Colored view under maps"),
-       .tip = tr("Keeps the colors of the view under maps; without, it is grey, so that only the "
+       .tip = tr("Keeps the colors of the view under maps. Otherwise it is grey, so that only the "
                  "map has colors"),
        .icon = "color",
        .run = [this] { overlay_.setViewColored(!overlay_.isViewColored()); },

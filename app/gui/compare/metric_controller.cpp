@@ -8,6 +8,7 @@
 #include "app/session/command_line.h"
 #include "app/session/run_estimator.h"
 #include "engine/evaluation/region_metrics.h"
+#include "widgets/controls/text.h"
 
 #include <QCoreApplication>
 #include <QVariant>
@@ -237,7 +238,7 @@ void MetricController::score(std::vector<Scored> wanted) {
 
 void MetricController::tell(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) {
-    if (told_.insert(note).second) bench_.messages.warn(QString::fromStdString(note));
+    if (told_.insert(note).second) bench_.messages.warn(finding_words(note));
   }
 }
 
@@ -356,7 +357,7 @@ constexpr PartName kParts[] = {
     {"_foreground", QT_TRANSLATE_NOOP("episcope::MetricTable", "front"),
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Of the surface in front")},
     {"_background", QT_TRANSLATE_NOOP("episcope::MetricTable", "behind"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Of what is seen through it")},
+     QT_TRANSLATE_NOOP("episcope::MetricTable", "Of the background seen through it")},
     {"_present", QT_TRANSLATE_NOOP("episcope::MetricTable", "present"),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
                        "Of the pixels that have a value; else missing values count as the farthest "

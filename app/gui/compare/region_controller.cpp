@@ -74,7 +74,7 @@ void RegionController::addCommands(RegionBar& bar) {
   QAction* draw = bench_.commands.add(
       {.id = "compare.rectangle",
        .menu = Menu::Compare,
-       .text = tr("Judge a rectangle"),
+       .text = tr("Evaluate a rectangle"),
        .tip = tr("The next drag on the view draws a rectangle in which metrics are computed"),
        .icon = "rectangle",
        .keys = {tr("Ctrl+Alt+R")},
@@ -83,7 +83,7 @@ void RegionController::addCommands(RegionBar& bar) {
        .enabled = [this] { return bench_.session.scene() != nullptr; }});
   bench_.commands.add({.id = "compare.whole",
                        .menu = Menu::Compare,
-                       .text = tr("Judge the whole view"),
+                       .text = tr("Evaluate the whole view"),
                        .tip = tr("Computes metrics over the whole view again"),
                        .keys = {tr("Ctrl+Alt+W")},
                        .run = [this] { choose(JudgedPixels::Whole); },
@@ -144,7 +144,7 @@ void RegionController::endRectangle() {
 void RegionController::listParts() {
   regions_.clear();
   QStringList names{tr("Whole view"), tr("Rectangle"), tr("Current label"),
-                    tr("Where all results have values"), tr("Mask of a file…")};
+                    tr("Where all results have values"), tr("Mask from a file…")};
   if (const auto& scene = bench_.session.scene()) {
     for (const auto& [name, mask] : scene->truth->regions) {
       regions_.push_back(name);

@@ -113,7 +113,7 @@ QString detail_text(const Estimate& estimate) {
   for (const auto& [key, value] : estimate.parameters) {
     lines << named_value(estimate, key, value);
   }
-  for (const std::string& note : estimate.notes) lines << with_minus(QString::fromStdString(note));
+  for (const std::string& note : estimate.notes) lines << finding_words(note);
   return lines.join('\n');
 }
 

@@ -211,12 +211,12 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
         return run_estimator(*source(progress), find_estimator(request.method), request.parameters,
                              request.options, progress);
       },
-      [this, id = scene.id](const FinishedEstimate& finished) {
+      [this, method, id = scene.id](const FinishedEstimate& finished) {
         const int added =
             bench_.session.add_estimate(finished.estimate, finished.display_range, id);
         offerToShow(added);
         if (finished.warning.empty()) return;
-        bench_.messages.warn(with_minus(QString::fromStdString(finished.warning)));
+        bench_.messages.warn(tr("%1: %2.").arg(method, finding_words(finished.warning)));
       });
   runs_[job] = scene.id;
   bench_.jobs.setScene(job, scene.id);

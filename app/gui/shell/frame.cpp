@@ -141,7 +141,7 @@ void Frame::askWhereTabGoes(const QTabWidget& book, const QPoint& at) {
   const Tab* tab = tabOf(book.widget(book.tabBar()->tabAt(at)));
   if (!tab) return;
   QMenu menu(this);
-  menu.addAction(tr("In a window of its own"), this,
+  menu.addAction(tr("Detach into a window"), this,
                  [this, id = pane_id(tab->id)] { panes_->tear(id); });
   menu.addAction(tr("Below the other tabs"), this,
                  [this, id = pane_id(tab->id)] { panes_->stack(id); });

@@ -264,8 +264,8 @@ void TabStack::askWhereTabGoes(const QPoint& at) {
   const QString id = paneAt(tabBar()->tabAt(at));
   if (id.isEmpty()) return;
   QMenu menu(this);
-  menu.addAction(tr("In a window of its own"), panes_, [this, id] { panes_->tear(id); });
-  menu.addAction(tr("Back to its place"), panes_, [this, id] { panes_->putBack(id); });
+  menu.addAction(tr("Detach into a window"), panes_, [this, id] { panes_->tear(id); });
+  menu.addAction(tr("Dock"), panes_, [this, id] { panes_->putBack(id); });
   menu.exec(tabBar()->mapToGlobal(at));
 }
 

@@ -2,6 +2,7 @@
 #include "engine/io/base/sample_range.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/indices.h"
 #include "engine/core/numbers.h"
 #include "engine/io/base/files.h"
@@ -94,10 +95,7 @@ void settle_words(LightField::Samples& samples, ConventionReport& report) {
   report.samples =
       fmt::format("uint16, taken as gamma-encoded samples of {} bits; estimators see value/{}",
                   bits_of(*white), *white);
-  report.warnings.push_back(fmt::format(
-      "No sample of the views exceeds {} of 65535: they are taken as samples of {} bits. --levels "
-      "0,65535 keeps them as they are.",
-      *white, bits_of(*white)));
+  report.warnings.push_back(fmt::format(finding_text("samples.bits"), *white, bits_of(*white)));
   if (*white == kOfBytes) {
     samples = as_bytes(*stack);
   } else {
@@ -220,23 +218,21 @@ void scale_signed(ViewStack<float>& stack, const FloatSpread& spread, Convention
                            spread.largest <= 127 && amplitude > kMaxSignedSample;
   float black = spread.shadow;
   float white = std::max(spread.highlight, std::nextafter(spread.shadow, spread.largest));
-  const char* meaning = "normalized in some way: 0.1 % of them are darker, 0.1 % brighter";
+  std::string_view meaning = finding_text("samples.normalized");
   if (amplitude <= kMaxSignedSample) {
     black = -1;
     white = 1;
-    meaning = "-1 for black, 1 for white";
+    meaning = finding_text("samples.unit");
   } else if (is_of_bytes) {
     black = -128;
     white = 127;
-    meaning = "bytes less 128";
+    meaning = finding_text("samples.shifted_bytes");
   }
   map_levels(stack, black, white);
   report.samples = fmt::format("float32 around 0; estimators see (value − {0:.4g})/{1:.4g}", black,
                                white - black);
-  report.warnings.push_back(fmt::format(
-      "Float samples of the views should lie in 0 … 1, but lie in {:.4g} … {:.4g}: {:.4g} … {:.4g} "
-      "is taken as black to white ({}). --levels states other values.",
-      spread.smallest, spread.largest, black, white, meaning));
+  report.warnings.push_back(fmt::format(finding_text("samples.signed"), spread.smallest,
+                                        spread.largest, black, white, meaning));
 }
 
 void scale_linear(ViewStack<float>& stack, const FloatSpread& spread, ConventionReport& report) {
@@ -251,10 +247,8 @@ void scale_linear(ViewStack<float>& stack, const FloatSpread& spread, Convention
       "divided by {:.4g}, which 99.9 % of the samples do not exceed; "
       "estimators see the quotient",
       spread.highlight);
-  report.warnings.push_back(fmt::format(
-      "Float samples of the views reach up to {:.3g} with a median of {:.2g}: they are taken as "
-      "linear, and divided by {:.4g} so that 99.9 % lie in 0 … 1.",
-      spread.largest, spread.median, spread.highlight));
+  report.warnings.push_back(
+      fmt::format(finding_text("samples.linear"), spread.largest, spread.median, spread.highlight));
 }
 
 }  // namespace
@@ -268,10 +262,7 @@ void scale_float_samples(LightField::Samples& samples, ConventionReport& report)
   if (spread.negative_share >= kFewestNegative) {
     if (!is_noise_around_black(spread)) return scale_signed(*stack, spread, report);
     report.warnings.push_back(
-        fmt::format("{:.2g} % of the float samples of the views lie clearly below 0, down to "
-                    "{:.2g}: they are taken as "
-                    "noise around black. --levels -1,1 would say otherwise.",
-                    100 * spread.negative_share, spread.smallest));
+        fmt::format(finding_text("samples.noise"), 100 * spread.negative_share, spread.smallest));
   }
   if (largest <= kMaxUnitSample) return;
   const bool is_whole = spread.whole_share >= kMostlyWhole;
@@ -281,9 +272,8 @@ void scale_float_samples(LightField::Samples& samples, ConventionReport& report)
   map_levels(*stack, 0, static_cast<float>(divisor));
   report.samples = fmt::format("float32, taken as samples of {} bits; estimators see value/{}",
                                std::bit_width(static_cast<unsigned>(divisor)), divisor);
-  report.warnings.push_back(fmt::format(
-      "Float samples of the views should lie in 0 … 1, but reach up to {}; they are divided by {}.",
-      std::lround(largest), divisor));
+  report.warnings.push_back(
+      fmt::format(finding_text("samples.divided"), std::lround(largest), divisor));
 }
 
 void zero_nonfinite_samples(LightField::Samples& samples, ConventionReport& report) {
@@ -296,9 +286,7 @@ void zero_nonfinite_samples(LightField::Samples& samples, ConventionReport& repo
     ++odd;
   });
   if (odd == 0) return;
-  report.warnings.push_back(
-      fmt::format("{} of {} samples of the views are NaN or infinite; they are read as 0.", odd,
-                  stack->size()));
+  report.warnings.push_back(fmt::format(finding_text("samples.not_finite"), odd, stack->size()));
 }
 
 }  // namespace episcope::io

@@ -3,6 +3,7 @@
 
 #include "engine/core/camera_grid.h"
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/indices.h"
 #include "engine/core/parallel.h"
 #include "engine/io/formats/write_scene.h"
@@ -184,14 +185,12 @@ UnitsFinding find_units(const DepthFacts& facts, Units choice,
                  number(taken.disparity.min) + " … " + number(taken.disparity.max) +
                  " px for depth " + number(facts.depth.min) + " … " + number(facts.depth.max);
   if (std::isfinite(taken.error)) {
-    finding.check =
-        "this warps the views onto each other best (" + number(taken.error) + " grey levels)";
+    finding.check = fmt::format(finding_text("depth.by_warping"), number(taken.error));
   }
   if (!taken.is_plausible()) {
-    finding.warnings.push_back(
-        "The depth gives disparities of " + number(taken.disparity.min) + " … " +
-        number(taken.disparity.max) +
-        " px per view step, which is implausible; check dH, focalLength and shift of the file.");
+    finding.warnings.push_back(fmt::format(finding_text("depth.implausible"),
+                                           number(taken.disparity.min),
+                                           number(taken.disparity.max)));
   }
   return finding;
 }
@@ -202,11 +201,10 @@ void settle_zero_depth(CameraGrid& camera, ConventionReport& report) {
   if (!camera.is_known() || !camera.cam_distance) return;
   const double zero = zero_depth(camera);
   if (std::abs(zero - *camera.cam_distance) < 0.01 * *camera.cam_distance) return;
-  const std::string by_shift =
-      std::isfinite(zero) ? "is zero at depth " + number(zero) : "is zero at no finite depth";
-  report.warnings.push_back("According to dH, focalLength and shift, disparity " + by_shift +
-                            ", but camDistance says " + number(*camera.cam_distance) +
-                            "; camDistance is ignored; check these attributes of the file.");
+  const std::string stated = number(*camera.cam_distance);
+  report.warnings.push_back(
+      std::isfinite(zero) ? fmt::format(finding_text("depth.camera_distance"), number(zero), stated)
+                          : fmt::format(finding_text("depth.no_camera_distance"), stated));
   camera.cam_distance.reset();
   if (std::isfinite(zero)) camera.cam_distance = zero;
 }
@@ -288,10 +286,9 @@ void drop_single_layer(ArchiveTruth& truth, ConventionReport& report) {
   if (truth.foreground.empty() == truth.background.empty()) return;
   const bool lacks_foreground = truth.foreground.empty();
   report.warnings.push_back(
-      std::string(lacks_foreground ? "GT_DEPTH_BACKGROUND" : "GT_DEPTH_FOREGROUND") +
-      " is ignored because the other layer, " +
-      (lacks_foreground ? "GT_DEPTH_FOREGROUND" : "GT_DEPTH_BACKGROUND") +
-      ", is missing or holds no depth; add it, or store a single layer as GT_DEPTH.");
+      fmt::format(finding_text("depth.no_layer"),
+                  lacks_foreground ? "GT_DEPTH_BACKGROUND" : "GT_DEPTH_FOREGROUND",
+                  lacks_foreground ? "GT_DEPTH_FOREGROUND" : "GT_DEPTH_BACKGROUND"));
   truth.foreground = {};
   truth.background = {};
 }
@@ -429,10 +426,7 @@ void warn_of_gaps(const std::string& name, std::size_t valid, std::size_t total,
                   ConventionReport& report) {
   if (valid == total) return;
   const double share = 100 * static_cast<double>(total - valid) / static_cast<double>(total);
-  report.warnings.push_back(fmt::format(
-      "{} holds no depth at {:.3g} % of its pixels (masked, zero, negative or NaN); they are "
-      "ignored.",
-      name, share));
+  report.warnings.push_back(fmt::format(finding_text("depth.holes"), name, share));
 }
 
 }  // namespace

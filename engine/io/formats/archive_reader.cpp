@@ -2,6 +2,7 @@
 #include "engine/io/formats/archive_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/memory.h"
 #include "engine/io/base/hdf5_output.h"
 #include "engine/io/base/json.h"
@@ -114,9 +115,7 @@ ArchiveLabels read_archive_labels(const Hdf5Input& file, const FieldShape& shape
   if (!stored.raises_labels) return found;
   report.raised_labels = true;
   std::for_each(found.labels.data(), found.labels.data() + found.labels.size(), raise_label);
-  report.warnings.push_back(
-      "Labels start at 0 in this file and unpainted pixels are marked by another value: all labels "
-      "are raised by one, so that 0 means unpainted.");
+  report.warnings.emplace_back(finding_text("labels.raised"));
   return found;
 }
 
@@ -303,10 +302,10 @@ std::optional<Provenance> read_estimated(const Hdf5Input& file) {
 void tell_unused_depth(const ArchiveTruth& depth, bool has_disparity, ConventionReport& report) {
   if (depth.unused_depth.empty()) return;
   if (!has_disparity) {
-    report.warnings.push_back(depth.unused_depth + " is ignored because " + depth.camera_fault +
-                              ".");
+    report.warnings.push_back(
+        fmt::format(finding_text("depth.ignored"), depth.unused_depth, depth.camera_fault));
   } else if (depth.has_attributes) {
-    report.warnings.push_back("The camera of the file is not used: " + depth.camera_fault + ".");
+    report.warnings.push_back(fmt::format(finding_text("depth.camera_unused"), depth.camera_fault));
   }
 }
 
@@ -366,8 +365,8 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   tell_unused_depth(depth, !truth.field.empty(), report);
   if (truth.has_disparity() || truth.has_layers()) truth.estimated = read_estimated(file);
   if (truth.estimated && options.needs_truth) {
-    report.warnings.push_back("The depth of this file is no ground truth: it was " +
-                              estimated_text(*truth.estimated) + ".");
+    report.warnings.push_back(
+        fmt::format(finding_text("truth.estimated"), estimated_text(*truth.estimated)));
   }
   assemble({.samples = std::move(samples),
             .truth = std::move(truth),

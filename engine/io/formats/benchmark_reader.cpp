@@ -2,6 +2,7 @@
 #include "engine/io/formats/benchmark_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/numbers.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
@@ -332,9 +333,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   if (!found.gaps.empty()) report.warnings.push_back(found.gaps);
   if (!config && !given) {
     report.warnings.push_back(
-        fmt::format("There is no parameters.cfg: the grid of {}×{} views was inferred from the "
-                    "number of files.",
-                    views.grid.v, views.grid.u));
+        fmt::format(finding_text("views.no_config"), views.grid.v, views.grid.u));
   }
   LightFieldInfo info{scene_name(folder),
                       folder.string(),

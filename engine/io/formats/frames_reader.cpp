@@ -2,6 +2,7 @@
 #include "engine/io/formats/frames_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/light_field.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
@@ -388,10 +389,7 @@ void join_channels(LightField::Samples& samples, const std::optional<StatedPages
                           stated->program);
     if (channels == 2) reason += ", shown as red and green";
     if (channels > 3) {
-      warnings.push_back(
-          fmt::format("Of {} channels of a view the first three are read, as red, "
-                      "green and blue.",
-                      channels));
+      warnings.push_back(fmt::format(finding_text("views.channels"), channels));
     }
   } else if (const auto found = find_channel_pages(samples)) {
     join_channel_pages(samples, *found);

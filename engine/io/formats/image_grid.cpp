@@ -2,6 +2,7 @@
 #include "engine/io/formats/image_grid.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
@@ -66,10 +67,8 @@ void warn_of_ignored_files(const std::vector<fs::path>& left_out,
     similar += looks_like_views(strays[i * (strays.size() - 1) / (kLookedAt - 1)], samples) ? 1 : 0;
   }
   if (2 * similar <= kLookedAt) return;
-  report.warnings.push_back(
-      fmt::format("{} images look like views, but their names have another form, such as {}: they "
-                  "are not used. If they belong to the grid, name a pattern that matches all.",
-                  strays.size(), strays.front().filename().string()));
+  report.warnings.push_back(fmt::format(finding_text("views.other_names"), strays.size(),
+                                        strays.front().filename().string()));
 }
 
 /// Drops names that differ from a view's in numbers only: a pattern that states one
@@ -209,7 +208,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   report.units = "no depth in an image grid";
   report.warnings = grid.placed.warnings;
   if (const auto others = other_picture_folders(source, folder); !others.empty()) {
-    report.warnings.push_back(fmt::format("The views are those of {}; pictures in {} are left out.",
+    report.warnings.push_back(fmt::format(finding_text("views.other_folders"),
                                           folder.filename().string(), joined(others, ", ")));
   }
   LightFieldInfo info{scene_name(source),

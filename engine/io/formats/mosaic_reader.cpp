@@ -2,6 +2,7 @@
 #include "engine/io/formats/mosaic_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/image.h"
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
@@ -299,10 +300,8 @@ void report_remainder(const AnyImage& picture, const MosaicLayout& layout,
   const int rows = height - layout.height * layout.tiles.v;
   const int columns = width - layout.width * layout.tiles.u;
   if (rows == 0 && columns == 0) return;
-  report.warnings.push_back(
-      fmt::format("The picture has {}×{} px, which {} does not divide: the last {} columns and {} "
-                  "rows of pixels are left out.",
-                  width, height, grid_text(layout.grid), columns, rows));
+  report.warnings.push_back(fmt::format(finding_text("views.remainder"), width, height,
+                                        grid_text(layout.grid), columns, rows));
 }
 
 std::vector<FileUse> account_of(const fs::path& path) {

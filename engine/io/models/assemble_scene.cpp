@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/assemble_scene.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/indices.h"
 #include "engine/core/text.h"
 #include "engine/core/view_gain.h"
@@ -26,8 +27,7 @@ std::string order_axes(SceneParts& parts, bool are_axes_known, ConventionReport&
   const ViewAxes axes = find_view_axes(parts.samples, progress);
   if (!axes.are_swapped()) return {};
   if (are_axes_known) {
-    report.warnings.push_back("Rows and columns of views seem to be swapped: " + axes.evidence() +
-                              ".");
+    report.warnings.push_back(fmt::format(finding_text("order.swapped"), axes.evidence()));
     return {};
   }
   const GridShape stored = grid_of(parts.samples);
@@ -129,10 +129,11 @@ void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionRep
 constexpr double kMeasurableGain = 0.01;
 constexpr double kShownGain = 0.0005;  ///< Less is 0.0 % in a sentence.
 
-std::string difference_text(const PhotometricCorrection& gains) {
+// `text`: of a finding with the view of the largest gain.
+std::string difference_text(std::string_view text, const PhotometricCorrection& gains) {
   const ViewIndex view = gains.most_different();
-  return fmt::format("up to {:.1f} % (view {}: {:.3f})", 100 * std::abs(gains.of(view) - 1),
-                     view_text(view), gains.of(view));
+  return fmt::format(fmt::runtime(text), 100 * std::abs(gains.of(view) - 1), view_text(view),
+                     gains.of(view));
 }
 
 bool is_mapped(const LightField::Samples& samples) {
@@ -170,20 +171,23 @@ void equalize_views(SceneParts& parts, const OpenOptions& options, ConventionRep
   }
   if (is_wanted && gains.largest_difference() > kMeasurableGain) {
     const double clipped = divide_by_gains(parts.samples, gains, progress.part(0.5, 1));
-    report.gain = "evened out; it differed by " + difference_text(gains);
-    if (clipped > 0) report.gain += fmt::format("; {:.2g} % of the samples clipped", 100 * clipped);
+    report.gain = difference_text(finding_text("gain.evened"), gains);
+    if (clipped > 0) {
+      report.gain += "; " + fmt::format(finding_text("gain.clipped"), 100 * clipped);
+    }
   } else {
     const bool is_same = std::abs(gains.of(gains.most_different()) - 1) < kShownGain;
-    report.gain = is_same ? "the same in all views" : "differs by " + difference_text(gains);
-    if (is_wanted && !is_same) report.gain += "; too little to even it out";
+    report.gain = is_same ? std::string(finding_text("gain.same"))
+                          : difference_text(finding_text("gain.differs"), gains);
+    if (is_wanted && !is_same) report.gain.append("; ").append(finding_text("gain.little"));
   }
-  if (unknown > 0) report.gain += fmt::format("; of {} views not known", unknown);
+  if (unknown > 0) {
+    report.gain += "; " + fmt::format(finding_text("gain.unknown"), unknown);
+  }
   if (is_wanted || !gains.is_notable()) return;
-  report.warnings.push_back(
-      "The brightness of the views differs by " + difference_text(gains) +
-      (options.keep_brightness
-           ? "; without --no-equalize, methods even it out."
-           : "; methods even it out, --equalize for pictures as well, --no-equalize for none."));
+  report.warnings.push_back(difference_text(
+      options.keep_brightness ? finding_text("brightness.off") : finding_text("brightness.differs"),
+      gains));
 }
 
 std::string place_text(const LightField::Samples& samples) {

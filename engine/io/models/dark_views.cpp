@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/dark_views.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/memory.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
@@ -262,13 +263,10 @@ std::string crop_text(const ViewCrop& crop, const ViewBrightness& brightness) {
     sum += brightness.relative(view);
     ++count;
   }
-  return fmt::format(
-      "Using the inner {} of {} views, rows {} to {} and columns {} to {} from 0: {} outer views "
-      "are "
-      "dark (mean {} % of the center's); --crop all keeps them.",
-      grid_text(crop.kept), grid_text(crop.stored), crop.first.v, crop.first.v + crop.kept.v - 1,
-      crop.first.u, crop.first.u + crop.kept.u - 1, count,
-      std::lround(100 * sum / std::max(count, 1)));
+  return fmt::format(finding_text("crop.dark"), grid_text(crop.kept), grid_text(crop.stored),
+                     crop.first.v, crop.first.v + crop.kept.v - 1, crop.first.u,
+                     crop.first.u + crop.kept.u - 1, count,
+                     std::lround(100 * sum / std::max(count, 1)));
 }
 
 namespace {
@@ -351,11 +349,9 @@ std::string mark_empty_pixels(const ViewBrightness& brightness, int height, int 
   });
   const long long total = std::accumulate(marked.begin(), marked.end(), 0LL);
   if (total == 0) return {};
-  return fmt::format(
-      "{:.1f} % of all pixels, in {} of {} views, are dark where the center view is not; they are "
-      "marked as not valid.",
-      100.0 * static_cast<double>(total) / static_cast<double>(valid.size()), views.size(),
-      grid.count());
+  return fmt::format(finding_text("valid.dark"),
+                     100.0 * static_cast<double>(total) / static_cast<double>(valid.size()),
+                     views.size(), grid.count());
 }
 
 namespace {
@@ -445,10 +441,8 @@ std::string mark(const ViewStack<T>& views, ViewStack<std::uint8_t>& valid,
       if (is_dark(view, at)) valid.view(view).at(at.y, at.x) = 0;
     }
   });
-  return fmt::format(
-      "The corners of the views are black, {:.1f} % of their pixels, as a lens cuts them off; they "
-      "are marked as not valid.",
-      100.0 * static_cast<double>(total) / static_cast<double>(valid.size()));
+  return fmt::format(finding_text("valid.corners"),
+                     100.0 * static_cast<double>(total) / static_cast<double>(valid.size()));
 }
 
 }  // namespace

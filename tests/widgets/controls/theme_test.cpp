@@ -265,7 +265,7 @@ class ThemeTest : public QObject {
     auto* values = new ValueBar;
     auto* method = make_method_panel();
     auto* info = new InfoPanel;
-    info->setInfo("scene", {{"key", "value", "checked"}}, {"A warning."});
+    info->setInfo("scene", {{"key", "value", "checked"}}, {{"A warning."}});
     auto* jobs = make_job_panel();
     for (auto* widget :
          {static_cast<QWidget*>(values), method, static_cast<QWidget*>(info), jobs}) {

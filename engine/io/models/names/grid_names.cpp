@@ -2,6 +2,7 @@
 #include "engine/io/models/names/grid_names.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
@@ -418,9 +419,7 @@ NamedGrid name_grid(const fs::path& folder, const OpenOptions& options) {
   NamedGrid grid = by_names(folder, options);
   if (!poses.problem.empty()) {
     grid.placed.warnings.push_back(
-        fmt::format("The poses of {} are not used, as {}; the names and the views themselves tell "
-                    "rows and columns.",
-                    poses.name(), poses.problem));
+        fmt::format(finding_text("views.poses_unused"), poses.name(), poses.problem));
   }
   grid.poses = std::move(poses);
   return grid;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/names/view_files.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 
 #include <fmt/format.h>
@@ -246,10 +247,9 @@ std::string part_text(const GridWithGaps& views, const PartOfGrid& part) {
         is_row ? "{col}" : "{row}");
   }
   return fmt::format(
-      "Of a grid of {}×{} {} (row,column {}): the largest part without a gap is opened, {}×{} "
-      "views, {} and {}; {} other view{} not used.",
+      fmt::runtime(others == 1 ? finding_text("views.part_but_one") : finding_text("views.part")),
       shape.v, shape.u, missing_text(views), views.numbering, part.grid.v, part.grid.u, rows,
-      columns, others, others == 1 ? " is" : "s are");
+      columns, others);
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #include "engine/io/models/names/view_names.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/names/index_fields.h"
@@ -39,14 +40,9 @@ std::vector<long long> expected_values(const NumberRun& run, bool is_chosen) {
 void warn_of_steps(const char* what, const NumberRun& run, std::vector<std::string>& warnings) {
   if (run.values.size() < 2 || run.is_plain()) return;
   if (run.has_gaps()) {
-    warnings.push_back(
-        fmt::format("The names number {} {}: they are taken for neighbors at equal distances.",
-                    what, run.text()));
+    warnings.push_back(fmt::format(finding_text("views.uneven"), what, run.text()));
   } else if (run.step > 1) {
-    warnings.push_back(
-        fmt::format("The names number {} {}: the grid is subsampled, and disparities are per {} "
-                    "steps of the numbers.",
-                    what, run.text(), run.step));
+    warnings.push_back(fmt::format(finding_text("views.subsampled"), what, run.text(), run.step));
   }
 }
 
@@ -71,8 +67,7 @@ void warn_of_numbers(const Axes& axes, std::vector<std::string>& warnings) {
   const long long column = axes.columns.values.front();
   if (both_vary && row != column && std::min(row, column) == 0 && std::max(row, column) == 1) {
     warnings.push_back(
-        fmt::format("Rows begin at {} and columns at {}: perhaps a {} of views is missing.", row,
-                    column, row > column ? "row" : "column"));
+        fmt::format(finding_text("views.begin"), row, column, row > column ? "row" : "column"));
   }
 }
 

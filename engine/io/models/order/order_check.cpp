@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/order/order_check.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/numbers.h"
 #include "engine/core/text_table.h"
 
@@ -43,10 +44,6 @@ std::string axis_text(const char* name, const AxisErrors& errors, bool is_flippe
          ")";
 }
 
-constexpr const char* kEitherWay =
-    "the truth fits this order of views, and negated the opposite one; nothing tells which is "
-    "right";
-
 struct Checked {
   ViewFlip flip;
   bool is_decided = false;
@@ -68,19 +65,13 @@ std::string poor_truth(const WarpErrors& errors, const ConstantComparison& compa
   if (comparison.is_better()) return {};
   if (!errors.u.is_poor() && !errors.v.is_poor()) {
     if (!comparison.is_told()) return {};
-    return fmt::format(
-        "The values of the truth could not be checked: one disparity for all explains the views "
-        "as well, or better (where both differ, in {} squares of the view, the truth is better by "
-        "{:.1f} standard deviations of chance).",
-        comparison.squares, comparison.score);
+    return fmt::format(finding_text("truth.unchecked"), comparison.squares, comparison.score);
   }
   const AxisErrors& worse = errors.u.is_poor() ? errors.u : errors.v;
-  return "The truth hardly explains the views: warped by it, they differ by " +
-         fixed_text(std::min(worse.forward, worse.reversed), 2) + " grey levels along " +
-         (errors.u.is_poor() ? "u" : "v") + ", the other way by " +
-         fixed_text(std::max(worse.forward, worse.reversed), 2) + " and unwarped by " +
-         fixed_text(worse.unwarped, 2) +
-         "; check the truth, and dH, focalLength and shift if it was stored as depth.";
+  return fmt::format(
+      finding_text("truth.poor"), fixed_text(std::min(worse.forward, worse.reversed), 2),
+      errors.u.is_poor() ? "u" : "v", fixed_text(std::max(worse.forward, worse.reversed), 2),
+      fixed_text(worse.unwarped, 2));
 }
 
 Checked check_by_truth(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
@@ -100,11 +91,14 @@ Checked check_by_truth(const LightField::Samples& samples, const std::vector<Ord
     const std::string errors_text =
         axis_text("u", errors.u, checked.flip.u) + ", " + axis_text("v", errors.v, checked.flip.v);
     const bool is_sure = checked.warning.empty();
-    checked.text = is_sure ? "checked against truth" : "by the truth, which is in doubt";
-    checked.text += ", mean grey error after warping: " + errors_text;
+    checked.text = fmt::format(fmt::runtime(is_sure ? finding_text("order.by_truth")
+                                                    : finding_text("order.by_doubtful_truth")),
+                               errors_text);
     checked.is_sign_known = is_sure && !expected.is_truth_sign_assumed;
-    checked.sign_text = is_sure ? kEitherWay : "the truth is in doubt";
-    if (checked.is_sign_known) checked.sign_text = "by truth: " + errors_text;
+    checked.sign_text = is_sure ? finding_text("sign.either") : finding_text("sign.doubtful_truth");
+    if (checked.is_sign_known) {
+      checked.sign_text = fmt::format(finding_text("sign.by_truth"), errors_text);
+    }
   }
   return checked;
 }
@@ -115,11 +109,9 @@ Checked check_by_slopes(const CoarseMotion& coarse, ViewFlip expected, const Pro
   if (!checked.is_decided) return checked;
   const bool must_differ = slopes.value < 0;
   if ((expected.u != expected.v) != must_differ) checked.flip.u = !checked.flip.u;
-  checked.text = fmt::format(
-      "checked by the slopes of horizontal and vertical EPIs: correlation {} as stored at {} "
-      "points, {}",
-      fixed_text(slopes.value, 2), slopes.points,
-      must_differ ? "so exactly one axis is reversed" : "so both axes agree");
+  checked.text = fmt::format(fmt::runtime(must_differ ? finding_text("order.slopes_differ")
+                                                      : finding_text("order.slopes_agree")),
+                             fixed_text(slopes.value, 2), slopes.points);
   return checked;
 }
 
@@ -136,10 +128,10 @@ void add_occlusion(const CoarseMotion& coarse, Checked& checked, const Progress&
 }
 
 std::string not_checked_text(GridShape grid) {
-  if (grid.count() == 1) return "not checked (a single view)";
-  if (grid.v == 1) return "not checked (one row of views)";
-  if (grid.u == 1) return "not checked (one column of views)";
-  return "not checked (too little depth or texture)";
+  if (grid.count() == 1) return std::string(finding_text("order.single_view"));
+  if (grid.v == 1) return std::string(finding_text("order.one_row"));
+  if (grid.u == 1) return std::string(finding_text("order.one_column"));
+  return std::string(finding_text("order.no_texture"));
 }
 
 ViewFlip chosen_flip(Flip choice) {
@@ -153,13 +145,13 @@ void follow(ViewFlip chosen, const Checked& checked, OrderFinding& finding) {
   finding.was_chosen = true;
   if (!(chosen == checked.flip)) {
     finding.sign = "";
-    finding.sign_check = "the order was chosen by hand";
+    finding.sign_check = finding_text("sign.by_hand");
     if (checked.is_sign_known) finding.sign_check += ", against the check " + checked.sign_text;
   }
   if (!checked.contradicts(chosen)) return;
   finding.check = "the check favors \"" + flip_text(checked.flip) + "\": " + checked.text;
-  finding.warnings.push_back("The order of views was chosen by hand (" + flip_text(chosen) +
-                             "), but the check favors \"" + flip_text(checked.flip) + "\".");
+  finding.warnings.push_back(
+      fmt::format(finding_text("order.chosen"), flip_text(chosen), flip_text(checked.flip)));
 }
 
 }  // namespace
@@ -198,9 +190,8 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
   }
   finding.order = flip_text(finding.flip);
   if (!(finding.flip == expected.flip)) {
-    finding.warnings.push_back("The order of views is \"" + finding.order + "\" and not \"" +
-                               flip_text(expected.flip) + "\", which was expected because " +
-                               expected.reason + ".");
+    finding.warnings.push_back(fmt::format(finding_text("order.unexpected"), finding.order,
+                                           flip_text(expected.flip), expected.reason));
   }
   return finding;
 }
@@ -213,10 +204,10 @@ constexpr double kFarBetterTurn = 0.6;
 /// Share of the error without warping below which a map is right beyond doubt.
 constexpr double kEvident = 0.2;
 
-constexpr MapTurn kTurns[] = {{false, true, false, "rows from bottom to top"},
-                              {false, false, true, "columns from right to left"},
-                              {false, true, true, "both rows and columns in reverse order"},
-                              {true, false, false, "rows and columns exchanged"}};
+constexpr MapTurn kTurns[] = {{false, true, false, finding_text("truth.rows_reversed").data()},
+                              {false, false, true, finding_text("truth.columns_reversed").data()},
+                              {false, true, true, finding_text("truth.both_reversed").data()},
+                              {true, false, false, finding_text("truth.transposed").data()}};
 
 /// A single view of the stack, or all.
 template <class T>
@@ -268,8 +259,7 @@ DisparityField turned_back(const DisparityView& map, const MapTurn& turn) {
 }
 
 std::string turned_back_text(const std::string& turn) {
-  return "The truth was stored with " + turn +
-         ", as comparing it with the views shows; it was put right.";
+  return fmt::format(finding_text("truth.turned"), turn);
 }
 
 UprightTruth put_truth_upright(const LightField::Samples& samples, DisparityField& field) {

@@ -2,6 +2,7 @@
 #include "engine/io/models/order/view_axes.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/image.h"
 #include "engine/core/indices.h"
 #include "engine/core/numbers.h"
@@ -359,11 +360,7 @@ bool LineMotion::is_askew() const {
 }
 
 std::string LineMotion::warning() const {
-  return fmt::format(
-      "Points move across the line of views as well: by {:.2f} px between views {} apart, beside "
-      "{:.2f} px along it. This may be a film of a camera that zooms or turns, or views that are "
-      "not rectified; disparity is not to be trusted then.",
-      across, step, along);
+  return fmt::format(finding_text("order.line"), across, step, along);
 }
 
 LineMotion measure_line_motion(const LightField::Samples& samples, const Progress& progress) {

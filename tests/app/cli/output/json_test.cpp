@@ -23,6 +23,13 @@ class JsonTest : public QObject {
     QVERIFY(end(third) == third);
     QVERIFY(std::isinf(end(INFINITY)));
   }
+
+  void findings_areTheSentencesThatAreData() {
+    const auto findings = findings_json({"something else", "two layers in 12.5 % of the pixels"});
+    QCOMPARE(findings.size(), std::size_t{1});
+    QCOMPARE(findings.front().at("code").get<std::string>(), std::string("layers"));
+    QCOMPARE(findings.front().at("values").front().get<std::string>(), std::string("12.5"));
+  }
 };
 
 }  // namespace episcope::in_json_test

@@ -43,7 +43,7 @@ class BrowseTest : public QObject {
   void withoutEstimate_sliderAndShiftClickKnowTheRange();
   void rightClick_opensAMenuForThePixel();
   void valuesAtTheCursor_areRead();
-  void samples_areSaidInShort_andInFullInTheTip();
+  void samples_areSaidInShort_andInFullBehindTheArrow();
   void gpu_isAskedForOnAWorker();
   void measuredLine_belongsToItsRow();
   void viewsWithStrokesOfTheFile_areMarked();
@@ -93,15 +93,18 @@ void BrowseTest::viewsWithStrokesOfTheFile_areMarked() {
   QVERIFY(corner_of({painted.v, painted.u - 1}) != theme::kPainted);
 }
 
-void BrowseTest::samples_areSaidInShort_andInFullInTheTip() {
+void BrowseTest::samples_areSaidInShort_andInFullBehindTheArrow() {
   WindowFixture f;
   f.openSmall();
 
   const auto* samples = f.window.findChild<QLabel*>("info.samples");
 
-  QCOMPARE(samples->text().remove(QChar(0x200b)), QString("RGB, 8 bit, gamma-encoded"));
-  QVERIFY2(samples->toolTip().contains("value/255"), qPrintable(samples->toolTip()));
-  QVERIFY(samples->height() >= samples->heightForWidth(samples->width()));
+  QCOMPARE(samples->text().remove(QChar(0x200b)), QString("RGB, 8 bit"));
+  const auto* full = f.window.findChild<QLabel*>("info.tip");
+  QVERIFY(!full->isVisible());
+  f.click("info.more.samples");
+  QVERIFY(full->isVisible());
+  QVERIFY2(full->text().contains("value/255"), qPrintable(full->text()));
 }
 
 // The question may take a second: the window is there meanwhile, and fills the row in later.
@@ -121,7 +124,7 @@ void BrowseTest::gpu_isAskedForOnAWorker() {
 
   f.openSmall();
 
-  QVERIFY2(row().contains("being looked for"), qPrintable(row()));
+  QVERIFY2(row().contains("searching"), qPrintable(row()));
   answered.set_value();
   QTRY_VERIFY2_WITH_TIMEOUT(row().contains("a GPU"), qPrintable(row()), kPatience);
   QVERIFY(asked_on.load() != std::this_thread::get_id());

@@ -255,6 +255,7 @@ void OpeningTest::brokenFile_leavesWhatIsOpenReversible() {
   QTRY_VERIFY_WITH_TIMEOUT(bench.opener.hasFailed(), kPatience);
 
   QVERIFY(bench.commands.find("file.reverse_sign")->isEnabled());
+  f.click("info.more.sign");
   f.click("info.action");
 
   QTRY_VERIFY_WITH_TIMEOUT(bench.session.scene()->convention.reversed_u != was_reversed,

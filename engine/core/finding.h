@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace episcope {
+
+/// What a reader or a method says of data or of a result, as data. Notes and warnings travel and
+/// are stored as English sentences that `finding_text` makes; `finding_of` gives back what was
+/// said, for translations and for programs.
+struct Finding {
+  std::string code;                 ///< Among `kFindingTexts`.
+  std::vector<std::string> values;  ///< As in the sentence, in its order.
+  friend bool operator==(const Finding&, const Finding&) = default;
+};
+
+/// The sentence of a finding.
+struct FindingText {
+  std::string_view code;
+  std::string_view english;  ///< With placeholders of fmt, without numbers.
+  std::string_view brief{};  ///< For a line of a list: "%1" is the first value; empty = none.
+};
+
+/// All sentences. Codes stay what they are: scripts read them.
+inline constexpr auto kFindingTexts = std::to_array<FindingText>({
+    // Runs of methods.
+    {"run.gpu", "computed on {}"},
+    {"run.cpu", "computed on the CPU: {}"},
+    {"run.early", "ended early"},
+    {"run.propagated", "carried to all views from {} of them"},
+    {"run.evened", "brightness of the views, which differs by up to {:.1f} %, was evened out"},
+    {"run.weights", "weights of {}, hash {}"},
+    {"gap", "largest relative duality gap {:.1e}"},
+    {"labeling.done",
+     "global labeling: λ {:.5g} per px, energy {:.6g}, gap {:.1e} after {} iterations"},
+    {"labeling.early",
+     "global labeling: λ {:.5g} per px, energy {:.6g}, gap {:.1e} after {} iterations (ended "
+     "early)"},
+    {"cuts.minimum", "K = {:.1f} (1/255)²; energy fell by {:.0f} K in {} cycles, to a minimum"},
+    {"cuts.ended", "K = {:.1f} (1/255)²; energy fell by {:.0f} K in {} cycles"},
+    {"ordering", "ordering violated by {:.3f} % of the lines, {:.3f} % before"},
+    {"layers", "two layers in {:.1f} % of the pixels"},
+    {"visibility", "visibility: {} of {} rounds"},
+    {"cap.none", "matching cost uncapped"},
+    {"cap", "matching cost capped at ε = {:.3f}"},
+    // Ranges of disparity.
+    {"range.found", "disparity range {:.2f} … {:.2f} px, found from the images"},
+    {"range.limited",
+     "the disparity range found, {:.2f} … {:.2f} px, ends where the search does, at ±{:.2f} px: "
+     "the "
+     "scene may reach farther; give a range to search it"},
+    // Positions of cameras.
+    {"positions.used", "positions of cameras used, up to {:.2f} steps off the regular grid{}"},
+    {"positions.no_better",
+     "positions of cameras not used: up to {:.2f} steps off the regular grid{}, they match no "
+     "better than the grid"},
+    {"positions.no_grid", "positions of cameras not used: they make no grid"},
+    {"positions.regular",
+     "cameras stand up to {:.2f} steps off the regular grid, which this method takes for granted; "
+     "stereo methods can use their positions"},
+    // Numbers that a comparison with the truth lacks.
+    {"missing.good",
+     "{}: {:.2f} % of the pixels have no value and count as good pixels; means leave them out, as "
+     "the 2016 tool does"},
+    {"missing.all",
+     "{}: {:.2f} % of the pixels have no value and count as the farthest true disparity, {:.3g} "
+     "px: "
+     "there is no other pixel"},
+    {"missing.bad",
+     "{}: {:.2f} % of the pixels have no value and count as the farthest true disparity, {:.3g} "
+     "px: "
+     "MSE×100 is {:.3g} with and {:.3g} without them"},
+    // Brightness of views.
+    {"brightness.off",
+     "The brightness of the views differs by up to {:.1f} % (view {}: {:.3f}); without "
+     "--no-equalize, methods even it out.",
+     "Brightness differs by %1 %"},
+    {"brightness.differs",
+     "The brightness of the views differs by up to {:.1f} % (view {}: {:.3f}); methods even it "
+     "out, --equalize for pictures as well, --no-equalize for none.",
+     "Brightness differs by %1 %; methods even it out"},
+    {"gain.same", "the same in all views"},
+    {"gain.differs", "differs by up to {:.1f} % (view {}: {:.3f})"},
+    {"gain.evened", "evened out; it differed by up to {:.1f} % (view {}: {:.3f})"},
+    {"gain.clipped", "{:.2g} % of the samples clipped"},
+    {"gain.little", "too little to even it out"},
+    {"gain.unknown", "of {} views not known"},
+    // Views and pixels that hold nothing.
+    {"crop.dark",
+     "Using the inner {} of {} views, rows {} to {} and columns {} to {} from 0: {} outer views "
+     "are "
+     "dark (mean {} % of the center's); --crop all keeps them.",
+     "Using the inner %1 of %2 views; the outer ones are dark."},
+    {"valid.dark",
+     "{:.1f} % of all pixels, in {} of {} views, are dark where the center view is not; they are "
+     "marked as not valid.",
+     "%1 % of the pixels are dark and do not count."},
+    {"valid.corners",
+     "The corners of the views are black, {:.1f} % of their pixels, as a lens cuts them off; they "
+     "are marked as not valid.",
+     "Black corners, %1 % of the pixels, do not count."},
+    // Samples.
+    {"samples.bits",
+     "No sample of the views exceeds {} of 65535: they are taken as samples of {} bits. --levels "
+     "0,65535 keeps them as they are.",
+     "Samples of %2 bits"},
+    {"samples.signed",
+     "Float samples of the views should lie in 0 … 1, but lie in {:.4g} … {:.4g}: {:.4g} … {:.4g} "
+     "is taken as black to white ({}). --levels states other values.",
+     "Black is taken at %3, white at %4"},
+    {"samples.normalized", "normalized in some way: 0.1 % of them are darker, 0.1 % brighter"},
+    {"samples.unit", "-1 for black, 1 for white"},
+    {"samples.shifted_bytes", "bytes less 128"},
+    {"samples.linear",
+     "Float samples of the views reach up to {:.3g} with a median of {:.2g}: they are taken as "
+     "linear, and divided by {:.4g} so that 99.9 % lie in 0 … 1.",
+     "Linear samples, divided by %3"},
+    {"samples.noise",
+     "{:.2g} % of the float samples of the views lie clearly below 0, down to {:.2g}: they are "
+     "taken as noise around black. --levels -1,1 would say otherwise.",
+     "%1 % of the samples are negative"},
+    {"samples.divided",
+     "Float samples of the views should lie in 0 … 1, but reach up to {}; they are divided by {}.",
+     "Samples are divided by %2"},
+    {"samples.not_finite", "{} of {} samples of the views are NaN or infinite; they are read as 0.",
+     "%1 samples are NaN or infinite"},
+    // Order of views; near and far.
+    {"order.swapped", "Rows and columns of views seem to be swapped: {}.",
+     "Rows and columns of views seem to be swapped."},
+    {"order.chosen", "The order of views was chosen by hand ({}), but the check favors \"{}\".",
+     "The check favors another order of views."},
+    {"order.unexpected",
+     "The order of views is \"{}\" and not \"{}\", which was expected because {}.",
+     "The order of views is \"%1\"."},
+    {"order.line",
+     "Points move across the line of views as well: by {:.2f} px between views {} apart, beside "
+     "{:.2f} px along it. This may be a film of a camera that zooms or turns, or views that are "
+     "not rectified; disparity is not to be trusted then.",
+     "Points move across the line of views as well."},
+    {"order.slopes_agree",
+     "checked by the slopes of horizontal and vertical EPIs: correlation {} as stored at {} "
+     "points, "
+     "so both axes agree"},
+    {"order.slopes_differ",
+     "checked by the slopes of horizontal and vertical EPIs: correlation {} as stored at {} "
+     "points, "
+     "so exactly one axis is reversed"},
+    {"order.by_truth", "checked against truth, mean grey error after warping: {}"},
+    {"order.by_doubtful_truth",
+     "by the truth, which is in doubt, mean grey error after warping: {}"},
+    {"order.axis_errors", "{} {} (other way {}), {} {} (other way {})"},
+    {"order.by_occlusion", "checked by {}"},
+    {"order.direction", "direction checked by {}"},
+    {"order.single_view", "not checked (a single view)"},
+    {"order.one_row", "not checked (one row of views)"},
+    {"order.one_column", "not checked (one column of views)"},
+    {"order.no_texture", "not checked (too little depth or texture)"},
+    {"sign.occlusion", "occlusion: {} points to {}, in {} squares of the view to {}"},
+    {"sign.by", "by occlusion: {} points to {}, in {} squares of the view to {}"},
+    {"sign.by_truth", "by truth: {}"},
+    {"sign.by_hand", "the order was chosen by hand"},
+    {"sign.doubtful_truth", "the truth is in doubt"},
+    {"sign.either",
+     "the truth fits this order of views, and negated the opposite one; nothing tells which is "
+     "right"},
+    {"sign.few_views", "occlusion cannot be seen in fewer than three views in a row"},
+    {"sign.no_edges", "no depth edges with clear occlusion: {} points for this order, {} against"},
+    // Truth.
+    {"truth.unchecked",
+     "The values of the truth could not be checked: one disparity for all explains the views as "
+     "well, or better (where both differ, in {} squares of the view, the truth is better by "
+     "{:.1f} standard deviations of chance).",
+     "The ground truth could not be checked."},
+    {"truth.poor",
+     "The truth hardly explains the views: warped by it, they differ by {} grey levels along {}, "
+     "the other way by {} and unwarped by {}; check the truth, and dH, focalLength and shift if it "
+     "was stored as depth.",
+     "The ground truth hardly explains the views."},
+    {"truth.turned",
+     "The truth was stored with {}, as comparing it with the views shows; it was put right.",
+     "The ground truth was turned."},
+    {"truth.rows_reversed", "rows from bottom to top"},
+    {"truth.columns_reversed", "columns from right to left"},
+    {"truth.both_reversed", "both rows and columns in reverse order"},
+    {"truth.transposed", "rows and columns exchanged"},
+    {"truth.estimated", "The depth of this file is no ground truth: it was {}.",
+     "The depth of this file was estimated."},
+    // Depth and its camera.
+    {"depth.implausible",
+     "The depth gives disparities of {} … {} px per view step, which is implausible; check dH, "
+     "focalLength and shift of the file.",
+     "Implausible depth: %1 … %2 px"},
+    {"depth.camera_distance",
+     "According to dH, focalLength and shift, disparity is zero at depth {}, but camDistance says "
+     "{}; camDistance is ignored; check these attributes of the file.",
+     "camDistance is ignored."},
+    {"depth.no_camera_distance",
+     "According to dH, focalLength and shift, disparity is zero at no finite depth, but "
+     "camDistance "
+     "says {}; camDistance is ignored; check these attributes of the file.",
+     "camDistance is ignored."},
+    {"depth.ignored", "{} is ignored because {}.", "%1 is ignored."},
+    {"depth.no_layer",
+     "{} is ignored because the other layer, {}, is missing or holds no depth; add it, or store a "
+     "single layer as GT_DEPTH.",
+     "%1 is ignored: one layer is missing."},
+    {"depth.camera_unused", "The camera of the file is not used: {}.",
+     "The camera of the file is not used."},
+    {"depth.holes",
+     "{} holds no depth at {:.3g} % of its pixels (masked, zero, negative or NaN); they are "
+     "ignored.",
+     "No depth at %2 % of the pixels of %1"},
+    {"depth.by_warping", "this warps the views onto each other best ({} grey levels)"},
+    // Files.
+    {"labels.raised",
+     "Labels start at 0 in this file and unpainted pixels are marked by another value: all labels "
+     "are raised by one, so that 0 means unpainted.",
+     "Labels are raised by one."},
+    {"views.no_config",
+     "There is no parameters.cfg: the grid of {}×{} views was inferred from the number of files.",
+     "The grid of %1×%2 views was inferred."},
+    {"views.part",
+     "Of a grid of {}×{} {} (row,column {}): the largest part without a gap is opened, {}×{} "
+     "views, "
+     "{} and {}; {} other views are not used.",
+     "Using %5×%6 of %1×%2 views; others are missing."},
+    {"views.part_but_one",
+     "Of a grid of {}×{} {} (row,column {}): the largest part without a gap is opened, {}×{} "
+     "views, "
+     "{} and {}; {} other view is not used.",
+     "Using %5×%6 of %1×%2 views; others are missing."},
+    {"views.subsampled",
+     "The names number {} {}: the grid is subsampled, and disparities are per {} steps of the "
+     "numbers.",
+     "The grid is subsampled: every %3th view"},
+    {"views.uneven", "The names number {} {}: they are taken for neighbors at equal distances.",
+     "Views are numbered with gaps."},
+    {"views.begin", "Rows begin at {} and columns at {}: perhaps a {} of views is missing.",
+     "Perhaps a %3 of views is missing."},
+    {"views.other_folders", "The views are those of {}; pictures in {} are left out.",
+     "Pictures in %2 are left out."},
+    {"views.other_names",
+     "{} images look like views, but their names have another form, such as {}: they are not used. "
+     "If they belong to the grid, name a pattern that matches all.",
+     "%1 images with other names are not used."},
+    {"views.channels", "Of {} channels of a view the first three are read, as red, green and blue.",
+     "Only three of %1 channels are read."},
+    {"views.remainder",
+     "The picture has {}×{} px, which {} does not divide: the last {} columns and {} rows of "
+     "pixels "
+     "are left out.",
+     "The last %4 columns and %5 rows of pixels are left out."},
+    {"views.poses_unused",
+     "The poses of {} are not used, as {}; the names and the views themselves tell rows and "
+     "columns.",
+     "The poses of %1 are not used."},
+    {"option.ignored", "--{} is ignored, because this is {}.", "“%1” is ignored."},
+    {"scribbles.unread", "Scribbles were not read: {}"},
+});
+
+/// The English of a code, for fmt. An unknown code is an error of the compiler.
+consteval std::string_view finding_text(std::string_view code) {
+  const auto* found = std::ranges::find(kFindingTexts, code, &FindingText::code);
+  return found->english;
+}
+
+/// The finding that a sentence tells, the most special one; none for a sentence of another kind.
+[[nodiscard]] std::optional<Finding> finding_of(std::string_view sentence);
+
+/// The entry of a code among `kFindingTexts`; null for an unknown one.
+[[nodiscard]] const FindingText* find_finding_text(std::string_view code);
+
+/// An English text with its placeholders as translations have them: "%1", "%2", ….
+[[nodiscard]] std::string numbered(std::string_view english);
+
+}  // namespace episcope
