@@ -153,6 +153,15 @@ foreach(suffix npy npz mat)
   expect("but where it is asked for" 0 ARGS convert "${lf}" lf.${suffix} --overwrite --quiet)
   expect("info of that" 0 OUT "5×5 views of 64×48 px" ARGS info lf.${suffix})
 endforeach()
+expect("convert to a quilt" 0 ERR "row 2 is written, the others are left out"
+       ARGS convert "${lf}" quilt_qs5x1a1.333.png)
+expect("info of the quilt" 0 OUT "quilt of 1×5 tiles.*1×5 views of 64×48 px" ARGS info quilt_qs5x1a1.333.png)
+expect("convert to a quilt of another name" 0 ERR "name it plain_qs" ARGS convert "${lf}" plain.png --to quilt)
+expect("repack" 0 OUT "whole.h5: written" ARGS convert "${lf}" whole.h5 --repack)
+expect("info of what was repacked" 0 OUT "5×5 views of 64×48 px.*truth +disparity of all views"
+       ARGS info whole.h5)
+expect("repack again" 1 ERR "--overwrite" ARGS convert "${lf}" whole.h5 --repack)
+
 expect("convert to lenslets" 0 ERR "picture of lenslets holds no disparities"
        ARGS convert "${lf}" lf_eslf.png)
 expect("info of that" 0 OUT "5×5 views of 64×48 px" ARGS info lf_eslf.png --mosaic lenslets
@@ -193,12 +202,3 @@ foreach(i RANGE ${last})
     endif()
   endforeach()
 endforeach()
-
-expect("convert to a quilt" 0 ERR "row 2 is written, the others are left out"
-       ARGS convert "${lf}" quilt_qs5x1a1.333.png)
-expect("info of the quilt" 0 OUT "quilt of 1×5 tiles.*1×5 views of 64×48 px" ARGS info quilt_qs5x1a1.333.png)
-expect("convert to a quilt of another name" 0 ERR "name it plain_qs" ARGS convert "${lf}" plain.png --to quilt)
-expect("repack" 0 OUT "whole.h5: written" ARGS convert "${lf}" whole.h5 --repack)
-expect("info of what was repacked" 0 OUT "5×5 views of 64×48 px.*truth +disparity of all views"
-       ARGS info whole.h5)
-expect("repack again" 1 ERR "--overwrite" ARGS convert "${lf}" whole.h5 --repack)
