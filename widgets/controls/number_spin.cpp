@@ -64,10 +64,8 @@ void NumberSpin::fixup(QString& text) const {
   const bool is_low = *number < minimum();
   const QString limit = textFromValue(is_low ? minimum() : maximum()) + suffix();
   text = limit;
-  QToolTip::showText(
-      mapToGlobal(QPoint(0, height())),
-      (is_low ? tr("The minimum is %1") : tr("The maximum is %1"))
-          .arg(limit));
+  QToolTip::showText(mapToGlobal(QPoint(0, height())),
+                     (is_low ? tr("The minimum is %1") : tr("The maximum is %1")).arg(limit));
 }
 
 namespace {

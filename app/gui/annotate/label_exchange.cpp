@@ -445,9 +445,8 @@ void ask_to_export_labels(const Workbench& bench, const SegmentController& segme
         "Nothing is segmented yet: paint two labels, then update the segmentation."));
     return;
   }
-  auto* dialog =
-      new ExportLabelsDialog(&bench.window, segment.isSegmentationUpToDate(),
-                             segmentation->labeling->labels.grid().count() > 1);
+  auto* dialog = new ExportLabelsDialog(&bench.window, segment.isSegmentationUpToDate(),
+                                        segmentation->labeling->labels.grid().count() > 1);
   QObject::connect(dialog, &QDialog::accepted, &bench.owner, [bench, &segment, dialog] {
     LabelTarget target = dialog->target();
     target.has_views = dialog->hasViews();

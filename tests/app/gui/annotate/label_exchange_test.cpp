@@ -36,9 +36,7 @@ constexpr int kSide = 96;  ///< Of the views, in px.
 class Exchanging : public Annotating {
  public:
   LabelImporter& importer() { return find<LabelImporter>(window); }
-  [[nodiscard]] QString told() const {
-    return window.findChild<MessageBar*>("messageBar")->text();
-  }
+  [[nodiscard]] QString told() const { return window.findChild<MessageBar*>("messageBar")->text(); }
   template <class T>
   T* part(const QString& name) {
     return window.findChild<T*>(name);
@@ -211,10 +209,14 @@ void LabelExchangeTest::everyForm_isExported_data() {
   QTest::addColumn<int>("row");
   QTest::addColumn<QString>("place");
   QTest::addColumn<QString>("file");
-  QTest::newRow("PNG") << 2 << "png" << "png/00_08.png";
-  QTest::newRow("VOC") << 3 << "voc" << "voc/JPEGImages/08_08.png";
-  QTest::newRow("COCO") << 4 << "coco" << "coco/annotations/instances_default.json";
-  QTest::newRow("labelme") << 5 << "labelme" << "labelme/04_04.json";
+  QTest::newRow("PNG") << 2 << "png"
+                       << "png/00_08.png";
+  QTest::newRow("VOC") << 3 << "voc"
+                       << "voc/JPEGImages/08_08.png";
+  QTest::newRow("COCO") << 4 << "coco"
+                        << "coco/annotations/instances_default.json";
+  QTest::newRow("labelme") << 5 << "labelme"
+                           << "labelme/04_04.json";
 }
 
 void LabelExchangeTest::everyForm_isExported() {
@@ -236,8 +238,8 @@ void LabelExchangeTest::everyForm_isExported() {
                 {LabelTarget::Kind::Folder, form, true});
   QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path(file)), kPatience);
 
-  const io::ImportedLabels read = io::read_label_files({f.path(place).toStdString()},
-                                                       {{{9, 9}, kSide, kSide}});
+  const io::ImportedLabels read =
+      io::read_label_files({f.path(place).toStdString()}, {{{9, 9}, kSide, kSide}});
   QCOMPARE(read.scribbles.views.size(), std::size_t{81});
   QCOMPARE(read.scribbles.views[80].labels.at(5, 60), 2);
 }
