@@ -7,13 +7,15 @@ expect("decode" 0 ERR "MOD_0001.RAW .*nearest of 2" OUT "hexagonal lenses: pitch
 expect("what the camera said" 0 OUT "decoded from raw.lfp.*serial A000000001.*zoom step 600"
        ARGS info lf.h5)
 expect("again" 1 ERR "--overwrite" ARGS decode f01/raw.lfp -o lf.h5)
-expect("without a white picture" 0 ERR "without a white picture"
-       ARGS decode f01/raw.lfp --views 5 -o raw_only.h5 --json)
+expect("as JSON" 0 ERR "nearest of 2" ARGS decode f01/raw.lfp --white f01/calibration --views 5
+       -o five.h5 --json)
 json_is("${out}" 5 views u)
 json_is("${out}" hexagonal lattice)
 json_near("${out}" 9.9 10.1 pitch_px)
 json_is("${out}" "600" camera "zoom step")
-expect("a container is a light field" 0 OUT "decoded from raw.lfp" ARGS info f01/raw.lfp)
+expect("expose an Illum" 0 ARGS synthesize edge --camera illum --size 640x480 -o illum -q)
+expect("a container with its white picture is a light field" 0
+       OUT "decoded from raw.lfr.*serial B5000000001" ARGS info illum/raw.lfr)
 
 expect("expose a square array" 0 ARGS synthesize edge --camera square --size 480x360 -o square -q)
 expect("pictures beside" 0 ERR "white picture raw_white.png" OUT "square lenses" ARGS decode

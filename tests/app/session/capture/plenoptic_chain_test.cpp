@@ -16,8 +16,8 @@ namespace {
 
 capture::SyntheticCamera small_camera(capture::CameraModel model) {
   capture::SyntheticCamera camera = capture::synthetic_camera(model);
-  camera.width = 640;
-  camera.height = 480;
+  camera.width = 1000;
+  camera.height = 752;
   return camera;
 }
 
@@ -38,10 +38,10 @@ class PlenopticChainTest : public QObject {
               square = int(capture::CameraModel::Square);
     // Limits of disparity: noise of the sensor is what remains in it.
     QTest::newRow("F01") << f01 << 0.0 << 0.1 << 1.0 << true << 0.03;
-    QTest::newRow("F01, turned, pitch off, noise") << f01 << 0.01 << -0.5 << 1.01 << false << 0.06;
+    QTest::newRow("F01, turned, pitch off, noise") << f01 << 0.01 << -0.5 << 1.01 << false << 0.04;
     QTest::newRow("Illum") << illum << 0.0 << 0.1 << 1.0 << true << 0.03;
     QTest::newRow("square") << square << 0.0 << 0.1 << 1.0 << false << 0.03;
-    QTest::newRow("square, turned, noise") << square << 0.01 << 0.5 << 0.99 << false << 0.05;
+    QTest::newRow("square, turned, noise") << square << 0.01 << 0.5 << 0.99 << false << 0.04;
   }
   void chain_findsWhatTheCameraSaw() {
     QFETCH(int, model);
@@ -62,10 +62,11 @@ class PlenopticChainTest : public QObject {
     qInfo("%s", text.c_str());
     QVERIFY2(errors.center_px <= 0.05, text.c_str());
     QVERIFY2(errors.disparity_px <= disparity, text.c_str());
-    QVERIFY2(errors.slope_percent <= 1, text.c_str());
+    // Noise tilts the slopes of hexagonal arrays, whose rows are interpolated in one direction.
+    QVERIFY2(errors.slope_percent <= (noise > 0 ? 2 : 1), text.c_str());
     QVERIFY2(errors.row_shift_px <= 0.05, text.c_str());
     // Views from the border of the lens are shaded most, and what is dark is rounded.
-    QVERIFY2(errors.brightness_percent <= 4, text.c_str());
+    QVERIFY2(errors.brightness_percent <= 6, text.c_str());
     QVERIFY2(std::abs(errors.level - 1) <= 0.02, text.c_str());
   }
 
