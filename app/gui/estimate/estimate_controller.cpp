@@ -126,7 +126,7 @@ EstimateController::EstimateController(const Workbench& bench)
   add_measured_range(bench_, method_);
   new MethodRange(bench_, *method_);
   method_->setMethods(described_methods());
-  addFindings();
+  addTargets();
   new LiveController(bench, *method_);
   new SweepController(bench, *method_);
   connect(method_, &MethodPanel::runRequested, this,
@@ -153,9 +153,9 @@ void EstimateController::runFirst(const QString& input) {
   if (is_settled_ && !id.empty() && !is_gantry(id)) run({kFirstMethod, {}, {}});
 }
 
-void EstimateController::addFindings() {
-  bench_.commands.addFindings([this] {
-    std::vector<Finding> found;
+void EstimateController::addTargets() {
+  bench_.commands.addTargets([this] {
+    std::vector<PaletteTarget> found;
     for (const MethodDescription& each : described_methods()) {
       found.push_back(
           {tr("Method: %1").arg(QString::fromStdString(each.name)), schema_text(each.summary),

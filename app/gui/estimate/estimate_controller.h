@@ -48,7 +48,7 @@ class EstimateController : public QObject {
 
   void remove(int id);
   void runFirst(const QString& input);
-  void addFindings();
+  void addTargets();
   void addTab();
   void addCommands();
   void addResultCommands();

@@ -162,8 +162,8 @@ FileController::FileController(const Workbench& bench)
   addSaveCommand();
   addLeaveCommands();
   fillRecentMenu();
-  bench.commands.addFindings([this] {
-    std::vector<Finding> found;
+  bench.commands.addTargets([this] {
+    std::vector<PaletteTarget> found;
     for (const QString& input : recent_inputs()) {
       found.push_back({tr("Recent: %1").arg(input), tr("Opens it again"), {}, [this, input] {
                          bench_.opener.open(input);

@@ -457,8 +457,8 @@ void SceneChooser::addCommands() {
                        .run = [this] { bench_.scenes.step(-1); },
                        .section = section::kTabs,
                        .enabled = has_several});
-  bench_.commands.addFindings([this] {
-    std::vector<Finding> found;
+  bench_.commands.addTargets([this] {
+    std::vector<PaletteTarget> found;
     for (const OpenScene* scene : bench_.session.scenes()) {
       found.push_back({tr("Open light field: %1").arg(QString::fromStdString(scene->name)),
                        tr("Shows it: %1").arg(QString::fromStdString(scene->input)),

@@ -133,15 +133,15 @@ std::vector<CommandPalette::Entry> CommandPalette::entries() const {
          action->shortcut().toString(QKeySequence::NativeText),
          action->isEnabled()});
   }
-  for (Finding& finding : commands_.findings()) entries.push_back({std::move(finding), {}});
+  for (PaletteTarget& target : commands_.targets()) entries.push_back({std::move(target), {}});
   return entries;
 }
 
 // Without a text, all that can run.
 CommandPalette::Rank CommandPalette::rankOf(const Entry& entry, const QString& text) {
-  const Finding& finding = entry.finding;
-  const bool is_named = matches(finding.title, text);
-  if (!is_named && !matches(finding.title + ' ' + finding.tip + ' ' + finding.words, text)) {
+  const PaletteTarget& target = entry.target;
+  const bool is_named = matches(target.title, text);
+  if (!is_named && !matches(target.title + ' ' + target.tip + ' ' + target.words, text)) {
     return Rank::None;
   }
   if (!entry.can_run) return text.isEmpty() ? Rank::None : Rank::CannotRun;
@@ -163,18 +163,18 @@ void CommandPalette::filter(const QString& text) {
 }
 
 void CommandPalette::add(const Entry& entry) {
-  auto* item = new QListWidgetItem(entry.finding.title, list_);
+  auto* item = new QListWidgetItem(entry.target.title, list_);
   if (!entry.can_run) item->setFlags(Qt::NoItemFlags);
   item->setData(kEntryRole, static_cast<int>(&entry - entries_.data()));
   item->setData(AsideDelegate::kAsideRole, entry.keys);
-  item->setToolTip(entry.finding.tip);
+  item->setToolTip(entry.target.tip);
 }
 
 void CommandPalette::runCurrent() {
   const QListWidgetItem* item = list_->currentItem();
   if (!item || !item->flags().testFlag(Qt::ItemIsEnabled)) return;
   const auto place = static_cast<std::size_t>(item->data(kEntryRole).toInt());
-  const auto run = entries_[place].finding.run;
+  const auto run = entries_[place].target.run;
   close();
   // After the popup is gone, so that the command finds the window in front.
   QTimer::singleShot(0, parentWidget(), run);

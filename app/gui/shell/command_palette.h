@@ -34,7 +34,7 @@ class CommandPalette : public QDialog {
 
  private:
   struct Entry {
-    Finding finding;
+    PaletteTarget target;
     QString keys;
     bool can_run = true;
   };

@@ -109,13 +109,13 @@ QAction* Commands::find(const QString& id) const {
   return found == actions_.end() ? nullptr : found->second;
 }
 
-void Commands::addFindings(std::function<std::vector<Finding>()> list) {
-  findings_.push_back(std::move(list));
+void Commands::addTargets(std::function<std::vector<PaletteTarget>()> list) {
+  targets_.push_back(std::move(list));
 }
 
-std::vector<Finding> Commands::findings() const {
-  std::vector<Finding> all;
-  for (const auto& list : findings_) std::ranges::move(list(), std::back_inserter(all));
+std::vector<PaletteTarget> Commands::targets() const {
+  std::vector<PaletteTarget> all;
+  for (const auto& list : targets_) std::ranges::move(list(), std::back_inserter(all));
   return all;
 }
 

@@ -123,7 +123,7 @@ struct Command {
 };
 
 /// Something that is found like a command: a method, an open light field.
-struct Finding {
+struct PaletteTarget {
   QString title;
   QString tip;
   QString words{};  ///< That it is found by, besides those of title and tip.
@@ -146,8 +146,8 @@ class Commands : public QObject {
   [[nodiscard]] QAction* find(const QString& id) const;
   [[nodiscard]] const std::vector<Command>& all() const { return commands_; }
   /// Adds a list of what else can be found at the time of asking.
-  void addFindings(std::function<std::vector<Finding>()> list);
-  [[nodiscard]] std::vector<Finding> findings() const;
+  void addTargets(std::function<std::vector<PaletteTarget>()> list);
+  [[nodiscard]] std::vector<PaletteTarget> targets() const;
   /// Runs a command if it is enabled; returns whether it was.
   bool trigger(const QString& id);
 
@@ -198,7 +198,7 @@ class Commands : public QObject {
   QWidget* window_;
   QWidget* viewer_;
   std::vector<Command> commands_;
-  std::vector<std::function<std::vector<Finding>()>> findings_;
+  std::vector<std::function<std::vector<PaletteTarget>()>> targets_;
   std::map<QString, QAction*> actions_;
   std::map<QString, QActionGroup*> choices_;
   std::map<QString, QList<QKeySequence>> keys_;
