@@ -396,7 +396,7 @@ QSize LinePlot::sizeHint() const {
   return {320, 190};
 }
 QSize LinePlot::minimumSizeHint() const {
-  return {200, 80};
+  return {200, 70};
 }
 
 void LinePlot::paintMark(QPainter& painter, PlotPlace place, double radius) const {
