@@ -305,10 +305,9 @@ void LabelImporter::useAsSegmentation(const io::ImportedLabels& labels) {
   const LightField& field = *session_.light_field();
   auto labeling = std::make_shared<Labeling>();
   labeling->labels = io::stack_of(labels.scribbles, {field.grid(), field.height(), field.width()});
-  for (const LabelInfo& info :
-       document_from({{}, labels.scribbles.labels}, field.grid(), field.height(), field.width(), 0)
-           .labels()
-           .labels()) {
+  const AnnotationDocument imported =
+      document_from({{}, labels.scribbles.labels}, field.grid(), field.height(), field.width(), 0);
+  for (const LabelInfo& info : imported.labels().labels()) {
     labeling->probabilities.ids.push_back(info.id);
   }
   document_.edit([&](AnnotationDocument& document) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/annotate_controller.h"
-#include "app/gui/annotate/annotation_files.h"
+#include "app/gui/annotate/label_exchange.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/files/project_controller.h"
 #include "app/gui/scene/scene_opener.h"
@@ -234,7 +234,7 @@ void AllViewsTest::exportedLabels_areNotAskedFor() {
   f.segmentAll();
   QVERIFY(!f.window.bench().guards.may_leave(Leaving::Session));
 
-  export_segmentation(f.window.bench(), f.segment(), f.path("out.h5"));
+  export_labels(f.window.bench(), f.segment(), f.path("out.h5"), {});
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().guards.may_leave(Leaving::Session), kScenePatience);
 }
