@@ -148,18 +148,6 @@
         <translation>Wählt das Label unter dem Mauszeiger</translation>
     </message>
     <message>
-        <source>Close the polygon</source>
-        <translation>Polygon schließen</translation>
-    </message>
-    <message>
-        <source>Paints the inside of the polygon being drawn</source>
-        <translation>Malt das Innere des Polygons, das gerade gezeichnet wird</translation>
-    </message>
-    <message>
-        <source>Take the last corner back</source>
-        <translation>Letzte Ecke zurücknehmen</translation>
-    </message>
-    <message>
         <source>Removes the last corner of the polygon</source>
         <translation>Entfernt die zuletzt gesetzte Ecke des Polygons</translation>
     </message>
@@ -196,16 +184,36 @@
         <translation>„%1“ ist gesperrt: zum Malen entsperren oder ein anderes Label wählen.</translation>
     </message>
     <message>
-        <source>There is an edge here. Click beside it, or raise the edge threshold of the fill.</source>
-        <translation>Hier ist eine Kante. Daneben klicken oder die Kantenschwelle der Füllung erhöhen.</translation>
-    </message>
-    <message>
-        <source>Nothing is painted here.</source>
-        <translation>Hier ist nichts gemalt.</translation>
-    </message>
-    <message>
         <source>label color</source>
         <translation>Farbe des Labels</translation>
+    </message>
+    <message>
+        <source>The polygon belongs to view v %1, u %2: go there to continue it. Return closes it, Esc ends it.</source>
+        <translation>Das Polygon gehört zu Ansicht v %1, u %2: dort weiterzeichnen. Eingabe schließt es, Esc beendet es.</translation>
+    </message>
+    <message>
+        <source>Nothing is painted or segmented here.</source>
+        <translation>Hier ist nichts gemalt oder segmentiert.</translation>
+    </message>
+    <message>
+        <source>merging of labels</source>
+        <translation>Verbinden von Labels</translation>
+    </message>
+    <message>
+        <source>Close the polygon, or accept the region in doubt</source>
+        <translation>Polygon schließen oder zweifelhafte Region annehmen</translation>
+    </message>
+    <message>
+        <source>Paints the inside of the polygon being drawn; without one, paints the marked region in doubt with the label that it has</source>
+        <translation>Malt das Innere des Polygons, das gezeichnet wird; ohne Polygon die markierte zweifelhafte Region mit dem Label, das sie hat</translation>
+    </message>
+    <message>
+        <source>Remove the last corner</source>
+        <translation>Letzte Ecke entfernen</translation>
+    </message>
+    <message>
+        <source>Paint</source>
+        <translation>Malen</translation>
     </message>
 </context>
 <context>
@@ -213,10 +221,6 @@
     <message>
         <source>Propagate to all views by</source>
         <translation>In alle Ansichten übertragen mit</translation>
-    </message>
-    <message>
-        <source>Shows the scribbles of every view on all others, as stripes: carried along the rays, except where they are occluded. They never replace what you painted.</source>
-        <translation>Zeigt die Striche jeder Ansicht gestreift in allen anderen: entlang der Strahlen übertragen, außer wo sie verdeckt sind. Gemaltes wird dadurch nie ersetzt.</translation>
     </message>
     <message>
         <source>the shown estimate</source>
@@ -229,6 +233,10 @@
     <message>
         <source>Disparity along which scribbles are propagated</source>
         <translation>Disparität, mit der Striche übertragen werden</translation>
+    </message>
+    <message>
+        <source>Shows the scribbles of every view on all others, as stripes: propagated along rays, except where they are occluded. They never replace what you painted.</source>
+        <translation>Zeigt die Striche jeder Ansicht gestreift auf allen anderen: entlang der Strahlen übertragen, außer wo sie verdeckt sind. Sie ersetzen nie, was gemalt wurde.</translation>
     </message>
 </context>
 <context>
@@ -252,14 +260,6 @@
     <message>
         <source>Ctrl+Shift+S</source>
         <translation>Ctrl+Shift+S</translation>
-    </message>
-    <message>
-        <source>Import scribbles…</source>
-        <translation>Striche importieren…</translation>
-    </message>
-    <message>
-        <source>Adds scribbles from another file wherever nothing is painted</source>
-        <translation>Fügt Striche aus einer anderen Datei hinzu, wo noch nichts gemalt ist</translation>
     </message>
     <message>
         <source>Compare with true labels…</source>
@@ -314,22 +314,6 @@
         <translation>Bilder der Striche werden geschrieben</translation>
     </message>
     <message>
-        <source>Import scribbles</source>
-        <translation>Striche importieren</translation>
-    </message>
-    <message>
-        <source>Importing %1</source>
-        <translation>%1 wird importiert</translation>
-    </message>
-    <message>
-        <source>Imported: %1</source>
-        <translation>Importiert: %1</translation>
-    </message>
-    <message>
-        <source>%1 contains no new scribbles.</source>
-        <translation>%1 enthält keine neuen Striche.</translation>
-    </message>
-    <message>
         <source>Compare with true labels</source>
         <translation>Mit wahren Labels vergleichen</translation>
     </message>
@@ -364,10 +348,6 @@
     <message>
         <source>Scribbles as images…</source>
         <translation>Striche als Bilder…</translation>
-    </message>
-    <message>
-        <source>Labels and pictures of strokes (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm *.npy *.npz *.mat);;All files (*)</source>
-        <translation>Labels und Bilder von Strichen (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm *.npy *.npz *.mat);;Alle Dateien (*)</translation>
     </message>
 </context>
 <context>
@@ -546,6 +526,22 @@
         <source>The disparity of this pixel cannot be found by itself: run a method first, or move the slider.</source>
         <translation>Die Disparität dieses Pixels lässt sich für sich allein nicht finden: zuerst ein Verfahren starten oder den Regler bewegen.</translation>
     </message>
+    <message>
+        <source>Focus here</source>
+        <translation>Hier fokussieren</translation>
+    </message>
+    <message>
+        <source>Measure here</source>
+        <translation>Hier messen</translation>
+    </message>
+    <message>
+        <source>Drag along a line of an EPI to measure its disparity.</source>
+        <translation>Entlang einer Linie eines EPIs ziehen, um deren Disparität zu messen.</translation>
+    </message>
+    <message>
+        <source>Drag along a line of an EPI to measure its disparity; %1 keeps it.</source>
+        <translation>Entlang einer Linie eines EPIs ziehen, um deren Disparität zu messen; %1 behält sie.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::BrushPanel</name>
@@ -578,16 +574,8 @@
         <translation> px</translation>
     </message>
     <message>
-        <source>up to edges</source>
-        <translation>bis zu Kanten</translation>
-    </message>
-    <message>
         <source>its segment</source>
         <translation>sein Segment</translation>
-    </message>
-    <message>
-        <source>Limits of a fill: edges of the view, or the segment of the current segmentation</source>
-        <translation>Was eine Füllung begrenzt: Kanten der Ansicht oder das Segment der aktuellen Segmentierung</translation>
     </message>
     <message>
         <source>Fill</source>
@@ -606,8 +594,20 @@
         <translation>%1 oder Strg+Umschalt+Mausrad</translation>
     </message>
     <message>
-        <source>Edge threshold: the change of color from pixel to pixel that counts as an edge, in grey levels (0 … 255)</source>
-        <translation>Kantenschwelle: Farbänderung von Pixel zu Pixel, die als Kante gilt, in Graustufen (0 … 255)</translation>
+        <source>like colors</source>
+        <translation>ähnliche Farben</translation>
+    </message>
+    <message>
+        <source>Limits of a fill: pixels of like color on one surface, or the segment of the current segmentation</source>
+        <translation>Grenzen einer Füllung: Pixel ähnlicher Farbe auf einer Fläche oder das Segment der aktuellen Segmentierung</translation>
+    </message>
+    <message>
+        <source> × noise</source>
+        <translation> × Rauschen</translation>
+    </message>
+    <message>
+        <source>How much colors may differ from the color under the cursor, in units of what neighboring pixels of this view differ by. Drag to the right or left while filling to change it.</source>
+        <translation>Wie weit Farben von der Farbe unter dem Zeiger abweichen dürfen, gemessen am Unterschied benachbarter Pixel dieser Ansicht. Beim Füllen nach rechts oder links ziehen ändert es.</translation>
     </message>
 </context>
 <context>
@@ -1330,20 +1330,20 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
 <context>
     <name>episcope::CommandPalette</name>
     <message>
-        <source>Name of a command</source>
-        <translation>Name eines Befehls</translation>
+        <source>Words of a command, method or light field</source>
+        <translation>Wörter eines Befehls, Verfahrens oder Lichtfelds</translation>
     </message>
     <message>
-        <source>Type the name of a command</source>
-        <translation>Name eines Befehls eingeben</translation>
+        <source>Type words of a command, method or light field</source>
+        <translation>Wörter eines Befehls, Verfahrens oder Lichtfelds eingeben</translation>
     </message>
     <message>
-        <source>Commands</source>
-        <translation>Befehle</translation>
+        <source>What was found</source>
+        <translation>Gefundenes</translation>
     </message>
     <message>
-        <source>No command has this name.</source>
-        <translation>Kein Befehl heißt so.</translation>
+        <source>Nothing has this name or description.</source>
+        <translation>Nichts hat diesen Namen oder diese Beschreibung.</translation>
     </message>
 </context>
 <context>
@@ -1456,8 +1456,12 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Farbige Ansicht unter Karten</translation>
     </message>
     <message>
-        <source>Keeps the colors of the view under maps; without, it is grey, so that only the map has colors</source>
-        <translation>Lässt der Ansicht unter Karten ihre Farben; sonst ist sie grau, damit nur die Karte Farben hat</translation>
+        <source>Keeps the colors of the view under maps. Otherwise it is grey, so that only the map has colors</source>
+        <translation>Lässt der Ansicht unter Karten ihre Farben. Sonst ist sie grau, sodass nur die Karte Farben hat</translation>
+    </message>
+    <message>
+        <source>Table</source>
+        <translation>Tabelle</translation>
     </message>
 </context>
 <context>
@@ -1858,6 +1862,105 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Result for a submission…</source>
         <translation>Ergebnis zum Einreichen…</translation>
     </message>
+    <message>
+        <source>Method: %1</source>
+        <translation>Verfahren: %1</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>Verfahren</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ExportLabelsDialog</name>
+    <message>
+        <source>Export labels</source>
+        <translation>Labels exportieren</translation>
+    </message>
+    <message>
+        <source>With the views as pictures</source>
+        <translation>Mit den Ansichten als Bildern</translation>
+    </message>
+    <message>
+        <source>Labels (HDF5)</source>
+        <translation>Labels (HDF5)</translation>
+    </message>
+    <message>
+        <source>Labels and probabilities (HDF5)</source>
+        <translation>Labels und Wahrscheinlichkeiten (HDF5)</translation>
+    </message>
+    <message>
+        <source>PNG with a palette, one for each view</source>
+        <translation>PNG mit Palette, eines je Ansicht</translation>
+    </message>
+    <message>
+        <source>PASCAL VOC</source>
+        <translation>PASCAL VOC</translation>
+    </message>
+    <message>
+        <source>COCO</source>
+        <translation>COCO</translation>
+    </message>
+    <message>
+        <source>labelme</source>
+        <translation>labelme</translation>
+    </message>
+    <message>
+        <source>Picture of this view (PNG)</source>
+        <translation>Bild dieser Ansicht (PNG)</translation>
+    </message>
+    <message>
+        <source>Labels of all views.</source>
+        <translation>Labels aller Ansichten.</translation>
+    </message>
+    <message>
+        <source>Labels of this view; segment all views first to export all.</source>
+        <translation>Labels dieser Ansicht; für alle erst alle Ansichten segmentieren.</translation>
+    </message>
+    <message>
+        <source>These labels are out of date: strokes or settings changed since.</source>
+        <translation>Diese Labels sind veraltet: Striche oder Einstellungen haben sich seither geändert.</translation>
+    </message>
+    <message>
+        <source>Export…</source>
+        <translation>Exportieren…</translation>
+    </message>
+    <message>
+        <source>Form</source>
+        <translation>Form</translation>
+    </message>
+    <message>
+        <source>New folder for the labels</source>
+        <translation>Neuer Ordner für die Labels</translation>
+    </message>
+    <message>
+        <source>Folder (*)</source>
+        <translation>Ordner (*)</translation>
+    </message>
+    <message>
+        <source>Picture (*.png)</source>
+        <translation>Bild (*.png)</translation>
+    </message>
+    <message>
+        <source>Labels (*.h5)</source>
+        <translation>Labels (*.h5)</translation>
+    </message>
+    <message>
+        <source>Labels…</source>
+        <translation>Labels…</translation>
+    </message>
+    <message>
+        <source>Writes labels as HDF5, or in the forms of other tools: PNG, VOC, COCO, labelme</source>
+        <translation>Schreibt Labels als HDF5 oder in den Formen anderer Programme: PNG, VOC, COCO, labelme</translation>
+    </message>
+    <message>
+        <source>Nothing is segmented yet: paint two labels, then update the segmentation.</source>
+        <translation>Noch ist nichts segmentiert: zwei Labels malen, dann die Segmentierung aktualisieren.</translation>
+    </message>
+    <message>
+        <source>%1 holds labels that were out of date: strokes or settings changed since.</source>
+        <translation>%1 enthält veraltete Labels: Striche oder Einstellungen haben sich seither geändert.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FileController</name>
@@ -2013,6 +2116,557 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Light field</source>
         <translation>Lichtfeld</translation>
     </message>
+    <message>
+        <source>Recent: %1</source>
+        <translation>Zuletzt geöffnet: %1</translation>
+    </message>
+    <message>
+        <source>Opens it again</source>
+        <translation>Öffnet es wieder</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Finding</name>
+    <message>
+        <source>%1 % of all pixels, in %2 of %3 views, are dark where the center view is not; they are marked as not valid.</source>
+        <translation>%1 % aller Pixel, in %2 von %3 Ansichten, sind dunkel, wo die mittlere Ansicht es nicht ist; sie sind als ungültig markiert.</translation>
+    </message>
+    <message>
+        <source>%1 % of the float samples of the views lie clearly below 0, down to %2: they are taken as noise around black. --levels -1,1 would say otherwise.</source>
+        <translation>%1 % der Gleitkomma-Samples der Ansichten liegen deutlich unter 0, bis %2: Sie gelten als Rauschen um Schwarz. --levels -1,1 besagte anderes.</translation>
+    </message>
+    <message>
+        <source>%1 % of the pixels are dark and do not count.</source>
+        <translation>%1 % der Pixel sind dunkel und zählen nicht.</translation>
+    </message>
+    <message>
+        <source>%1 % of the samples are negative</source>
+        <translation>%1 % der Samples sind negativ</translation>
+    </message>
+    <message>
+        <source>%1 % of the samples clipped</source>
+        <translation>%1 % der Samples abgeschnitten</translation>
+    </message>
+    <message>
+        <source>%1 %2 (other way %3), %4 %5 (other way %6)</source>
+        <translation>%1 %2 (andersherum %3), %4 %5 (andersherum %6)</translation>
+    </message>
+    <message>
+        <source>%1 holds no depth at %2 % of its pixels (masked, zero, negative or NaN); they are ignored.</source>
+        <translation>%1 enthält an %2 % der Pixel keine Tiefe (maskiert, null, negativ oder NaN); sie werden nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>%1 images look like views, but their names have another form, such as %2: they are not used. If they belong to the grid, name a pattern that matches all.</source>
+        <translation>%1 Bilder sehen wie Ansichten aus, aber ihre Namen haben eine andere Form, wie %2: Sie werden nicht verwendet. Gehören sie zum Gitter, ein Muster angeben, auf das alle passen.</translation>
+    </message>
+    <message>
+        <source>%1 images with other names are not used.</source>
+        <translation>%1 Bilder mit anderen Namen werden nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>%1 is ignored because %2.</source>
+        <translation>%1 wird nicht verwendet: %2.</translation>
+    </message>
+    <message>
+        <source>%1 is ignored because the other layer, %2, is missing or holds no depth; add it, or store a single layer as GT_DEPTH.</source>
+        <translation>%1 wird nicht verwendet, weil die andere Schicht, %2, fehlt oder keine Tiefe enthält; sie hinzufügen oder eine einzelne Schicht als GT_DEPTH speichern.</translation>
+    </message>
+    <message>
+        <source>%1 is ignored.</source>
+        <translation>%1 wird nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>%1 is ignored: one layer is missing.</source>
+        <translation>%1 wird nicht verwendet: Eine Schicht fehlt.</translation>
+    </message>
+    <message>
+        <source>%1 of %2 samples of the views are NaN or infinite; they are read as 0.</source>
+        <translation>%1 von %2 Samples der Ansichten sind NaN oder unendlich; sie werden als 0 gelesen.</translation>
+    </message>
+    <message>
+        <source>%1 samples are NaN or infinite</source>
+        <translation>%1 Samples sind NaN oder unendlich</translation>
+    </message>
+    <message>
+        <source>%1: %2 % of the pixels have no value and count as good pixels; means leave them out, as the 2016 tool does</source>
+        <translation>%1: %2 % der Pixel haben keinen Wert und zählen als gute Pixel; Mittelwerte lassen sie aus, wie das Werkzeug von 2016</translation>
+    </message>
+    <message>
+        <source>%1: %2 % of the pixels have no value and count as the farthest true disparity, %3 px: MSE×100 is %4 with and %5 without them</source>
+        <translation>%1: %2 % der Pixel haben keinen Wert und zählen als die fernste wahre Disparität, %3 px: MSE×100 ist %4 mit ihnen und %5 ohne sie</translation>
+    </message>
+    <message>
+        <source>%1: %2 % of the pixels have no value and count as the farthest true disparity, %3 px: there is no other pixel</source>
+        <translation>%1: %2 % der Pixel haben keinen Wert und zählen als die fernste wahre Disparität, %3 px: Es gibt kein anderes Pixel</translation>
+    </message>
+    <message>
+        <source>--%1 is ignored, because this is %2.</source>
+        <translation>--%1 wird nicht verwendet, denn dies ist %2.</translation>
+    </message>
+    <message>
+        <source>-1 for black, 1 for white</source>
+        <translation>-1 für Schwarz, 1 für Weiß</translation>
+    </message>
+    <message>
+        <source>According to dH, focalLength and shift, disparity is zero at depth %1, but camDistance says %2; camDistance is ignored; check these attributes of the file.</source>
+        <translation>Nach dH, focalLength und shift ist die Disparität in der Tiefe %1 null, aber camDistance besagt %2; camDistance wird nicht verwendet; diese Attribute der Datei prüfen.</translation>
+    </message>
+    <message>
+        <source>According to dH, focalLength and shift, disparity is zero at no finite depth, but camDistance says %1; camDistance is ignored; check these attributes of the file.</source>
+        <translation>Nach dH, focalLength und shift ist die Disparität in keiner endlichen Tiefe null, aber camDistance besagt %1; camDistance wird nicht verwendet; diese Attribute der Datei prüfen.</translation>
+    </message>
+    <message>
+        <source>Black corners, %1 % of the pixels, do not count.</source>
+        <translation>Schwarze Ecken, %1 % der Pixel, zählen nicht.</translation>
+    </message>
+    <message>
+        <source>Black is taken at %3, white at %4</source>
+        <translation>Schwarz gilt bei %3, Weiß bei %4</translation>
+    </message>
+    <message>
+        <source>Brightness differs by %1 %</source>
+        <translation>Helligkeit verschieden, bis %1 %</translation>
+    </message>
+    <message>
+        <source>Brightness differs by %1 %; methods even it out</source>
+        <translation>Helligkeit verschieden, bis %1 %; Verfahren gleichen sie an</translation>
+    </message>
+    <message>
+        <source>Float samples of the views reach up to %1 with a median of %2: they are taken as linear, and divided by %3 so that 99.9 % lie in 0 … 1.</source>
+        <translation>Gleitkomma-Samples der Ansichten reichen bis %1 bei einem Median von %2: Sie gelten als linear und werden durch %3 geteilt, sodass 99.9 % in 0 … 1 liegen.</translation>
+    </message>
+    <message>
+        <source>Float samples of the views should lie in 0 … 1, but lie in %1 … %2: %3 … %4 is taken as black to white (%5). --levels states other values.</source>
+        <translation>Gleitkomma-Samples der Ansichten sollten in 0 … 1 liegen, liegen aber in %1 … %2: %3 … %4 gilt als Schwarz bis Weiß (%5). --levels gibt andere Werte an.</translation>
+    </message>
+    <message>
+        <source>Float samples of the views should lie in 0 … 1, but reach up to %1; they are divided by %2.</source>
+        <translation>Gleitkomma-Samples der Ansichten sollten in 0 … 1 liegen, reichen aber bis %1; sie werden durch %2 geteilt.</translation>
+    </message>
+    <message>
+        <source>Implausible depth: %1 … %2 px</source>
+        <translation>Unplausible Tiefe: %1 … %2 px</translation>
+    </message>
+    <message>
+        <source>K = %1 (1/255)²; energy fell by %2 K in %3 cycles</source>
+        <translation>K = %1 (1/255)²; die Energie fiel in %3 Zyklen um %2 K</translation>
+    </message>
+    <message>
+        <source>K = %1 (1/255)²; energy fell by %2 K in %3 cycles, to a minimum</source>
+        <translation>K = %1 (1/255)²; die Energie fiel in %3 Zyklen um %2 K bis zu einem Minimum</translation>
+    </message>
+    <message>
+        <source>Labels are raised by one.</source>
+        <translation>Labels sind um eins erhöht.</translation>
+    </message>
+    <message>
+        <source>Labels start at 0 in this file and unpainted pixels are marked by another value: all labels are raised by one, so that 0 means unpainted.</source>
+        <translation>Labels beginnen in dieser Datei bei 0, und unbemalte Pixel haben einen anderen Wert: Alle Labels werden um eins erhöht, sodass 0 unbemalt heißt.</translation>
+    </message>
+    <message>
+        <source>Linear samples, divided by %3</source>
+        <translation>Lineare Samples, durch %3 geteilt</translation>
+    </message>
+    <message>
+        <source>No depth at %2 % of the pixels of %1</source>
+        <translation>Keine Tiefe an %2 % der Pixel von %1</translation>
+    </message>
+    <message>
+        <source>No sample of the views exceeds %1 of 65535: they are taken as samples of %2 bits. --levels 0,65535 keeps them as they are.</source>
+        <translation>Kein Sample der Ansichten liegt über %1 von 65535: Sie gelten als Samples von %2 Bit. --levels 0,65535 lässt sie, wie sie sind.</translation>
+    </message>
+    <message>
+        <source>Of %1 channels of a view the first three are read, as red, green and blue.</source>
+        <translation>Von %1 Kanälen einer Ansicht werden die ersten drei gelesen, als Rot, Grün und Blau.</translation>
+    </message>
+    <message>
+        <source>Of a grid of %1×%2 %3 (row,column %4): the largest part without a gap is opened, %5×%6 views, %7 and %8; %9 other view is not used.</source>
+        <translation>Von einem Gitter von %1×%2 %3 (Zeile,Spalte %4) ist der größte Teil ohne Lücke geöffnet, %5×%6 Ansichten, %7 und %8; %9 weitere Ansicht wird nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>Of a grid of %1×%2 %3 (row,column %4): the largest part without a gap is opened, %5×%6 views, %7 and %8; %9 other views are not used.</source>
+        <translation>Von einem Gitter von %1×%2 %3 (Zeile,Spalte %4) ist der größte Teil ohne Lücke geöffnet, %5×%6 Ansichten, %7 und %8; %9 weitere Ansichten werden nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>Only three of %1 channels are read.</source>
+        <translation>Nur drei von %1 Kanälen werden gelesen.</translation>
+    </message>
+    <message>
+        <source>Perhaps a %3 of views is missing.</source>
+        <translation>Vielleicht fehlen Ansichten (%3).</translation>
+    </message>
+    <message>
+        <source>Pictures in %2 are left out.</source>
+        <translation>Bilder in %2 bleiben aus.</translation>
+    </message>
+    <message>
+        <source>Points move across the line of views as well.</source>
+        <translation>Punkte bewegen sich auch quer zur Reihe der Ansichten.</translation>
+    </message>
+    <message>
+        <source>Points move across the line of views as well: by %1 px between views %2 apart, beside %3 px along it. This may be a film of a camera that zooms or turns, or views that are not rectified; disparity is not to be trusted then.</source>
+        <translation>Punkte bewegen sich auch quer zur Reihe der Ansichten: um %1 px zwischen Ansichten im Abstand %2, neben %3 px längs. Das kann ein Film einer Kamera sein, die zoomt oder sich dreht, oder Ansichten sind nicht rektifiziert; der Disparität ist dann nicht zu trauen.</translation>
+    </message>
+    <message>
+        <source>Rows and columns of views seem to be swapped.</source>
+        <translation>Zeilen und Spalten der Ansichten scheinen vertauscht.</translation>
+    </message>
+    <message>
+        <source>Rows and columns of views seem to be swapped: %1.</source>
+        <translation>Zeilen und Spalten der Ansichten scheinen vertauscht: %1.</translation>
+    </message>
+    <message>
+        <source>Rows begin at %1 and columns at %2: perhaps a %3 of views is missing.</source>
+        <translation>Zeilen beginnen bei %1 und Spalten bei %2: Vielleicht fehlt etwas (%3).</translation>
+    </message>
+    <message>
+        <source>Samples are divided by %2</source>
+        <translation>Samples werden durch %2 geteilt</translation>
+    </message>
+    <message>
+        <source>Samples of %2 bits</source>
+        <translation>Samples von %2 Bit</translation>
+    </message>
+    <message>
+        <source>Scribbles were not read: %1</source>
+        <translation>Striche wurden nicht gelesen: %1</translation>
+    </message>
+    <message>
+        <source>The brightness of the views differs by up to %1 % (view %2: %3); methods even it out, --equalize for pictures as well, --no-equalize for none.</source>
+        <translation>Die Helligkeit der Ansichten unterscheidet sich um bis zu %1 % (Ansicht %2: %3); Verfahren gleichen sie an, mit --equalize auch Bilder, mit --no-equalize nichts.</translation>
+    </message>
+    <message>
+        <source>The brightness of the views differs by up to %1 % (view %2: %3); without --no-equalize, methods even it out.</source>
+        <translation>Die Helligkeit der Ansichten unterscheidet sich um bis zu %1 % (Ansicht %2: %3); ohne --no-equalize gleichen Verfahren sie an.</translation>
+    </message>
+    <message>
+        <source>The camera of the file is not used.</source>
+        <translation>Die Kamera der Datei wird nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>The camera of the file is not used: %1.</source>
+        <translation>Die Kamera der Datei wird nicht verwendet: %1.</translation>
+    </message>
+    <message>
+        <source>The check favors another order of views.</source>
+        <translation>Die Prüfung spricht für eine andere Reihenfolge.</translation>
+    </message>
+    <message>
+        <source>The corners of the views are black, %1 % of their pixels, as a lens cuts them off; they are marked as not valid.</source>
+        <translation>Die Ecken der Ansichten sind schwarz, %1 % ihrer Pixel, weil ein Objektiv sie abschneidet; sie sind als ungültig markiert.</translation>
+    </message>
+    <message>
+        <source>The depth gives disparities of %1 … %2 px per view step, which is implausible; check dH, focalLength and shift of the file.</source>
+        <translation>Die Tiefe ergibt Disparitäten von %1 … %2 px je Ansichtsschritt, was unplausibel ist; dH, focalLength und shift der Datei prüfen.</translation>
+    </message>
+    <message>
+        <source>The depth of this file is no ground truth: it was %1.</source>
+        <translation>Die Tiefe dieser Datei ist keine Referenz: %1.</translation>
+    </message>
+    <message>
+        <source>The depth of this file was estimated.</source>
+        <translation>Die Tiefe dieser Datei ist geschätzt.</translation>
+    </message>
+    <message>
+        <source>The grid is subsampled: every %3th view</source>
+        <translation>Das Gitter ist unterabgetastet: jede %3. Ansicht</translation>
+    </message>
+    <message>
+        <source>The grid of %1×%2 views was inferred.</source>
+        <translation>Das Gitter von %1×%2 Ansichten wurde erschlossen.</translation>
+    </message>
+    <message>
+        <source>The ground truth could not be checked.</source>
+        <translation>Die Referenz war nicht zu prüfen.</translation>
+    </message>
+    <message>
+        <source>The ground truth hardly explains the views.</source>
+        <translation>Die Referenz erklärt die Ansichten kaum.</translation>
+    </message>
+    <message>
+        <source>The ground truth was turned.</source>
+        <translation>Die Referenz wurde gedreht.</translation>
+    </message>
+    <message>
+        <source>The last %4 columns and %5 rows of pixels are left out.</source>
+        <translation>Die letzten %4 Spalten und %5 Zeilen von Pixeln bleiben aus.</translation>
+    </message>
+    <message>
+        <source>The names number %1 %2: the grid is subsampled, and disparities are per %3 steps of the numbers.</source>
+        <translation>Die Namen zählen %1 %2: Das Gitter ist unterabgetastet, und Disparitäten gelten je %3 Schritte der Nummern.</translation>
+    </message>
+    <message>
+        <source>The names number %1 %2: they are taken for neighbors at equal distances.</source>
+        <translation>Die Namen zählen %1 %2: Sie gelten als Nachbarn in gleichen Abständen.</translation>
+    </message>
+    <message>
+        <source>The order of views is &quot;%1&quot; and not &quot;%2&quot;, which was expected because %3.</source>
+        <translation>Die Reihenfolge der Ansichten ist „%1“ und nicht „%2“, wie zu erwarten war: %3.</translation>
+    </message>
+    <message>
+        <source>The order of views is &quot;%1&quot;.</source>
+        <translation>Die Reihenfolge der Ansichten ist „%1“.</translation>
+    </message>
+    <message>
+        <source>The order of views was chosen by hand (%1), but the check favors &quot;%2&quot;.</source>
+        <translation>Die Reihenfolge der Ansichten wurde von Hand gewählt (%1), die Prüfung spricht aber für „%2“.</translation>
+    </message>
+    <message>
+        <source>The picture has %1×%2 px, which %3 does not divide: the last %4 columns and %5 rows of pixels are left out.</source>
+        <translation>Das Bild hat %1×%2 px, die sich nicht durch %3 teilen lassen: Die letzten %4 Spalten und %5 Zeilen von Pixeln bleiben aus.</translation>
+    </message>
+    <message>
+        <source>The poses of %1 are not used, as %2; the names and the views themselves tell rows and columns.</source>
+        <translation>Die Posen von %1 werden nicht verwendet: %2; Namen und Ansichten selbst zeigen Zeilen und Spalten.</translation>
+    </message>
+    <message>
+        <source>The poses of %1 are not used.</source>
+        <translation>Die Posen von %1 werden nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>The truth hardly explains the views: warped by it, they differ by %1 grey levels along %2, the other way by %3 and unwarped by %4; check the truth, and dH, focalLength and shift if it was stored as depth.</source>
+        <translation>Die Referenz erklärt die Ansichten kaum: Danach verzerrt unterscheiden sie sich um %1 Graustufen entlang %2, andersherum um %3 und unverzerrt um %4; die Referenz prüfen, und dH, focalLength und shift, falls sie als Tiefe gespeichert war.</translation>
+    </message>
+    <message>
+        <source>The truth was stored with %1, as comparing it with the views shows; it was put right.</source>
+        <translation>Die Referenz war so gespeichert: %1, wie der Vergleich mit den Ansichten zeigt; das wurde behoben.</translation>
+    </message>
+    <message>
+        <source>The values of the truth could not be checked: one disparity for all explains the views as well, or better (where both differ, in %1 squares of the view, the truth is better by %2 standard deviations of chance).</source>
+        <translation>Die Werte der Referenz waren nicht zu prüfen: Eine Disparität für alles erklärt die Ansichten ebenso gut oder besser (wo sich beide unterscheiden, in %1 Quadraten der Ansicht, ist die Referenz um %2 Standardabweichungen des Zufalls besser).</translation>
+    </message>
+    <message>
+        <source>The views are those of %1; pictures in %2 are left out.</source>
+        <translation>Die Ansichten sind die von %1; Bilder in %2 bleiben aus.</translation>
+    </message>
+    <message>
+        <source>There is no parameters.cfg: the grid of %1×%2 views was inferred from the number of files.</source>
+        <translation>Es gibt keine parameters.cfg: Das Gitter von %1×%2 Ansichten wurde aus der Zahl der Dateien erschlossen.</translation>
+    </message>
+    <message>
+        <source>Using %5×%6 of %1×%2 views; others are missing.</source>
+        <translation>Verwendet %5×%6 von %1×%2 Ansichten; andere fehlen.</translation>
+    </message>
+    <message>
+        <source>Using the inner %1 of %2 views, rows %3 to %4 and columns %5 to %6 from 0: %7 outer views are dark (mean %8 % of the center&apos;s); --crop all keeps them.</source>
+        <translation>Verwendet die inneren %1 von %2 Ansichten, Zeilen %3 bis %4 und Spalten %5 bis %6 ab 0: %7 äußere Ansichten sind dunkel (im Mittel %8 % der mittleren); --crop all behält sie.</translation>
+    </message>
+    <message>
+        <source>Using the inner %1 of %2 views; the outer ones are dark.</source>
+        <translation>Verwendet die inneren %1 von %2 Ansichten; die äußeren sind dunkel.</translation>
+    </message>
+    <message>
+        <source>Views are numbered with gaps.</source>
+        <translation>Ansichten sind mit Lücken nummeriert.</translation>
+    </message>
+    <message>
+        <source>both rows and columns in reverse order</source>
+        <translation>Zeilen und Spalten in umgekehrter Reihenfolge</translation>
+    </message>
+    <message>
+        <source>brightness of the views, which differs by up to %1 %, was evened out</source>
+        <translation>die Helligkeit der Ansichten, die sich um bis zu %1 % unterscheidet, wurde angeglichen</translation>
+    </message>
+    <message>
+        <source>by occlusion: %1 points to %2, in %3 squares of the view to %4</source>
+        <translation>durch Verdeckung: %1 Punkte gegen %2, in %3 Quadraten der Ansicht gegen %4</translation>
+    </message>
+    <message>
+        <source>by the truth, which is in doubt, mean grey error after warping: %1</source>
+        <translation>nach der zweifelhaften Referenz, mittlerer Graufehler nach dem Verzerren: %1</translation>
+    </message>
+    <message>
+        <source>by truth: %1</source>
+        <translation>durch die Referenz: %1</translation>
+    </message>
+    <message>
+        <source>bytes less 128</source>
+        <translation>Bytes minus 128</translation>
+    </message>
+    <message>
+        <source>camDistance is ignored.</source>
+        <translation>camDistance wird nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>cameras stand up to %1 steps off the regular grid, which this method takes for granted; stereo methods can use their positions</source>
+        <translation>Kameras stehen bis zu %1 Schritte neben dem regelmäßigen Gitter, das dieses Verfahren voraussetzt; Stereoverfahren können ihre Positionen verwenden</translation>
+    </message>
+    <message>
+        <source>carried to all views from %1 of them</source>
+        <translation>von %1 Ansichten auf alle übertragen</translation>
+    </message>
+    <message>
+        <source>checked against truth, mean grey error after warping: %1</source>
+        <translation>an der Referenz geprüft, mittlerer Graufehler nach dem Verzerren: %1</translation>
+    </message>
+    <message>
+        <source>checked by %1</source>
+        <translation>geprüft: %1</translation>
+    </message>
+    <message>
+        <source>checked by the slopes of horizontal and vertical EPIs: correlation %1 as stored at %2 points, so both axes agree</source>
+        <translation>geprüft an den Steigungen waagerechter und senkrechter EPIs: Korrelation %1 wie gespeichert an %2 Punkten, also stimmen beide Achsen überein</translation>
+    </message>
+    <message>
+        <source>checked by the slopes of horizontal and vertical EPIs: correlation %1 as stored at %2 points, so exactly one axis is reversed</source>
+        <translation>geprüft an den Steigungen waagerechter und senkrechter EPIs: Korrelation %1 wie gespeichert an %2 Punkten, also ist genau eine Achse umgekehrt</translation>
+    </message>
+    <message>
+        <source>columns from right to left</source>
+        <translation>Spalten von rechts nach links</translation>
+    </message>
+    <message>
+        <source>computed on %1</source>
+        <translation>berechnet auf %1</translation>
+    </message>
+    <message>
+        <source>computed on the CPU: %1</source>
+        <translation>auf der CPU berechnet: %1</translation>
+    </message>
+    <message>
+        <source>differs by up to %1 % (view %2: %3)</source>
+        <translation>verschieden um bis zu %1 % (Ansicht %2: %3)</translation>
+    </message>
+    <message>
+        <source>direction checked by %1</source>
+        <translation>Richtung geprüft: %1</translation>
+    </message>
+    <message>
+        <source>disparity range %1 … %2 px, found from the images</source>
+        <translation>Disparitätsbereich %1 … %2 px, aus den Bildern ermittelt</translation>
+    </message>
+    <message>
+        <source>ended early</source>
+        <translation>vorzeitig beendet</translation>
+    </message>
+    <message>
+        <source>evened out; it differed by up to %1 % (view %2: %3)</source>
+        <translation>angeglichen; sie war um bis zu %1 % verschieden (Ansicht %2: %3)</translation>
+    </message>
+    <message>
+        <source>global labeling: λ %1 per px, energy %2, gap %3 after %4 iterations</source>
+        <translation>globales Labeling: λ %1 je px, Energie %2, Lücke %3 nach %4 Iterationen</translation>
+    </message>
+    <message>
+        <source>global labeling: λ %1 per px, energy %2, gap %3 after %4 iterations (ended early)</source>
+        <translation>globales Labeling: λ %1 je px, Energie %2, Lücke %3 nach %4 Iterationen (vorzeitig beendet)</translation>
+    </message>
+    <message>
+        <source>largest relative duality gap %1</source>
+        <translation>größte relative Dualitätslücke %1</translation>
+    </message>
+    <message>
+        <source>matching cost capped at ε = %1</source>
+        <translation>Vergleichskosten bei ε = %1 gekappt</translation>
+    </message>
+    <message>
+        <source>matching cost uncapped</source>
+        <translation>Vergleichskosten ohne Kappung</translation>
+    </message>
+    <message>
+        <source>no depth edges with clear occlusion: %1 points for this order, %2 against</source>
+        <translation>keine Tiefenkanten mit klarer Verdeckung: %1 Punkte für diese Reihenfolge, %2 dagegen</translation>
+    </message>
+    <message>
+        <source>normalized in some way: 0.1 % of them are darker, 0.1 % brighter</source>
+        <translation>irgendwie normiert: 0.1 % von ihnen sind dunkler, 0.1 % heller</translation>
+    </message>
+    <message>
+        <source>not checked (a single view)</source>
+        <translation>nicht geprüft (eine einzelne Ansicht)</translation>
+    </message>
+    <message>
+        <source>not checked (one column of views)</source>
+        <translation>nicht geprüft (eine Spalte von Ansichten)</translation>
+    </message>
+    <message>
+        <source>not checked (one row of views)</source>
+        <translation>nicht geprüft (eine Zeile von Ansichten)</translation>
+    </message>
+    <message>
+        <source>not checked (too little depth or texture)</source>
+        <translation>nicht geprüft (zu wenig Tiefe oder Textur)</translation>
+    </message>
+    <message>
+        <source>occlusion cannot be seen in fewer than three views in a row</source>
+        <translation>Verdeckung ist in weniger als drei Ansichten hintereinander nicht zu sehen</translation>
+    </message>
+    <message>
+        <source>occlusion: %1 points to %2, in %3 squares of the view to %4</source>
+        <translation>Verdeckung: %1 Punkte gegen %2, in %3 Quadraten der Ansicht gegen %4</translation>
+    </message>
+    <message>
+        <source>of %1 views not known</source>
+        <translation>von %1 Ansichten nicht bekannt</translation>
+    </message>
+    <message>
+        <source>ordering violated by %1 % of the lines, %2 % before</source>
+        <translation>%1 % der Linien verletzen die Ordnung, zuvor %2 %</translation>
+    </message>
+    <message>
+        <source>positions of cameras not used: they make no grid</source>
+        <translation>Kamerapositionen nicht verwendet: sie bilden kein Gitter</translation>
+    </message>
+    <message>
+        <source>positions of cameras not used: up to %1 steps off the regular grid%2, they match no better than the grid</source>
+        <translation>Kamerapositionen nicht verwendet: bis zu %1 Schritte neben dem regelmäßigen Gitter%2, sie passen nicht besser als das Gitter</translation>
+    </message>
+    <message>
+        <source>positions of cameras used, up to %1 steps off the regular grid%2</source>
+        <translation>Kamerapositionen verwendet, bis zu %1 Schritte neben dem regelmäßigen Gitter%2</translation>
+    </message>
+    <message>
+        <source>rows and columns exchanged</source>
+        <translation>Zeilen und Spalten vertauscht</translation>
+    </message>
+    <message>
+        <source>rows from bottom to top</source>
+        <translation>Zeilen von unten nach oben</translation>
+    </message>
+    <message>
+        <source>the disparity range found, %1 … %2 px, ends where the search does, at ±%3 px: the scene may reach farther; give a range to search it</source>
+        <translation>der ermittelte Disparitätsbereich, %1 … %2 px, endet mit der Suche bei ±%3 px: Die Szene kann weiter reichen; dann einen Bereich angeben</translation>
+    </message>
+    <message>
+        <source>the order was chosen by hand</source>
+        <translation>die Reihenfolge wurde von Hand gewählt</translation>
+    </message>
+    <message>
+        <source>the same in all views</source>
+        <translation>in allen Ansichten gleich</translation>
+    </message>
+    <message>
+        <source>the truth fits this order of views, and negated the opposite one; nothing tells which is right</source>
+        <translation>die Referenz passt zu dieser Reihenfolge der Ansichten und negiert zur umgekehrten; nichts sagt, welche stimmt</translation>
+    </message>
+    <message>
+        <source>the truth is in doubt</source>
+        <translation>die Referenz ist zweifelhaft</translation>
+    </message>
+    <message>
+        <source>this warps the views onto each other best (%1 grey levels)</source>
+        <translation>so werden die Ansichten am besten aufeinander verzerrt (%1 Graustufen)</translation>
+    </message>
+    <message>
+        <source>too little to even it out</source>
+        <translation>zu wenig, um sie anzugleichen</translation>
+    </message>
+    <message>
+        <source>two layers in %1 % of the pixels</source>
+        <translation>zwei Schichten in %1 % der Pixel</translation>
+    </message>
+    <message>
+        <source>visibility: %1 of %2 rounds</source>
+        <translation>Sichtbarkeit: %1 von %2 Runden</translation>
+    </message>
+    <message>
+        <source>weights of %1, hash %2</source>
+        <translation>Gewichte aus %1, Prüfsumme %2</translation>
+    </message>
+    <message>
+        <source>“%1” is ignored.</source>
+        <translation>„%1“ wird nicht verwendet.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FocusController</name>
@@ -2052,16 +2706,16 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
 <context>
     <name>episcope::Frame</name>
     <message>
-        <source>In a window of its own</source>
-        <translation>In einem eigenen Fenster</translation>
-    </message>
-    <message>
         <source>All tabs</source>
         <translation>Alle Reiter</translation>
     </message>
     <message>
         <source>Below the other tabs</source>
         <translation>Unter die anderen Reiter</translation>
+    </message>
+    <message>
+        <source>Detach into a window</source>
+        <translation>In ein Fenster lösen</translation>
     </message>
 </context>
 <context>
@@ -2122,10 +2776,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Befehl suchen…</translation>
     </message>
     <message>
-        <source>Finds any command by its name</source>
-        <translation>Findet jeden Befehl anhand seines Namens</translation>
-    </message>
-    <message>
         <source>Ctrl+Shift+P</source>
         <translation>Ctrl+Shift+P</translation>
     </message>
@@ -2145,6 +2795,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Opens the pages of the manual</source>
         <translation>Öffnet die Seiten des Handbuchs</translation>
     </message>
+    <message>
+        <source>Finds commands, methods, open and recent light fields by words of their names and descriptions</source>
+        <translation>Findet Befehle, Verfahren, geöffnete und frühere Lichtfelder nach Wörtern ihrer Namen und Beschreibungen</translation>
+    </message>
 </context>
 <context>
     <name>episcope::HistogramView</name>
@@ -2155,6 +2809,48 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Visible values. Drag the handles to change the color range.</source>
         <translation>Sichtbare Werte. Die Griffe ziehen, um den Farbbereich zu ändern.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ImportLabelsDialog</name>
+    <message>
+        <source>Import labels</source>
+        <translation>Labels importieren</translation>
+    </message>
+    <message>
+        <source>255 where all labels are smaller</source>
+        <translation>255, wo alle Labels kleiner sind</translation>
+    </message>
+    <message>
+        <source>Ids between commas that mean “unlabeled”, besides 0; - for none</source>
+        <translation>Nummern mit Kommas dazwischen, die außer 0 „ohne Label“ bedeuten; - für keine</translation>
+    </message>
+    <message>
+        <source>Unlabeled</source>
+        <translation>Ohne Label</translation>
+    </message>
+    <message>
+        <source>As &amp;strokes: the segmentation is learned from them</source>
+        <translation>Als &amp;Striche: Die Segmentierung lernt aus ihnen</translation>
+    </message>
+    <message>
+        <source>As s&amp;egmentation: shown, checked and exported as labels</source>
+        <translation>Als S&amp;egmentierung: gezeigt, geprüft und exportiert wie Labels</translation>
+    </message>
+    <message>
+        <source>As &amp;true labels: the segmentation is compared with them</source>
+        <translation>Als &amp;wahre Labels: Die Segmentierung wird mit ihnen verglichen</translation>
+    </message>
+    <message>
+        <source>Import</source>
+        <translation>Importieren</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n view(s) with labels. View %1: %2</source>
+        <translation>
+            <numerusform>%n Ansicht mit Labels. Ansicht %1: %2</numerusform>
+            <numerusform>%n Ansichten mit Labels. Ansicht %1: %2</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2211,14 +2907,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>, Gleitkomma</translation>
     </message>
     <message>
-        <source>, linear</source>
-        <translation>, linear</translation>
-    </message>
-    <message>
-        <source>, gamma-encoded</source>
-        <translation>, gammakodiert</translation>
-    </message>
-    <message>
         <source>, on disk</source>
         <translation>, auf der Platte</translation>
     </message>
@@ -2251,16 +2939,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1 Gebietsmasken</translation>
     </message>
     <message>
-        <source>ten times the resolution for metrics</source>
-        <translation>zehnfache Auflösung für Fehlermaße</translation>
-    </message>
-    <message>
         <source>none</source>
         <translation>keine</translation>
-    </message>
-    <message>
-        <source>unknown: disparity only, no depth</source>
-        <translation>unbekannt: nur Disparität, keine Tiefe</translation>
     </message>
     <message>
         <source>B·f %1, shift %2 px</source>
@@ -2281,10 +2961,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>, snake</source>
         <translation>, Schlangenlinie</translation>
-    </message>
-    <message>
-        <source>none: %1</source>
-        <translation>keine: %1</translation>
     </message>
     <message>
         <source>%1, %2 of %3 GiB free</source>
@@ -2343,10 +3019,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Gültig</translation>
     </message>
     <message>
-        <source>%1 % of the pixels</source>
-        <translation>%1 % der Pixel</translation>
-    </message>
-    <message>
         <source>The others are dark or empty and do not count.</source>
         <translation>Die anderen sind dunkel oder leer und zählen nicht.</translation>
     </message>
@@ -2395,10 +3067,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Kein Lichtfeld</translation>
     </message>
     <message>
-        <source>being looked for …</source>
-        <translation>wird gesucht …</translation>
-    </message>
-    <message>
         <source>All views but the center one are interpolated.</source>
         <translation>Alle Ansichten außer der mittleren sind interpoliert.</translation>
     </message>
@@ -2411,8 +3079,36 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>„%1: %2“</translation>
     </message>
     <message>
-        <source>%1 See “Conventions…”.</source>
-        <translation>%1 Siehe „Konventionen…“.</translation>
+        <source>also at ten times the resolution</source>
+        <translation>auch in zehnfacher Auflösung</translation>
+    </message>
+    <message>
+        <source>unknown</source>
+        <translation>unbekannt</translation>
+    </message>
+    <message>
+        <source>There is disparity, but no depth.</source>
+        <translation>Es gibt Disparität, aber keine Tiefe.</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>searching …</source>
+        <translation>wird gesucht …</translation>
+    </message>
+    <message>
+        <source>More on %1</source>
+        <translation>Mehr zu %1</translation>
+    </message>
+    <message>
+        <source>Hide the evidence</source>
+        <translation>Verbirgt den Beleg</translation>
+    </message>
+    <message>
+        <source>Show the evidence</source>
+        <translation>Zeigt den Beleg</translation>
     </message>
 </context>
 <context>
@@ -2491,10 +3187,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Label %1</translation>
     </message>
     <message>
-        <source>Paints with label %1</source>
-        <translation>Malt mit Label %1</translation>
-    </message>
-    <message>
         <source>Next label</source>
         <translation>Nächstes Label</translation>
     </message>
@@ -2551,10 +3243,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Zum Annotieren ein Lichtfeld öffnen.</translation>
     </message>
     <message>
-        <source>There is no label %1.</source>
-        <translation>Es gibt kein Label %1.</translation>
-    </message>
-    <message>
         <source>“%1” is locked: unlock it to remove it.</source>
         <translation>„%1“ ist gesperrt: zum Entfernen entsperren.</translation>
     </message>
@@ -2581,6 +3269,73 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Color of “%1”</source>
         <translation>Farbe von „%1“</translation>
+    </message>
+    <message>
+        <source>Paints with the label at place %1 of the list, or gives it to the marked region in doubt</source>
+        <translation>Malt mit dem Label an Stelle %1 der Liste oder gibt es der markierten zweifelhaften Region</translation>
+    </message>
+    <message>
+        <source>Merge into…</source>
+        <translation>Verbinden mit…</translation>
+    </message>
+    <message>
+        <source>Gives everything painted with the current label to another one, and removes it</source>
+        <translation>Gibt alles, was mit dem aktuellen Label gemalt ist, einem anderen und entfernt es</translation>
+    </message>
+    <message>
+        <source>There is no label at place %1.</source>
+        <translation>An Stelle %1 ist kein Label.</translation>
+    </message>
+    <message>
+        <source>There is a label “%1” already: choose another name, or merge the two.</source>
+        <translation>Es gibt schon ein Label „%1“: einen anderen Namen wählen oder beide verbinden.</translation>
+    </message>
+    <message>
+        <source>“%1” is locked: unlock it to merge it.</source>
+        <translation>„%1“ ist gesperrt: zum Verbinden entsperren.</translation>
+    </message>
+    <message>
+        <source>Merge labels</source>
+        <translation>Labels verbinden</translation>
+    </message>
+    <message>
+        <source>Merge “%1” into:</source>
+        <translation>„%1“ verbinden mit:</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::LabelImporter</name>
+    <message>
+        <source>Import labels…</source>
+        <translation>Labels importieren…</translation>
+    </message>
+    <message>
+        <source>Reads labels of other tools, as strokes, as segmentation or as true labels</source>
+        <translation>Liest Labels anderer Programme, als Striche, als Segmentierung oder als wahre Labels</translation>
+    </message>
+    <message>
+        <source>Import labels</source>
+        <translation>Labels importieren</translation>
+    </message>
+    <message>
+        <source>Labels (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm *.npy *.npz *.mat *.json);;All files (*)</source>
+        <translation>Labels (*.h5 *.hdf5 *.png *.bmp *.tif *.tiff *.pgm *.npy *.npz *.mat *.json);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Importing %1</source>
+        <translation>%1 wird importiert</translation>
+    </message>
+    <message>
+        <source>Labels are now compared with %1</source>
+        <translation>Labels werden nun mit %1 verglichen</translation>
+    </message>
+    <message>
+        <source>%1 contains no new scribbles.</source>
+        <translation>%1 enthält keine neuen Striche.</translation>
+    </message>
+    <message>
+        <source>Imported: %1</source>
+        <translation>Importiert: %1</translation>
     </message>
 </context>
 <context>
@@ -2748,6 +3503,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Change color…</source>
         <translation>Farbe ändern…</translation>
     </message>
+    <message>
+        <source>Filter by name or number</source>
+        <translation>Nach Name oder Nummer filtern</translation>
+    </message>
+    <message>
+        <source>Filter of labels</source>
+        <translation>Filter der Labels</translation>
+    </message>
 </context>
 <context>
     <name>episcope::LabelReviewController</name>
@@ -2824,12 +3587,12 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Kein Gebiet dieser Ansicht ist zweifelhaft.</translation>
     </message>
     <message>
-        <source>%1 of %2: %3 pixels of %4 may be %5. A stroke here decides.</source>
-        <translation>%1 von %2: %3 Pixel von %4 sind vielleicht %5. Ein Strich hier entscheidet.</translation>
-    </message>
-    <message>
         <source>Open a light field first.</source>
         <translation>Erst ein Lichtfeld öffnen.</translation>
+    </message>
+    <message>
+        <source>%1 of %2: %3 pixels of %4 may be %5. A stroke here decides; Return keeps the label, 1 … 9 give it another.</source>
+        <translation>%1 von %2: %3 Pixel von %4 sind vielleicht %5. Ein Strich hier entscheidet; Eingabe behält das Label, 1 … 9 geben ein anderes.</translation>
     </message>
 </context>
 <context>
@@ -3351,12 +4114,12 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
 <context>
     <name>episcope::MeshResults</name>
     <message>
-        <source>Left out, for lack of a mesh or a pose: %1.</source>
-        <translation>Ausgelassen, weil Netz oder Pose fehlt: %1.</translation>
-    </message>
-    <message>
         <source>Depth of the mesh</source>
         <translation>Tiefe des Netzes</translation>
+    </message>
+    <message>
+        <source>Skipped without a mesh or a pose: %1.</source>
+        <translation>Ohne Netz oder Pose ausgelassen: %1.</translation>
     </message>
 </context>
 <context>
@@ -3444,6 +4207,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Show</source>
         <translation>Zeigen</translation>
+    </message>
+    <message>
+        <source>%1: %2.</source>
+        <translation>%1: %2.</translation>
     </message>
 </context>
 <context>
@@ -3788,10 +4555,6 @@ s</translation>
         <translation>dahinter</translation>
     </message>
     <message>
-        <source>Of what is seen through it</source>
-        <translation>Dessen, was man durch sie hindurch sieht</translation>
-    </message>
-    <message>
         <source>low res.</source>
         <translation>ger. Aufl.</translation>
     </message>
@@ -3887,6 +4650,10 @@ s</translation>
         <source>Columns</source>
         <translation>Spalten</translation>
     </message>
+    <message>
+        <source>Of the background seen through it</source>
+        <translation>Des Hintergrunds, der hindurch zu sehen ist</translation>
+    </message>
 </context>
 <context>
     <name>episcope::MovieExport</name>
@@ -3932,10 +4699,6 @@ s</translation>
     <message>
         <source>Refocusing: the focus plane moves</source>
         <translation>Refokussieren: die Fokusebene bewegt sich</translation>
-    </message>
-    <message>
-        <source>Flip: A and B take turns</source>
-        <translation>Umschalten: A und B im Wechsel</translation>
     </message>
     <message>
         <source>Through all views</source>
@@ -3993,16 +4756,20 @@ s</translation>
         <source>Along the row of the center</source>
         <translation>Entlang der mittleren Zeile</translation>
     </message>
+    <message>
+        <source>Flip: A and B alternate</source>
+        <translation>Umschalten: A und B im Wechsel</translation>
+    </message>
 </context>
 <context>
     <name>episcope::NumberSpin</name>
     <message>
-        <source>The least possible value is %1</source>
-        <translation>Der kleinstmögliche Wert ist %1</translation>
+        <source>The minimum is %1</source>
+        <translation>Das Minimum ist %1</translation>
     </message>
     <message>
-        <source>The largest possible value is %1</source>
-        <translation>Der größtmögliche Wert ist %1</translation>
+        <source>The maximum is %1</source>
+        <translation>Das Maximum ist %1</translation>
     </message>
 </context>
 <context>
@@ -4045,6 +4812,22 @@ s</translation>
     <message>
         <source> · no such map for this view</source>
         <translation> · keine solche Karte für diese Ansicht</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>richtig</translation>
+    </message>
+    <message>
+        <source>≤ %1 px</source>
+        <translation>≤ %1 px</translation>
+    </message>
+    <message>
+        <source>wrong</source>
+        <translation>falsch</translation>
+    </message>
+    <message>
+        <source>&gt; %1 px</source>
+        <translation>&gt; %1 px</translation>
     </message>
 </context>
 <context>
@@ -4637,24 +5420,12 @@ s</translation>
         <translation>Wo alle Ergebnisse Werte haben</translation>
     </message>
     <message>
-        <source>Mask of a file…</source>
-        <translation>Maske aus einer Datei…</translation>
-    </message>
-    <message>
-        <source>Judge a rectangle</source>
-        <translation>Ein Rechteck bewerten</translation>
-    </message>
-    <message>
         <source>The next drag on the view draws a rectangle in which metrics are computed</source>
         <translation>Das nächste Ziehen in der Ansicht zeichnet das Rechteck, auf das sich die Fehlermaße beziehen</translation>
     </message>
     <message>
         <source>Ctrl+Alt+R</source>
         <translation>Ctrl+Alt+R</translation>
-    </message>
-    <message>
-        <source>Judge the whole view</source>
-        <translation>Die ganze Ansicht bewerten</translation>
     </message>
     <message>
         <source>Computes metrics over the whole view again</source>
@@ -4707,6 +5478,26 @@ s</translation>
     <message>
         <source>whole view</source>
         <translation>ganze Ansicht</translation>
+    </message>
+    <message>
+        <source>Evaluate a rectangle</source>
+        <translation>Ein Rechteck bewerten</translation>
+    </message>
+    <message>
+        <source>Evaluate the whole view</source>
+        <translation>Die ganze Ansicht bewerten</translation>
+    </message>
+    <message>
+        <source>Mask from a file…</source>
+        <translation>Maske aus einer Datei…</translation>
+    </message>
+    <message>
+        <source>Region: %1</source>
+        <translation>Region: %1</translation>
+    </message>
+    <message>
+        <source>region %1</source>
+        <translation>Region %1</translation>
     </message>
 </context>
 <context>
@@ -4986,6 +5777,14 @@ s</translation>
     <message>
         <source>opening …</source>
         <translation>wird geöffnet …</translation>
+    </message>
+    <message>
+        <source>Open light field: %1</source>
+        <translation>Geöffnetes Lichtfeld: %1</translation>
+    </message>
+    <message>
+        <source>Shows it: %1</source>
+        <translation>Zeigt es: %1</translation>
     </message>
 </context>
 <context>
@@ -6396,10 +7195,6 @@ s</translation>
         <translation>die Datei nennt diese Formel</translation>
     </message>
     <message>
-        <source>the order was chosen by hand</source>
-        <translation>die Reihenfolge wurde von Hand gewählt</translation>
-    </message>
-    <message>
         <source>u and v reversed</source>
         <translation>u und v umgekehrt</translation>
     </message>
@@ -6655,7 +7450,7 @@ s</translation>
         <translation>Striche zu übertragen erfordert eine Disparität: im Reiter Schätzen ein Verfahren ausführen.</translation>
     </message>
     <message>
-        <source>carrying …</source>
+        <source>propagating …</source>
         <translation>wird übertragen …</translation>
     </message>
 </context>
@@ -6688,10 +7483,6 @@ s</translation>
     <message>
         <source>Shift+U</source>
         <translation>Shift+U</translation>
-    </message>
-    <message>
-        <source>Writes labels and probabilities as HDF5, or the labels of this view as PNG</source>
-        <translation>Schreibt Labels und Wahrscheinlichkeiten als HDF5 oder die Labels dieser Ansicht als PNG</translation>
     </message>
     <message>
         <source>Writes a black and white PNG of every label in every segmented view to a folder</source>
@@ -6826,10 +7617,6 @@ s</translation>
         <translation>Es gibt keine Disparität aller Ansichten: Alle Ansichten werden allein nach den Bildern segmentiert.</translation>
     </message>
     <message>
-        <source>Segmentation…</source>
-        <translation>Segmentierung…</translation>
-    </message>
-    <message>
         <source>Masks of labels…</source>
         <translation>Masken der Labels…</translation>
     </message>
@@ -6875,26 +7662,6 @@ s</translation>
 </context>
 <context>
     <name>episcope::SegmentationExport</name>
-    <message>
-        <source>Nothing is segmented yet: paint two labels, then update the segmentation.</source>
-        <translation>Noch ist nichts segmentiert: zwei Labels malen, dann die Segmentierung aktualisieren.</translation>
-    </message>
-    <message>
-        <source>Export the segmentation</source>
-        <translation>Segmentierung exportieren</translation>
-    </message>
-    <message>
-        <source>%1 (*.h5);;Labels of this view (*.png)</source>
-        <translation>%1 (*.h5);;Labels dieser Ansicht (*.png)</translation>
-    </message>
-    <message>
-        <source>Labels and probabilities of all views</source>
-        <translation>Labels und Wahrscheinlichkeiten aller Ansichten</translation>
-    </message>
-    <message>
-        <source>Labels and probabilities of this view</source>
-        <translation>Labels und Wahrscheinlichkeiten dieser Ansicht</translation>
-    </message>
     <message>
         <source>Folder for the masks of all views</source>
         <translation>Ordner für die Masken aller Ansichten</translation>
@@ -7092,6 +7859,14 @@ s</translation>
     <message>
         <source>Shows the center view; in tiles: shows that tile alone</source>
         <translation>Zeigt die mittlere Ansicht; in Kacheln: nur diese Kachel</translation>
+    </message>
+    <message>
+        <source>Right click</source>
+        <translation>Rechtsklick</translation>
+    </message>
+    <message>
+        <source>Opens a menu for the pixel</source>
+        <translation>Öffnet ein Menü zum Pixel</translation>
     </message>
 </context>
 <context>
@@ -7495,14 +8270,133 @@ s</translation>
     </message>
 </context>
 <context>
-    <name>episcope::TabStack</name>
+    <name>episcope::Synonyms</name>
     <message>
-        <source>In a window of its own</source>
-        <translation>In einem eigenen Fenster</translation>
+        <source>load import directory</source>
+        <translation>laden importieren Verzeichnis</translation>
     </message>
     <message>
-        <source>Back to its place</source>
-        <translation>Zurück an seinen Platz</translation>
+        <source>example sample synthetic</source>
+        <translation>Beispiel synthetisch</translation>
+    </message>
+    <message>
+        <source>settings options crop order</source>
+        <translation>Einstellungen Optionen zuschneiden Reihenfolge</translation>
+    </message>
+    <message>
+        <source>screenshot image save</source>
+        <translation>Bildschirmfoto Bild speichern</translation>
+    </message>
+    <message>
+        <source>image heat map save</source>
+        <translation>Bild Falschfarben speichern</translation>
+    </message>
+    <message>
+        <source>video animation save</source>
+        <translation>Video Animation speichern</translation>
+    </message>
+    <message>
+        <source>save depth point cloud</source>
+        <translation>speichern Tiefe Punktwolke</translation>
+    </message>
+    <message>
+        <source>scores errors spreadsheet save</source>
+        <translation>Fehler Tabelle speichern</translation>
+    </message>
+    <message>
+        <source>scores errors paper save</source>
+        <translation>Fehler Artikel speichern</translation>
+    </message>
+    <message>
+        <source>point cloud mesh save</source>
+        <translation>Punktwolke Netz speichern</translation>
+    </message>
+    <message>
+        <source>zoom percent original</source>
+        <translation>Zoom Prozent Original</translation>
+    </message>
+    <message>
+        <source>zoom whole window</source>
+        <translation>Zoom ganzes Fenster</translation>
+    </message>
+    <message>
+        <source>contrast dark light levels</source>
+        <translation>Kontrast dunkel hell Stufen</translation>
+    </message>
+    <message>
+        <source>parallax animate movie</source>
+        <translation>Parallaxe animieren Film</translation>
+    </message>
+    <message>
+        <source>refocus shear slope</source>
+        <translation>Schärfe Scherung Steigung</translation>
+    </message>
+    <message>
+        <source>shift sum synthetic aperture</source>
+        <translation>verschieben summieren synthetische Apertur</translation>
+    </message>
+    <message>
+        <source>overlay heat map</source>
+        <translation>Überlagerung Falschfarben</translation>
+    </message>
+    <message>
+        <source>depth</source>
+        <translation>Tiefe</translation>
+    </message>
+    <message>
+        <source>reference depth</source>
+        <translation>wahre Tiefe</translation>
+    </message>
+    <message>
+        <source>outliers</source>
+        <translation>Ausreißer</translation>
+    </message>
+    <message>
+        <source>split curtain swipe</source>
+        <translation>teilen Vorhang wischen</translation>
+    </message>
+    <message>
+        <source>blink toggle</source>
+        <translation>blinken wechseln</translation>
+    </message>
+    <message>
+        <source>subtract minus</source>
+        <translation>abziehen minus</translation>
+    </message>
+    <message>
+        <source>grid gallery</source>
+        <translation>Raster Galerie</translation>
+    </message>
+    <message>
+        <source>paint draw scribble pen</source>
+        <translation>malen zeichnen Strich Stift</translation>
+    </message>
+    <message>
+        <source>rubber delete</source>
+        <translation>Radierer löschen</translation>
+    </message>
+    <message>
+        <source>night mode</source>
+        <translation>Nachtmodus</translation>
+    </message>
+    <message>
+        <source>shortcuts hotkeys bindings</source>
+        <translation>Tasten Kürzel Belegung</translation>
+    </message>
+    <message>
+        <source>documentation guide</source>
+        <translation>Dokumentation Anleitung</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::TabStack</name>
+    <message>
+        <source>Detach into a window</source>
+        <translation>In ein Fenster lösen</translation>
+    </message>
+    <message>
+        <source>Dock</source>
+        <translation>Andocken</translation>
     </message>
 </context>
 <context>
@@ -7685,6 +8579,22 @@ s</translation>
     <message>
         <source>%1 jobs running</source>
         <translation>%1 Aufträge laufen</translation>
+    </message>
+    <message>
+        <source>label %1</source>
+        <translation>Label %1</translation>
+    </message>
+    <message>
+        <source>painted %1</source>
+        <translation>gemalt %1</translation>
+    </message>
+    <message>
+        <source>segment %1</source>
+        <translation>Segment %1</translation>
+    </message>
+    <message>
+        <source>truly %1</source>
+        <translation>in Wahrheit %1</translation>
     </message>
 </context>
 <context>
@@ -7883,10 +8793,6 @@ s</translation>
         <translation>Zeigt, wo eine Fläche sichtbar ist und wo zwei</translation>
     </message>
     <message>
-        <source>Truth behind</source>
-        <translation>Referenz dahinter</translation>
-    </message>
-    <message>
         <source>Uncertainty</source>
         <translation>Unsicherheit</translation>
     </message>
@@ -7985,6 +8891,10 @@ s</translation>
     <message>
         <source>ground truth</source>
         <translation>Referenz</translation>
+    </message>
+    <message>
+        <source>True background</source>
+        <translation>Wahrer Hintergrund</translation>
     </message>
 </context>
 </TS>

@@ -2,6 +2,16 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="en" sourcelanguage="en">
 <context>
+    <name>episcope::ImportLabelsDialog</name>
+    <message numerus="yes">
+        <source>%n view(s) with labels. View %1: %2</source>
+        <translation type="unfinished">
+            <numerusform></numerusform>
+            <numerusform></numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>episcope::MeasureController</name>
     <message numerus="yes">
         <source>%n measured line(s) copied as CSV.</source>
