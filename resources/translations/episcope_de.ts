@@ -838,7 +838,7 @@
     </message>
     <message>
         <source>Show over view</source>
-        <translation>Über der Ansicht zeigen</translation>
+        <translation>Überlagern</translation>
     </message>
     <message>
         <source>Adds the disparity of the mesh to the results, to be drawn over the view, wiped and compared</source>
@@ -8718,7 +8718,7 @@ s</translation>
     </message>
     <message>
         <source>Probability</source>
-        <translation>Wahrscheinlichkeit</translation>
+        <translation>Wahrscheinl.</translation>
     </message>
     <message>
         <source>Segments</source>

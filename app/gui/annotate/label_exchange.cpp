@@ -215,7 +215,8 @@ LabelImporter::LabelImporter(const Workbench& bench, AnnotationBar* bar)
        .section = label_section::kFiles,
        .enabled = [this] { return session_.scene() != nullptr; }});
   bar->addAction(bench.commands.find("file.import_labels"), "button.file.import_labels");
-  bench.window.installEventFilter(this);
+  // Hears of drops before what opens light fields does.
+  connect(&bench.frame, &Frame::tabShown, this, [this] { bench_.window.installEventFilter(this); });
 }
 
 void LabelImporter::ask() {
@@ -306,12 +307,11 @@ void LabelImporter::useAsSegmentation(const io::ImportedLabels& labels) {
   auto labeling = std::make_shared<Labeling>();
   labeling->labels = io::stack_of(labels.scribbles, {field.grid(), field.height(), field.width()});
   const AnnotationDocument imported =
-      document_from({{}, labels.scribbles.labels}, field.grid(), field.height(), field.width(), 0);
-  for (const LabelInfo& info : imported.labels().labels()) {
-    labeling->probabilities.ids.push_back(info.id);
-  }
+      document_from(labels.scribbles, field.grid(), field.height(), field.width(), 0);
+  const std::vector<LabelInfo> infos = imported.labels().labels();
+  for (const LabelInfo& info : infos) labeling->probabilities.ids.push_back(info.id);
   document_.edit([&](AnnotationDocument& document) {
-    import_scribbles(document, {{}, labels.scribbles.labels});  // names and colors
+    import_scribbles(document, {{}, infos});  // names and colors
   });
   if (!labeling->labels.contains(session_.view())) session_.set_view(labeling->labels.first());
   emit segmented(labeling);

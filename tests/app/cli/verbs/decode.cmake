@@ -24,7 +24,7 @@ file(SIZE "${WORK}/f01/raw.lfp" bytes)
 math(EXPR half "${bytes} / 2")
 execute_process(COMMAND head -c ${half} "${WORK}/f01/raw.lfp" OUTPUT_FILE "${WORK}/cut.lfp")
 expect("cut off" 1 ERR "cut.lfp: section 4 .*the file is cut off" ARGS decode cut.lfp -o cut.h5)
-expect("white of another size" 1 ERR "has 480×360 px" ARGS decode f01/raw.lfp --white
+expect("white of another camera" 1 ERR "mosaic gray, but the raw picture raw.lfp has bggr" ARGS decode f01/raw.lfp --white
        square/raw_white.png -o other.h5)
 expect("no lenses" 1 ERR "no array of microlenses" ARGS decode square/raw_dark.png --white
        square/raw_dark.png -o none.h5)

@@ -173,7 +173,7 @@ void CommandsTest::fileMenu_opensSavesAndExports() {
 void CommandsTest::labelFiles_areInTheMenuOfLabels() {
   WindowFixture f;
   const QStringList labels = entries_of(f.window.findChild<QMenu*>("menu.Annotate › Labels"));
-  for (const char* id : {"annotate.add_label", "file.save_scribbles", "file.import_scribbles"}) {
+  for (const char* id : {"annotate.add_label", "file.save_scribbles", "file.import_labels"}) {
     QVERIFY2(labels.contains(id), id);
   }
 }
@@ -311,8 +311,8 @@ void CommandsTest::palette_findsByDescriptionSynonymMethodAndLightField_data() {
                                << "View: Brightness…";
   QTest::newRow("synonym") << "screenshot"
                            << "File › Export: Picture…";
-  QTest::newRow("synonym of a group") << "heat map behind"
-                                      << "View › Map: Truth behind";
+  QTest::newRow("synonym of a group") << "heat map background"
+                                      << "View › Map: True background";
   QTest::newRow("method") << "Wanner Goldluecke 2012"
                           << "Method: EPI_L";
   QTest::newRow("open") << "open light field edge"
