@@ -394,6 +394,8 @@ void CommandsTest::changedKey_worksIsShownAndRemembered() {
   auto* canvas = f.window.bench().viewer_area.canvas();
   canvas->zoomIn();
   f.window.activateWindow();
+  QVERIFY(QTest::qWaitForWindowActive(&f.window));
+  canvas->setFocus();
   QTest::keyClick(canvas, Qt::Key_J, Qt::ControlModifier | Qt::AltModifier);
   QTRY_VERIFY_WITH_TIMEOUT(canvas->isFitted(), kPatience);
   MainWindow next;
