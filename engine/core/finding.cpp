@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -50,10 +51,12 @@ std::optional<Finding> match(std::string_view sentence, const FindingText& text)
   return finding;
 }
 
-std::size_t literal_length(const FindingText& text) {
+// How much a sentence says that it is: whether it begins with words, then how long its words are.
+std::pair<bool, std::size_t> distinctness(const FindingText& text) {
+  const std::vector<std::string_view> parts = literal_parts(text.english);
   std::size_t length = 0;
-  for (const std::string_view part : literal_parts(text.english)) length += part.size();
-  return length;
+  for (const std::string_view part : parts) length += part.size();
+  return {!parts[0].empty(), length};
 }
 
 }  // namespace
@@ -75,9 +78,9 @@ const FindingText* find_finding_text(std::string_view code) {
 
 std::optional<Finding> finding_of(std::string_view sentence) {
   std::optional<Finding> best;
-  std::size_t most = 0;
+  std::pair<bool, std::size_t> most{};
   for (const FindingText& text : kFindingTexts) {
-    const std::size_t length = literal_length(text);
+    const auto length = distinctness(text);
     if (length <= most) continue;
     if (auto found = match(sentence, text)) {
       best = std::move(found);

@@ -8718,7 +8718,7 @@ s</translation>
     </message>
     <message>
         <source>Probability</source>
-        <translation>Wahrscheinl.</translation>
+        <translation>Gewissheit</translation>
     </message>
     <message>
         <source>Segments</source>

@@ -5,9 +5,9 @@
     <name>episcope::ImportLabelsDialog</name>
     <message numerus="yes">
         <source>%n view(s) with labels. View %1: %2</source>
-        <translation type="unfinished">
-            <numerusform></numerusform>
-            <numerusform></numerusform>
+        <translation>
+            <numerusform>%n view with labels. View %1: %2</numerusform>
+            <numerusform>%n views with labels. View %1: %2</numerusform>
         </translation>
     </message>
 </context>

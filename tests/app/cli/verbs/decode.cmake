@@ -27,7 +27,7 @@ expect("cut off" 1 ERR "cut.lfp: section 4 .*the file is cut off" ARGS decode cu
 expect("white of another camera" 1 ERR "mosaic gray, but the raw picture raw.lfp has bggr" ARGS decode f01/raw.lfp --white
        square/raw_white.png -o other.h5)
 expect("no lenses" 1 ERR "no array of microlenses" ARGS decode square/raw_dark.png --white
-       square/raw_dark.png -o none.h5)
+       square/raw_dark.png -o none.h5 -q)
 expect("not there" 1 ERR "gone.png" ARGS decode gone.png -o none.h5)
 expect("a sensor too small" 2 ERR "--size is 100x100" ARGS synthesize edge --camera f01 --size 100x100
        -o small)
