@@ -2,6 +2,7 @@
 #include "app/gui/annotate/segment_controller.h"
 
 #include "app/gui/annotate/annotation_files.h"
+#include "app/gui/annotate/label_exchange.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "widgets/controls/text.h"
@@ -605,6 +606,7 @@ void SegmentController::addRunCommands() {
 }
 
 void SegmentController::addExportCommands() {
+  add_label_export(bench_, *this);
   bench_.commands.add(
       {.id = "segment.export_masks",
        .menu = Menu::Export,
