@@ -294,6 +294,8 @@ void add_segmenting(const Workbench& bench) {
   auto* segment = new SegmentController(bench, panel);
   QObject::connect(bench.owner.findChild<LabelImporter*>(), &LabelImporter::segmented, segment,
                    &SegmentController::takeLabels);
+  add_label_export(bench, *segment);
+  panel->addAction(bench.commands.find("segment.export"), "button.segment.export");
 }
 
 }  // namespace

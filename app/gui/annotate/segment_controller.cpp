@@ -2,7 +2,6 @@
 #include "app/gui/annotate/segment_controller.h"
 
 #include "app/gui/annotate/annotation_files.h"
-#include "app/gui/annotate/label_exchange.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "widgets/controls/text.h"
@@ -606,7 +605,6 @@ void SegmentController::addRunCommands() {
 }
 
 void SegmentController::addExportCommands() {
-  add_label_export(bench_, *this);
   bench_.commands.add(
       {.id = "segment.export_masks",
        .menu = Menu::Export,
@@ -678,7 +676,7 @@ void SegmentController::addCommands() {
   addExportCommands();
   addSmoothingCommands();
   addOverlayCommands();
-  for (const char* id : {"segment.live", "segment.update", "segment.all", "segment.export"}) {
+  for (const char* id : {"segment.live", "segment.update", "segment.all"}) {
     panel_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
   }
 }
