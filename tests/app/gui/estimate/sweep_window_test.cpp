@@ -324,7 +324,7 @@ void SweepWindowTest::twoParametersOfSeveralScenes_arePlottedAsTheMean() {
   f.run();
   const auto& series = f.upper().plot().series;
   QCOMPARE(series.size(), 2U);
-  QVERIFY(series[0].name.contains("outer_scale 1"));
+  QVERIFY(series[0].name.contains("Outer scale 1"));
   QVERIFY(series[0].points[1].y() > 0);
 }
 
