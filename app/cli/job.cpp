@@ -152,7 +152,8 @@ Interrupt::Interrupt() : waiter_(std::make_unique<Waiter>()) {
 }
 
 Interrupt::~Interrupt() {
-  handle(waiter_->signals, SIG_DFL);
+  // The exit code tells that it was cancelled: a second signal shall not take it back.
+  handle(waiter_->signals, stop_.stop_requested() ? SIG_IGN : SIG_DFL);
   pthread_kill(waiter_->thread.native_handle(), kEndOfWaiting);
   waiter_->thread.join();
 }
