@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
+#include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
@@ -618,19 +619,13 @@ namespace {
 constexpr const char* kHeader = "name,x_px,y_px,X,Y,Z";
 constexpr const char* kLocked = ",locked";
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\"") + 1 - first);
-}
-
-std::vector<std::string> fields_of(const std::string& line) {
+std::vector<std::string> fields_of(std::string_view line) {
   std::vector<std::string> fields;
   std::size_t begin = 0;
   while (true) {
     const std::size_t end = line.find(',', begin);
-    fields.push_back(trimmed(line.substr(begin, end - begin)));
-    if (end == std::string::npos) return fields;
+    fields.emplace_back(trimmed(line.substr(begin, end - begin), kQuotesAndBlanks));
+    if (end == line.npos) return fields;
     begin = end + 1;
   }
 }
@@ -663,7 +658,7 @@ std::vector<PointPair> read_pairs(const std::filesystem::path& path) {
   std::string text;
   for (int line = 1; std::getline(file, text); ++line) {
     if (line == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-    const std::string content = trimmed(text);
+    const std::string_view content = trimmed(text, kQuotesAndBlanks);
     if (content.empty() || content.starts_with('#')) continue;
     const std::vector<std::string> fields = fields_of(content);
     if (pairs.empty() && fields.size() > 1 && fields[1] == "x_px") continue;

@@ -26,6 +26,17 @@ template <class Items, class TextOf = std::identity>
   return text;
 }
 
+/// Without the characters of `blanks` at its beginning and its end.
+[[nodiscard]] inline std::string_view trimmed(std::string_view text,
+                                              std::string_view blanks = " \t\r") {
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+/// What surrounds a cell of a table that may be quoted.
+inline constexpr std::string_view kQuotesAndBlanks = " \t\r\"";
+
 /// One of 0 … 9.
 [[nodiscard]] inline bool is_digit(char c) {
   return c >= '0' && c <= '9';

@@ -118,60 +118,57 @@ cv::Mat smoothed(const Image<float>& picture, int size) {
   return result;
 }
 
+/// Light divided by the share of it that vignetting leaves, of the pixel (y, x) each.
+template <class LightAt, class ShareAt>
+Devignetted divided(const PlenopticPictures& pictures, const LightAt& light_at,
+                    const ShareAt& share_at, const Progress& progress) {
+  const int height = pictures.raw.samples.height(), width = pictures.raw.samples.width();
+  Devignetted result{Image<std::uint16_t>(height, width), {}};
+  if (pictures.white) result.is_seen = Image<std::uint8_t>(height, width);
+  parallel_for(height, progress, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const double share = pictures.white ? share_at(y, x) : 1;
+      result.light.at(y, x) = stored(light_at(y, x) / std::max(share, 0.02));
+      if (pictures.white) result.is_seen.at(y, x) = share >= kDarkest;
+    }
+  });
+  return result;
+}
+
 /// A gray picture of large lenses: light and white are averaged over the step of the views first.
 Devignetted devignetted_means(const PlenopticPictures& pictures, const LensGrid& grid, int size,
                               const Progress& progress) {
-  const int height = pictures.raw.samples.height(), width = pictures.raw.samples.width();
-  const Light raw(pictures.raw, pictures.dark);
-  const auto plane = [&](const Light& light) {
-    Image<float> values(height, width);
-    parallel_for(height, progress, [&](int y) {
-      for (int x = 0; x < width; ++x) values.at(y, x) = static_cast<float>(light.at(y, x));
+  const auto means = [&](const Light& light, const Progress& part) {
+    Image<float> values(pictures.raw.samples.height(), pictures.raw.samples.width());
+    parallel_for(values.height(), part, [&](int y) {
+      for (int x = 0; x < values.width(); ++x) values.at(y, x) = static_cast<float>(light.at(y, x));
     });
     return smoothed(values, size);
   };
-  const cv::Mat light = plane(raw);
-  Devignetted result{Image<std::uint16_t>(height, width), {}};
+  const cv::Mat light = means(Light(pictures.raw, pictures.dark), progress.part(0, 0.4));
   cv::Mat shade;
   double level = 1;
   if (pictures.white) {
     const Light white(*pictures.white, pictures.dark);
-    shade = plane(white);
+    shade = means(white, progress.part(0.4, 0.8));
     level = center_levels(*pictures.white, white, grid)[0];
-    result.is_seen = Image<std::uint8_t>(height, width);
   }
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double part = shade.empty() ? 1 : shade.at<float>(y, x) / level;
-      result.light.at(y, x) = stored(light.at<float>(y, x) / std::max(part, 0.02));
-      if (!shade.empty()) result.is_seen.at(y, x) = part >= kDarkest;
-    }
-  }
-  return result;
+  return divided(
+      pictures, [&](int y, int x) { return double{light.at<float>(y, x)}; },
+      [&](int y, int x) { return shade.at<float>(y, x) / level; }, progress.part(0.8, 1));
 }
 
 Devignetted devignetted(const PlenopticPictures& pictures, const LensGrid& grid,
                         const Progress& progress) {
-  const int height = pictures.raw.samples.height(), width = pictures.raw.samples.width();
   const Light raw(pictures.raw, pictures.dark);
-  Devignetted result{Image<std::uint16_t>(height, width), {}};
-  if (!pictures.white) {
-    parallel_for(height, progress, [&](int y) {
-      for (int x = 0; x < width; ++x) result.light.at(y, x) = stored(raw.at(y, x));
-    });
-    return result;
-  }
+  const auto light = [&](int y, int x) { return raw.at(y, x); };
+  if (!pictures.white) return divided(pictures, light, light, progress);
   const Light white(*pictures.white, pictures.dark);
   const Levels levels = center_levels(*pictures.white, white, grid);
-  result.is_seen = Image<std::uint8_t>(height, width);
-  parallel_for(height, progress, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const double part = white.at(y, x) / levels[color_at(pictures.raw.mosaic, y, x)];
-      result.light.at(y, x) = stored(raw.at(y, x) / std::max(part, 0.02));
-      result.is_seen.at(y, x) = part >= kDarkest;
-    }
-  });
-  return result;
+  return divided(
+      pictures, light,
+      [&](int y, int x) { return white.at(y, x) / levels[color_at(pictures.raw.mosaic, y, x)]; },
+      progress);
 }
 
 /// Replaces pixels that are brighter or darker than all neighbors of their color by a third, with
@@ -344,10 +341,17 @@ class Sampler {
   ViewStack<std::uint8_t> valid() { return std::move(valid_); }
 
  private:
+  /// Where a pixel of the views lies: on a lens of the line, or between it and the next.
+  struct Place {
+    int lens = 0;
+    bool is_on_lens = false;
+    std::array<float, 6> weights{};  ///< Of the lenses from two before on.
+  };
   struct Line {
     int first = 0;  ///< Lens.
     std::vector<PlanePoint> centers;
-    std::vector<float> light;  ///< [lens][channel]
+    std::vector<Place> places;  ///< Of the pixels; the same in all views.
+    std::vector<float> light;   ///< [lens][channel]
     std::vector<std::uint8_t> valid;
   };
 
@@ -360,6 +364,7 @@ class Sampler {
     for (int i = line.first; i <= static_cast<int>(std::ceil(end - 1e-9)); ++i) {
       line.centers.push_back(grid_.center(i, j));
     }
+    place_pixels(begin - line.first, line);
     line.light.resize(line.centers.size() * light_.channels());
     line.valid.resize(line.centers.size());
     const int middle = geometry_.views / 2;
@@ -368,8 +373,22 @@ class Sampler {
         const PlanePoint offset{(u - middle) * geometry_.u.x + (v - middle) * geometry_.v.x,
                                 (u - middle) * geometry_.u.y + (v - middle) * geometry_.v.y};
         sample_lenses(offset, line);
-        write_row({v, u}, row, begin - line.first, line);
+        write_row({v, u}, row, line);
       }
+    }
+  }
+
+  /// The first pixel is `begin` lenses right of the first of the line.
+  void place_pixels(double begin, Line& line) const {
+    const int lenses = static_cast<int>(line.centers.size());
+    for (int x = 0; x < geometry_.width; ++x) {
+      const double at = begin + x * geometry_.column_step;
+      Place place;
+      place.lens = std::clamp(static_cast<int>(std::floor(at + 1e-6)), 0, lenses - 1);
+      const double fraction = at - place.lens;
+      place.is_on_lens = std::abs(fraction) < 1e-5;
+      if (!place.is_on_lens) place.weights = lanczos_weights(fraction);
+      line.places.push_back(place);
     }
   }
 
@@ -399,22 +418,18 @@ class Sampler {
     return x >= 0 && y >= 0 && x <= light_.width() - 1 && y <= light_.height() - 1;
   }
 
-  /// One row of a view; its first pixel is `begin` lenses right of the first of the line.
-  void write_row(ViewIndex view, int row, double begin, const Line& line) {
+  void write_row(ViewIndex view, int row, const Line& line) {
     const int channels = light_.channels();
     const int lenses = static_cast<int>(line.centers.size());
     std::uint16_t* out = samples_.view(view).row(row);
     std::uint8_t* valid = valid_.view(view).row(row);
     for (int x = 0; x < geometry_.width; ++x) {
-      const double place = begin + x * geometry_.column_step;
-      const int lens = std::clamp(static_cast<int>(std::floor(place + 1e-6)), 0, lenses - 1);
-      const double fraction = place - lens;
+      const auto& [lens, is_on_lens, weights] = line.places[x];
       float light[3] = {};
-      if (std::abs(fraction) < 1e-5) {
+      if (is_on_lens) {
         std::copy_n(&line.light[static_cast<std::size_t>(lens) * channels], channels, light);
         valid[x] = line.valid[lens];
       } else {
-        const std::array<float, 6> weights = lanczos_weights(fraction);
         for (int k = 0; k < 6; ++k) {
           const std::size_t at = std::clamp(lens + k - 2, 0, lenses - 1);
           for (int c = 0; c < channels; ++c) light[c] += weights[k] * line.light[at * channels + c];

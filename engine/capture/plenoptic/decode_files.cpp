@@ -21,12 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string trimmed(const std::string& text) {
-  const auto begin = text.find_first_not_of(" \t\r\"");
-  if (begin == text.npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r\"") - begin + 1);
-}
-
 /// Values by "section.key".
 std::map<std::string, std::string> read_sections(const fs::path& path) {
   io::require_openable_file(path);
@@ -37,15 +31,16 @@ std::map<std::string, std::string> read_sections(const fs::path& path) {
   std::ifstream file(path);
   std::map<std::string, std::string> values;
   std::string section;
-  for (std::string line; std::getline(file, line);) {
-    line = trimmed(line);
+  for (std::string text; std::getline(file, text);) {
+    const std::string_view line = trimmed(text, kQuotesAndBlanks);
     if (line.starts_with('[')) {
       section = line.substr(1, line.find(']') - 1);
       continue;
     }
     const auto equals = line.find('=');
     if (equals == line.npos) continue;
-    values[section + "." + trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+    const auto key = std::string(trimmed(line.substr(0, equals), kQuotesAndBlanks));
+    values[section + "." + key] = trimmed(line.substr(equals + 1), kQuotesAndBlanks);
   }
   return values;
 }
@@ -122,6 +117,25 @@ RawFacts read_optics(const fs::path& path) {
   return facts;
 }
 
+namespace {
+
+/// Raw picture, lenses and facts in one line.
+std::string origin_text(const Decoded& decoded, const RawPicture& raw) {
+  const LensGrid& grid = decoded.grid;
+  std::string text = fmt::format(
+      "decoded from {}: {} lenses of {:.2f} px, turned by {:.3f}°, views {:.3g} px apart, {} "
+      "samples",
+      raw.name, grid.lattice == LensLattice::Hexagonal ? "hexagonal" : "square", grid.pitch_px,
+      grid.rotation_degrees, decoded.step_px,
+      decoded.is_gamma_encoded ? "gamma-encoded" : "linear");
+  const auto facts = raw.facts.table();
+  if (facts.empty()) return text;
+  return text + "; " +
+         joined(facts, ", ", [](const auto& fact) { return fact.first + " " + fact.second; });
+}
+
+}  // namespace
+
 Scene scene_of(const Decoded& decoded, const FoundPictures& found) {
   Scene scene;
   scene.light_field = decoded.light_field;
@@ -144,25 +158,12 @@ Scene decode_files(const PictureFiles& files, const DecodeOptions& options,
   return scene_of(decode(found.pictures, grid, options, progress.part(0.4, 1)), found);
 }
 
-std::string origin_text(const Decoded& decoded, const RawPicture& raw) {
-  const LensGrid& grid = decoded.grid;
-  std::string text = fmt::format(
-      "decoded from {}: {} lenses of {:.2f} px, turned by {:.3f}°, views {:.3g} px apart, {} "
-      "samples",
-      raw.name, grid.lattice == LensLattice::Hexagonal ? "hexagonal" : "square", grid.pitch_px,
-      grid.rotation_degrees, decoded.step_px,
-      decoded.is_gamma_encoded ? "gamma-encoded" : "linear");
-  const auto facts = raw.facts.table();
-  if (facts.empty()) return text;
-  return text + "; " +
-         joined(facts, ", ", [](const auto& fact) { return fact.first + " " + fact.second; });
-}
-
 void write_decoded(const fs::path& path, const Decoded& decoded, const FoundPictures& found,
                    const Progress& progress) {
+  const Scene scene = scene_of(decoded, found);
   io::ArchiveForm form;
-  form.origin = origin_text(decoded, found.pictures.raw);
-  io::write_archive(path, scene_of(decoded, found), progress, form);
+  form.origin = scene.convention.format;
+  io::write_archive(path, scene, progress, form);
 }
 
 }  // namespace episcope::capture

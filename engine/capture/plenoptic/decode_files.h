@@ -37,16 +37,14 @@ struct FoundPictures {
 /// Throws IoError for a file that has none of these.
 [[nodiscard]] RawFacts read_optics(const std::filesystem::path& path);
 
-/// What was decoded, as a scene that can be written or shown.
+/// What was decoded, as a scene that can be written or shown. Its format tells of raw picture,
+/// lenses and facts in one line, which files keep (io::ArchiveForm::origin).
 /// Its warnings begin with the notes of `found`.
 [[nodiscard]] Scene scene_of(const Decoded& decoded, const FoundPictures& found);
 
 /// Reads, finds the lenses and decodes: all of it. Throws IoError, InvalidInput, Cancelled.
 [[nodiscard]] Scene decode_files(const PictureFiles& files, const DecodeOptions& options,
                                  const Progress& progress);
-
-/// Raw picture, lenses and facts in one line; it is kept in the file (io::ArchiveForm::origin).
-[[nodiscard]] std::string origin_text(const Decoded& decoded, const RawPicture& raw);
 
 /// Writes the light field in the form of the archive, with mask and origin. Throws IoError,
 /// Cancelled.

@@ -2,6 +2,7 @@
 #include "engine/capture/plenoptic/lfp_container.h"
 
 #include "engine/core/error.h"
+#include "engine/core/numbers.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <string_view>
 
 namespace episcope::capture {
 namespace {
@@ -86,7 +86,7 @@ LfpSection take_section(const std::filesystem::path& path, std::size_t number, B
     refuse(path, number, "does not match its hash: its data were damaged");
   }
   section.data.assign(data.begin(), data.end());
-  const std::size_t padded = (kSectionHeader + length + kPadding - 1) / kPadding * kPadding;
+  const std::size_t padded = round_up(kSectionHeader + length, kPadding);
   rest = rest.subspan(std::min(padded, rest.size()));
   return section;
 }
@@ -148,7 +148,7 @@ void write_lfp(const std::filesystem::path& path, const LfpContainer& container)
     bytes.insert(bytes.end(), reference.begin(), reference.end());
     bytes.resize(bytes.size() + kSectionHeader - kLengthEnd - kReferenceLength);
     append(bytes, section.data);
-    bytes.resize((bytes.size() + kPadding - 1) / kPadding * kPadding);
+    bytes.resize(round_up(bytes.size(), kPadding));
   }
   io::write_atomically(path, bytes);
 }

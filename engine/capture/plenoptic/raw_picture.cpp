@@ -392,13 +392,12 @@ RawFile read_raw(const fs::path& path) {
   io::require_openable_file(path);
   RawFile file;
   try {
-    if (is_lfp_container(path)) {
-      file = raw_in(read_lfp(path));
-    } else if (suffix_of(path) == ".raw") {
+    const std::string suffix = suffix_of(path);
+    if (is_lfp_container(path) || suffix == ".lfp" || suffix == ".lfr") {
+      file = raw_in(read_lfp(path));  // which says what is wrong with another file
+    } else if (suffix == ".raw") {
       const std::string metadata = text_of(metadata_beside(path));
       file.raw = raw_from_json(bytes_of(path), metadata, {});
-    } else if (suffix_of(path) == ".lfp" || suffix_of(path) == ".lfr") {
-      (void)read_lfp(path);  // says what is wrong with it
     } else {
       file.raw = raw_of(path);
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/plenoptic/synthetic_camera.h"
 
-#include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
@@ -163,21 +162,37 @@ int pupil_reach(const SyntheticCamera& camera) {
   return static_cast<int>(std::ceil(0.6 * camera.pitch_px + 0.5));
 }
 
-/// Adds the rays that look from the pupil row `v` to the light of all pixels.
-void add_rays(const SyntheticCamera& camera, const RayLookup& lookup, int v, Image<float>& light,
-              const Progress& progress) {
+/// A ray of a pixel, below its lens.
+PlanePoint ray_at(const BelowLens& place, int ray) {
+  return {place.offset.x + (ray % 2 == 0 ? kRayOffset : -kRayOffset),
+          place.offset.y + (ray / 2 == 0 ? kRayOffset : -kRayOffset)};
+}
+
+/// The row of the pupil that each pixel looks from.
+Image<float> pupil_rows(const SyntheticCamera& camera, const Progress& progress) {
+  Image<float> rows(camera.height, camera.width);
+  parallel_for(camera.height, progress, [&](int y) {
+    for (int x = 0; x < camera.width; ++x) {
+      rows.at(y, x) = static_cast<float>(below_lens(camera, x, y).offset.y);
+    }
+  });
+  return rows;
+}
+
+/// Adds the rays that look from the pupil row `v` to the light of all pixels. `rows`: pupil_rows.
+void add_rays(const SyntheticCamera& camera, const RayLookup& lookup, const Image<float>& rows,
+              int v, Image<float>& light, const Progress& progress) {
   const double to_views = 1 / camera.row_distance_px();
   const double middle_x = camera.view_width() / 2, middle_y = camera.view_height() / 2;
   parallel_for(camera.height, progress, [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
+      if (std::abs(rows.at(y, x) - v) > 0.5 + 2 * kRayOffset) continue;
       const BelowLens place = below_lens(camera, x, y);
-      if (std::abs(place.offset.y - v) > 0.5 + 2 * kRayOffset) continue;
       const double view_x =
           middle_x + (place.i + lean_of(camera) * place.j) * camera.pitch_px * to_views;
       const double view_y = middle_y + place.j;
       for (int ray = 0; ray < kRays; ++ray) {
-        const PlanePoint at{place.offset.x + (ray % 2 == 0 ? kRayOffset : -kRayOffset),
-                            place.offset.y + (ray / 2 == 0 ? kRayOffset : -kRayOffset)};
+        const PlanePoint at = ray_at(place, ray);
         if (std::lround(at.y) != v) continue;
         light.at(y, x) += static_cast<float>(
             transmission(camera, place, at) / kRays *
@@ -195,9 +210,7 @@ Image<float> white_light(const SyntheticCamera& camera, const Progress& progress
       const int color = color_at(camera.mosaic, y, x);
       double sum = 0;
       for (int ray = 0; ray < kRays; ++ray) {
-        sum += transmission(camera, place,
-                            {place.offset.x + (ray % 2 == 0 ? kRayOffset : -kRayOffset),
-                             place.offset.y + (ray / 2 == 0 ? kRayOffset : -kRayOffset)});
+        sum += transmission(camera, place, ray_at(place, ray));
       }
       light.at(y, x) = static_cast<float>(0.9 * sum / kRays / camera.colors.balance[color]);
     }
@@ -351,6 +364,7 @@ SyntheticCamera synthetic_camera(CameraModel model) {
 SyntheticPictures expose(const SyntheticCamera& camera, const PupilLight& light,
                          const Progress& progress) {
   Image<float> sum(camera.height, camera.width);
+  const Image<float> rows = pupil_rows(camera, progress.part(0, 0));
   const int reach = pupil_reach(camera);
   std::vector<CameraPosition> positions(2 * static_cast<std::size_t>(reach) + 1);
   for (int v = -reach; v <= reach; ++v) {
@@ -359,7 +373,7 @@ SyntheticPictures expose(const SyntheticCamera& camera, const PupilLight& light,
     }
     const double begin = 0.9 * (v + reach) / (2 * reach + 1), part = 0.9 / (2 * reach + 1);
     const Scene row = light(positions, progress.part(begin, begin + 0.6 * part));
-    add_rays(camera, {camera, row, -reach, static_cast<double>(v)}, v, sum,
+    add_rays(camera, {camera, row, -reach, static_cast<double>(v)}, rows, v, sum,
              progress.part(begin + 0.6 * part, begin + part));
   }
   SyntheticPictures pictures;

@@ -2,6 +2,7 @@
 #include "engine/capture/plenoptic/white_pictures.h"
 
 #include "engine/core/error.h"
+#include "engine/core/numbers.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -28,12 +30,7 @@ namespace fs = std::filesystem;
 using FileBytes = std::vector<std::uint8_t>;
 
 /// Files of calibration data by name in upper case, read when they are needed.
-class CalibrationFiles {
- public:
-  virtual ~CalibrationFiles() = default;
-  [[nodiscard]] virtual std::vector<std::string> names() const = 0;
-  [[nodiscard]] virtual FileBytes read(const std::string& name) const = 0;
-};
+using CalibrationFiles = std::map<std::string, std::function<FileBytes()>>;
 
 /// "MOD_0007.RAW" of "C:\CALIB\mod_0007.raw" or "unit/MOD_0007.RAW".
 std::string base_name(const std::string& path) {
@@ -54,67 +51,33 @@ FileBytes part_of(const fs::path& path, std::uintmax_t offset, std::uintmax_t by
   return data;
 }
 
-/// Files of a tar or a folder: each a part of a file.
-class FileParts : public CalibrationFiles {
- public:
-  struct Part {
-    fs::path file;
-    std::uintmax_t offset = 0;
-    std::uintmax_t bytes = 0;
-  };
-
-  [[nodiscard]] std::vector<std::string> names() const override {
-    std::vector<std::string> all;
-    for (const auto& [name, part] : parts_) all.push_back(name);
-    return all;
-  }
-  [[nodiscard]] FileBytes read(const std::string& name) const override {
-    const Part& part = parts_.at(name);
-    return part_of(part.file, part.offset, part.bytes);
-  }
-  void add(const std::string& name, Part part) { parts_[base_name(name)] = std::move(part); }
-
- private:
-  std::map<std::string, Part> parts_;
-};
-
-/// Files of storage containers (data.C.0 …), whose tables name them.
-class StoredFiles : public CalibrationFiles {
- public:
-  void add(const fs::path& path) {
-    LfpContainer container = read_lfp(path);
-    const auto table = std::ranges::find(container.sections, true, &LfpSection::is_table);
-    if (table == container.sections.end()) return;
-    try {
-      const auto json = io::parse_json<nlohmann::json>(table->text());
-      for (const auto& file : json.value("files", nlohmann::json::array())) {
-        const std::string reference = file.value("dataRef", std::string());
-        if (const LfpSection* section = container.find(reference)) {
-          files_[base_name(file.value("name", std::string()))] = section->data;
-        }
+/// Adds the files of a storage container (data.C.0 …), which its table names.
+void add_stored(const fs::path& path, CalibrationFiles& files) {
+  const auto container = std::make_shared<const LfpContainer>(read_lfp(path));
+  const auto table = std::ranges::find(container->sections, true, &LfpSection::is_table);
+  if (table == container->sections.end()) return;
+  try {
+    const auto json = io::parse_json<nlohmann::json>(table->text());
+    for (const auto& file : json.value("files", nlohmann::json::array())) {
+      const std::string reference = file.value("dataRef", std::string());
+      if (const LfpSection* section = container->find(reference)) {
+        files[base_name(file.value("name", std::string()))] = [container, section] {
+          return section->data;
+        };
       }
-    } catch (const nlohmann::json::exception&) {
-      throw IoError(path, "the table of this container is no JSON of calibration data");
-    } catch (const InvalidInput& error) {
-      throw IoError(path, error.what());
     }
+  } catch (const nlohmann::json::exception&) {
+    throw IoError(path, "the table of this container is no JSON of calibration data");
+  } catch (const InvalidInput& error) {
+    throw IoError(path, error.what());
   }
-  [[nodiscard]] std::vector<std::string> names() const override {
-    std::vector<std::string> all;
-    for (const auto& [name, data] : files_) all.push_back(name);
-    return all;
-  }
-  [[nodiscard]] FileBytes read(const std::string& name) const override { return files_.at(name); }
-
- private:
-  std::map<std::string, FileBytes> files_;
-};
+}
 
 constexpr std::size_t kTarBlock = 512;
 
-/// The parts of a tar (POSIX ustar), by the headers before them.
-FileParts tar_parts(const fs::path& path) {
-  FileParts parts;
+/// The files of a tar (POSIX ustar), by the headers before them.
+CalibrationFiles tar_files(const fs::path& path) {
+  CalibrationFiles files;
   const std::uintmax_t end = fs::file_size(path);
   std::ifstream file(path, std::ios::binary);
   std::uintmax_t offset = 0;
@@ -132,36 +95,36 @@ FileParts tar_parts(const fs::path& path) {
     }
     const std::string name(header, strnlen(header, 100));
     if (header[156] == '0' || header[156] == '\0') {
-      parts.add(name, {path, offset + kTarBlock, bytes});
+      files[base_name(name)] = [path, begin = offset + kTarBlock, bytes] {
+        return part_of(path, begin, bytes);
+      };
     }
-    offset += kTarBlock + (bytes + kTarBlock - 1) / kTarBlock * kTarBlock;
+    offset += kTarBlock + round_up(bytes, kTarBlock);
   }
-  return parts;
+  return files;
 }
 
 bool is_storage_name(const fs::path& path) {
   return lower_case(path.filename().string()).starts_with("data.c.");
 }
 
-std::unique_ptr<CalibrationFiles> calibration_files(const fs::path& path) {
+CalibrationFiles calibration_files(const fs::path& path) {
+  CalibrationFiles plain, stored;
   if (!fs::is_directory(path)) {
-    if (suffix_of(path) == ".tar") return std::make_unique<FileParts>(tar_parts(path));
-    auto stored = std::make_unique<StoredFiles>();
-    stored->add(path);
+    if (suffix_of(path) == ".tar") return tar_files(path);
+    add_stored(path, stored);
     return stored;
   }
-  auto parts = std::make_unique<FileParts>();
-  auto stored = std::make_unique<StoredFiles>();
   for (const auto& entry : fs::directory_iterator(path)) {
     if (!entry.is_regular_file()) continue;
     if (is_storage_name(entry.path())) {
-      stored->add(entry.path());
+      add_stored(entry.path(), stored);
     } else {
-      parts->add(entry.path().filename().string(), {entry.path(), 0, entry.file_size()});
+      plain[base_name(entry.path().filename().string())] =
+          [file = entry.path(), bytes = entry.file_size()] { return part_of(file, 0, bytes); };
     }
   }
-  if (!stored->names().empty()) return stored;
-  return parts;
+  return stored.empty() ? plain : stored;
 }
 
 std::string metadata_name(const std::string& raw) {
@@ -177,36 +140,19 @@ std::string steps_text(const RawFacts& facts) {
                      number_text(facts.focus_step));
 }
 
-ChosenWhite choose(const fs::path& path, const RawPicture& raw) {
-  const std::unique_ptr<CalibrationFiles> files = calibration_files(path);
-  std::vector<WhiteCandidate> candidates;
-  const std::vector<std::string> names = files->names();
-  for (const std::string& name : names) {
-    if (!name.starts_with("MOD_") || !name.ends_with(".RAW")) continue;
-    if (std::ranges::find(names, metadata_name(name)) == names.end()) continue;
-    const FileBytes text = files->read(metadata_name(name));
-    candidates.push_back({name, facts_from_json({text.begin(), text.end()})});
-  }
-  if (candidates.empty()) {
-    throw IoError(path, "there is no white picture here: MOD_nnnn.RAW with its .TXT is expected");
-  }
-  const WhiteCandidate& best = candidates[nearest_white(raw.facts, candidates)];
-  const FileBytes text = files->read(metadata_name(best.name));
-  ChosenWhite chosen;
-  chosen.picture = raw_from_json(files->read(best.name), {text.begin(), text.end()}, {});
-  chosen.picture.name = best.name;
-  chosen.reason =
-      fmt::format("white picture {} ({}) is the nearest of {} to the raw picture ({})", best.name,
-                  steps_text(best.facts), candidates.size(), steps_text(raw.facts));
-  return chosen;
-}
+/// A white picture of a camera's calibration data, before its samples are read.
+struct WhiteCandidate {
+  std::string name;  ///< Of its file, within the folder or archive.
+  RawFacts facts;
+};
 
 bool is_other_camera(const RawFacts& a, const RawFacts& b) {
   return !a.serial.empty() && !b.serial.empty() && a.serial != b.serial;
 }
 
-}  // namespace
-
+/// Index of the candidate with the nearest zoom and among these the nearest focus, as the raw
+/// picture has them. Leaves out candidates of another serial number. Throws InvalidInput, which
+/// names the serial numbers, if none is left.
 std::size_t nearest_white(const RawFacts& raw, const std::vector<WhiteCandidate>& candidates) {
   using Rank = std::tuple<double, double>;
   const auto distance = [](const std::optional<double>& a, const std::optional<double>& b) {
@@ -236,6 +182,32 @@ std::size_t nearest_white(const RawFacts& raw, const std::vector<WhiteCandidate>
       "use the calibration data of this camera",
       candidates.size(), raw.serial, others));
 }
+
+ChosenWhite choose(const fs::path& path, const RawPicture& raw) {
+  const CalibrationFiles files = calibration_files(path);
+  std::vector<WhiteCandidate> candidates;
+  for (const auto& [name, read] : files) {
+    if (!name.starts_with("MOD_") || !name.ends_with(".RAW")) continue;
+    const auto metadata = files.find(metadata_name(name));
+    if (metadata == files.end()) continue;
+    const FileBytes text = metadata->second();
+    candidates.push_back({name, facts_from_json({text.begin(), text.end()})});
+  }
+  if (candidates.empty()) {
+    throw IoError(path, "there is no white picture here: MOD_nnnn.RAW with its .TXT is expected");
+  }
+  const WhiteCandidate& best = candidates[nearest_white(raw.facts, candidates)];
+  const FileBytes text = files.at(metadata_name(best.name))();
+  ChosenWhite chosen;
+  chosen.picture = raw_from_json(files.at(best.name)(), {text.begin(), text.end()}, {});
+  chosen.picture.name = best.name;
+  chosen.reason =
+      fmt::format("white picture {} ({}) is the nearest of {} to the raw picture ({})", best.name,
+                  steps_text(best.facts), candidates.size(), steps_text(raw.facts));
+  return chosen;
+}
+
+}  // namespace
 
 ChosenWhite read_white(const fs::path& path, const RawPicture& raw) {
   try {

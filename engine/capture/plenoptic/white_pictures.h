@@ -4,29 +4,15 @@
 #include "engine/capture/plenoptic/raw_picture.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <vector>
 
 namespace episcope::capture {
-
-/// A white picture of a camera's calibration data, before its samples are read.
-struct WhiteCandidate {
-  std::string name;  ///< Of its file, within the folder or archive.
-  RawFacts facts;
-};
 
 /// The white picture that fits best, and why it was taken.
 struct ChosenWhite {
   RawPicture picture;
   std::string reason;  ///< A sentence with the numbers, for users.
 };
-
-/// Index of the candidate with the nearest zoom and among these the nearest focus, as the raw
-/// picture has them. Leaves out candidates of another serial number. Throws InvalidInput, which
-/// names the serial numbers, if none is left.
-[[nodiscard]] std::size_t nearest_white(const RawFacts& raw,
-                                        const std::vector<WhiteCandidate>& candidates);
 
 /// Reads a white picture from a file (picture, container, bare .raw), or chooses the nearest of the
 /// calibration data of a Lytro camera: MOD_nnnn.RAW with their .TXT in a folder, in a tar
