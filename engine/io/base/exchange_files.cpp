@@ -172,12 +172,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
 /// What parts the cells of a line: the rarer character, since spaces may stand beside it.
 std::string_view separators_of(std::string_view line) {
   for (const std::string_view one : {";", ",", "\t"}) {

@@ -67,16 +67,10 @@ constexpr FirstBytes kForeign[] = {
     {0, "\x80\x02\x8a\x0al\xfc\x9c", kSave},
     {0, "\x80\x02}", kSave},
     {0, "\x80\x02]", kSave},
-    {0,
-     "\x80\x02"
-     "c",
-     kSave},
+    {0, "\x80\x02\x63", kSave},
     {0, "\x80\x03}", kSave},
     {0, "\x80\x03]", kSave},
-    {0,
-     "\x80\x03"
-     "c",
-     kSave},
+    {0, "\x80\x03\x63", kSave},
     {0, "\x80\x04\x95", kSave},
     {0, "\x80\x05\x95", kSave},
     {0, "%pdf-", kDocument}};

@@ -46,7 +46,7 @@ DeflatedChunks::DeflatedChunks(hid_t dataset) : dataset_(dataset) {
   }
   stream_.reset(new z_stream{});
   if (facts.chunk.empty() || inflateInit(stream_.get()) != Z_OK) return;
-  samples_.resize(bytes);
+  chunk_bytes_ = bytes;
   sides_.assign(facts.chunk.begin(), facts.chunk.end());
 }
 
@@ -68,20 +68,15 @@ bool DeflatedChunks::read(const Hdf5Block& block, hid_t memory, void* out) {
   const Hdf5Handle type(H5Dget_type(dataset_), H5Tclose);
   if (H5Tequal(type, memory) <= 0) return false;
   Lengths at(block.start.begin(), block.start.end());
-  for (bool goes_on = true; goes_on;) {
+  do {
     if (!unpack(at)) return false;
     place(at, block, static_cast<std::uint8_t*>(out));
-    goes_on = false;
-    for (std::size_t i = at.size(); i-- > 0 && !goes_on;) {
-      at[i] += sides_[i];
-      goes_on = at[i] < block.start[i] + block.count[i];
-      if (!goes_on) at[i] = block.start[i];
-    }
-  }
+  } while (next_chunk(block, sides_, at));
   return true;
 }
 
 bool DeflatedChunks::unpack(const Lengths& at) {
+  samples_.resize(chunk_bytes_);
   hsize_t stored = 0;
   const bool is_there = H5Dget_chunk_storage_size(dataset_, at.data(), &stored) >= 0 &&
                         stored > 0 &&

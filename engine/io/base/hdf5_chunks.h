@@ -42,6 +42,7 @@ class DeflatedChunks {
   hid_t dataset_;
   Lengths sides_;   ///< Of a chunk; empty if this reads nothing.
   Lengths extent_;  ///< Of the dataset.
+  std::size_t chunk_bytes_ = 0;
   std::size_t number_bytes_ = 0;
   bool is_shuffled_ = false;
   std::unique_ptr<z_stream, EndInflate> stream_;

@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <type_traits>
-#include <utility>
 
 namespace episcope::io {
 namespace {

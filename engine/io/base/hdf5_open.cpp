@@ -451,8 +451,10 @@ ChunkPlaces first_chunk(const Hdf5Block& block, const ChunkPlaces& sides) {
   return at;
 }
 
-/// Moves `at` to the next chunk of the block; whether there is one.
-bool step(const Hdf5Block& block, const ChunkPlaces& sides, ChunkPlaces& at) {
+}  // namespace
+
+bool next_chunk(const Hdf5Block& block, const std::vector<hsize_t>& sides,
+                std::vector<hsize_t>& at) {
   for (std::size_t i = at.size(); i-- > 0;) {
     at[i] += sides[i];
     if (at[i] < block.start[i] + block.count[i]) return true;
@@ -460,6 +462,30 @@ bool step(const Hdf5Block& block, const ChunkPlaces& sides, ChunkPlaces& at) {
   }
   return false;
 }
+
+bool list_links(hid_t group, std::vector<std::string>& names) {
+  hsize_t next = 0;
+  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* all) -> herr_t {
+    static_cast<std::vector<std::string>*>(all)->emplace_back(name);
+    return 0;
+  };
+  const bool is_whole = H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, &next, add, &names) >= 0;
+  std::ranges::sort(names);
+  return is_whole;
+}
+
+bool list_attributes(hid_t object, std::vector<std::string>& names) {
+  hsize_t next = 0;
+  const auto add = [](hid_t, const char* name, const H5A_info_t*, void* all) -> herr_t {
+    static_cast<std::vector<std::string>*>(all)->emplace_back(name);
+    return 0;
+  };
+  const bool is_whole = H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, &next, add, &names) >= 0;
+  std::ranges::sort(names);
+  return is_whole;
+}
+
+namespace {
 
 hsize_t bytes_of_chunk(hid_t dataset, const ChunkPlaces& sides) {
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
@@ -592,7 +618,7 @@ bool ChunkLengths::are_whole(const Hdf5Block& block) {
     if (seen_[index]) continue;
     if (is_short(at)) return false;
     seen_[index] = true;
-  } while (step(block, sides_, at));
+  } while (next_chunk(block, sides_, at));
   return true;
 }
 

@@ -147,6 +147,17 @@ void require_own_samples(const std::filesystem::path& path, const std::string& n
 /// without chunks. Walks through all chunks once.
 [[nodiscard]] bool has_sound_chunks(hid_t dataset);
 
+/// Moves `at`, where a chunk begins, to the next chunk that the block lies in; whether there is
+/// one.
+[[nodiscard]] bool next_chunk(const Hdf5Block& block, const std::vector<hsize_t>& sides,
+                              std::vector<hsize_t>& at);
+
+/// Adds the names in a group, and of the attributes of an object, in alphabetical order; false if a
+/// damaged file ends the list. They are listed as stored: in order of names the library makes a
+/// table first, which it releases unfilled there.
+[[nodiscard]] bool list_links(hid_t group, std::vector<std::string>& names);
+[[nodiscard]] bool list_attributes(hid_t object, std::vector<std::string>& names);
+
 /// Finds chunks of a dataset with filters that are stored without them and shorter than chunks are:
 /// HDF5 1.10 reads beyond these. Looks at each chunk once.
 class ChunkLengths {

@@ -16,25 +16,12 @@
 namespace episcope::io {
 namespace {
 
-herr_t add_link(hid_t, const char* name, const H5L_info_t*, void* names) {
-  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
-  return 0;
-}
-
-herr_t add_attribute(hid_t, const char* name, const H5A_info_t*, void* names) {
-  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
-  return 0;
-}
-
-/// Those of `names` that are not in `without`, in alphabetical order. They are listed as stored: in
-/// order of names the library makes a table first, which it releases unfilled where a damaged file
-/// ends it.
+/// Those of `names` that are not in `without`.
 std::vector<std::string> left_of(std::vector<std::string> names,
                                  const std::vector<std::string>& without) {
   std::erase_if(names, [&](const std::string& name) {
     return std::ranges::find(without, name) != without.end();
   });
-  std::ranges::sort(names);
   return names;
 }
 
@@ -60,13 +47,11 @@ void Hdf5Output::copy_all(const Hdf5Input& from, const std::vector<std::string>&
   const Hdf5Lock session;
   const Hdf5Handle root(H5Gopen2(from.file_, "/", H5P_DEFAULT), H5Gclose);
   std::vector<std::string> links, attributes;
-  hsize_t next = 0;
-  require(H5Literate(root, H5_INDEX_NAME, H5_ITER_NATIVE, &next, add_link, &links) >= 0);
+  require(list_links(root, links));
   for (const std::string& name : left_of(std::move(links), without)) {
     require(H5Ocopy(root, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0);
   }
-  next = 0;
-  require(H5Aiterate2(root, H5_INDEX_NAME, H5_ITER_NATIVE, &next, add_attribute, &attributes) >= 0);
+  require(list_attributes(root, attributes));
   for (const std::string& name : left_of(std::move(attributes), without)) {
     require(copy_attribute(root, file_, name));
   }

@@ -29,22 +29,12 @@ class Repack {
 
   void copy_group(hid_t from, hid_t to) {
     copy_attributes(from, to);
-    for (const std::string& name : names_in(from)) copy_link(from, to, name);
+    std::vector<std::string> names;
+    (void)list_links(from, names);
+    for (const std::string& name : names) copy_link(from, to, name);
   }
 
  private:
-  static std::vector<std::string> names_in(hid_t group) {
-    std::vector<std::string> names;
-    hsize_t next = 0;
-    const auto add = [](hid_t, const char* name, const H5L_info_t*, void* all) -> herr_t {
-      static_cast<std::vector<std::string>*>(all)->emplace_back(name);
-      return 0;
-    };
-    H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, &next, add, &names);
-    std::ranges::sort(names);
-    return names;
-  }
-
   void copy_link(hid_t from, hid_t to, const std::string& name) {
     progress_.check();
     H5L_info_t link;
@@ -143,13 +133,7 @@ class Repack {
 
   void copy_attributes(hid_t from, hid_t to) {
     std::vector<std::string> names;
-    hsize_t next = 0;
-    const auto add = [](hid_t, const char* name, const H5A_info_t*, void* all) -> herr_t {
-      static_cast<std::vector<std::string>*>(all)->emplace_back(name);
-      return 0;
-    };
-    H5Aiterate2(from, H5_INDEX_NAME, H5_ITER_NATIVE, &next, add, &names);
-    std::ranges::sort(names);
+    (void)list_attributes(from, names);
     for (const std::string& name : names) copy_attribute(from, to, name);
   }
 

@@ -435,8 +435,8 @@ SeenImage without_alpha(const Image<T>& all) {
 SeenImage decode_png_seen(const fs::path& path) {
   PngDecoder png(path);
   if (!png.read_header(PngPixels::SamplesAndAlpha)) refuse_image(path);
-  const AnyImage all = read_top(png, path, png.height);
-  if (png.channels % 2 != 0) return {all};
+  AnyImage all = read_top(png, path, png.height);
+  if (png.channels % 2 != 0) return {std::move(all)};
   return png.bits == 8 ? without_alpha(std::get<Image<std::uint8_t>>(all))
                        : without_alpha(std::get<Image<std::uint16_t>>(all));
 }

@@ -7,7 +7,6 @@
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/base/json.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/formats/tiff_pages.h"
@@ -18,15 +17,10 @@
 #include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <charconv>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <string_view>

@@ -287,7 +287,9 @@ MosaicLayout find_mosaic_layout(const AnyImage& picture, const fs::path& path,
                                     "--grid or --lenslet",
                                     width, height, grid.v, grid.u));
   }
-  if (question.grid && answer->kind != Mosaic::Lenslets) require_sensible_cut(question, grid);
+  // Without a stated kind, the cut was found before it was compared with the grid.
+  const bool is_unseen = question.grid && question.kind != Mosaic::Auto;
+  if (is_unseen && answer->kind != Mosaic::Lenslets) require_sensible_cut(question, grid);
   return layout_of(std::move(*answer), {height / grid.v, width / grid.u}, {height, width}, path);
 }
 

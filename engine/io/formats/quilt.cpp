@@ -3,7 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/image.h"
-#include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 

@@ -2,20 +2,16 @@
 #include "engine/io/formats/tiff_pages.h"
 
 #include "engine/core/error.h"
-#include "engine/io/base/files.h"
-#include "engine/io/base/image_header.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/tiff_file.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <string_view>
 #include <utility>
 

@@ -91,7 +91,7 @@ class ViewDecoder {
     const auto at = static_cast<std::size_t>(place);
     try {
       SeenImage decoded = decode_seen(views_.files[at]);
-      AnyImage image = upright(decoded.image, views_.orientation);
+      AnyImage image = upright(std::move(decoded.image), views_.orientation);
       outcomes_[at] = outcome_of(image);
       seen_[at] =
           std::get<Image<std::uint8_t>>(upright(std::move(decoded.seen), views_.orientation));
@@ -390,7 +390,7 @@ int exif_orientation(const fs::path& path) {
   return orientation >= 1 && orientation <= 8 ? orientation : 1;
 }
 
-AnyImage upright(const AnyImage& stored, int orientation) {
+AnyImage upright(AnyImage stored, int orientation) {
   if (orientation == 1) return stored;
   return std::visit(
       [&](const auto& image) -> AnyImage { return upright_image(image, orientation); }, stored);

@@ -81,7 +81,7 @@ void require_view_memory(const std::filesystem::path& path, double bytes);
 [[nodiscard]] int exif_orientation(const std::filesystem::path& path);
 
 /// Turns the image upright.
-[[nodiscard]] AnyImage upright(const AnyImage& stored, int orientation);
+[[nodiscard]] AnyImage upright(AnyImage stored, int orientation);
 /// Whether this orientation exchanges rows and columns of pixels.
 [[nodiscard]] constexpr bool is_quarter_turn(int orientation) {
   return orientation > 4;

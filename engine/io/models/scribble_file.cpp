@@ -156,7 +156,8 @@ void write_narrowed(Hdf5Output& file, const std::string& name, const MapGeometry
                     const Progress& progress, const LabelSamples& samples) {
   std::vector<T> narrowed(static_cast<std::size_t>(maps.height) * maps.width);
   write_maps<T>(file, name, maps, "", progress, [&](ViewIndex view) {
-    std::transform(samples(view), samples(view) + narrowed.size(), narrowed.begin(),
+    const std::int32_t* labels = samples(view);
+    std::transform(labels, labels + narrowed.size(), narrowed.begin(),
                    [](std::int32_t label) { return static_cast<T>(label); });
     return narrowed.data();
   });
@@ -170,8 +171,8 @@ void write_label_maps(Hdf5Output& file, const std::string& name, const MapGeomet
   std::int32_t least = 0, most = 0;
   for (int i = 0; i < maps.grid.count(); ++i) {
     progress.check();
-    const auto [low, high] = std::minmax_element(samples(maps.grid.view_at(i, maps.first)),
-                                                 samples(maps.grid.view_at(i, maps.first)) + size);
+    const std::int32_t* labels = samples(maps.grid.view_at(i, maps.first));
+    const auto [low, high] = std::minmax_element(labels, labels + size);
     least = std::min(least, *low);
     most = std::max(most, *high);
   }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/error.h"
 #include "engine/core/scene.h"
 #include "engine/io/open.h"
 
+#include <QString>
 #include <QTemporaryDir>
 
 #include <memory>
+#include <string>
 
 namespace episcope::test {
 
@@ -26,6 +29,32 @@ class ArchiveFolder {
 
  private:
   std::unique_ptr<QTemporaryDir> folder_;
+};
+
+/// What test classes of files that are pictures derive from: files by name in a folder that is new
+/// after each `renew`.
+class PictureFolder {
+ protected:
+  void renew() { folder_.renew(); }
+  [[nodiscard]] std::filesystem::path path(const std::string& name = "") const {
+    return folder_.path() / name;
+  }
+  [[nodiscard]] Scene open(const std::string& name, const io::OpenOptions& options = {}) const {
+    return ArchiveFolder::open(path(name), options);
+  }
+  /// Why it is not opened; empty if it is.
+  [[nodiscard]] QString refusal_of(const std::string& name,
+                                   const io::OpenOptions& options = {}) const {
+    try {
+      (void)open(name, options);
+    } catch (const IoError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+ private:
+  ArchiveFolder folder_;
 };
 
 }  // namespace episcope::test

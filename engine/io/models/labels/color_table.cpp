@@ -26,24 +26,19 @@ std::string color_text(const Rgb& color) {
 namespace {
 
 /// Begins of a line that are separated as a table is; the last holds the rest.
-std::vector<std::string> cells_of(const std::string& line, std::size_t most) {
-  const std::string marks = line.find(',') != std::string::npos   ? ","
-                            : line.find(';') != std::string::npos ? ";"
-                                                                  : " \t";
-  const auto trimmed = [](std::string text) {
-    constexpr const char* blank = " \t\r\"";
-    const std::size_t begin = text.find_first_not_of(blank);
-    if (begin == std::string::npos) return std::string();
-    return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
-  };
+std::vector<std::string> cells_of(std::string_view line, std::size_t most) {
+  const std::string_view marks = line.find(',') != line.npos   ? ","
+                                 : line.find(';') != line.npos ? ";"
+                                                               : " \t";
   std::vector<std::string> cells;
-  std::string rest = trimmed(line);
+  std::string_view rest = trimmed(line, kQuotesAndBlanks);
   while (!rest.empty() && cells.size() + 1 < most) {
-    const std::size_t end = rest.find_first_of(marks);
-    cells.push_back(trimmed(rest.substr(0, end)));
-    rest = end == std::string::npos ? "" : trimmed(rest.substr(end + 1));
+    const std::size_t end = std::min(rest.find_first_of(marks), rest.size());
+    cells.emplace_back(trimmed(rest.substr(0, end), kQuotesAndBlanks));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    rest = trimmed(rest, kQuotesAndBlanks);
   }
-  if (!rest.empty()) cells.push_back(rest);
+  if (!rest.empty()) cells.emplace_back(rest);
   return cells;
 }
 

@@ -26,18 +26,6 @@ Names<LabelForm> names_of(LabelForm) {
           {LabelForm::Labelme, "labelme", "labelme"}};
 }
 
-LabelSource source_of(const ViewStack<std::int32_t>& maps, std::vector<LabelInfo> infos) {
-  LabelSource source;
-  for (int i = 0; i < maps.grid().count(); ++i) source.views.push_back(maps.view_at(i));
-  source.labels_of = [&maps](ViewIndex view) {
-    Image<std::int32_t> labels(maps.height(), maps.width());
-    std::copy_n(maps.view(view).data, labels.size(), labels.data());
-    return labels;
-  };
-  source.infos = std::move(infos);
-  return source;
-}
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,21 +38,19 @@ std::string name_of(ViewIndex view) {
 }
 
 /// Labels that are painted or have a name, by id.
-std::vector<LabelInfo> infos_of(const LabelSource& source, const Progress& progress) {
+std::vector<LabelInfo> infos_of(const LabelSource& source) {
   std::set<std::int32_t> ids;
-  for (std::size_t i = 0; i < source.views.size(); ++i) {
-    progress.report(static_cast<double>(i) / static_cast<double>(source.views.size()));
-    std::int32_t last = 0;
-    for (const std::int32_t id : source.labels_of(source.views[i])) {
-      if (id != last && id > 0) ids.insert(id);
-      last = id;
-    }
+  std::int32_t last = 0;
+  for (std::size_t i = 0; i < source.maps.size(); ++i) {
+    const std::int32_t id = source.maps.data()[i];
+    if (id != last && id > 0) ids.insert(id);
+    last = id;
   }
   std::vector<LabelInfo> infos = source.infos;
   std::erase_if(infos, [](const LabelInfo& label) { return label.id <= 0; });
   for (const std::int32_t id : ids) {
     if (std::ranges::find(infos, id, &LabelInfo::id) != infos.end()) continue;
-    infos.push_back({id, "label " + std::to_string(id), label_color(id)});
+    infos.push_back(default_label(id));
   }
   std::ranges::sort(infos, {}, &LabelInfo::id);
   return infos;
@@ -102,7 +88,7 @@ struct LabelFolder {
     }
   }
 
-  void write_picture(const fs::path& path, const Image<std::int32_t>& labels) const {
+  void write_picture(const fs::path& path, ImageView<const std::int32_t> labels) const {
     if (largest > kLargestGray) {
       throw IoError(path, fmt::format("pictures hold ids up to {}, but a label has {}; choose COCO "
                                       "or labelme",
@@ -114,10 +100,10 @@ struct LabelFolder {
 
  private:
   template <class T>
-  [[nodiscard]] static Image<T> narrowed(const Image<std::int32_t>& labels) {
-    Image<T> ids(labels.height(), labels.width());
-    std::ranges::transform(labels, ids.begin(),
-                           [](std::int32_t id) { return static_cast<T>(std::max(id, 0)); });
+  [[nodiscard]] static Image<T> narrowed(ImageView<const std::int32_t> labels) {
+    Image<T> ids(labels.height, labels.width);
+    std::transform(labels.data, labels.data + labels.size(), ids.begin(),
+                   [](std::int32_t id) { return static_cast<T>(std::max(id, 0)); });
     return ids;
   }
 };
@@ -132,17 +118,18 @@ void write_views(const LabelFolder& folder, LabelForm form, const LabelSource& s
       form == LabelForm::Voc ? folder.place / "SegmentationClass" : folder.place;
   CocoFile coco(folder.infos);
   std::string list;
-  for (std::size_t i = 0; i < source.views.size(); ++i) {
-    progress.report(static_cast<double>(i) / static_cast<double>(source.views.size()));
+  const int count = source.maps.grid().count();
+  for (int i = 0; i < count; ++i) {
+    progress.report(static_cast<double>(i) / count);
     progress.check();
-    const ViewIndex view = source.views[i];
+    const ViewIndex view = source.maps.view_at(i);
     const std::string name = name_of(view);
     const std::string picture = name + ".png";
-    const Image<std::int32_t> labels = source.labels_of(view);
+    const ImageView<const std::int32_t> labels = source.maps.view(view);
     if (form == LabelForm::Coco) {
-      coco.add(picture, labels.view());
+      coco.add(picture, labels);
     } else if (form == LabelForm::Labelme) {
-      write_labelme(labels_in / (name + ".json"), picture, labels.view(), folder.infos);
+      write_labelme(labels_in / (name + ".json"), picture, labels, folder.infos);
     } else {
       folder.write_picture(labels_in / picture, labels);
     }
@@ -164,14 +151,14 @@ void write_label_folder(const fs::path& folder, LabelForm form, const LabelSourc
   progress.check();
   progress.step("writing " + folder.filename().string());
   AtomicFolder target(folder);
-  const LabelFolder filled(target.temporary(), infos_of(source, progress.part(0, 0.2)));
+  const LabelFolder filled(target.temporary(), infos_of(source));
   if (source.pictures) make_folder(filled.place / picture_folder(form));
   if (form == LabelForm::Voc) {
     make_folder(filled.place / "SegmentationClass");
     make_folder(filled.place / "ImageSets" / "Segmentation");
   }
   if (form == LabelForm::Coco) make_folder(filled.place / "annotations");
-  write_views(filled, form, source, progress.part(0.2, 1));
+  write_views(filled, form, source, progress);
   if (form == LabelForm::Voc || form == LabelForm::Indexed) {
     write_label_map_text(filled.place / "labelmap.txt", filled.infos);
   }

@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <vector>
 
 namespace episcope::io {
@@ -24,16 +23,10 @@ enum class LabelForm {
 
 /// Labels of views, as they are to be written.
 struct LabelSource {
-  std::vector<ViewIndex> views;                                  ///< At least one.
-  std::function<Image<std::int32_t>(ViewIndex view)> labels_of;  ///< `[y][x]`, 0 = unlabeled.
-  std::vector<LabelInfo> infos{};                                ///< Labels without are named after
-                                                                 ///< their ids.
+  const ViewStack<std::int32_t>& maps;  ///< 0 = unlabeled.
+  std::vector<LabelInfo> infos{};       ///< Labels without are named after their ids.
   LightFieldPtr pictures{};  ///< Views to write beside the labels, in 8 bits; null = none.
 };
-
-/// Maps as a source, which they must outlive.
-[[nodiscard]] LabelSource source_of(const ViewStack<std::int32_t>& maps,
-                                    std::vector<LabelInfo> infos);
 
 /// Writes a folder that `read_label_files` reads back exactly. Indexed pictures of ids above 255
 /// are gray ones of 16 bits. Atomic. Throws IoError, also if the folder holds files, and for ids

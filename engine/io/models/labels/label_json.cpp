@@ -324,9 +324,6 @@ void CocoFile::add(const std::string& file_name, ImageView<const std::int32_t> l
   }
   for (const auto& [id, region] : found) {
     const auto& [box, pixels] = region;
-    if (std::ranges::find(labels_, id, &LabelInfo::id) == labels_.end()) {
-      labels_.push_back({id, name_of(id, labels_), label_color(id)});
-    }
     const Json annotation{
         {"id", ++annotation_count_},
         {"image_id", image_count_},

@@ -210,7 +210,7 @@ std::vector<LabelInfo> usual_labels() {
   constexpr int kCount = 20;
   std::vector<LabelInfo> labels;
   for (int id = 1; id <= kCount; ++id) {
-    labels.push_back({id, "label " + std::to_string(id), label_color(id)});
+    labels.push_back(default_label(id));
   }
   return labels;
 }
@@ -346,7 +346,7 @@ std::vector<LabelInfo> labels_of(const PixelCensus<std::int32_t>& census,
   if (picture.palette.empty() && labels.table.empty() && labels.stated.empty()) return found;
   for (const auto& [id, count] : census.counts) {
     if (id == 0) continue;
-    LabelInfo label{id, "label " + std::to_string(id), label_color(id)};
+    LabelInfo label = default_label(id);
     const auto place = static_cast<std::size_t>(id);
     if (place < picture.palette.size()) {
       label.color = picture.palette[place];

@@ -121,8 +121,10 @@ void add_occlusion(const CoarseMotion& coarse, Checked& checked, const Progress&
   checked.is_sign_known = sign.is_decided;
   checked.sign_text = sign.is_decided ? "by " + sign.evidence : sign.evidence;
   if (!sign.is_decided) return;
-  checked.text = checked.is_decided ? checked.text + "; direction checked by " + sign.evidence
-                                    : "checked by " + sign.evidence;
+  checked.text =
+      checked.is_decided
+          ? checked.text + "; " + fmt::format(finding_text("order.direction"), sign.evidence)
+          : fmt::format(finding_text("order.by_occlusion"), sign.evidence);
   checked.flip = sign.flip;
   checked.is_decided = true;
 }
@@ -500,8 +502,11 @@ OcclusionByAxis count_occlusions(const CoarseMotion& coarse, int side, const Pro
 constexpr int kLargestVoteSide = 1024;
 constexpr int kSmallestVoteSide = 256;
 
+constexpr std::string_view kVotesText = finding_text("sign.occlusion");
+constexpr std::size_t kBeforeCounts = kVotesText.find('{');
+
 std::string counted(const OcclusionVotes& votes) {
-  return fmt::format("{} points to {}, in {} squares of the view to {}",
+  return fmt::format(fmt::runtime(kVotesText.substr(kBeforeCounts)),
                      std::max(votes.forward, votes.reversed),
                      std::min(votes.forward, votes.reversed),
                      std::max(votes.forward_squares, votes.reversed_squares),
@@ -519,7 +524,7 @@ SignFinding related_axes(const OcclusionByAxis& votes, ViewFlip flip) {
   const OcclusionVotes sum = votes_for(votes, flip);
   if (!sum.is_decided()) return {flip, false, {}};
   if (sum.says_reversed()) flip = {!flip.u, !flip.v};
-  return {flip, true, "occlusion: " + counted(sum)};
+  return {flip, true, std::string(kVotesText.substr(0, kBeforeCounts)) + counted(sum)};
 }
 
 SignFinding single_axes(const OcclusionByAxis& votes, GridShape grid, ViewFlip flip) {
@@ -530,7 +535,7 @@ SignFinding single_axes(const OcclusionByAxis& votes, GridShape grid, ViewFlip f
   if (!found.is_decided) return found;
   if (needs_u) found.flip.u = votes.u.says_reversed();
   if (needs_v) found.flip.v = votes.v.says_reversed();
-  found.evidence = "occlusion: ";
+  found.evidence = kVotesText.substr(0, kBeforeCounts);
   if (needs_u) found.evidence += "along u " + counted(votes.u);
   if (needs_u && needs_v) found.evidence += "; ";
   if (needs_v) found.evidence += "along v " + counted(votes.v);
@@ -548,7 +553,7 @@ SignFinding check_sign(const CoarseMotion& coarse, ViewFlip flip, bool are_axes_
       coarse.samples());
   SignFinding found{flip, false, {}};
   if (std::max(grid.u, grid.v) < 3) {
-    found.evidence = "occlusion cannot be seen in fewer than three views in a row";
+    found.evidence = finding_text("sign.few_views");
     return found;
   }
   OcclusionVotes most;
@@ -562,9 +567,7 @@ SignFinding check_sign(const CoarseMotion& coarse, ViewFlip flip, bool are_axes_
     if (sum.forward + sum.reversed > most.forward + most.reversed) most = sum;
     if (side <= kSmallestVoteSide) break;
   }
-  found.evidence =
-      fmt::format("no depth edges with clear occlusion: {} points for this order, {} against",
-                  most.forward, most.reversed);
+  found.evidence = fmt::format(finding_text("sign.no_edges"), most.forward, most.reversed);
   return found;
 }
 

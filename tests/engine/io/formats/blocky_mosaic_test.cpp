@@ -4,10 +4,10 @@
 #include "engine/io/models/open_options.h"
 #include "engine/io/open.h"
 #include "engine/io/write.h"
+#include "tests/engine/io/archive_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
-#include <QTemporaryDir>
 #include <opencv2/imgcodecs.hpp>
 
 // Blocks of 8 px, as JPEG leaves them, are neither lenslets nor views.
@@ -51,26 +51,11 @@ Image<std::uint8_t> blocky_photograph() {
 
 }  // namespace
 
-class BlockyMosaicTest : public QObject {
+class BlockyMosaicTest : public QObject, private test::PictureFolder {
   Q_OBJECT
 
- private:
-  std::unique_ptr<QTemporaryDir> folder_;
-  fs::path path(const std::string& name) const {
-    return fs::path(folder_->path().toStdString()) / name;
-  }
-  Scene open(const std::string& name) const { return io::open_scene(path(name), {}, Progress(2)); }
-  QString refusal_of(const std::string& name) const {
-    try {
-      (void)open(name);
-    } catch (const IoError& error) {
-      return error.what();
-    }
-    return {};
-  }
-
  private slots:
-  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+  void init() { renew(); }
 
   void photograph_isNoLightField_data() {
     QTest::addColumn<bool>("is_blocky");

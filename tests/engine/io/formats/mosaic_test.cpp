@@ -6,10 +6,10 @@
 #include "engine/io/models/reader.h"
 #include "engine/io/open.h"
 #include "engine/io/write.h"
+#include "tests/engine/io/archive_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
-#include <QTemporaryDir>
 #include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
@@ -64,31 +64,16 @@ Image<std::uint8_t> tiled(const Scene& scene) {
 
 }  // namespace
 
-class MosaicTest : public QObject {
+class MosaicTest : public QObject, private test::PictureFolder {
   Q_OBJECT
 
  private:
-  std::unique_ptr<QTemporaryDir> folder_;
-  fs::path path(const std::string& name = "") const {
-    return fs::path(folder_->path().toStdString()) / name;
-  }
-  Scene open(const std::string& name, const io::OpenOptions& options = {}) const {
-    return io::open_scene(path(name), options, Progress(2));
-  }
   void write(const std::string& name, const Scene& scene) const {
     io::write_eslf(path(name), scene, Progress(2));
   }
-  QString refusal_of(const std::string& name, const io::OpenOptions& options = {}) const {
-    try {
-      (void)open(name, options);
-    } catch (const IoError& error) {
-      return error.what();
-    }
-    return {};
-  }
 
  private slots:
-  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+  void init() { renew(); }
 
   void lenslets_areFoundByTheirPeriod_data() {
     QTest::addColumn<QString>("name");

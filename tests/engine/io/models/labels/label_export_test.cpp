@@ -85,10 +85,9 @@ class LabelExportTest : public QObject {
     QFETCH(int, form);
     QFETCH(int, largest);
     const auto maps = noise(largest);
-    io::LabelSource source = io::source_of(maps, kInfos);
-    source.pictures = gray_field();
 
-    io::write_label_folder(path("out"), static_cast<io::LabelForm>(form), source, Progress());
+    io::write_label_folder(path("out"), static_cast<io::LabelForm>(form),
+                           {maps, kInfos, gray_field()}, Progress());
     const io::ImportedLabels read = io::read_label_files({path("out")}, kPlaces);
 
     const auto back = io::stack_of(read.scribbles, kPlaces.shape);
@@ -108,9 +107,8 @@ class LabelExportTest : public QObject {
     write_text(path("out/mine.txt"), "mine");
     const auto maps = noise(7);
 
-    QVERIFY_THROWS_EXCEPTION(IoError,
-                             io::write_label_folder(path("out"), io::LabelForm::Coco,
-                                                    io::source_of(maps, kInfos), Progress()));
+    QVERIFY_THROWS_EXCEPTION(IoError, io::write_label_folder(path("out"), io::LabelForm::Coco,
+                                                             {maps, kInfos}, Progress()));
   }
 
   void shapesOfLabelme_areDrawnInOrder() {
