@@ -76,7 +76,7 @@ AnnotationDocument document_from(const Scribbles& scribbles, GridShape grid, int
   for (const LabelInfo& label : scribbles.labels) labels.insert(label);
   for (const int id : ids) {
     if (labels.contains(id)) continue;
-    labels.insert({id, fmt::format("label {}", id), label_color(id)});
+    labels.insert(default_label(id));
   }
   return {std::move(labels), std::move(layer), history_bytes};
 }

@@ -3,14 +3,15 @@
 
 #include "engine/core/parallel.h"
 #include "engine/labeling/label_review.h"
-#include "engine/labeling/ray_vote.h"
 #include "engine/labeling/regularizer.h"
 #include "engine/labeling/solve_views.h"
 #include "engine/solvers/simplex_labeling.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -120,23 +121,12 @@ float price_of_held(double smoothness) {
 
 // The changed pixels of a view, and those around them.
 Image<std::uint8_t> around(ImageView<const std::uint8_t> changed) {
-  const int height = changed.height, width = changed.width;
-  // First along rows, then along columns: a square around each.
-  Image<std::uint8_t> wide(height, width), all(height, width);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      if (changed.at(y, x) == 0) continue;
-      const int begin = std::max(x - kReach_px, 0), end = std::min(x + kReach_px + 1, width);
-      std::fill(wide.row(y) + begin, wide.row(y) + end, std::uint8_t{1});
-    }
-  }
-  for (int y = 0; y < height; ++y) {
-    const int end = std::min(y + kReach_px + 1, height);
-    for (int from = std::max(y - kReach_px, 0); from < end; ++from) {
-      std::transform(all.row(y), all.row(y) + width, wide.row(from), all.row(y),
-                     [](std::uint8_t a, std::uint8_t b) { return a | b; });
-    }
-  }
+  const cv::Size window(2 * kReach_px + 1, 2 * kReach_px + 1);
+  // OpenCV has no constant matrices; this one is only read.
+  const cv::Mat map(changed.height, changed.width, CV_8U, const_cast<std::uint8_t*>(changed.data));
+  Image<std::uint8_t> all(changed.height, changed.width);
+  cv::Mat wide(all.height(), all.width(), CV_8U, all.data());
+  cv::dilate(map, wide, cv::getStructuringElement(cv::MORPH_RECT, window));
   return all;
 }
 
@@ -144,11 +134,21 @@ Image<std::uint8_t> around(ImageView<const std::uint8_t> changed) {
 struct Part {
   const Blob& blob;
   PixelRect rect;
+  Image<float> weights;       // Of boundaries in `rect`; empty without edges.
   std::vector<int> layers{};  // The labels that come into question.
 
   [[nodiscard]] int height() const { return rect.y1 - rect.y0; }
   [[nodiscard]] int width() const { return rect.x1 - rect.x0; }
 };
+
+Image<float> part_of(const Image<float>& weights, const PixelRect& rect) {
+  if (weights.empty()) return {};
+  Image<float> part(rect.y1 - rect.y0, rect.x1 - rect.x0);
+  for (int y = 0; y < part.height(); ++y) {
+    std::copy_n(weights.row(y + rect.y0) + rect.x0, part.width(), part.row(y));
+  }
+  return part;
+}
 
 class ViewCorrector {
  public:
@@ -165,17 +165,15 @@ class ViewCorrector {
   SimplexResult correct(ViewIndex view, ImageView<const std::uint8_t> changed,
                         const Progress& progress, ImageView<std::int32_t> layers) {
     SimplexResult sum;
-    for (const Blob& blob : blobs_of(around(changed), Neighbors::Corners)) {
+    const std::vector<Blob> blobs = blobs_of(around(changed), Neighbors::Corners);
+    if (blobs.empty()) return sum;
+    const Image<float> weights = boundary_weights_of(input_, view);
+    for (const Blob& blob : blobs) {
       const PixelRect& own = blob.bounds;
-      const SimplexResult part =
-          solve(view,
-                {blob,
-                 {std::max(own.y0 - 1, 0), std::max(own.x0 - 1, 0),
-                  std::min(own.y1 + 1, changed.height), std::min(own.x1 + 1, changed.width)}},
-                progress, layers);
-      sum.energy += part.energy;
-      sum.bound += part.bound;
-      sum.iterations = std::max(sum.iterations, part.iterations);
+      const PixelRect rect{std::max(own.y0 - 1, 0), std::max(own.x0 - 1, 0),
+                           std::min(own.y1 + 1, changed.height),
+                           std::min(own.x1 + 1, changed.width)};
+      add_part(solve(view, {blob, rect, part_of(weights, rect)}, progress, layers), sum);
     }
     return sum;
   }
@@ -188,7 +186,6 @@ class ViewCorrector {
                 std::vector<float>& weights);
   [[nodiscard]] Volume<float> chosen_costs(VolumeView<const float> all, Part& part,
                                            ImageView<const std::int32_t> layers) const;
-  [[nodiscard]] Image<float> weights_of(ViewIndex view, const Part& part) const;
 
   const RayLabelingInput& input_;
   const RayLabelingParameters& parameters_;
@@ -281,29 +278,14 @@ Volume<float> ViewCorrector::chosen_costs(VolumeView<const float> all, Part& par
   return chosen;
 }
 
-Image<float> ViewCorrector::weights_of(ViewIndex view, const Part& part) const {
-  if (input_.edges == nullptr || input_.edges->empty() || !input_.edges->contains(view)) return {};
-  const Image<float> all = boundary_weights(input_.edges->view(view));
-  Image<float> weights(part.height(), part.width());
-  for (int y = 0; y < part.height(); ++y) {
-    std::copy_n(all.row(y + part.rect.y0) + part.rect.x0, part.width(), weights.row(y));
-  }
-  return weights;
-}
-
 SimplexResult ViewCorrector::solve(ViewIndex view, Part part, const Progress& progress,
                                    ImageView<std::int32_t> layers) {
   const Volume<float> costs = chosen_costs(costs_of(view, part).view(), part, layers);
-  const Image<float> g = weights_of(view, part);
-  SimplexOptions options;
-  options.gap = parameters_.gap_all_views;
-  options.max_iterations = parameters_.max_iterations;
-  options.check_every = kGapCheckEvery;
-  options.racing_iterations = kRacingIterations;
   SimplexSolver solver(part.height(), costs.layers(), part.width());
   Image<int> solved(part.height(), part.width());
-  const SimplexResult result =
-      solver.solve({costs.view(), g, parameters_.smoothness}, options, progress, solved.view());
+  const SimplexResult result = solver.solve({costs.view(), part.weights, parameters_.smoothness},
+                                            simplex_options(parameters_, parameters_.gap_all_views),
+                                            progress, solved.view());
   for (int y = 0; y < part.height(); ++y) {
     for (int x = 0; x < part.width(); ++x) {
       const PixelIndex at{y + part.rect.y0, x + part.rect.x0};
@@ -324,31 +306,6 @@ std::vector<ViewIndex> outwards(const LabelProbabilities& p, ViewIndex first) {
     return v * v + u * u;
   });
   return views;
-}
-
-// Of a view; 0 where a pixel has none of them.
-void find_layers(ImageView<const std::int32_t> labels, const std::vector<std::int32_t>& ids,
-                 ImageView<std::int32_t> layers) {
-  std::int32_t last = ids.front(), layer = 0;
-  std::transform(labels.data, labels.data + labels.size(), layers.data, [&](std::int32_t id) {
-    if (id == last) return layer;
-    const auto found = std::ranges::lower_bound(ids, id);
-    last = id;
-    layer = found == ids.end() || *found != id ? 0 : static_cast<std::int32_t>(found - ids.begin());
-    return layer;
-  });
-}
-
-// Rays whose evidence has changed since `before`.
-void vote(const ViewStack<std::int32_t>& before, const RayVotes& votes, const Progress& progress,
-          ViewStack<std::int32_t>& labels) {
-  ViewStack<std::int32_t> voted = vote_again_along_rays(before, labels, votes, progress);
-  for (int round = 1; round < kVotes; ++round) {
-    ViewStack<std::int32_t> next = vote_again_along_rays(labels, voted, votes, progress);
-    labels = std::move(voted);
-    voted = std::move(next);
-  }
-  labels = std::move(voted);
 }
 
 }  // namespace
@@ -386,14 +343,9 @@ RayLabeling correct_rays(const RayLabelingInput& input, const RayLabelingParamet
       correct(corrector, static_cast<std::size_t>(i) + 1, alone);
     };
   });
-  for (const SimplexResult& part : parts) {
-    result.energy += part.energy;
-    result.bound += part.bound;
-    result.iterations = std::max(result.iterations, part.iterations);
-  }
-  progress.step("rays");
-  vote(before, {static_cast<int>(p.ids.size()), *input.disparity, colors}, progress.part(0.9, 1),
-       result.labels);
+  for (const SimplexResult& part : parts) add_part(part, result);
+  vote_in_rounds({static_cast<int>(p.ids.size()), *input.disparity, colors}, &before,
+                 progress.part(0.9, 1), result.labels);
   replace_layers_by_ids(p.ids, result);
   return result;
 }

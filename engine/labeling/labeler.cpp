@@ -280,11 +280,10 @@ struct Labeler::State {
     Image<std::int32_t> found = most_probable_labels(after.view(), ids);
     for (int y = 0; y < labels.height; ++y) {
       for (int x = 0; x < labels.width; ++x) {
-        std::int32_t& id = found.at(y, x);
-        if (news.at(y, x) == 0 && labels.at(y, x) > 0) id = labels.at(y, x);
-        id = static_cast<std::int32_t>(std::ranges::lower_bound(ids, id) - ids.begin());
+        if (news.at(y, x) == 0 && labels.at(y, x) > 0) found.at(y, x) = labels.at(y, x);
       }
     }
+    find_layers(found, ids, found.view());
     return found;
   }
 

@@ -159,15 +159,17 @@ Image<float> boundary_weights(ImageView<const float> edge_probability) {
   return weights;
 }
 
+Image<float> boundary_weights_of(const RayLabelingInput& input, ViewIndex view) {
+  if (input.edges == nullptr || input.edges->empty() || !input.edges->contains(view)) return {};
+  return boundary_weights(input.edges->view(view));
+}
+
 std::vector<Image<float>> boundary_weights_of(const RayLabelingInput& input,
                                               const Progress& progress) {
   const LabelProbabilities& p = *input.probabilities;
   std::vector<Image<float>> weights(p.views.size());
-  if (input.edges == nullptr || input.edges->empty()) return weights;
-  parallel_for(p.grid.count(), progress, [&](int i) {
-    const ViewIndex view = p.view_at(i);
-    if (input.edges->contains(view)) weights[i] = boundary_weights(input.edges->view(view));
-  });
+  parallel_for(p.grid.count(), progress,
+               [&](int i) { weights[i] = boundary_weights_of(input, p.view_at(i)); });
   return weights;
 }
 
@@ -203,6 +205,18 @@ Image<std::int32_t> most_probable_labels(VolumeView<const std::uint8_t> probabil
     }
   }
   return labels;
+}
+
+void find_layers(ImageView<const std::int32_t> labels, const std::vector<std::int32_t>& ids,
+                 ImageView<std::int32_t> layers) {
+  std::int32_t last = ids.front(), layer = 0;
+  std::transform(labels.data, labels.data + labels.size(), layers.data, [&](std::int32_t id) {
+    if (id == last) return layer;
+    const auto found = std::ranges::lower_bound(ids, id);
+    last = id;
+    layer = found == ids.end() || *found != id ? 0 : static_cast<std::int32_t>(found - ids.begin());
+    return layer;
+  });
 }
 
 Image<float> label_uncertainty(VolumeView<const std::uint8_t> probabilities) {

@@ -116,6 +116,11 @@ struct LabelProbabilities {
 [[nodiscard]] Image<std::int32_t> most_probable_labels(VolumeView<const std::uint8_t> probabilities,
                                                        const std::vector<std::int32_t>& ids);
 
+/// The place of each label in `ids`, which ascend: the layer of its probabilities; 0 where there is
+/// no such id. `layers` has the shape of `labels` and may be the same pixels.
+void find_layers(ImageView<const std::int32_t> labels, const std::vector<std::int32_t>& ids,
+                 ImageView<std::int32_t> layers);
+
 /// Uncertainty of the labels of each pixel, `[y][x]` in [0, 1]: the entropy of its probabilities
 /// relative to the entropy of equal ones. 0 with a single label.
 [[nodiscard]] Image<float> label_uncertainty(VolumeView<const std::uint8_t> probabilities);
@@ -214,7 +219,9 @@ void fill_track_costs(const TrackSources& sources, const CostTable& table, const
 /// larger probability of an edge.
 inline constexpr float kMinBoundaryWeight = 0.02F;
 [[nodiscard]] Image<float> boundary_weights(ImageView<const float> edge_probability);
-/// Weights of each view that has probabilities; empty images without edges. Throws Cancelled.
+/// Weights of a view; an empty image without edges.
+[[nodiscard]] Image<float> boundary_weights_of(const RayLabelingInput& input, ViewIndex view);
+/// Weights of each view that has probabilities. Throws Cancelled.
 [[nodiscard]] std::vector<Image<float>> boundary_weights_of(const RayLabelingInput& input,
                                                             const Progress& progress);
 

@@ -26,9 +26,6 @@ struct RayVotes {
 [[nodiscard]] ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
                                                       const RayVotes& votes,
                                                       const Progress& progress);
-/// Rounds of votes. The second makes labels agree that the first one has changed.
-inline constexpr int kVotes = 2;
-
 /// Votes again, faster: only rays vote whose evidence has changed since `before`, from which
 /// `labels` came by a vote.
 [[nodiscard]] ViewStack<std::int32_t> vote_again_along_rays(const ViewStack<std::int32_t>& before,

@@ -3,7 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/labeling/ray_vote.h"
 #include "engine/labeling/solve_views.h"
 #include "engine/solvers/linked_labeling.h"
 
@@ -373,16 +372,24 @@ ViewProblems problems_of(const RayLabelingInput& input, const RayLabelingParamet
   return {input, parameters, colors_of(input, progress.part(0, 0)), fill};
 }
 
-void vote(const RayLabelingInput& input, const RayColors& colors, const Progress& progress,
-          RayLabeling& result) {
-  const RayVotes votes{static_cast<int>(input.probabilities->ids.size()), *input.disparity, colors};
-  progress.step("rays");
-  const ViewStack<std::int32_t> first =
-      vote_along_rays(result.labels, votes, progress.part(0, 0.9));
-  result.labels = vote_again_along_rays(result.labels, first, votes, progress.part(0.9, 1));
-}
+// Rounds of votes. The second makes labels agree that the first one has changed.
+constexpr int kVotes = 2;
 
 }  // namespace
+
+void vote_in_rounds(const RayVotes& votes, const ViewStack<std::int32_t>* before,
+                    const Progress& progress, ViewStack<std::int32_t>& labels) {
+  progress.step("rays");
+  const Progress first = progress.part(0, 0.9), others = progress.part(0.9, 1);
+  ViewStack<std::int32_t> voted = before ? vote_again_along_rays(*before, labels, votes, first)
+                                         : vote_along_rays(labels, votes, first);
+  for (int round = 1; round < kVotes; ++round) {
+    ViewStack<std::int32_t> next = vote_again_along_rays(labels, voted, votes, others);
+    labels = std::move(voted);
+    voted = std::move(next);
+  }
+  labels = std::move(voted);
+}
 
 RayLabeling smooth_rays(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                         const Progress& progress) {
@@ -392,7 +399,9 @@ RayLabeling smooth_rays(const RayLabelingInput& input, const RayLabelingParamete
   }
   const ViewProblems problems = problems_of(input, parameters, TrackViews::Near, progress);
   RayLabeling result = solve_views(problems, progress.part(0, 0.9));
-  vote(input, problems.colors, progress.part(0.9, 1), result);
+  vote_in_rounds(
+      {static_cast<int>(input.probabilities->ids.size()), *input.disparity, problems.colors},
+      nullptr, progress.part(0.9, 1), result.labels);
   replace_layers_by_ids(input.probabilities->ids, result);
   return result;
 }

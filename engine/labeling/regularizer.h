@@ -6,6 +6,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
 #include "engine/labeling/ray_labeling.h"
+#include "engine/labeling/ray_vote.h"
 
 #include <cstdint>
 
@@ -136,6 +137,11 @@ struct RegularizerInfo {
 [[nodiscard]] RayLabeling smooth_rays(const RayLabelingInput& input,
                                       const RayLabelingParameters& parameters,
                                       const Progress& progress);
+
+/// The votes of `smooth_rays` on `labels`, which are layers. With `before`, from which `labels`
+/// came, only rays vote whose evidence has changed since. Throws Cancelled.
+void vote_in_rounds(const RayVotes& votes, const ViewStack<std::int32_t>* before,
+                    const Progress& progress, ViewStack<std::int32_t>& labels);
 
 /// Labels of one view, the cost of a ray being the mean over all views that have probabilities;
 /// there is no vote.

@@ -31,12 +31,9 @@ Image<std::int32_t> layers_of(const RayLabelingInput& input, ViewIndex view,
                               RayLabelingParameters parameters, const Progress& progress) {
   parameters.gap = kReferenceGap;
   const RayLabeling smoothed = smooth_view(input, view, parameters, progress);
-  const std::vector<std::int32_t>& ids = input.probabilities->ids;
   const ImageView<const std::int32_t> labels = smoothed.labels.view(view);
   Image<std::int32_t> layers(labels.height, labels.width);
-  std::transform(labels.data, labels.data + labels.size(), layers.begin(), [&](std::int32_t id) {
-    return static_cast<std::int32_t>(std::ranges::lower_bound(ids, id) - ids.begin());
-  });
+  find_layers(labels, input.probabilities->ids, layers.view());
   return layers;
 }
 

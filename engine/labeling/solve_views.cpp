@@ -18,13 +18,23 @@ namespace {
 constexpr int kLongestChain = 9;
 constexpr int kMinChains = 8;
 
-void add(const SimplexResult& part, RayLabeling& result) {
-  result.energy += part.energy;
-  result.bound += part.bound;
-  result.iterations = std::max(result.iterations, part.iterations);
-}
+// Iterations between two checks of the gap. A check costs half an iteration, and 30 iterations
+// suffice.
+constexpr int kGapCheckEvery = 5;
+
+// Iterations for which far labels are left out at first, and when a kept solver continues.
+constexpr int kRacingIterations = 25, kRacingWhenGoingOn = 10;
 
 }  // namespace
+
+SimplexOptions simplex_options(const RayLabelingParameters& parameters, double gap) {
+  SimplexOptions options;
+  options.gap = gap;
+  options.max_iterations = parameters.max_iterations;
+  options.check_every = kGapCheckEvery;
+  options.racing_iterations = kRacingIterations;
+  return options;
+}
 
 std::vector<ViewChain> view_chains(GridShape grid) {
   std::vector<ViewChain> chains;
@@ -59,7 +69,7 @@ RayLabeling solve_views(const ViewProblems& problems, const Progress& progress) 
       }
     };
   });
-  for (const auto& part : parts) add(part, result);
+  for (const auto& part : parts) add_part(part, result);
   return result;
 }
 
@@ -68,7 +78,7 @@ RayLabeling solve_view(const ViewProblems& problems, ViewIndex view, const Progr
   ViewProblem problem(problems.input, problems.parameters, problems.colors);
   problems.fill(problem, view, progress.part(0, 0.2));
   const ViewProblem::Task task{view, problems.parameters.gap, {}};
-  add(problem.solve(task, progress.part(0.2, 1), result.labels.view(view)), result);
+  add_part(problem.solve(task, progress.part(0.2, 1), result.labels.view(view)), result);
   return result;
 }
 
@@ -86,11 +96,6 @@ ViewProblem::ViewProblem(const RayLabelingInput& input, const RayLabelingParamet
       table_(cost_table(parameters.floor)),
       costs_(input.probabilities->views[0].height(), input.probabilities->views[0].layers(),
              input.probabilities->views[0].width()) {}
-
-Image<float> ViewProblem::weights(ViewIndex view) const {
-  if (input_.edges == nullptr || input_.edges->empty() || !input_.edges->contains(view)) return {};
-  return boundary_weights(input_.edges->view(view));
-}
 
 void ViewProblem::fill_own(ViewIndex view) {
   fill_costs(input_.probabilities->view(view).view(), table_, costs_.view());
@@ -117,12 +122,8 @@ ImageView<const std::int32_t> ViewProblem::places_in(ViewIndex last, ViewIndex v
 
 SimplexResult ViewProblem::solve(const Task& task, const Progress& progress,
                                  ImageView<std::int32_t> labels) {
-  const Image<float> g = weights(task.view);
-  SimplexOptions options;
-  options.gap = task.gap;
-  options.max_iterations = parameters_.max_iterations;
-  options.check_every = kGapCheckEvery;
-  options.racing_iterations = kRacingIterations;
+  const Image<float> g = boundary_weights_of(input_, task.view);
+  SimplexOptions options = simplex_options(parameters_, task.gap);
   const SimplexProblem problem{costs_.view(), g, parameters_.smoothness};
   if (KeptSolver* const kept = input_.kept) {
     options.goes_on = kept->prepare(*input_.probabilities, task.view);

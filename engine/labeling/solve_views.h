@@ -7,6 +7,7 @@
 #include "engine/labeling/ray_labeling.h"
 #include "engine/solvers/simplex_labeling.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -50,12 +51,16 @@ class KeptSolver {
   std::vector<std::int32_t> ids_;
 };
 
-/// Iterations between two checks of the gap. A check costs half an iteration, and 30 iterations
-/// suffice.
-inline constexpr int kGapCheckEvery = 5;
+/// Options to solve one view afresh, to a relative duality gap of `gap`.
+[[nodiscard]] SimplexOptions simplex_options(const RayLabelingParameters& parameters, double gap);
 
-/// Iterations for which far labels are left out at first, and when a kept solver continues.
-inline constexpr int kRacingIterations = 25, kRacingWhenGoingOn = 10;
+/// Adds energy and bound of a part to a sum, which takes the most iterations of its parts.
+template <class Sum>
+void add_part(const SimplexResult& part, Sum& sum) {
+  sum.energy += part.energy;
+  sum.bound += part.bound;
+  sum.iterations = std::max(sum.iterations, part.iterations);
+}
 
 /// The labeling of one view as a problem of its own, and room to solve it for many views: costs of
 /// its labels, weights of its boundaries, the solver. One object per solving thread.
@@ -81,7 +86,6 @@ class ViewProblem {
   SimplexResult solve(const Task& task, const Progress& progress, ImageView<std::int32_t> labels);
 
  private:
-  [[nodiscard]] Image<float> weights(ViewIndex view) const;
   [[nodiscard]] ImageView<const std::int32_t> places_in(ViewIndex last, ViewIndex view);
   [[nodiscard]] SimplexSolver& own_solver();
 

@@ -4,7 +4,6 @@
 #include "annotation/brush.h"
 #include "annotation/likeness.h"
 #include "app/gui/scene/document_controller.h"
-#include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
 #include "widgets/canvas/canvas_tool.h"
@@ -65,6 +64,9 @@ class AnnotateController : public QObject {
   void showScribbles();
   [[nodiscard]] bool isTabShown() const;
   [[nodiscard]] CanvasTool* canvasTool() const;
+  /// Ends what the mouse is about as a release would, but fills nothing: a region is filled where
+  /// it was shown, or not at all.
+  void endGesture();
   [[nodiscard]] PaintStyle styleOf(const StrokeStart& start) const;
   /// Ensures that the current label can be painted: adds a label if there is none and shows a
   /// hidden one. Returns false and tells the user if the label is locked.
@@ -125,47 +127,5 @@ inline constexpr int kLook = 2;
 inline constexpr int kFiles = 3;
 
 }  // namespace label_section
-
-class AnnotationBar;
-
-/// Shows scribbles on the view and marks painted views. On request carries them to all views by a
-/// disparity map, in the background, as a separate layer that follows every edit.
-class ScribbleController : public QObject {
-  Q_OBJECT
-
- public:
-  ScribbleController(const Workbench& bench, AnnotationBar* bar);
-
-  void setCarried(bool is_carried);
-  [[nodiscard]] bool isCarried() const { return is_carried_; }
-  /// Carried labels; empty wherever something is painted, null if nothing is carried. May lag
-  /// behind the document.
-  [[nodiscard]] const std::shared_ptr<const ScribbleLayer>& carried() const { return carried_; }
-  [[nodiscard]] bool isCarrying() const { return is_carrying_; }
-
- private:
-  void addCommand();
-  void update(Parts parts);
-  void show();
-  void showRect(ViewIndex view, const PixelRect& rect);
-  void showChange(const DocumentChange& change);
-  [[nodiscard]] QImage picture(const PixelRect& rect) const;
-  void carry();
-  void dropCarried();
-  /// Disparity used to carry scribbles, which keeps its scene or estimate alive; null if there is
-  /// none.
-  [[nodiscard]] std::shared_ptr<const DisparityField> field() const;
-
-  Workbench bench_;
-  Session& session_;
-  DocumentController& document_;
-  ViewCanvas* canvas_;
-  AnnotationBar* bar_;
-  bool is_carried_ = false;
-  bool is_carrying_ = false;
-  std::shared_ptr<const ScribbleLayer> carried_;
-  std::shared_ptr<const DisparityField> carried_by_;
-  LatestJob carry_job_;
-};
 
 }  // namespace episcope

@@ -319,9 +319,8 @@ struct SegmentationExportText {
 }  // namespace
 
 void ask_to_export_masks(const Workbench& bench, const SegmentController& segment) {
-  const auto segmentation = segment.segmentation();
-  if (!segmentation) return;
-  const bool has_all = segmentation->labeling->labels.grid().count() > 1;
+  if (!segment.hasSegmentation()) return;
+  const bool has_all = segment.hasAllViews();
   ask_for_folder(
       &bench.window,
       {.name = "export_masks",

@@ -93,7 +93,7 @@ void LabelController::addChoiceCommands() {
 void LabelController::addEditCommands() {
   const auto add_one = [this](const QString& id, const QString& text, const QString& tip,
                               const QString& icon, const QList<QKeySequence>& keys,
-                              std::function<void()> run) {
+                              std::function<void()> run, std::function<bool()> enabled) {
     bench_.commands.add({.id = "annotate." + id,
                          .menu = Menu::Labels,
                          .text = text,
@@ -102,29 +102,28 @@ void LabelController::addEditCommands() {
                          .keys = keys,
                          .run = std::move(run),
                          .section = label_section::kEdit,
-                         .enabled = [this, is_first = id == "add_label"] {
-                           return is_first ? hasDocument() : labels_.current() != 0;
-                         }});
+                         .enabled = std::move(enabled)});
   };
-  add_one("add_label", tr("Add label"), tr("Adds a label to name and paint with"), "add",
-          {tr("Ctrl+Shift+N")}, [this] { add(); });
-  add_one("rename_label", tr("Rename label"), tr("Renames the current label"), "rename",
-          {Qt::Key_F2}, [this] { rename(); });
-  add_one("recolor_label", tr("Change color…"), tr("Changes the color of the current label"), {},
-          {}, [this] { recolor(labels_.current()); });
-  add_one("remove_label", tr("Remove label"),
-          tr("Removes the current label and everything painted with it"), "trash", {},
-          [this] { remove(labels_.current()); });
-  bench_.commands.add(
-      {.id = "annotate.merge_label",
-       .menu = Menu::Labels,
-       .text = tr("Merge into…"),
-       .tip = tr("Gives everything painted with the current label to another one, "
-                 "and removes it"),
-       .run = [this] { merge(); },
-       .section = label_section::kEdit,
-       .enabled =
-           [this] { return hasDocument() && document_.document()->labels().labels().size() > 1; }});
+  const auto has_label = [this] { return labels_.current() != 0; };
+  add_one(
+      "add_label", tr("Add label"), tr("Adds a label to name and paint with"), "add",
+      {tr("Ctrl+Shift+N")}, [this] { add(); }, [this] { return hasDocument(); });
+  add_one(
+      "rename_label", tr("Rename label"), tr("Renames the current label"), "rename", {Qt::Key_F2},
+      [this] { rename(); }, has_label);
+  add_one(
+      "recolor_label", tr("Change color…"), tr("Changes the color of the current label"), {}, {},
+      [this] { recolor(labels_.current()); }, has_label);
+  add_one(
+      "remove_label", tr("Remove label"),
+      tr("Removes the current label and everything painted with it"), "trash", {},
+      [this] { remove(labels_.current()); }, has_label);
+  add_one(
+      "merge_label", tr("Merge into…"),
+      tr("Gives everything painted with the current label to another one, "
+         "and removes it"),
+      {}, {}, [this] { merge(); },
+      [this] { return hasDocument() && document_.document()->labels().labels().size() > 1; });
 }
 
 bool LabelController::hasDocument() const {
@@ -198,12 +197,7 @@ void LabelController::setName(int id, const QString& typed) {
 
 void LabelController::merge() {
   const LabelInfo* label = labels_.info();
-  if (!label) return;
-  if (bench_.session.place().label_marks.locked.contains(label->id)) {
-    bench_.messages.hint(
-        tr("“%1” is locked: unlock it to merge it.").arg(QString::fromStdString(label->name)));
-    return;
-  }
+  if (!label || refuseLocked(*label, tr("“%1” is locked: unlock it to merge it."))) return;
   QStringList names;
   std::vector<int> ids;
   for (const LabelInfo& each : document_.document()->labels().labels()) {
@@ -234,6 +228,12 @@ void LabelController::rename() {
   palette_->editName(labels_.current());
 }
 
+bool LabelController::refuseLocked(const LabelInfo& label, const QString& hint) {
+  if (!bench_.session.place().label_marks.locked.contains(label.id)) return false;
+  bench_.messages.hint(hint.arg(QString::fromStdString(label.name)));
+  return true;
+}
+
 bool LabelController::isPainted(int id) const {
   const ScribbleLayer& layer = document_.document()->scribbles();
   return std::ranges::any_of(layer.painted_views(), [&](ViewIndex view) {
@@ -245,12 +245,7 @@ bool LabelController::isPainted(int id) const {
 
 void LabelController::remove(int id) {
   const LabelInfo* label = find(id);
-  if (!label) return;
-  if (bench_.session.place().label_marks.locked.contains(id)) {
-    bench_.messages.hint(
-        tr("“%1” is locked: unlock it to remove it.").arg(QString::fromStdString(label->name)));
-    return;
-  }
+  if (!label || refuseLocked(*label, tr("“%1” is locked: unlock it to remove it."))) return;
   if (!isPainted(id)) {
     removeNow(id);
     return;

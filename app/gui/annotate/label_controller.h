@@ -43,6 +43,8 @@ class LabelController : public QObject {
   [[nodiscard]] const LabelInfo* at(int place) const;
   [[nodiscard]] bool isPainted(int id) const;
   void removeNow(int id);
+  /// Whether the label is locked; then tells so by `hint`, in which %1 is its name.
+  [[nodiscard]] bool refuseLocked(const LabelInfo& label, const QString& hint);
   /// Refuses a name that another label has.
   void setName(int id, const QString& typed);
 

@@ -241,7 +241,9 @@ void LabelImporter::read(const QStringList& paths,
   QStringList files = paths;
   // A picture that was exported stands for all of them.
   const QFileInfo first(paths.front());
-  if (paths.size() == 1 && first.fileName().startsWith("scribbles_")) files = {first.path()};
+  const bool is_exported =
+      first.fileName().startsWith("scribbles_") && io::is_image_name(path_of(first.fileName()));
+  if (paths.size() == 1 && is_exported) files = {first.path()};
   using Read = std::shared_ptr<io::ImportedLabels>;
   bench_.jobs.start<Read>(
       Lane::Load, tr("Importing %1").arg(first.fileName()),
@@ -438,14 +440,13 @@ void add_label_export(const Workbench& bench, const SegmentController& segment) 
 }
 
 void ask_to_export_labels(const Workbench& bench, const SegmentController& segment) {
-  const auto segmentation = segment.segmentation();
-  if (!segmentation) {
+  if (!segment.hasSegmentation()) {
     bench.messages.hint(ExportLabelsDialog::tr(
         "Nothing is segmented yet: paint two labels, then update the segmentation."));
     return;
   }
   auto* dialog = new ExportLabelsDialog(&bench.window, segment.isSegmentationUpToDate(),
-                                        segmentation->labeling->labels.grid().count() > 1);
+                                        segment.hasAllViews());
   QObject::connect(dialog, &QDialog::accepted, &bench.owner, [bench, &segment, dialog] {
     LabelTarget target = dialog->target();
     target.has_views = dialog->hasViews();
@@ -459,17 +460,11 @@ namespace {
 void write_folder(const std::filesystem::path& folder, const Segmentation& segmentation,
                   const LabelTarget& target, const LightFieldPtr& field, const Progress& progress) {
   const Labeling& labeling = *segmentation.labeling;
-  const auto& stack = labeling.labels;
-  io::LabelSource source;
-  for (int i = 0; i < stack.grid().count(); ++i) {
-    source.views.push_back(stack.grid().view_at(i, stack.first()));
-  }
-  source.labels_of = [&](ViewIndex view) {
-    return finished_labels(labeling, segmentation.finish, view);
-  };
-  source.infos = infos_of(labeling.probabilities.ids, segmentation.labels);
-  if (target.has_views) source.pictures = field;
-  io::write_label_folder(folder, target.form, source, progress);
+  const auto labels = finished_labels(labeling, segmentation.finish, progress.part(0, 0.3));
+  io::write_label_folder(folder, target.form,
+                         {labels, infos_of(labeling.probabilities.ids, segmentation.labels),
+                          target.has_views ? field : nullptr},
+                         progress.part(0.3, 1));
 }
 
 }  // namespace

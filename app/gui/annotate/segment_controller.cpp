@@ -27,6 +27,11 @@ bool has_map_in(const Labeling& labeling, render::Quantity quantity, ViewIndex v
                              : labeling.labels.contains(view);
 }
 
+KeptLabels kept_labels(const LabelingPtr& labeling, const std::vector<LabelInfo>& infos,
+                       const LabelingInput& input) {
+  return {labeling, infos, hash_of(*input.scribbles), {}};
+}
+
 }  // namespace
 
 SegmentController::SegmentController(const Workbench& bench, SegmentPanel* panel)
@@ -36,6 +41,7 @@ SegmentController::SegmentController(const Workbench& bench, SegmentPanel* panel
       document_(bench.document),
       jobs_(bench.jobs),
       panel_(panel),
+      grid_(bench.window.findChild<ViewGrid*>()),
       source_(bench.session, bench.jobs, this),
       edges_(bench.session, this),
       score_job_(this),
@@ -92,6 +98,10 @@ void SegmentController::connectPanel() {
 bool SegmentController::hasSegmentation() const {
   return live_.labeling(session_.view()) && std::as_const(document_).document() &&
          live_.has_input();
+}
+
+bool SegmentController::hasAllViews() const {
+  return hasSegmentation() && live_.covers_all(session_.view());
 }
 
 bool SegmentController::isSegmentationUpToDate() const {
@@ -280,6 +290,8 @@ bool SegmentController::cancel() {
 
 void SegmentController::followLabeler() {
   const LabelingPtr labeling = live_.labeling(session_.view());
+  // Views that a correction has done change nothing else.
+  if (labeling == shown_labeling_ && !live_.corrected_views().empty()) return showProgress();
   if (labeling && labeling != shown_labeling_)
     seconds_ = static_cast<double>(clock_.elapsed()) / 1000;
   endWish();
@@ -370,26 +382,32 @@ SegmentController::State SegmentController::state() const {
   return {tr("idle · %1").arg(seconds), ChipMood::Quiet};
 }
 
-void SegmentController::showState() {
+void SegmentController::showProgress() {
   const State shown = state();
   panel_->setState(
       shown.text, shown.mood,
       tr("State of the segmentation of this view, and how long it took.") + '\n' + edges_.origin());
+  if (grid_) grid_->setDone(live_.corrected_views());
+}
+
+void SegmentController::showState() {
+  showProgress();
   panel_->setSmoothing(smoothing());
   QStringList notes{missing().isEmpty() ? scores_ : missing()};
   if (live_.is_up_to_date(session_.view()) && !isSegmentationUpToDate()) {
     notes << tr("Other views: before the last stroke.");
   }
   notes.removeAll({});
-  if (auto* grid = bench_.window.findChild<ViewGrid*>()) grid->setDone(live_.corrected_views());
   panel_->setNote(notes.join('\n'));
   bench_.commands.refresh();
 }
 
 void SegmentController::score() {
   const AnnotationDocument* document = std::as_const(document_).document();
-  const Scored now{live_.labeling(session_.view()), session_.true_labels(), session_.view(),
-                   finish(), document ? document->labels().labels() : std::vector<LabelInfo>()};
+  // While another light field is opened, the labels of the last one are still there.
+  const Scored now{session_.scene() ? live_.labeling(session_.view()) : nullptr,
+                   session_.true_labels(), session_.view(), finish(),
+                   document ? document->labels().labels() : std::vector<LabelInfo>()};
   if (now == scored_) return;
   scored_ = now;
   scores_.clear();
@@ -468,7 +486,7 @@ void SegmentController::startAllViews() {
         if (input->light_field == session_.light_field()) {
           finishAll(labeling, input);
         } else {
-          session_.set_labels(scene, {labeling, infos, hash_of(*input->scribbles), {}});
+          session_.set_labels(scene, kept_labels(labeling, infos, *input));
         }
       });
   jobs_.setScene(job, scene);
@@ -504,11 +522,9 @@ void SegmentController::keep(const LabelingPtr& labeling, const LabelingInput& i
   const bool keeps_all = kept.covers_many() || (!kept.labeling && !kept.file.empty());
   if (labeling->is_draft || labeling == kept.labeling) return;
   if (labeling->labels.grid().count() == 1 && keeps_all) return;
-  session_.set_labels(session_.generation(),
-                      {labeling,
-                       std::as_const(document_).document()->labels().labels(),
-                       hash_of(*input.scribbles),
-                       {}});
+  session_.set_labels(
+      session_.generation(),
+      kept_labels(labeling, std::as_const(document_).document()->labels().labels(), input));
 }
 
 // Runs once each time a scene is shown.
@@ -535,10 +551,8 @@ void SegmentController::restore() {
 void SegmentController::takeLabels(const LabelingPtr& labeling) {
   if (!live_.has_input()) return;
   noteInput();
-  const KeptLabels kept{labeling,
-                        std::as_const(document_).document()->labels().labels(),
-                        hash_of(*live_.input()->scribbles),
-                        {}};
+  const KeptLabels kept =
+      kept_labels(labeling, std::as_const(document_).document()->labels().labels(), *live_.input());
   session_.set_labels(session_.generation(), kept);
   wants_to_show_ = true;
   adopt(kept);
@@ -613,7 +627,6 @@ void SegmentController::addExportCommands() {
        .icon = "export",
        .run = [this] { ask_to_export_masks(bench_, *this); },
        .section = section::kLabels,
-
        .enabled = [this] { return hasSegmentation(); }});
 }
 

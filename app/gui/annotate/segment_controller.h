@@ -7,11 +7,13 @@
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/label_review.h"
+#include "app/session/live_labeler.h"
 #include "app/session/segmentation.h"
 #include "app/session/session.h"
 
 #include <QElapsedTimer>
 #include <QObject>
+#include <QPointer>
 
 #include <cstdint>
 #include <map>
@@ -19,6 +21,8 @@
 #include <set>
 
 namespace episcope {
+
+class ViewGrid;
 
 /// Segments from scribbles while painting continues: the current view, live or on request, or all
 /// views as a job. Shows state and quality of the labels, and provides segmentation maps to the
@@ -44,6 +48,8 @@ class SegmentController : public QObject, public MapProvider {
   /// Whether all views of the shown scene are being segmented.
   [[nodiscard]] bool isSegmentingAll() const;
   [[nodiscard]] bool hasSegmentation() const;
+  /// Whether `segmentation` covers all views; quick, as `hasSegmentation`.
+  [[nodiscard]] bool hasAllViews() const;
   /// Labels that cover the current view, as files store them, and all others if all were segmented;
   /// none if there are none. Takes a moment if single views have newer labels than the others.
   [[nodiscard]] std::optional<Segmentation> segmentation() const;
@@ -99,6 +105,7 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] State state() const;
   [[nodiscard]] QString correcting() const;
   void showState();
+  void showProgress();
   void score();
   void showLabels();
   [[nodiscard]] bool showsLabels() const;
@@ -113,6 +120,7 @@ class SegmentController : public QObject, public MapProvider {
   DocumentController& document_;
   Jobs& jobs_;
   SegmentPanel* panel_;
+  QPointer<ViewGrid> grid_;
   LabelingSource source_;
   EdgeSource edges_;
   bool is_live_ = false;

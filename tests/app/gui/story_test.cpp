@@ -2,6 +2,7 @@
 // The way of a user, by mouse and keys: opens a light field, adds labels, paints, undoes across
 // views, carries to all views, segments, saves, and finds the same in another window.
 #include "app/gui/annotate/annotate_controller.h"
+#include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/shell/commands.h"

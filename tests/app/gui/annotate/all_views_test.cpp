@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/label_exchange.h"
+#include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/files/project_controller.h"
 #include "app/gui/scene/scene_opener.h"

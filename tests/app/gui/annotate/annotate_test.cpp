@@ -2,6 +2,7 @@
 // Paints with the mouse and the keys on the window that ships.
 #include "app/gui/annotate/annotate_controller.h"
 
+#include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/shell/commands.h"
 #include "app/session/session.h"
@@ -52,6 +53,7 @@ class AnnotateTest : public QObject {
   void statusBar_namesTheLabelsUnderTheCursor();
   void pick_takesTheLabelUnderTheMouse();
   void otherView_endsTheStroke();
+  void heldFill_isTakenBack_byAnotherViewOrTool();
   void undo_jumpsToTheViewItChanges();
   void brushWithoutLabels_addsOne();
   void removedLabel_isAskedForOnlyIfPainted();
@@ -332,6 +334,36 @@ void AnnotateTest::otherView_endsTheStroke() {
   QVERIFY(f.window.bench().document.isStroking());
   f.window.findChild<LabelPalette*>()->findChild<QTreeWidget*>("labels.tree")->setFocus();
   QVERIFY(!f.window.bench().document.isStroking());
+}
+
+void AnnotateTest::heldFill_isTakenBack_byAnotherViewOrTool() {
+  Annotating f("objects");
+  f.trigger("annotate.add_label");
+  auto* tolerance = f.window.findChild<QDoubleSpinBox*>("fill.tolerance");
+  const double before = tolerance->value();
+  const FillTool& tool = *f.window.findChild<FillTool*>();
+  const auto has_filled = [&f] {
+    const Edit* last = f.document().history().next_undo();
+    return last && last->kind == EditKind::Fill;
+  };
+  f.key(Qt::Key_F);
+
+  f.press({90, 20});
+  f.move({90, 60});
+  QVERIFY(tolerance->value() > before);
+  f.window.bench().session.set_view({4, 5});
+  QTRY_COMPARE(tolerance->value(), before);
+  QVERIFY(tool.preview().isNull());
+  f.release({90, 60});
+  QVERIFY(!has_filled());
+  QVERIFY(f.document().scribbles().view({4, 5}).empty());
+
+  f.press({90, 20});
+  QVERIFY(!tool.preview().isNull());
+  f.trigger("annotate.brush");
+  f.release({90, 20});
+  QVERIFY(tool.preview().isNull());
+  QVERIFY(!has_filled());
 }
 
 void AnnotateTest::undo_jumpsToTheViewItChanges() {

@@ -2,6 +2,7 @@
 // Labels that are hidden, locked, counted and drawn around, on the window that ships.
 #include "app/gui/annotate/annotate_controller.h"
 
+#include "app/gui/annotate/scribble_controller.h"
 #include "app/session/project_file.h"
 #include "app/session/project_store.h"
 #include "tests/app/gui/annotating.h"

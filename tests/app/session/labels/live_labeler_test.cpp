@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/segmentation.h"
+#include "app/session/live_labeler.h"
 
 #include "annotation/exchange.h"
 #include "tests/app/session/tiny_scene.h"
