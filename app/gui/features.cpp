@@ -6,6 +6,7 @@
 #include "app/gui/annotate/label_controller.h"
 #include "app/gui/annotate/label_exchange.h"
 #include "app/gui/annotate/label_review.h"
+#include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/browse/browse_controller.h"
 #include "app/gui/browse/cloud_controller.h"

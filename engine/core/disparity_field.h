@@ -32,6 +32,7 @@ struct DisparityField {
     return {disparity.view(view),
             valid.empty() ? ImageView<const std::uint8_t>{} : valid.view(view)};
   }
+  [[nodiscard]] DisparityField clone() const { return {disparity.clone(), valid.clone()}; }
   /// Makes the mask, all pixels valid, unless there is one.
   void require_mask() {
     if (!valid.empty()) return;

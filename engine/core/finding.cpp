@@ -2,6 +2,7 @@
 #include "engine/core/finding.h"
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <utility>
 
@@ -42,21 +43,38 @@ bool take_values(std::string_view sentence, Parts parts, std::vector<std::string
   return false;
 }
 
-std::optional<Finding> match(std::string_view sentence, const FindingText& text) {
-  const std::vector<std::string_view> parts = literal_parts(text.english);
+struct Template {
+  std::string_view code;
+  std::vector<std::string_view> parts;
+};
+
+std::optional<Finding> match(std::string_view sentence, const Template& text) {
+  const Parts parts(text.parts);
   if (!sentence.starts_with(parts[0])) return std::nullopt;
   sentence.remove_prefix(parts[0].size());
   Finding finding{std::string(text.code), {}};
-  if (!take_values(sentence, Parts(parts).subspan(1), finding.values)) return std::nullopt;
+  if (!take_values(sentence, parts.subspan(1), finding.values)) return std::nullopt;
   return finding;
 }
 
 // How much a sentence says that it is: whether it begins with words, then how long its words are.
-std::pair<bool, std::size_t> distinctness(const FindingText& text) {
-  const std::vector<std::string_view> parts = literal_parts(text.english);
+std::pair<bool, std::size_t> distinctness(const Template& text) {
   std::size_t length = 0;
-  for (const std::string_view part : parts) length += part.size();
-  return {!parts[0].empty(), length};
+  for (const std::string_view part : text.parts) length += part.size();
+  return {!text.parts[0].empty(), length};
+}
+
+// The most special first, else in the order of the table.
+const std::vector<Template>& templates() {
+  static const std::vector<Template> sorted = [] {
+    std::vector<Template> all;
+    for (const FindingText& text : kFindingTexts) {
+      all.push_back({text.code, literal_parts(text.english)});
+    }
+    std::ranges::stable_sort(all, std::ranges::greater(), distinctness);
+    return all;
+  }();
+  return sorted;
 }
 
 }  // namespace
@@ -77,17 +95,10 @@ const FindingText* find_finding_text(std::string_view code) {
 }
 
 std::optional<Finding> finding_of(std::string_view sentence) {
-  std::optional<Finding> best;
-  std::pair<bool, std::size_t> most{};
-  for (const FindingText& text : kFindingTexts) {
-    const auto length = distinctness(text);
-    if (length <= most) continue;
-    if (auto found = match(sentence, text)) {
-      best = std::move(found);
-      most = length;
-    }
+  for (const Template& text : templates()) {
+    if (auto found = match(sentence, text)) return found;
   }
-  return best;
+  return std::nullopt;
 }
 
 }  // namespace episcope

@@ -125,4 +125,8 @@ Rgb label_color(std::int32_t id) {
   return hue_color(std::fmod(id * golden_share, 1.0), id % 2 == 0 ? 1.0 : 0.65);
 }
 
+LabelInfo default_label(std::int32_t id) {
+  return {id, "label " + std::to_string(id), label_color(id)};
+}
+
 }  // namespace episcope

@@ -32,6 +32,8 @@ struct LabelInfo {
 /// Default color of a label id: a fixed palette for 1 … 20, well separated also for those who
 /// cannot tell all colors apart, further ones by hue. Black for 0 and negative ids.
 [[nodiscard]] Rgb label_color(std::int32_t id);
+/// A label that nothing is known of but its id: "label 7" in its default color.
+[[nodiscard]] LabelInfo default_label(std::int32_t id);
 
 /// Scenes of the 2016 benchmark with metrics of their own.
 enum class StratifiedScene { None, Backgammon, Dots, Pyramids, Stripes };

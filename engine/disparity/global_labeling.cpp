@@ -34,11 +34,9 @@ float sub_label_offset(float before, float here, float after, Refinement refinem
 namespace {
 
 std::string labeling_note(const LiftedResult& result, double smoothness) {
-  const auto told = [&](auto text) {
-    return fmt::format(fmt::runtime(text), smoothness, result.energy, result.relative_gap(),
-                       result.iterations);
-  };
-  return told(result.converged ? finding_text("labeling.done") : finding_text("labeling.early"));
+  return fmt::format(fmt::runtime(result.converged ? finding_text("labeling.done")
+                                                   : finding_text("labeling.early")),
+                     smoothness, result.energy, result.relative_gap(), result.iterations);
 }
 
 LiftedResult solve_labels(const GlobalLabelingData& data, const Image<float>& weights,

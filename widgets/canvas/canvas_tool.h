@@ -274,8 +274,6 @@ class FillTool : public CanvasTool {
   /// Shows what a click would fill: a picture whose first pixel is at `at`; null = nothing.
   void setPreview(const QImage& preview, QPoint at);
   [[nodiscard]] const QImage& preview() const { return preview_; }
-  /// Whether a button is held.
-  [[nodiscard]] bool isFilling() const { return start_.has_value(); }
 
  signals:
   void hovered(QPointF image);

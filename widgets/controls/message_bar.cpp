@@ -28,8 +28,17 @@ namespace episcope {
 namespace {
 
 constexpr int kStay = 6000;  // ms that good news stays.
+constexpr double kTint = 0.14;
+constexpr int kEdgeWidth = 4;
 
 }  // namespace
+
+void paint_message_ground(QWidget& widget, const QColor& accent) {
+  QPainter painter(&widget);
+  const QColor window = widget.palette().color(QPalette::Window);
+  painter.fillRect(widget.rect(), theme::blend(window, accent, kTint));
+  painter.fillRect(QRect(0, 0, kEdgeWidth, widget.height()), accent);
+}
 
 MessageBar::MessageBar(QWidget* parent)
     : QWidget(parent),
@@ -128,9 +137,7 @@ void MessageBar::updateIcon() {
 }
 
 void MessageBar::paintEvent(QPaintEvent*) {
-  QPainter painter(this);
-  painter.fillRect(rect(), theme::blend(palette().color(QPalette::Window), accent(), 0.14));
-  painter.fillRect(QRect(0, 0, 4, height()), accent());
+  paint_message_ground(*this, accent());
 }
 
 void MessageBar::changeEvent(QEvent* event) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QColor>
 #include <QElapsedTimer>
 #include <QString>
 #include <QTimer>
@@ -20,6 +21,9 @@ class QVBoxLayout;
 namespace episcope {
 
 enum class Severity { Info, Success, Warning, Error };
+
+/// Fills a widget, within its paint event, as a message: tinted, with an edge in the accent.
+void paint_message_ground(QWidget& widget, const QColor& accent);
 
 /// One message that does not block: severity, text, close button and at most two actions. Info and
 /// success disappear by themselves; warnings and errors stay until closed. Hidden when empty.

@@ -14,9 +14,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <string_view>
-#include <vector>
 
 namespace episcope {
 

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -85,11 +87,15 @@ struct FindingWords {
   Q_DECLARE_TR_FUNCTIONS(episcope::Finding)
 };
 
+std::optional<QString> known_words(const std::string& sentence);
+QString other_words(const std::string& sentence);
+
 // A number, a name, or a sentence or a literal of the engine, such as the reason in a sentence.
 QString value_words(const std::string& value) {
   static const QRegularExpression words("^[^0-9/]* [^0-9/]*$");
+  if (auto known = known_words(value)) return *std::move(known);
   const QString text = QString::fromStdString(value);
-  return finding_of(value) || text.contains(words) ? finding_words(value) : text;
+  return text.contains(words) ? other_words(value) : text;
 }
 
 QString filled(const std::string& text, const std::vector<std::string>& values) {
@@ -107,12 +113,15 @@ QString filled(const std::string& text, const std::vector<std::string>& values) 
   return words + translated.mid(end);
 }
 
-}  // namespace
+// Of a sentence among `kFindingTexts`.
+std::optional<QString> known_words(const std::string& sentence) {
+  const auto finding = finding_of(sentence);
+  if (!finding) return std::nullopt;
+  return with_minus(filled(numbered(find_finding_text(finding->code)->english), finding->values));
+}
 
-QString finding_words(const std::string& sentence) {
-  if (const auto finding = finding_of(sentence)) {
-    return with_minus(filled(numbered(find_finding_text(finding->code)->english), finding->values));
-  }
+// Of a sentence that is not among them.
+QString other_words(const std::string& sentence) {
   // Evidence of several kinds is joined.
   if (const std::size_t at = sentence.find("; "); at != std::string::npos) {
     if (schema_text(sentence) == QString::fromStdString(sentence)) {
@@ -120,6 +129,13 @@ QString finding_words(const std::string& sentence) {
     }
   }
   return with_minus(schema_text(sentence));
+}
+
+}  // namespace
+
+QString finding_words(const std::string& sentence) {
+  if (auto known = known_words(sentence)) return *std::move(known);
+  return other_words(sentence);
 }
 
 QString finding_brief(const std::string& sentence) {
@@ -143,11 +159,28 @@ QString value_text(const ParameterDescription& description, const ParameterValue
   return with_unit(QString::fromStdString(to_text(value)), description.unit);
 }
 
+namespace {
+
+const ParameterDescription* find_description(const std::vector<ParameterDescription>& descriptions,
+                                             const std::string& key) {
+  const auto found = std::ranges::find(descriptions, key, &ParameterDescription::key);
+  return found == descriptions.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+QString parameter_label(const std::vector<ParameterDescription>& descriptions,
+                        const std::string& key) {
+  const ParameterDescription* found = find_description(descriptions, key);
+  return found ? schema_text(found->label) : QString::fromStdString(key);
+}
+
 QString labeled_value_text(const std::vector<ParameterDescription>& descriptions,
                            const std::string& key, const ParameterValue& value) {
-  const auto found = std::ranges::find(descriptions, key, &ParameterDescription::key);
-  if (found == descriptions.end()) return QString::fromStdString(key + " " + to_text(value));
-  return QStringLiteral("%1 %2").arg(schema_text(found->label), value_text(*found, value));
+  const ParameterDescription* found = find_description(descriptions, key);
+  return QStringLiteral("%1 %2").arg(
+      parameter_label(descriptions, key),
+      found ? value_text(*found, value) : QString::fromStdString(to_text(value)));
 }
 
 QString domain_text(const ParameterDescription& description) {

@@ -7,6 +7,7 @@
 #include <QString>
 
 #include <string>
+#include <vector>
 
 namespace episcope {
 
@@ -44,6 +45,10 @@ inline constexpr QChar kMinus(0x2212);
 /// Displayed form of a value: "on" or "off", "auto", the label of a choice, a number with its unit.
 [[nodiscard]] QString value_text(const ParameterDescription& description,
                                  const ParameterValue& value);
+
+/// "Inner scale", as the form names it; the key if it is not described.
+[[nodiscard]] QString parameter_label(const std::vector<ParameterDescription>& descriptions,
+                                      const std::string& key);
 
 /// "Inner scale 0.8 px", as the form names it; key and value if it is not described.
 [[nodiscard]] QString labeled_value_text(const std::vector<ParameterDescription>& descriptions,

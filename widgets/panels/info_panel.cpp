@@ -120,25 +120,23 @@ void InfoPanel::addWarning(const InfoWarning& warning, QGridLayout* grid) {
   if (!warning.brief.isEmpty()) {
     auto* text = make_quiet(warning.text, "info.warning.text", line);
     layout->addWidget(text, 1, 1, 1, 2);
-    layout->addWidget(
-        makeArrow({.key = warning.brief, .value = {}, .id = "warning"}, label, {text}), 0, 2,
-        Qt::AlignTop);
+    layout->addWidget(makeArrow("warning", warning.brief, label, {text}), 0, 2, Qt::AlignTop);
   }
   if (warning.action) layout->addWidget(make_button(warning.action, line), 2, 1, Qt::AlignLeft);
   grid->addWidget(line, grid->rowCount(), 0, 1, kColumns);
 }
 
-QToolButton* InfoPanel::makeArrow(const InfoRow& row, QLabel* value,
+QToolButton* InfoPanel::makeArrow(const QString& id, const QString& key, QLabel* value,
                                   const std::vector<QWidget*>& behind) {
   auto* folded = qobject_cast<FoldedLabel*>(value);
   auto* arrow = new QToolButton(value->parentWidget());
-  arrow->setObjectName("info.more." + row.id);
+  arrow->setObjectName("info.more." + id);
   arrow->setAutoRaise(true);
   arrow->setCheckable(true);
-  arrow->setAccessibleName(tr("More on %1").arg(row.key));
+  arrow->setAccessibleName(tr("More on %1").arg(key));
   arrow->setIconSize(kArrowSize);
   arrow->setFixedSize(kArrowSize + QSize(4, 4));
-  const auto show = [this, arrow, folded, behind, key = row.key](bool is_open) {
+  const auto show = [this, arrow, folded, behind, key](bool is_open) {
     arrow->setArrowType(is_open ? Qt::DownArrow : Qt::RightArrow);
     arrow->setToolTip(is_open ? tr("Hide the evidence") : tr("Show the evidence"));
     arrow->setChecked(is_open);
@@ -152,7 +150,7 @@ QToolButton* InfoPanel::makeArrow(const InfoRow& row, QLabel* value,
   };
   connect(arrow, &QToolButton::clicked, this, show);
   if (folded) connect(folded, &FoldedLabel::toggled, this, show);
-  show(open_.contains(row.key));
+  show(open_.contains(key));
   return arrow;
 }
 
@@ -169,19 +167,19 @@ void InfoPanel::addRow(const InfoRow& row, QGridLayout* grid) {
   grid->addWidget(key, line, 0);
   grid->addWidget(value, line, 1, 1, has_more ? 1 : kColumns - 1);
   std::vector<QWidget*> behind;
-  const auto add_below = [&](QWidget* widget, Qt::Alignment alignment) {
-    grid->addWidget(widget, grid->rowCount(), 1, 1, kColumns - 1, alignment);
-    return widget;
+  const auto add_below = [&](QLabel* text) {
+    grid->addWidget(text, grid->rowCount(), 1, 1, kColumns - 1);
+    behind.push_back(text);
   };
-  if (!row.tip.isEmpty()) behind.push_back(add_below(make_quiet(row.tip, "info.tip", body), {}));
-  if (!row.check.isEmpty()) {
-    behind.push_back(add_below(make_quiet(row.check, "info.check", body), {}));
-  }
+  if (!row.tip.isEmpty()) add_below(make_quiet(row.tip, "info.tip", body));
+  if (!row.check.isEmpty()) add_below(make_quiet(row.check, "info.check", body));
   if (row.action) {
-    QWidget* button = add_below(make_button(row.action, body), Qt::AlignLeft);
+    // Over all columns: it is as wide as its text, and the panel is narrow.
+    QToolButton* button = make_button(row.action, body);
+    grid->addWidget(button, grid->rowCount(), 0, 1, kColumns, Qt::AlignLeft);
     if (!row.needs_action) behind.push_back(button);
   }
-  if (has_more) grid->addWidget(makeArrow(row, value, behind), line, 2, Qt::AlignTop);
+  if (has_more) grid->addWidget(makeArrow(row.id, row.key, value, behind), line, 2, Qt::AlignTop);
 }
 
 void InfoPanel::rebuild() {

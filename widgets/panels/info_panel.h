@@ -57,7 +57,8 @@ class InfoPanel : public QWidget {
   void rebuild();
   void addWarning(const InfoWarning& warning, QGridLayout* grid);
   void addRow(const InfoRow& row, QGridLayout* grid);
-  QToolButton* makeArrow(const InfoRow& row, QLabel* value, const std::vector<QWidget*>& behind);
+  QToolButton* makeArrow(const QString& id, const QString& key, QLabel* value,
+                         const std::vector<QWidget*>& behind);
 
   std::vector<InfoRow> rows_;
   std::vector<InfoWarning> warnings_;

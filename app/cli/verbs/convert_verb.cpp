@@ -8,6 +8,7 @@
 #include "app/cli/verbs/verbs.h"
 #include "app/session/command_line.h"
 #include "app/session/result_files.h"
+#include "app/session/segmentation.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
@@ -52,7 +53,7 @@ constexpr const char* kMap = "map";
 std::vector<std::string> form_names() {
   std::vector<std::string> ids{kMap};
   for (const io::Writer& writer : io::writers()) ids.emplace_back(writer.id);
-  for (const auto& form : io::names_of(io::LabelForm{})) ids.emplace_back(form.name);
+  std::ranges::copy(all_names<io::LabelForm>(), std::back_inserter(ids));
   return ids;
 }
 
@@ -209,7 +210,7 @@ ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
 void take_truth(ConvertSubject& subject) {
   if (subject.estimate) return;
   const DisparityField& truth = subject.field();
-  subject.estimate.emplace().field = {truth.disparity.clone(), truth.valid.clone()};
+  subject.estimate.emplace().field = truth.clone();
 }
 
 /// The scene to write; the disparity of a result takes the place of the truth.
@@ -230,13 +231,10 @@ Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
 
 /// A truth with other labels.
 GroundTruthPtr with_labels(const GroundTruth& truth, ViewStack<std::int32_t> labels) {
-  const auto copy = [](const DisparityField& field) {
-    return DisparityField{field.disparity.clone(), field.valid.clone()};
-  };
   auto changed = std::make_shared<GroundTruth>();
-  changed->field = copy(truth.field);
-  changed->foreground = copy(truth.foreground);
-  changed->background = copy(truth.background);
+  changed->field = truth.field.clone();
+  changed->foreground = truth.foreground.clone();
+  changed->background = truth.background.clone();
   changed->labels = std::move(labels);
   changed->regions = truth.regions;
   changed->high_res = truth.high_res;
@@ -245,13 +243,15 @@ GroundTruthPtr with_labels(const GroundTruth& truth, ViewStack<std::int32_t> lab
   return changed;
 }
 
-void take_labels(Scene& scene, const ConvertRequest& request, Job& job, const Progress& progress) {
-  if (request.labels.file.empty()) return;
+/// The labels of --labels, whose names the scene takes; empty without that option.
+ViewStack<std::int32_t> given_labels(Scene& scene, const ConvertRequest& request, Job& job,
+                                     const Progress& progress) {
+  if (request.labels.file.empty()) return {};
   const LightField& field = *scene.light_field;
   Scribbles labels = load_labels(request.labels, scene, job, progress);
-  scene.truth = with_labels(*scene.truth,
-                            io::stack_of(labels, {field.grid(), field.height(), field.width()}));
+  auto maps = io::stack_of(labels, {field.grid(), field.height(), field.width()});
   if (!labels.labels.empty()) scene.scribbles.labels = std::move(labels.labels);
+  return maps;
 }
 
 void write_map(ConvertSubject& subject, const ConvertRequest& request, MapForm form) {
@@ -286,7 +286,8 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
     return {};
   }
   Scene scene = scene_to_write(subject, request.output);
-  take_labels(scene, request, job, progress.part(0, 0.2));
+  auto given = given_labels(scene, request, job, progress.part(0, 0.2));
+  if (!given.empty()) scene.truth = with_labels(*scene.truth, std::move(given));
   for (const std::string& sentence : io::unsupported_parts(*target.writer, scene))
     job.note(sentence);
   note_missing_tiles(*target.writer, request.output, *scene.light_field, job);
@@ -374,17 +375,15 @@ void check_label_folder(const ConvertRequest& request) {
 /// Writes the labels of a segmentation file.
 void write_segmented(const ConvertRequest& request, io::LabelForm form, const Progress& progress) {
   const io::SegmentationFile file(request.input);
-  io::LabelSource source;
-  for (int i = 0; i < file.grid().count(); ++i) {
-    source.views.push_back(file.grid().view_at(i, file.first()));
-  }
-  source.labels_of = [&file](ViewIndex view) { return file.labels(view); };
-  source.infos = file.infos();
+  const LabelingPtr kept = read_kept_labels(request.input, progress.part(0, 0.2));
+  io::LabelSource source{kept->labels, file.infos()};
   if (!request.truth.empty()) {
     source.pictures = load_input_of({request.input, file.reading()}, request.truth, request.read,
-                                    progress.part(0, 0.4))
+                                    progress.part(0.2, 0.4))
                           .light_field;
-    for (const ViewIndex view : source.views) (void)view_of(*source.pictures, view);
+    for (int i = 0; i < source.maps.grid().count(); ++i) {
+      (void)view_of(*source.pictures, source.maps.view_at(i));
+    }
   }
   io::write_label_folder(request.output, form, source, progress.part(0.4, 1));
 }
@@ -394,13 +393,13 @@ void write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Jo
                            const Progress& progress) {
   Scene scene = load_input(request.input, request.read, progress.part(0, 0.3));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
-  take_labels(scene, request, job, progress.part(0.3, 0.5));
-  if (scene.truth->labels.empty()) {
+  const auto given = given_labels(scene, request, job, progress.part(0.3, 0.5));
+  const auto& labels = given.empty() ? scene.truth->labels : given;
+  if (labels.empty()) {
     throw InvalidInput(request.input + " has no labels; name some with --labels");
   }
-  io::LabelSource source = io::source_of(scene.truth->labels, scene.scribbles.labels);
-  source.pictures = scene.light_field;
-  io::write_label_folder(request.output, form, source, progress.part(0.5, 1));
+  io::write_label_folder(request.output, form, {labels, scene.scribbles.labels, scene.light_field},
+                         progress.part(0.5, 1));
 }
 
 [[nodiscard]] Json convert_labels(const ConvertRequest& request, io::LabelForm form, Job& job,

@@ -330,6 +330,7 @@ void CompareController::addOverlayCommands() {
     const bool is_of_labels = info.subject == render::Subject::Segmentation;
     if (is_of_labels || info.quantity == Quantity::Difference) continue;  // elsewhere
     const Quantity quantity = info.quantity;
+    const auto is_available = [this, quantity] { return overlay_.isAvailable(quantity); };
     bench_.commands.add(
         {.id = "overlay." + (quantity == Quantity::View ? QString("none") : QString(info.id)),
          .menu = Menu::Map,
@@ -337,13 +338,10 @@ void CompareController::addOverlayCommands() {
          .tip = quantity_tip(quantity),
          .run = [this, quantity] { overlay_.setQuantity(quantity); },
          .section = section::kMaps,
-         .enabled = [this, quantity] { return overlay_.isAvailable(quantity); },
+         .enabled = is_available,
          .checked = [this, quantity] { return overlay_.chosenQuantity() == quantity; },
          .choice = "overlay",
-         .visible =
-             [this, quantity] {
-               return quantity == Quantity::View || overlay_.isAvailable(quantity);
-             }});
+         .visible = is_available});
   }
   QAction* color = bench_.commands.add(
       {.id = "overlay.color",
@@ -384,6 +382,7 @@ void CompareController::addChoiceCommands() {
 }
 
 void CompareController::addPairCommands() {
+  const auto is_available = [this] { return session_.side_b() != nullptr; };
   bench_.commands.add(
       {.id = "compare.difference",
        .menu = Menu::Map,
@@ -393,10 +392,10 @@ void CompareController::addPairCommands() {
        .keys = {Qt::Key_D},
        .run = [this] { overlay_.setDifference(!overlay_.showsDifference()); },
        .section = section::kMaps,
-       .enabled = [this] { return session_.side_b() != nullptr; },
+       .enabled = is_available,
        .checked = [this] { return overlay_.showsDifference(); },
        .choice = "overlay",
-       .visible = [this] { return session_.side_b() != nullptr; }});
+       .visible = is_available});
   bench_.commands.add(
       {.id = "compare.swap",
        .menu = Menu::Compare,

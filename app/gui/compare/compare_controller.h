@@ -57,7 +57,6 @@ class CompareController : public QObject {
   [[nodiscard]] bool isAvailable(CompareMode mode) const;
   /// Returns to the single picture; false if it is shown already.
   bool leave();
-  /// Shows A − B instead of the quantity, which ends a wipe.
 
  private:
   struct Entry {

@@ -84,10 +84,8 @@ std::vector<MethodDescription> described_methods() {
 
 QString named_value(const Estimate& estimate, const std::string& key, const ParameterValue& value) {
   static const std::vector<ParameterDescription> kNone;
-  const auto methods = registered_estimators();
-  const auto found = std::ranges::find_if(
-      methods, [&](const Estimator& each) { return each.info.id == estimate.method; });
-  return labeled_value_text(found == methods.end() ? kNone : found->parameters, key, value);
+  const Estimator* known = known_estimator(estimate.method);
+  return labeled_value_text(known ? known->parameters : kNone, key, value);
 }
 
 // Distinguishes this run: whether it ended early, and its changed parameters.
@@ -156,10 +154,11 @@ void EstimateController::runFirst(const QString& input) {
 void EstimateController::addTargets() {
   bench_.commands.addTargets([this] {
     std::vector<PaletteTarget> found;
-    for (const MethodDescription& each : described_methods()) {
+    for (const Estimator& estimator : registered_estimators()) {
+      const EstimatorInfo& info = estimator.info;
       found.push_back(
-          {tr("Method: %1").arg(QString::fromStdString(each.name)), schema_text(each.summary),
-           QString::fromStdString(each.id + ' ' + each.reference), [this, id = each.id] {
+          {tr("Method: %1").arg(QString::fromStdString(info.name)), schema_text(info.summary),
+           QString::fromStdString(info.id + ' ' + info.reference), [this, id = info.id] {
              bench_.frame.showTab("estimate");
              method_->setCurrentMethod(id);
            }});

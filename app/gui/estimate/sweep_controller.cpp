@@ -607,10 +607,7 @@ QString title_of(const Sweep& sweep) {
   const Estimator& estimator = find_estimator(sweep.base.method);
   QStringList parts{QString::fromStdString(estimator.info.name)};
   for (const SweptParameter& each : sweep.swept) {
-    const auto found =
-        std::ranges::find(estimator.parameters, each.key, &ParameterDescription::key);
-    parts << (found == estimator.parameters.end() ? QString::fromStdString(each.key)
-                                                  : schema_text(found->label));
+    parts << parameter_label(estimator.parameters, each.key);
   }
   const QString what = parts.join(", ");
   if (sweep.scenes.size() > 1)

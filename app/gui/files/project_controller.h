@@ -3,6 +3,7 @@
 
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/workbench.h"
+#include "app/session/open_scene.h"
 #include "app/session/user_folders.h"
 
 #include <QElapsedTimer>

@@ -5,6 +5,7 @@
 #include "app/gui/shell/frame.h"
 #include "app/session/load_scene.h"
 #include "app/session/session.h"
+#include "widgets/controls/message_bar.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
@@ -12,7 +13,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
-#include <QPainter>
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -22,8 +22,6 @@
 
 namespace episcope {
 namespace {
-
-constexpr double kTint = 0.14;  // as of messages
 
 bool is_demo(const std::string& input) {
   const std::string id = builtin_scene_id(input);
@@ -93,10 +91,7 @@ void StartStrip::update() {
 }
 
 void StartStrip::paintEvent(QPaintEvent*) {
-  QPainter painter(this);
-  const QColor accent = palette().color(QPalette::Link);
-  painter.fillRect(rect(), theme::blend(palette().color(QPalette::Window), accent, kTint));
-  painter.fillRect(QRect(0, 0, 4, height()), accent);
+  paint_message_ground(*this, palette().color(QPalette::Link));
 }
 
 }  // namespace episcope

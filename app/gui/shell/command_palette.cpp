@@ -150,9 +150,11 @@ CommandPalette::Rank CommandPalette::rankOf(const Entry& entry, const QString& t
 
 void CommandPalette::filter(const QString& text) {
   list_->clear();
+  std::vector<Rank> ranks;
+  for (const Entry& entry : entries_) ranks.push_back(rankOf(entry, text));
   for (const Rank rank : {Rank::Name, Rank::Description, Rank::CannotRun}) {
-    for (const Entry& entry : entries_) {
-      if (rankOf(entry, text) == rank) add(entry);
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      if (ranks[i] == rank) add(entries_[i]);
     }
   }
   if (list_->count() == 0) {

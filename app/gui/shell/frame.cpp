@@ -201,27 +201,25 @@ QTabWidget* Frame::pagesOf(const Tab& task) const {
   return found == pages_.end() ? nullptr : found->second;
 }
 
-void Frame::putInBook(const Tab& tab) {
-  const auto pane = [this](const Tab& each) -> QWidget* {
-    return pagesOf(each) ? pagesOf(each) : each.widget;
-  };
+int Frame::placeIn(const QTabWidget& book, const Tab& tab) const {
   int place = 0;
   for (const Tab& each : tabs_) {
     if (each.id == tab.id) break;
-    if (book_->indexOf(pane(each)) >= 0) ++place;
+    const QWidget* pages = pagesOf(each);
+    if (book.indexOf(each.widget) >= 0 || (pages && book.indexOf(pages) >= 0)) ++place;
   }
-  book_->setCurrentIndex(book_->insertTab(place, pane(tab), tab.title));
+  return place;
+}
+
+void Frame::putInBook(const Tab& tab) {
+  QTabWidget* pages = pagesOf(tab);
+  QWidget* pane = pages ? pages : tab.widget;
+  book_->setCurrentIndex(book_->insertTab(placeIn(*book_, tab), pane, tab.title));
 }
 
 void Frame::putAmongPages(const Tab& page) {
-  const Tab* task = findTab(page.task);
-  QTabWidget* pages = pagesOf(*task);
-  int place = pages->indexOf(task->widget) + 1;
-  for (const Tab& each : tabs_) {
-    if (each.id == page.id) break;
-    if (each.task == page.task && pages->indexOf(each.widget) >= 0) ++place;
-  }
-  pages->insertTab(place, page.widget, page.title);
+  QTabWidget* pages = pagesOf(*findTab(page.task));
+  pages->insertTab(placeIn(*pages, page), page.widget, page.title);
   showTab(page.id);
 }
 

@@ -101,6 +101,8 @@ class Frame : public QWidget {
   [[nodiscard]] QTabWidget* makePages(const Tab& task);
   /// Pages of a task; null if it has none.
   [[nodiscard]] QTabWidget* pagesOf(const Tab& task) const;
+  /// Where a tab belongs among those that are in the book now.
+  [[nodiscard]] int placeIn(const QTabWidget& book, const Tab& tab) const;
   /// Inserts a tab at its place and shows it.
   void putInBook(const Tab& tab);
   void putAmongPages(const Tab& page);
