@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace episcope {
@@ -20,12 +21,20 @@ namespace {
 /// them. Both are the whole view where the second would be most of it.
 struct LivePart {
   PixelRect wanted;
-  PixelRect read;  ///< Begins at multiples of `kLiveFactor`.
+  PixelRect read;  ///< Begins at multiples of `kLargestFactor`.
   friend bool operator==(const LivePart&, const LivePart&) = default;
 };
 
-/// How much smaller views are made for the first, coarse map.
-constexpr int kLiveFactor = 4;
+/// How much smaller views are made for the first, coarse map: a network needs ten times the work of
+/// other methods for a pixel.
+constexpr int kUsualFactor = 4;
+constexpr int kLargestFactor = 8;
+constexpr int kLeastForNetwork = 48;  // px, of the smaller side
+
+int coarse_factor(const Estimator& estimator, const LightField& lf) {
+  const bool is_large = std::min(lf.height(), lf.width()) >= kLargestFactor * kLeastForNetwork;
+  return estimator.info.weights.empty() || !is_large ? kUsualFactor : kLargestFactor;
+}
 
 // Filters, windows and tensors look no farther, px.
 constexpr int kSupport = 16;
@@ -107,8 +116,8 @@ LivePart live_part(const LightField& lf, const PixelRect& wanted, Interval range
       margin(steps_to_farthest(lf.grid().u, view ? std::optional(view->u) : std::nullopt));
   const PixelRect inside{std::max(wanted.y0, 0), std::max(wanted.x0, 0),
                          std::min(wanted.y1, lf.height()), std::min(wanted.x1, lf.width())};
-  const PixelRect read{std::max(inside.y0 - down, 0) / kLiveFactor * kLiveFactor,
-                       std::max(inside.x0 - across, 0) / kLiveFactor * kLiveFactor,
+  const PixelRect read{std::max(inside.y0 - down, 0) / kLargestFactor * kLargestFactor,
+                       std::max(inside.x0 - across, 0) / kLargestFactor * kLargestFactor,
                        std::min(inside.y1 + down, lf.height()),
                        std::min(inside.x1 + across, lf.width())};
   if (inside.empty() || area(read) > kMostOfView * area(all)) return {all, all};
@@ -157,16 +166,16 @@ class LiveSource {
   [[nodiscard]] Interval range(const IntervalOrAuto& wanted, const Progress& progress);
   /// The pixels `part` of all views; the whole light field is not copied.
   [[nodiscard]] LiveViews full(const PixelRect& part, const Progress& progress);
-  /// The same at a quarter of the size (`kLiveFactor`): all facts but the range of disparities are
-  /// those of the light field. Precondition: `part` begins at multiples of it.
-  [[nodiscard]] LiveViews coarse(const PixelRect& part, const Progress& progress);
+  /// The same at 1/`factor` of the size: all facts but the range of disparities are those of the
+  /// light field. Precondition: `part` begins at multiples of `factor`.
+  [[nodiscard]] LiveViews coarse(const PixelRect& part, int factor, const Progress& progress);
 
  private:
   LiveViews views_;
-  LiveViews smaller_;              // the whole
-  LiveViews part_;                 // the one cut out last,
-  PixelRect cut_;                  // which is this
-  std::optional<Interval> found_;  // whatever files promise
+  std::map<int, LiveViews> smaller_;  // the whole, by factor
+  LiveViews part_;                    // the one cut out last,
+  PixelRect cut_;                     // which is this
+  std::optional<Interval> found_;     // whatever files promise
 };
 
 Interval LiveSource::range(const IntervalOrAuto& wanted, const Progress& progress) {
@@ -189,21 +198,22 @@ LiveViews LiveSource::full(const PixelRect& part, const Progress& progress) {
   return part_;
 }
 
-LiveViews LiveSource::coarse(const PixelRect& part, const Progress& progress) {
-  const LightFieldPtr& small = smaller_.light_field;
+LiveViews LiveSource::coarse(const PixelRect& part, int factor, const Progress& progress) {
+  LiveViews& smaller = smaller_[factor];
+  const LightFieldPtr& small = smaller.light_field;
   if (!small) {
     LightFieldInfo info = light_field()->info();
     info.disparity_range.reset();
-    smaller_.light_field = std::make_shared<const LightField>(
-        smaller_views(*light_field(), kLiveFactor, progress.part(0, 0.8), ReducedViews::All),
+    smaller.light_field = std::make_shared<const LightField>(
+        smaller_views(*light_field(), factor, progress.part(0, 0.8), ReducedViews::All),
         std::move(info));
   }
-  if (part == whole(*light_field())) return smaller_;
-  const auto ceiled = [](int n, int most) {
-    return std::min((n + kLiveFactor - 1) / kLiveFactor, most);
+  if (part == whole(*light_field())) return smaller;
+  const auto ceiled = [factor](int n, int most) {
+    return std::min((n + factor - 1) / factor, most);
   };
-  const PixelRect inside{part.y0 / kLiveFactor, part.x0 / kLiveFactor,
-                         ceiled(part.y1, small->height()), ceiled(part.x1, small->width())};
+  const PixelRect inside{part.y0 / factor, part.x0 / factor, ceiled(part.y1, small->height()),
+                         ceiled(part.x1, small->width())};
   return {std::make_shared<const LightField>(cropped(*small, inside, progress.part(0.8, 1)))};
 }
 
@@ -288,18 +298,19 @@ Estimate run_on(const LiveViews& views, const Estimator& estimator, const Estima
 
 std::optional<LiveMap> coarse_map(LiveSource& source, const LiveRun& run, ViewIndex view,
                                   const Progress& progress) {
-  const LiveViews small = source.coarse(run.part.read, progress.part(0, 0.3));
+  const int factor = coarse_factor(run.estimator, *source.light_field());
+  const LiveViews small = source.coarse(run.part.read, factor, progress.part(0, 0.3));
   if (std::min(small.light_field->height(), small.light_field->width()) < kLeastCoarse) return {};
   EstimateRequest request = run.request;
   set_value(request.parameters, kRange,
-            IntervalOrAuto(Interval{run.range.min / kLiveFactor, run.range.max / kLiveFactor}));
+            IntervalOrAuto(Interval{run.range.min / factor, run.range.max / factor}));
   try {
     const Estimate found = run_on(small, run.estimator, request, progress.part(0.3, 1));
-    LiveMap map = map_of(in_whole_views(found, run.part, kLiveFactor, *source.light_field(),
-                                        run.view.value_or(view)),
-                         run, *source.light_field());
+    LiveMap map = map_of(
+        in_whole_views(found, run.part, factor, *source.light_field(), run.view.value_or(view)),
+        run, *source.light_field());
     const Interval range = display_range(found);
-    map.display_range = {kLiveFactor * range.min, kLiveFactor * range.max};
+    map.display_range = {factor * range.min, factor * range.max};
     map.is_coarse = true;
     return map;
   } catch (const InvalidInput&) {
@@ -321,7 +332,7 @@ LiveMap full_map(LiveSource& source, const LiveRun& run, const Progress& progres
 
 /// Estimates what is in sight in one view: a method with a parameter `view` that is auto is run for
 /// it, one that estimates all views at once for all of them unless the view is the center; others
-/// give the view that they are of. `on_coarse` gets a map at a quarter of the size first, where
+/// give the view that they are of. `on_coarse` gets a map of smaller views first, where
 /// that leaves enough pixels and the method accepts it. On a GPU all pixels are estimated at once.
 /// `source` is that of the request's light field. Throws what the method throws, Unavailable for an
 /// unknown one.

@@ -3,12 +3,12 @@
 
 #include "app/session/run_estimator.h"
 #include "engine/core/estimate.h"
-#include "engine/core/view_gain.h"
 #include "engine/core/indices.h"
 #include "engine/core/jobs.h"
 #include "engine/core/light_field.h"
 #include "engine/core/parameter.h"
 #include "engine/core/progress.h"
+#include "engine/core/view_gain.h"
 
 #include <cstdint>
 #include <functional>
@@ -26,7 +26,7 @@ struct LiveRequest {
   std::string method;
   ParameterSet parameters;
   ViewIndex view;
-  PixelRect in_sight{};  ///< Of the view; empty = all of it.
+  PixelRect in_sight{};                       ///< Of the view; empty = all of it.
   std::shared_ptr<EvenViews> even = nullptr;  ///< Of the scene; null: a new one.
   friend bool operator==(const LiveRequest&, const LiveRequest&) = default;
 };
@@ -36,14 +36,14 @@ struct LiveMap {
   EstimatePtr estimate;      ///< Of the view of the request, or of all; parameters as asked for.
   Interval display_range{};  ///< Disparities that most pixels lie in.
   PixelRect part{};          ///< The pixels estimated; empty = all.
-  bool is_coarse = false;    ///< Made from views of a quarter of the size.
+  bool is_coarse = false;    ///< Made from views of a quarter of the size, an eighth for a network.
   double seconds = 0;        ///< Wall-clock time since the request was taken up.
 };
 
 /// State of a live estimate.
 enum class LiveStage : std::uint8_t {
   Idle,    ///< What was asked for is there, or nothing was.
-  Coarse,  ///< The map at a quarter of the size is on its way,
+  Coarse,  ///< The map of smaller views is on its way,
   Full,    ///< and the one in full.
   Failed   ///< `sentence` says why.
 };

@@ -82,7 +82,7 @@ void EdgeWeightsTest::weightsOfTheFile_areShownAndGoneBy() {
 
   f.trigger("segment.all");
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().jobs.count() == 0 && f.labeler().labeling({0, 0}),
-                           kPatience);
+                           kScenePatience);
   QVERIFY(find<SegmentController>(f.window).map_source(render::Quantity::Edges, {0, 0})->edges);
 }
 

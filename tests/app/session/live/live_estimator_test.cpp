@@ -85,7 +85,7 @@ class LiveEstimatorTest : public QObject {
 
 void LiveEstimatorTest::request_givesACoarseMapAndThenWhatRunGives_data() {
   QTest::addColumn<QString>("method");
-  for (const char* method : {"epi_l", "epi_s", "st_ch_l", "st_av_l", "st_ch_g"}) {
+  for (const char* method : {"epi_l", "epi_s", "st_ch_l", "st_av_l", "st_ch_g", "net"}) {
     QTest::newRow(method) << method;
   }
 }
