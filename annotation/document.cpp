@@ -66,10 +66,6 @@ void AnnotationDocument::recolor_label(int id, Rgb color) {
   edit_labels(EditKind::RecolorLabel, [&](LabelSet& labels) { labels.recolor(id, color); });
 }
 
-void AnnotationDocument::remove_label(int id) {
-  take_over(id, 0);
-}
-
 void AnnotationDocument::merge_label(int id, int into) {
   if (!labels_.contains(into) || into == id) {
     throw InvalidInput(fmt::format("label {} cannot be merged into label {}", id, into));

@@ -151,7 +151,7 @@ class AnnotationDocument {
   void rename_label(int id, const std::string& name);
   void recolor_label(int id, Rgb color);
   /// Also erases everything painted with it, on all views.
-  void remove_label(int id);
+  void remove_label(int id) { take_over(id, 0); }
   /// Gives everything painted with a label to another one, and removes it.
   void merge_label(int id, int into);
 

@@ -151,10 +151,6 @@ void LabelSet::rename(int id, const std::string& name) {
   known(id).name = name;
 }
 
-void LabelSet::recolor(int id, Rgb color) {
-  known(id).color = color;
-}
-
 void LabelSet::remove(int id) {
   labels_.erase(labels_.begin() + (&known(id) - labels_.data()));
 }

@@ -90,7 +90,7 @@ class LabelSet {
   void insert(LabelInfo label);
   /// The next three throw InvalidInput for an unknown id or a bad name.
   void rename(int id, const std::string& name);
-  void recolor(int id, Rgb color);
+  void recolor(int id, Rgb color) { known(id).color = color; }
   void remove(int id);
   /// Marks ids up to `id` as used.
   void reserve_ids(int id);

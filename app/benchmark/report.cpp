@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 namespace episcope {
 
@@ -262,72 +263,13 @@ TitledTable published_table(const BenchmarkReport& report) {
 
 namespace {
 
-constexpr const char* kStyle = R"(
-:root { color-scheme: light dark; --ink: #1b1d21; --faint: #5c6470; --page: #ffffff; --line: #d5d9e0;
-  --band: #f3f5f8; --best: #0b6b3a; --bad: #a3201d; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e6e8ec; --faint: #9aa3b0; --page: #16181c;
-  --line: #343942; --band: #1f2329; --best: #6fd39b; --bad: #ff8f85; } }
-body { font: 15px/1.45 system-ui, sans-serif; color: var(--ink); background: var(--page);
-  max-width: 1400px; margin: 2rem auto; padding: 0 1.2rem; }
-h1 { font-size: 1.6rem; } h2 { font-size: 1.15rem; margin: 2.2rem 0 .4rem; }
-p { margin: .3rem 0; max-width: 75ch; } .faint { color: var(--faint); }
-.bad { color: var(--bad); }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; margin: .5rem 0; font-variant-numeric: tabular-nums; }
-th, td { padding: .25rem .7rem; text-align: right; white-space: nowrap;
-  border-bottom: 1px solid var(--line); }
-th:first-child, td:first-child, .text { text-align: left; }
-th { font-weight: 600; border-bottom-width: 2px; cursor: pointer; }
-tbody tr:nth-child(even) { background: var(--band); }
-td.best { font-weight: 700; color: var(--best); }
-.tiles { display: grid; grid-template-columns: repeat(auto-fill, minmax(200px, 1fr)); gap: 14px; }
-.entry { display: grid; grid-template-columns: 1fr 1fr; gap: 4px; align-content: start; }
-tfoot tr:first-child td { border-top: 2px solid var(--line); }
-.entry, .tile { break-inside: avoid; margin: 0; }
-.entries { display: grid; grid-template-columns: repeat(auto-fill, minmax(330px, 1fr)); gap: 18px;
-  margin-top: 14px; }
-img { width: 100%; height: auto; display: block; border: 1px solid var(--line);
-  box-sizing: border-box; }
-figcaption { grid-column: 1 / -1; font-size: .9rem; margin-top: 3px; }
-a { color: inherit; })";
-
-// Sorts by the column clicked; summary rows stay below.
-constexpr const char* kScript = R"(
-document.querySelectorAll('th').forEach(function (head) {
-  head.addEventListener('click', function () {
-    var table = head.closest('table'), body = table.tBodies[0], column = head.cellIndex;
-    var down = head.dataset.down !== 'yes', number = function (row) {
-      return parseFloat(row.cells[column].textContent); };
-    table.querySelectorAll('th').forEach(function (each) { delete each.dataset.down; });
-    head.dataset.down = down ? 'yes' : 'no';
-    Array.from(body.rows).sort(function (a, b) {
-      var x = number(a), y = number(b), order = isNaN(x) || isNaN(y)
-        ? (isNaN(x) ? 1 : 0) - (isNaN(y) ? 1 : 0) ||
-          a.cells[column].textContent.localeCompare(b.cells[column].textContent) : x - y;
-      return down ? order : -order;
-    }).forEach(function (row) { body.appendChild(row); });
-  });
-});)";
-
 std::string escaped(const std::string& text) {
+  static const std::map<char, std::string> entities{
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string html;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
+    const auto entity = entities.find(c);
+    html += entity == entities.end() ? std::string(1, c) : entity->second;
   }
   return html;
 }
@@ -525,8 +467,8 @@ std::string html_page(const BenchmarkReport& report, const std::vector<TitledTab
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>" +
-      title + "</title>\n<style>" + std::string(kStyle) + "\n</style>\n</head>\n<body>\n<h1>" +
-      title + "</h1>\n" +
+      title + "</title>\n<style>" + std::string(kReportStyle) +
+      "\n</style>\n</head>\n<body>\n<h1>" + title + "</h1>\n" +
       paragraph(
           fmt::format("{} scene{}", report.scenes.size(), report.scenes.size() == 1 ? "" : "s") +
               "." + scores_text(report) + " The best is in bold. Made by Episcope " + kVersion +
@@ -537,7 +479,7 @@ std::string html_page(const BenchmarkReport& report, const std::vector<TitledTab
   for (const TitledTable& table : tables) html += table_html(table);
   html += "<h2>Scenes</h2>\n" + paragraph(pictures_text(report), "faint");
   for (const BenchmarkScene& scene : report.scenes) html += scene_html(report, scene);
-  return html + "<script>" + kScript + "\n</script>\n</body>\n</html>\n";
+  return html + "<script>" + kReportScript + "\n</script>\n</body>\n</html>\n";
 }
 
 }  // namespace episcope

@@ -113,6 +113,9 @@ struct PublishedFigures {
 /// The text of resources/vmv2013.json, compiled in: its source is made when the build is
 /// configured.
 extern const char* const kPublishedData;
+/// Style and script of the page, from resources/benchmark.
+extern const char* const kReportStyle;
+extern const char* const kReportScript;
 
 /// The page of a benchmark: its tables, then for each scene pictures of the view, the truth, and of
 /// every entry disparity and error. Needs nothing but the files beside it; light or dark as the

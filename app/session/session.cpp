@@ -24,6 +24,11 @@ std::string new_name(const std::vector<EstimateEntry>& entries, const std::strin
   });
 }
 
+EstimateEntry* entry_in(OpenScene& scene, int id) {
+  const auto found = std::ranges::find(scene.estimates, id, &EstimateEntry::id);
+  return found == scene.estimates.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 Session::Session(JobRunner::Post post)
@@ -80,8 +85,7 @@ bool Session::is_comparing(const OpenScene& scene) const {
 }
 
 void Session::remove_estimate(int id) {
-  const auto found = std::find_if(now_->estimates.begin(), now_->estimates.end(),
-                                  [&](const EstimateEntry& entry) { return entry.id == id; });
+  const auto found = std::ranges::find(now_->estimates, id, &EstimateEntry::id);
   if (found == now_->estimates.end()) return;
   const auto next = now_->estimates.erase(found);
   evaluations_.forget(id);
@@ -110,55 +114,39 @@ void Session::restore_estimate(EstimateEntry entry, std::size_t place) {
   show_estimate(id);
 }
 
-EstimateEntry* Session::entry_of(int id) {
-  const auto found = std::ranges::find(now_->estimates, id, &EstimateEntry::id);
-  return found == now_->estimates.end() ? nullptr : &*found;
-}
-
-OpenScene* Session::scene_with(int estimate) const {
-  const auto found = std::ranges::find_if(scenes_, [&](const auto& scene) {
-    return std::ranges::count(scene->estimates, estimate, &EstimateEntry::id) > 0;
-  });
-  return found == scenes_.end() ? nullptr : found->get();
-}
-
 void Session::rename_estimate(int id, const std::string& name) {
-  OpenScene* scene = scene_with(id);
-  if (!scene || name.empty()) return;
-  EstimateEntry& entry = *std::ranges::find(scene->estimates, id, &EstimateEntry::id);
-  if (name == entry.name) return;
-  entry.name = new_name(scene->estimates, name);
-  changed(Part::Estimates);
+  for (const auto& scene : scenes_) {
+    EstimateEntry* entry = entry_in(*scene, id);
+    if (!entry || name.empty() || name == entry->name) continue;
+    entry->name = new_name(scene->estimates, name);
+    changed(Part::Estimates);
+  }
+}
+
+EstimateEntry* Session::entry_of_any_scene(int id) const {
+  for (const auto& scene : scenes_) {
+    if (EstimateEntry* entry = entry_in(*scene, id)) return entry;
+  }
+  return nullptr;
 }
 
 void Session::set_note(int id, const std::string& note) {
-  OpenScene* scene = scene_with(id);
-  if (!scene) return;
-  EstimateEntry& entry = *std::ranges::find(scene->estimates, id, &EstimateEntry::id);
-  if (note == entry.note) return;
-  entry.note = note;
-  changed(Part::Estimates);
+  if (EstimateEntry* entry = entry_of_any_scene(id)) set(entry->note, note, Part::Estimates);
 }
 
 void Session::set_foreign_file(int id, const std::filesystem::path& file) {
-  OpenScene* scene = scene_with(id);
-  if (!scene) return;
-  std::ranges::find(scene->estimates, id, &EstimateEntry::id)->foreign_file = file;
-  changed(Part::Estimates);
+  if (EstimateEntry* entry = entry_of_any_scene(id)) {
+    set(entry->foreign_file, file, Part::Estimates);
+  }
 }
 
 void Session::mark_saved(int id) {
-  for (const auto& scene : scenes_) {
-    const auto found = std::ranges::find(scene->estimates, id, &EstimateEntry::id);
-    if (found != scene->estimates.end()) found->is_saved = true;
-  }
+  if (EstimateEntry* entry = entry_of_any_scene(id)) entry->is_saved = true;
 }
 
 const EstimateEntry* Session::find_estimate(int id) const {
   if (const EstimateEntry* tried = live(); tried && tried->id == id) return tried;
-  const auto found = std::find_if(now_->estimates.begin(), now_->estimates.end(),
-                                  [&](const EstimateEntry& entry) { return entry.id == id; });
-  return found == now_->estimates.end() ? nullptr : &*found;
+  return entry_in(*now_, id);
 }
 
 void Session::set_live(EstimateEntry entry, std::uint64_t scene) {
@@ -186,16 +174,12 @@ const EstimateEntry* Session::side_a() const {
   return tried ? tried : shown();
 }
 
-const EstimateEntry* Session::side_b() const {
-  return live() ? shown() : compared();
-}
-
 void Session::see(EstimateEntry& entry) {
   if (std::exchange(entry.is_new, false)) changed(Part::Estimates);
 }
 
 void Session::show_estimate(int id) {
-  EstimateEntry* entry = entry_of(id);
+  EstimateEntry* entry = entry_in(*now_, id);
   if (id == now_->shown || !entry) return;
   see(*entry);
   if (const EstimateEntry* other = compared();
@@ -207,7 +191,7 @@ void Session::show_estimate(int id) {
 }
 
 void Session::compare_with(int id) {
-  EstimateEntry* entry = entry_of(id);
+  EstimateEntry* entry = entry_in(*now_, id);
   if (!entry) return;
   if (live()) return show_estimate(id);
   see(*entry);
@@ -253,16 +237,7 @@ Interval Session::known_range() const {
 }
 
 void Session::set_found_range(std::uint64_t scene, Interval range) {
-  OpenScene* open = open_scene(scene);
-  if (!open || open->found_range == range) return;
-  open->found_range = range;
-  changed(Part::FoundRange);
-}
-
-void Session::set_bad_threshold(double threshold_px) {
-  if (threshold_px == bad_threshold_px_) return;
-  bad_threshold_px_ = threshold_px;
-  changed(Part::Evaluations);
+  if (OpenScene* open = open_scene(scene)) set(open->found_range, range, Part::FoundRange);
 }
 
 void Session::set_true_labels(TrueLabelsPtr labels, std::vector<LabelInfo> infos) {
@@ -290,12 +265,6 @@ void Session::set_cross_hair(PixelIndex pixel) {
   changed(Part::CrossHair);
 }
 
-void Session::set_focus(double focus_px) {
-  if (focus_px == now_->place.focus_px) return;
-  now_->place.focus_px = focus_px;
-  changed(Part::Focus);
-}
-
 void Session::set_display(render::Quantity quantity, std::map<render::Quantity, Interval> ranges) {
   ScenePlace place = now_->place;
   place.quantity = quantity;
@@ -303,36 +272,6 @@ void Session::set_display(render::Quantity quantity, std::map<render::Quantity, 
   if (place == now_->place) return;
   now_->place = std::move(place);
   changed(Part::Display);
-}
-
-void Session::set_comparison(const Comparison& comparison) {
-  if (!now_->scene || comparison == now_->place.comparison) return;
-  now_->place.comparison = comparison;
-  changed(Part::Display);
-}
-
-void Session::set_tone(const render::Tone& tone) {
-  if (!now_->scene || tone == now_->place.tone) return;
-  now_->place.tone = tone;
-  changed(Part::Tone);
-}
-
-void Session::set_label_marks(const LabelMarks& marks) {
-  if (!now_->scene || marks == now_->place.label_marks) return;
-  now_->place.label_marks = marks;
-  changed(Part::LabelLook);
-}
-
-void Session::set_label_drawing(render::LabelDrawing drawing) {
-  if (drawing == label_drawing_) return;
-  label_drawing_ = drawing;
-  changed(Part::LabelLook);
-}
-
-void Session::set_measurements(const Measurements& measured) {
-  if (!now_->scene || measured == now_->place.measured) return;
-  now_->place.measured = measured;
-  changed(Part::Measured);
 }
 
 void Session::set_capture(const CaptureWork& work) {
@@ -348,14 +287,7 @@ void Session::set_capture(std::uint64_t id, const CaptureWork& work) {
 }
 
 void Session::set_judged(std::uint64_t id, const JudgedPart& part) {
-  OpenScene* scene = open_scene(id);
-  if (!scene || part == scene->place.judged) return;
-  scene->place.judged = part;
-  changed(Part::Judged);
-}
-
-render::LabelStyle Session::label_style() const {
-  return {label_drawing_, now_->place.label_marks.hidden};
+  if (OpenScene* scene = open_scene(id)) set(scene->place.judged, part, Part::Judged);
 }
 
 std::shared_ptr<const DisparityField> Session::known_disparity(ViewIndex view) const {
@@ -446,10 +378,6 @@ std::vector<const OpenScene*> Session::scenes() const {
 OpenScene* Session::open_scene(std::uint64_t id) const {
   const auto found = std::ranges::find(scenes_, id, &OpenScene::id);
   return found == scenes_.end() ? nullptr : found->get();
-}
-
-const OpenScene* Session::find_scene(std::uint64_t id) const {
-  return open_scene(id);
 }
 
 std::uint64_t Session::scene_of(const std::string& input) const {

@@ -42,7 +42,7 @@ class Session {
   /// All open scenes, in the order in which they were opened.
   [[nodiscard]] std::vector<const OpenScene*> scenes() const;
   /// Null for an unknown id.
-  [[nodiscard]] const OpenScene* find_scene(std::uint64_t id) const;
+  [[nodiscard]] const OpenScene* find_scene(std::uint64_t id) const { return open_scene(id); }
   /// Id of the open scene of this input; 0 if there is none.
   [[nodiscard]] std::uint64_t scene_of(const std::string& input) const;
   /// Shows another scene; the one that was shown is set aside. Precondition: it is in memory.
@@ -119,7 +119,7 @@ class Session {
   /// The estimate on screen: the live one, else the shown one; null if there is neither.
   [[nodiscard]] const EstimateEntry* side_a() const;
   /// What `side_a` is compared with: a live estimate with the shown one, else `compared`.
-  [[nodiscard]] const EstimateEntry* side_b() const;
+  [[nodiscard]] const EstimateEntry* side_b() const { return live() ? shown() : compared(); }
 
   /// The evaluation if it is there; else null, and it is begun in the background if the view has
   /// truth. Part::Evaluations reports its end.
@@ -130,7 +130,9 @@ class Session {
 
   /// Errors beyond it make a pixel bad, in maps and in statistics of what is in sight. Kept from
   /// scene to scene.
-  void set_bad_threshold(double threshold_px);
+  void set_bad_threshold(double threshold_px) {
+    set(bad_threshold_px_, threshold_px, Part::Evaluations);
+  }
   [[nodiscard]] double bad_threshold_px() const { return bad_threshold_px_; }
 
   /// Compares with other labels than those that came with the scene, until another is opened.
@@ -155,26 +157,36 @@ class Session {
   /// View and cross-hair are clamped to the light field.
   void set_view(ViewIndex view);
   void set_cross_hair(PixelIndex pixel);
-  void set_focus(double focus_px);
+  void set_focus(double focus_px) { set(now_->place.focus_px, focus_px, Part::Focus); }
   [[nodiscard]] ViewIndex view() const { return now_->place.view; }
   [[nodiscard]] PixelIndex cross_hair() const { return now_->place.cross_hair; }
   [[nodiscard]] double focus_px() const { return now_->place.focus_px; }
   /// Sets what is drawn over the view and in which color ranges, to come back with the scene.
   void set_display(render::Quantity quantity, std::map<render::Quantity, Interval> ranges);
   /// Sets how results are compared, to come back with the scene.
-  void set_comparison(const Comparison& comparison);
+  void set_comparison(const Comparison& comparison) {
+    set(&ScenePlace::comparison, comparison, Part::Display);
+  }
   /// Sets how views are brightened for display.
-  void set_tone(const render::Tone& tone);
+  void set_tone(const render::Tone& tone) { set(&ScenePlace::tone, tone, Part::Tone); }
   [[nodiscard]] const ScenePlace& place() const { return now_->place; }
   /// Sets which labels are hidden or locked.
-  void set_label_marks(const LabelMarks& marks);
+  void set_label_marks(const LabelMarks& marks) {
+    set(&ScenePlace::label_marks, marks, Part::LabelLook);
+  }
   /// Sets how areas of labels are drawn. Kept from scene to scene.
-  void set_label_drawing(render::LabelDrawing drawing);
+  void set_label_drawing(render::LabelDrawing drawing) {
+    set(label_drawing_, drawing, Part::LabelLook);
+  }
   /// Drawing of labels together with the hidden ones.
-  [[nodiscard]] render::LabelStyle label_style() const;
+  [[nodiscard]] render::LabelStyle label_style() const {
+    return {label_drawing_, now_->place.label_marks.hidden};
+  }
 
   /// Sets what was measured by hand in EPIs.
-  void set_measurements(const Measurements& measured);
+  void set_measurements(const Measurements& measured) {
+    set(&ScenePlace::measured, measured, Part::Measured);
+  }
   /// Sets the work between photographs and ground truth.
   void set_capture(const CaptureWork& work);
   /// Sets the work of any open scene. Unknown scenes are ignored.
@@ -205,15 +217,26 @@ class Session {
 
  private:
   void changed(Parts parts);
+  template <class T>
+  void set(T& value, const T& wanted, Part part) {
+    if (value == wanted) return;
+    value = wanted;
+    changed(part);
+  }
+  /// Of the scene that is shown; ignored if there is none.
+  template <class T>
+  void set(T ScenePlace::*value, const T& wanted, Part part) {
+    if (now_->scene) set(now_->place.*value, wanted, part);
+  }
   void deliver();
   void show_nothing();
   [[nodiscard]] OpenScene* open_scene(std::uint64_t id) const;
-  [[nodiscard]] EstimateEntry* entry_of(int id);
+  /// Null for an unknown id.
+  [[nodiscard]] EstimateEntry* entry_of_any_scene(int id) const;
   /// Whether two results of the scene are on screen together.
   [[nodiscard]] bool is_comparing(const OpenScene& scene) const;
   /// The user has chosen it.
   void see(EstimateEntry& entry);
-  [[nodiscard]] OpenScene* scene_with(int estimate) const;
 
   JobRunner::Post post_;
   std::vector<Listener> listeners_;

@@ -105,15 +105,90 @@ class ViewSmoother {
         space_(lf.height(), lf.width()) {}
 
   // Returns the largest relative gap of its solutions.
-  double solve(ViewIndex index, const LayeredView& view);
+  double solve(ViewIndex index, const LayeredView& view) {
+    if (region_.empty()) region_ = Image<std::uint8_t>(lf_.height(), lf_.width());
+    find_region(index, view);
+    find_weights(view);
+    const Image<float> edges = smoothness_weights(lf_, index, parameters_.edge_strength);
+    double gap = 0;
+    // The background last: outside the region it is what both layers hold.
+    if (std::any_of(region_.begin(), region_.end(), [](std::uint8_t m) { return m != 0; })) {
+      gap = solve_foreground(edges, view);
+    }
+    gap = std::max(gap, solve_background(edges, view));
+    finish(view);
+    return gap;
+  }
 
  private:
-  void find_region(ViewIndex index, const LayeredView& view);
-  void find_weights(const LayeredView& view);
-  double solve_background(const Image<float>& edges, const LayeredView& view);
-  double solve_foreground(const Image<float>& edges, const LayeredView& view);
-  double solve_layer(double lambda, ImageView<float> result);
-  void finish(const LayeredView& view);
+  void find_region(ViewIndex index, const LayeredView& view) {
+    score_.judge(index, {view.fit, view.single, view.near, view.far, view.layers},
+                 space_.data.view(), space_.weight.view());
+    segment_binary(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
+                   {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());
+  }
+
+  // Of either layer's data.
+  void find_weights(const LayeredView& view) {
+    Image<float>& trust = space_.coherence;
+    for (std::size_t i = 0; i < region_.size(); ++i) {
+      trust.data()[i] = region_.data()[i] != 0 ? confidence(view, i) : view.coherence.data[i];
+    }
+    fill_data_weights(trust, {parameters_.weight_power, kLeastLayerWeight}, space_.weight);
+  }
+
+  double solve_background(const Image<float>& edges, const LayeredView& view) {
+    for (std::size_t i = 0; i < region_.size(); ++i) {
+      const bool is_double = region_.data()[i] != 0;
+      space_.data.data()[i] = is_double ? view.far.data[i] : view.single.data[i];
+      // Image edges of the region are those of both layers: they tell of neither.
+      space_.edge.data()[i] = is_double ? 1 : edges.data()[i];
+    }
+    return solve_layer(parameters_.lambda, view.far);
+  }
+
+  double solve_foreground(const Image<float>& edges, const LayeredView& view) {
+    const auto factor = static_cast<float>(std::max(parameters_.layer_smoothness, 1.0));
+    for (int y = 0; y < region_.height(); ++y) {
+      const std::uint8_t* here = region_.row(y);
+      const std::uint8_t* below = region_.row(std::min(y + 1, region_.height() - 1));
+      for (int x = 0; x < region_.width(); ++x) {
+        const std::size_t i = static_cast<std::size_t>(y) * region_.width() + x;
+        const bool is_double = here[x] != 0;
+        const int right = std::min(x + 1, region_.width() - 1);
+        const bool is_border = here[right] != here[x] || below[x] != here[x];
+        space_.data.data()[i] = is_double ? view.near.data[i] : view.single.data[i];
+        space_.edge.data()[i] = is_border   ? kLayerBorderWeight
+                                : is_double ? 1
+                                            : edges.data()[i] / factor;
+      }
+    }
+    return solve_layer(parameters_.lambda * factor, view.near);
+  }
+
+  double solve_layer(double lambda, ImageView<float> result) {
+    return space_.solver
+        .solve({space_.data, space_.weight, space_.edge, lambda},
+               {parameters_.stop.max_iterations, parameters_.stop.gap}, progress_, result)
+        .relative_gap();
+  }
+
+  // Orders the layers, and writes confidence and number of layers.
+  void finish(const LayeredView& view) {
+    for (std::size_t i = 0; i < region_.size(); ++i) {
+      float& near = view.near.data[i];
+      float& far = view.far.data[i];
+      if (region_.data()[i] == 0) {
+        near = far;
+        view.layers.data[i] = 1;
+        continue;
+      }
+      if (near < far) near = far = 0.5F * (near + far);
+      view.coherence.data[i] = confidence(view, i);
+      view.layers.data[i] = 2;
+    }
+  }
+
   [[nodiscard]] float confidence(const LayeredView& view, std::size_t i) const {
     return static_cast<float>(view.layers.data[i]) / 255;
   }
@@ -125,89 +200,6 @@ class ViewSmoother {
   Workspace space_;
   Image<std::uint8_t> region_;
 };
-
-void ViewSmoother::find_region(ViewIndex index, const LayeredView& view) {
-  score_.judge(index, {view.fit, view.single, view.near, view.far, view.layers}, space_.data.view(),
-               space_.weight.view());
-  segment_binary(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
-                 {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());
-}
-
-// Of either layer's data.
-void ViewSmoother::find_weights(const LayeredView& view) {
-  Image<float>& trust = space_.coherence;
-  for (std::size_t i = 0; i < region_.size(); ++i) {
-    trust.data()[i] = region_.data()[i] != 0 ? confidence(view, i) : view.coherence.data[i];
-  }
-  fill_data_weights(trust, {parameters_.weight_power, kLeastLayerWeight}, space_.weight);
-}
-
-double ViewSmoother::solve_layer(double lambda, ImageView<float> result) {
-  return space_.solver
-      .solve({space_.data, space_.weight, space_.edge, lambda},
-             {parameters_.stop.max_iterations, parameters_.stop.gap}, progress_, result)
-      .relative_gap();
-}
-
-double ViewSmoother::solve_background(const Image<float>& edges, const LayeredView& view) {
-  for (std::size_t i = 0; i < region_.size(); ++i) {
-    const bool is_double = region_.data()[i] != 0;
-    space_.data.data()[i] = is_double ? view.far.data[i] : view.single.data[i];
-    // Image edges of the region are those of both layers: they tell of neither.
-    space_.edge.data()[i] = is_double ? 1 : edges.data()[i];
-  }
-  return solve_layer(parameters_.lambda, view.far);
-}
-
-double ViewSmoother::solve_foreground(const Image<float>& edges, const LayeredView& view) {
-  const auto factor = static_cast<float>(std::max(parameters_.layer_smoothness, 1.0));
-  for (int y = 0; y < region_.height(); ++y) {
-    const std::uint8_t* here = region_.row(y);
-    const std::uint8_t* below = region_.row(std::min(y + 1, region_.height() - 1));
-    for (int x = 0; x < region_.width(); ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * region_.width() + x;
-      const bool is_double = here[x] != 0;
-      const int right = std::min(x + 1, region_.width() - 1);
-      const bool is_border = here[right] != here[x] || below[x] != here[x];
-      space_.data.data()[i] = is_double ? view.near.data[i] : view.single.data[i];
-      space_.edge.data()[i] = is_border   ? kLayerBorderWeight
-                              : is_double ? 1
-                                          : edges.data()[i] / factor;
-    }
-  }
-  return solve_layer(parameters_.lambda * factor, view.near);
-}
-
-// Orders the layers, and writes confidence and number of layers.
-void ViewSmoother::finish(const LayeredView& view) {
-  for (std::size_t i = 0; i < region_.size(); ++i) {
-    float& near = view.near.data[i];
-    float& far = view.far.data[i];
-    if (region_.data()[i] == 0) {
-      near = far;
-      view.layers.data[i] = 1;
-      continue;
-    }
-    if (near < far) near = far = 0.5F * (near + far);
-    view.coherence.data[i] = confidence(view, i);
-    view.layers.data[i] = 2;
-  }
-}
-
-double ViewSmoother::solve(ViewIndex index, const LayeredView& view) {
-  if (region_.empty()) region_ = Image<std::uint8_t>(lf_.height(), lf_.width());
-  find_region(index, view);
-  find_weights(view);
-  const Image<float> edges = smoothness_weights(lf_, index, parameters_.edge_strength);
-  double gap = 0;
-  // The background last: outside the region it is what both layers hold.
-  if (std::any_of(region_.begin(), region_.end(), [](std::uint8_t m) { return m != 0; })) {
-    gap = solve_foreground(edges, view);
-  }
-  gap = std::max(gap, solve_background(edges, view));
-  finish(view);
-  return gap;
-}
 
 // Steps 2 to 4 of EPI_TWO_LAYER but for the check of lines: decides where there are two layers,
 // and smooths both. `packed_views` are packed around the views as far as kMaxArmViews. Returns the

@@ -251,31 +251,83 @@ struct MapOfView {
   ImageView<const float> disparity, confidence;
 };
 
+// Brightness is taken from a map of which so many pixels are sure.
+constexpr double kLeastSure = 0.1;
+
 // A light field as its views are compared, without differences in brightness, and the data term of
 // one view. Refers to light field and parameters. Members throw DeviceFailure, Cancelled.
 class EqualizedViews {
  public:
-  EqualizedViews(const LightField& light_field, const PlaneParameters& parameters, Device device);
+  EqualizedViews(const LightField& lf, const PlaneParameters& parameters, Device device)
+      : lf_(lf), parameters_(parameters), device_(device) {}
 
   // The evened one, or the given one if its views are alike.
   [[nodiscard]] const LightField& light_field() const { return even_ ? *even_ : lf_; }
   [[nodiscard]] StereoCosts& stereo() { return stereo_; }
 
   // By the means of the views, as nothing is known of disparities, and prepares the data term.
-  void begin(const Progress& progress);
+  void begin(const Progress& progress) {
+    const ViewIndex view = parameters_.matching.view.value_or(lf_.center());
+    if (parameters_.even && lf_.grid().contains(view)) {
+      use(gains_of_means(lf_, view, progress.part(0, 0.2)), progress.part(0.2, 0.4));
+    }
+    prepare(parameters_.matching, progress.part(0.4, 1));
+  }
+
   // By what the sure part of a map tells, and prepares it anew.
-  void improve(const MapOfView& map, const Progress& progress);
+  void improve(const MapOfView& map, const Progress& progress) {
+    const Image<float> sure =
+        sure_surfaces(map.disparity, map.confidence, parameters_.visibility.least_trust);
+    const auto known = std::ranges::count_if(sure, [](float d) { return d > kNothingNear; });
+    if (!parameters_.even) return;
+    PhotometricCorrection correction;
+    if (known >= kLeastSure * static_cast<double>(sure.size())) {
+      correction = correction_of_points(lf_, stereo_.view, sure, progress.part(0, 0.4));
+    }
+    if (!even_ && !correction.is_uneven()) return;
+    use(correction, progress.part(0.4, 0.6));
+    StereoCostParameters matching = parameters_.matching;
+    matching.range = stereo_.range;
+    prepare(matching, progress.part(0.6, 1));
+    if (even_) {
+      note_ = fmt::format("brightness of the views evened: fall-off {:.3f}", correction.fall_off);
+    }
+  }
+
   // About what was evened, for the notes of an estimate; may be empty.
   [[nodiscard]] const std::string& note() const { return note_; }
 
   // What was evened, in numbers of which there is one at least, and the same light field again,
   // without a data term.
-  [[nodiscard]] std::vector<double> evened() const;
-  void restore(const std::vector<double>& evened, const Progress& progress);
+  [[nodiscard]] std::vector<double> evened() const {
+    std::vector<double> numbers{correction_.fall_off};
+    for (const auto& gain : correction_.gains)
+      numbers.insert(numbers.end(), gain.begin(), gain.end());
+    return numbers;
+  }
+
+  void restore(const std::vector<double>& evened, const Progress& progress) {
+    PhotometricCorrection correction;
+    correction.fall_off = evened.front();
+    for (std::size_t i = 1; i + 2 < evened.size(); i += 3) {
+      correction.gains.push_back({evened[i], evened[i + 1], evened[i + 2]});
+    }
+    stereo_ = {};
+    use(correction, progress);
+  }
 
  private:
-  void use(const PhotometricCorrection& correction, const Progress& progress);
-  void prepare(const StereoCostParameters& matching, const Progress& progress);
+  void use(const PhotometricCorrection& correction, const Progress& progress) {
+    correction_ = correction;
+    even_.reset();
+    if (correction.is_uneven()) even_.emplace(corrected(lf_, correction, progress));
+  }
+
+  void prepare(const StereoCostParameters& matching, const Progress& progress) {
+    stereo_ =
+        prepare_stereo(light_field(), MatchedViews::All, matching, progress.part(0, 0.9), device_);
+    set_local_caps(light_field(), parameters_.visibility, progress.part(0.9, 1), stereo_);
+  }
 
   const LightField& lf_;
   const PlaneParameters& parameters_;
@@ -285,69 +337,6 @@ class EqualizedViews {
   StereoCosts stereo_;
   std::string note_;
 };
-
-// Brightness is taken from a map of which so many pixels are sure.
-constexpr double kLeastSure = 0.1;
-
-EqualizedViews::EqualizedViews(const LightField& lf, const PlaneParameters& parameters,
-                               Device device)
-    : lf_(lf), parameters_(parameters), device_(device) {}
-
-void EqualizedViews::begin(const Progress& progress) {
-  const ViewIndex view = parameters_.matching.view.value_or(lf_.center());
-  if (parameters_.even && lf_.grid().contains(view)) {
-    use(gains_of_means(lf_, view, progress.part(0, 0.2)), progress.part(0.2, 0.4));
-  }
-  prepare(parameters_.matching, progress.part(0.4, 1));
-}
-
-void EqualizedViews::improve(const MapOfView& map, const Progress& progress) {
-  const Image<float> sure =
-      sure_surfaces(map.disparity, map.confidence, parameters_.visibility.least_trust);
-  const auto known = std::ranges::count_if(sure, [](float d) { return d > kNothingNear; });
-  if (!parameters_.even) return;
-  PhotometricCorrection correction;
-  if (known >= kLeastSure * static_cast<double>(sure.size())) {
-    correction = correction_of_points(lf_, stereo_.view, sure, progress.part(0, 0.4));
-  }
-  if (!even_ && !correction.is_uneven()) return;
-  use(correction, progress.part(0.4, 0.6));
-  StereoCostParameters matching = parameters_.matching;
-  matching.range = stereo_.range;
-  prepare(matching, progress.part(0.6, 1));
-  if (even_) {
-    note_ = fmt::format("brightness of the views evened: fall-off {:.3f}", correction.fall_off);
-  }
-}
-
-std::vector<double> EqualizedViews::evened() const {
-  std::vector<double> numbers{correction_.fall_off};
-  for (const auto& gain : correction_.gains)
-    numbers.insert(numbers.end(), gain.begin(), gain.end());
-  return numbers;
-}
-
-void EqualizedViews::restore(const std::vector<double>& evened, const Progress& progress) {
-  PhotometricCorrection correction;
-  correction.fall_off = evened.front();
-  for (std::size_t i = 1; i + 2 < evened.size(); i += 3) {
-    correction.gains.push_back({evened[i], evened[i + 1], evened[i + 2]});
-  }
-  stereo_ = {};
-  use(correction, progress);
-}
-
-void EqualizedViews::use(const PhotometricCorrection& correction, const Progress& progress) {
-  correction_ = correction;
-  even_.reset();
-  if (correction.is_uneven()) even_.emplace(corrected(lf_, correction, progress));
-}
-
-void EqualizedViews::prepare(const StereoCostParameters& matching, const Progress& progress) {
-  stereo_ =
-      prepare_stereo(light_field(), MatchedViews::All, matching, progress.part(0, 0.9), device_);
-  set_local_caps(light_field(), parameters_.visibility, progress.part(0.9, 1), stereo_);
-}
 
 // Labels the costs.
 void label_visible(const LightField& lf, const PlaneParameters& parameters,

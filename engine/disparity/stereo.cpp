@@ -2,6 +2,7 @@
 #include "engine/disparity/stereo.h"
 
 #include "engine/core/parallel.h"
+#include "engine/core/text.h"
 #include "engine/disparity/kernels/shared_constants.h"
 #include "engine/disparity/view_samples.h"
 #include "engine/disparity/visible_costs.h"
@@ -313,114 +314,60 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
 
 namespace {
 
-constexpr const char* kReference = "Wanner, Meister and Goldluecke 2013 [WMG13]";
-
-template <class P>
-using StereoFunction = Estimate (*)(const LightField&, MatchedViews, const P&, const Progress&,
-                                    Device);
-
-// `estimate` of `views`, in the form that make_estimator takes.
-template <class P>
-auto with_views(MatchedViews views, StereoFunction<P> estimate) {
+// A function of `views` in the form that make_estimator takes.
+template <class P, class F>
+auto with_views(MatchedViews views, F function) {
   return [=](const LightField& light_field, const P& parameters, ViewSelection,
-             const Progress& progress,
-             Device device) { return estimate(light_field, views, parameters, progress, device); };
+             const Progress& progress, auto... device) {
+    return function(light_field, views, parameters, progress, device...);
+  };
 }
 
-// A method from its schema and its function of `views`.
-template <class P>
-Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
-                           Schema<P> (*schema)(MatchedViews), StereoFunction<P> estimate) {
-  info.devices = {Device::Cpu, Device::Cuda};
-  return make_estimator<P>(std::move(info), schema(views), with_views(views, estimate));
+// "ST_AV_" or "ST_CH_", followed by the kind of method.
+std::string name_of(MatchedViews views, char kind) {
+  return std::string(views == MatchedViews::All ? "ST_AV_" : "ST_CH_") + kind;
 }
 
-template <class P>
-using StereoBlocks = BlockwiseRun (*)(const LightField&, MatchedViews, const P&, const Progress&);
-
-// One that can also run in blocks.
-template <class P>
-Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
-                           Schema<P> (*schema)(MatchedViews), StereoFunction<P> estimate,
-                           StereoBlocks<P> blocks) {
-  info.devices = {Device::Cpu, Device::Cuda};
-  return make_estimator<P>(
-      std::move(info), schema(views), with_views(views, estimate),
-      [=](const LightField& light_field, const P& parameters, ViewSelection,
-          const Progress& progress) { return blocks(light_field, views, parameters, progress); });
-}
-
-Estimator local_estimator(EstimatorInfo info, MatchedViews views) {
-  return stereo_estimator<StereoLocalParameters>(std::move(info), views, stereo_local_schema,
-                                                 estimate_stereo_local, stereo_local_in_blocks);
+EstimatorInfo stereo_info(MatchedViews views, char kind, std::string summary,
+                          std::vector<std::string> main_parameters) {
+  const std::string name = name_of(views, kind);
+  return {.id = lower_case(name),
+          .name = name,
+          .summary = std::move(summary),
+          .reference = "Wanner, Meister and Goldluecke 2013 [WMG13]",
+          .iterative = kind != 'L',
+          .revision = kind == 'L' ? 6 : 7,
+          .devices = {Device::Cpu, Device::Cuda},
+          .main_parameters = std::move(main_parameters)};
 }
 
 }  // namespace
 
-Estimator st_av_l_estimator() {
-  return local_estimator({.id = "st_av_l",
-                          .name = "ST_AV_L",
-                          .summary = "Local multi-view stereo over all views",
-                          .reference = kReference,
-                          .revision = 6,
-                          .main_parameters = {"range", "labels", "aggregation"}},
-                         MatchedViews::All);
+Estimator stereo_local_estimator(MatchedViews views) {
+  using P = StereoLocalParameters;
+  const std::string used = views == MatchedViews::All ? "all views" : "the views of the cross-hair";
+  return make_estimator<P>(stereo_info(views, 'L', "Local multi-view stereo over " + used,
+                                       {"range", "labels", "aggregation"}),
+                           stereo_local_schema(views), with_views<P>(views, estimate_stereo_local),
+                           with_views<P>(views, stereo_local_in_blocks));
 }
 
-Estimator st_ch_l_estimator() {
-  return local_estimator({.id = "st_ch_l",
-                          .name = "ST_CH_L",
-                          .summary = "Local multi-view stereo over the views of the cross-hair",
-                          .reference = kReference,
-                          .revision = 6,
-                          .main_parameters = {"range", "labels", "aggregation"}},
-                         MatchedViews::CrossHair);
+Estimator stereo_smooth_estimator(MatchedViews views) {
+  using P = StereoSmoothParameters;
+  return make_estimator<P>(
+      stereo_info(views, 'S', name_of(views, 'L') + ", denoised with total variation (TV-L2)",
+                  {"range", "labels", "lambda"}),
+      stereo_smooth_schema(views), with_views<P>(views, estimate_stereo_smooth),
+      with_views<P>(views, stereo_smooth_in_blocks));
 }
 
-Estimator st_av_s_estimator() {
-  return stereo_estimator({.id = "st_av_s",
-                           .name = "ST_AV_S",
-                           .summary = "ST_AV_L, denoised with total variation (TV-L2)",
-                           .reference = kReference,
-                           .iterative = true,
-                           .revision = 7,
-                           .main_parameters = {"range", "labels", "lambda"}},
-                          MatchedViews::All, stereo_smooth_schema, estimate_stereo_smooth,
-                          stereo_smooth_in_blocks);
-}
-
-Estimator st_ch_s_estimator() {
-  return stereo_estimator({.id = "st_ch_s",
-                           .name = "ST_CH_S",
-                           .summary = "ST_CH_L, denoised with total variation (TV-L2)",
-                           .reference = kReference,
-                           .iterative = true,
-                           .revision = 7,
-                           .main_parameters = {"range", "labels", "lambda"}},
-                          MatchedViews::CrossHair, stereo_smooth_schema, estimate_stereo_smooth,
-                          stereo_smooth_in_blocks);
-}
-
-Estimator st_av_g_estimator() {
-  return stereo_estimator({.id = "st_av_g",
-                           .name = "ST_AV_G",
-                           .summary = "Globally optimal labeling of the matching costs of ST_AV_L",
-                           .reference = kReference,
-                           .iterative = true,
-                           .revision = 7,
-                           .main_parameters = {"range", "labels", "smoothness"}},
-                          MatchedViews::All, stereo_global_schema, estimate_stereo_global);
-}
-
-Estimator st_ch_g_estimator() {
-  return stereo_estimator({.id = "st_ch_g",
-                           .name = "ST_CH_G",
-                           .summary = "Globally optimal labeling of the matching costs of ST_CH_L",
-                           .reference = kReference,
-                           .iterative = true,
-                           .revision = 7,
-                           .main_parameters = {"range", "labels", "smoothness"}},
-                          MatchedViews::CrossHair, stereo_global_schema, estimate_stereo_global);
+Estimator stereo_global_estimator(MatchedViews views) {
+  using P = StereoGlobalParameters;
+  return make_estimator<P>(
+      stereo_info(views, 'G',
+                  "Globally optimal labeling of the matching costs of " + name_of(views, 'L'),
+                  {"range", "labels", "smoothness"}),
+      stereo_global_schema(views), with_views<P>(views, estimate_stereo_global));
 }
 
 }  // namespace episcope

@@ -96,17 +96,14 @@ struct StereoGlobalParameters {
 /// The default departs from it: ε follows the noise, samples are cubic, neighbors of similar
 /// color share costs through a guided filter of radius 2, and a parabola is fitted between labels.
 /// This reduces the error to about a fifth (tests/accuracy/tuning.md).
-[[nodiscard]] Estimator st_av_l_estimator();
-[[nodiscard]] Estimator st_ch_l_estimator();
+[[nodiscard]] Estimator stereo_local_estimator(MatchedViews views);
 
 /// ST_AV_S, ST_CH_S: the local methods, denoised with weighted total variation (`denoise`), under
 /// the profile `paper` without weights. Section 4.2 of the paper.
-[[nodiscard]] Estimator st_av_s_estimator();
-[[nodiscard]] Estimator st_ch_s_estimator();
+[[nodiscard]] Estimator stereo_smooth_estimator(MatchedViews views);
 
 /// ST_AV_G, ST_CH_G: a globally optimal labeling with the same matching costs as data term
 /// (estimate_stereo_global). Equation (5) of the paper.
-[[nodiscard]] Estimator st_av_g_estimator();
-[[nodiscard]] Estimator st_ch_g_estimator();
+[[nodiscard]] Estimator stereo_global_estimator(MatchedViews views);
 
 }  // namespace episcope

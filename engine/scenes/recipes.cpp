@@ -9,6 +9,8 @@
 namespace episcope::scenes {
 namespace {
 
+constexpr double kEndless = 1e3;
+
 /// Where something stands on the table: `x` to the right, `y` above the table, `z` away from the
 /// cameras, in scene units; turned by `turn` (cosine and sine) about the upright axis.
 struct Place {
@@ -23,37 +25,131 @@ class StillLife {
  public:
   /// The lower edge of the image shows the table at `front_disparity`. `pitch` is cosine and sine
   /// of the angle by which the cameras look down.
-  StillLife(const Stage& stage, std::array<double, 2> pitch, double front_disparity);
+  StillLife(const Stage& stage, std::array<double, 2> pitch, double front_disparity)
+      : stage_(stage), pitch_(pitch) {
+    const double depth = stage.depth(front_disparity);
+    const double y = stage.point(0, stage.height - 1, depth)[1];
+    // Back from the camera frame into the level frame of the room.
+    table_y_ = -(pitch[0] * y + pitch[1] * depth);
+    front_z_ = pitch[0] * depth - pitch[1] * y;
+  }
 
-  void table(const Texture& texture, int label);
-  void wall(double z, const Texture& texture, int label);
+  void table(const Texture& texture, int label) {
+    Primitive& table = add(Shape::Rectangle, {0, 0, 2}, model_.add(texture), label);
+    set_axes(table, direction({1, 0, 0}), direction({0, 0, 1}), direction({0, 1, 0}));
+    table.extent[0] = table.extent[1] = kEndless;
+  }
+
+  void wall(double z, const Texture& texture, int label) {
+    Primitive& wall = add(Shape::Rectangle, {0, 2, z}, model_.add(texture), label);
+    wall.extent[0] = wall.extent[1] = kEndless;
+  }
+
   /// `place` is the middle of the bottom.
-  void box(const Place& place, const Vector3& half, const Texture& texture, int label);
-  void sphere(const Place& center, double radius, const Texture& texture, int label);
+  void box(const Place& place, const Vector3& half, const Texture& texture, int label) {
+    Place middle = place;
+    middle.y += half[1];
+    Primitive& box = add(Shape::Box, middle, model_.add(texture), label);
+    std::copy(half.begin(), half.end(), box.extent);
+  }
+
+  void sphere(const Place& center, double radius, const Texture& texture, int label) {
+    Primitive& sphere = add(Shape::Revolution, center, model_.add(texture), label);
+    sphere.extent[0] = -radius;
+    sphere.extent[1] = radius;
+    sphere.profile[0] = radius * radius;
+    sphere.profile[2] = -1;
+    occluder(center, radius, label);
+  }
+
   /// A piece of a surface of revolution, see `revolve`.
   void surface_of_revolution(const Place& place, double height, const Radii& radii, int texture,
-                             int label);
-  void disc(const Place& center, double radius, int texture, int label);
+                             int label) {
+    revolve(add(Shape::Revolution, place, texture, label), height, radii);
+  }
+
+  void disc(const Place& center, double radius, int texture, int label) {
+    Primitive& disc = add(Shape::Disc, center, texture, label);
+    set_axes(disc, direction({1, 0, 0}), direction({0, 0, 1}), direction({0, 1, 0}));
+    disc.extent[0] = radius;
+  }
+
   /// A thin rod between two points.
-  void rod(const Place& from, const Place& to, double radius, int texture, int label);
-  void occluder(const Place& center, double radius, int label);
+  void rod(const Place& from, const Place& to, double radius, int texture, int label) {
+    const Vector3 along{to.x - from.x, to.y - from.y, to.z - from.z};
+    const double size = length(along);
+    const Vector3 y = scaled(along, 1 / size);
+    const Vector3 x = normalized(cross(y, {0, 0, 1}));
+    Primitive& rod = add(Shape::Revolution, from, texture, label);
+    set_axes(rod, direction(x), direction(y), direction(cross(x, y)));
+    rod.extent[0] = 0;
+    rod.extent[1] = size;
+    rod.profile[0] = radius * radius;
+  }
+
+  void occluder(const Place& center, double radius, int label) {
+    const Vector3 at = position(center);
+    Occluder occluder;
+    for (int k = 0; k < 3; ++k) occluder.center[k] = static_cast<float>(at[k]);
+    occluder.radius = static_cast<float>(radius);
+    occluder.label = label;
+    model_.occluders.push_back(occluder);
+  }
 
   /// Size of a pixel of the center view at a place.
-  [[nodiscard]] double pixel_at(const Place& place) const;
+  [[nodiscard]] double pixel_at(const Place& place) const {
+    return stage_.pixel(position(place)[2]);
+  }
+
   /// Noise that is resolved there, and fades where it is not.
   [[nodiscard]] Texture noise_at(const Place& place, unsigned seed,
-                                 const std::array<float, 3>& color, float contrast) const;
+                                 const std::array<float, 3>& color, float contrast) const {
+    Texture texture = noise_texture(pixel_at(place), seed, color, contrast);
+    texture.fades = true;
+    texture.is_solid = true;
+    return texture;
+  }
+
   /// A pattern along `axis` with the given period, with edges as hard as pixels there allow.
   void add_pattern(Texture& texture, Pattern pattern, const Place& place, double period,
-                   const std::array<Vector3, 2>& axes) const;
-  void light(const Lighting& lighting, const Vector3& key_direction);
+                   const std::array<Vector3, 2>& axes) const {
+    set_pattern(texture, pattern, pixel_at(place), period, axes);
+  }
+
+  void light(const Lighting& lighting, const Vector3& key_direction) {
+    model_.lighting = lighting;
+    model_.lighting.is_on = true;
+    const Vector3 up = direction({0, 1, 0});
+    const Vector3 key = scaled(direction(key_direction), 1 / length(key_direction));
+    for (int k = 0; k < 3; ++k) {
+      model_.lighting.up[k] = static_cast<float>(up[k]);
+      model_.lighting.key_direction[k] = static_cast<float>(key[k]);
+    }
+  }
 
   [[nodiscard]] Model& model() { return model_; }
 
  private:
-  [[nodiscard]] Vector3 direction(const Vector3& room) const;
-  [[nodiscard]] Vector3 position(const Place& place) const;
-  Primitive& add(Shape shape, const Place& place, int texture, int label);
+  [[nodiscard]] Vector3 direction(const Vector3& room) const {
+    return {room[0], -pitch_[0] * room[1] - pitch_[1] * room[2],
+            -pitch_[1] * room[1] + pitch_[0] * room[2]};
+  }
+
+  [[nodiscard]] Vector3 position(const Place& place) const {
+    return direction({place.x, table_y_ + place.y, front_z_ + place.z});
+  }
+
+  Primitive& add(Shape shape, const Place& place, int texture, int label) {
+    Primitive primitive;
+    primitive.shape = shape;
+    const Vector3 at = position(place);
+    std::copy(at.begin(), at.end(), primitive.center);
+    const auto [c, s] = place.turn;
+    set_axes(primitive, direction({c, 0, s}), direction({0, 1, 0}), direction({-s, 0, c}));
+    primitive.texture = texture;
+    primitive.label = label;
+    return model_.primitives.emplace_back(primitive);
+  }
 
   Stage stage_;
   std::array<double, 2> pitch_;
@@ -62,130 +158,19 @@ class StillLife {
   Model model_;
 };
 
-constexpr double kEndless = 1e3;
-
-StillLife::StillLife(const Stage& stage, std::array<double, 2> pitch, double front_disparity)
-    : stage_(stage), pitch_(pitch) {
-  const double depth = stage.depth(front_disparity);
-  const double y = stage.point(0, stage.height - 1, depth)[1];
-  // Back from the camera frame into the level frame of the room.
-  table_y_ = -(pitch[0] * y + pitch[1] * depth);
-  front_z_ = pitch[0] * depth - pitch[1] * y;
-}
-
-Vector3 StillLife::direction(const Vector3& room) const {
-  return {room[0], -pitch_[0] * room[1] - pitch_[1] * room[2],
-          -pitch_[1] * room[1] + pitch_[0] * room[2]};
-}
-
-Vector3 StillLife::position(const Place& place) const {
-  return direction({place.x, table_y_ + place.y, front_z_ + place.z});
-}
-
-Primitive& StillLife::add(Shape shape, const Place& place, int texture, int label) {
-  Primitive primitive;
-  primitive.shape = shape;
-  const Vector3 at = position(place);
-  std::copy(at.begin(), at.end(), primitive.center);
-  const auto [c, s] = place.turn;
-  set_axes(primitive, direction({c, 0, s}), direction({0, 1, 0}), direction({-s, 0, c}));
-  primitive.texture = texture;
-  primitive.label = label;
-  return model_.primitives.emplace_back(primitive);
-}
-
-void StillLife::table(const Texture& texture, int label) {
-  Primitive& table = add(Shape::Rectangle, {0, 0, 2}, model_.add(texture), label);
-  set_axes(table, direction({1, 0, 0}), direction({0, 0, 1}), direction({0, 1, 0}));
-  table.extent[0] = table.extent[1] = kEndless;
-}
-
-void StillLife::wall(double z, const Texture& texture, int label) {
-  Primitive& wall = add(Shape::Rectangle, {0, 2, z}, model_.add(texture), label);
-  wall.extent[0] = wall.extent[1] = kEndless;
-}
-
-void StillLife::box(const Place& place, const Vector3& half, const Texture& texture, int label) {
-  Place middle = place;
-  middle.y += half[1];
-  Primitive& box = add(Shape::Box, middle, model_.add(texture), label);
-  std::copy(half.begin(), half.end(), box.extent);
-}
-
-void StillLife::sphere(const Place& center, double radius, const Texture& texture, int label) {
-  Primitive& sphere = add(Shape::Revolution, center, model_.add(texture), label);
-  sphere.extent[0] = -radius;
-  sphere.extent[1] = radius;
-  sphere.profile[0] = radius * radius;
-  sphere.profile[2] = -1;
-  occluder(center, radius, label);
-}
-
-void StillLife::surface_of_revolution(const Place& place, double height, const Radii& radii,
-                                      int texture, int label) {
-  revolve(add(Shape::Revolution, place, texture, label), height, radii);
-}
-
-void StillLife::disc(const Place& center, double radius, int texture, int label) {
-  Primitive& disc = add(Shape::Disc, center, texture, label);
-  set_axes(disc, direction({1, 0, 0}), direction({0, 0, 1}), direction({0, 1, 0}));
-  disc.extent[0] = radius;
-}
-
-void StillLife::rod(const Place& from, const Place& to, double radius, int texture, int label) {
-  const Vector3 along{to.x - from.x, to.y - from.y, to.z - from.z};
-  const double size = length(along);
-  const Vector3 y = scaled(along, 1 / size);
-  const Vector3 x = normalized(cross(y, {0, 0, 1}));
-  Primitive& rod = add(Shape::Revolution, from, texture, label);
-  set_axes(rod, direction(x), direction(y), direction(cross(x, y)));
-  rod.extent[0] = 0;
-  rod.extent[1] = size;
-  rod.profile[0] = radius * radius;
-}
-
-void StillLife::occluder(const Place& center, double radius, int label) {
-  const Vector3 at = position(center);
-  Occluder occluder;
-  for (int k = 0; k < 3; ++k) occluder.center[k] = static_cast<float>(at[k]);
-  occluder.radius = static_cast<float>(radius);
-  occluder.label = label;
-  model_.occluders.push_back(occluder);
-}
-
-double StillLife::pixel_at(const Place& place) const {
-  return stage_.pixel(position(place)[2]);
-}
-
-Texture StillLife::noise_at(const Place& place, unsigned seed, const std::array<float, 3>& color,
-                            float contrast) const {
-  Texture texture = noise_texture(pixel_at(place), seed, color, contrast);
-  texture.fades = true;
-  texture.is_solid = true;
-  return texture;
-}
-
-void StillLife::add_pattern(Texture& texture, Pattern pattern, const Place& place, double period,
-                            const std::array<Vector3, 2>& axes) const {
-  set_pattern(texture, pattern, pixel_at(place), period, axes);
-}
-
-void StillLife::light(const Lighting& lighting, const Vector3& key_direction) {
-  model_.lighting = lighting;
-  model_.lighting.is_on = true;
-  const Vector3 up = direction({0, 1, 0});
-  const Vector3 key = scaled(direction(key_direction), 1 / length(key_direction));
-  for (int k = 0; k < 3; ++k) {
-    model_.lighting.up[k] = static_cast<float>(up[k]);
-    model_.lighting.key_direction[k] = static_cast<float>(key[k]);
-  }
-}
-
 constexpr std::array<float, 3> kGrey{0.5F, 0.5F, 0.5F};
 constexpr float kContrast = 0.5F;
 
 // Far beyond the image in px, so that every view is filled.
 constexpr double kFar = 1e6;
+
+// Adds a surface at a disparity, with noise that is resolved there.
+Primitive& add_noisy(Model& model, const Stage& stage, Primitive surface, double disparity,
+                     unsigned seed, const std::array<float, 3>& color, float contrast) {
+  surface.texture =
+      model.add(noise_texture(stage.pixel(stage.depth(disparity)), seed, color, contrast));
+  return model.primitives.emplace_back(surface);
+}
 
 Model single_plane(const Stage& stage, const DisparityPlane& plane, double nearest_disparity) {
   Model model;
@@ -212,16 +197,12 @@ Model edge_scene(const Stage& stage) {
   constexpr double far_disparity = -0.5;
   constexpr double near_disparity = 0.8;
   Model model;
-  model.primitives.push_back(make_plane(stage, {far_disparity, 0, 0}));
-  model.primitives.back().texture = model.add(
-      noise_texture(stage.pixel(stage.depth(far_disparity)), 2, {0.42F, 0.50F, 0.58F}, kContrast));
+  add_noisy(model, stage, make_plane(stage, {far_disparity, 0, 0}), far_disparity, 2,
+            {0.42F, 0.50F, 0.58F}, kContrast);
   // Its left side lies between two pixels of the center view.
   const double left = stage.width / 2 - 0.5;
-  model.primitives.push_back(
-      make_card(stage, {left, -kFar, left + 2 * kFar, kFar, near_disparity}));
-  model.primitives.back().label = 2;
-  model.primitives.back().texture = model.add(
-      noise_texture(stage.pixel(stage.depth(near_disparity)), 3, {0.60F, 0.50F, 0.40F}, kContrast));
+  const Primitive card = make_card(stage, {left, -kFar, left + 2 * kFar, kFar, near_disparity});
+  add_noisy(model, stage, card, near_disparity, 3, {0.60F, 0.50F, 0.40F}, kContrast).label = 2;
   return model;
 }
 
@@ -230,9 +211,8 @@ Model bars_scene(const Stage& stage) {
   constexpr double near_disparity = 0.7;
   constexpr int widths[] = {1, 2, 3, 5};
   Model model;
-  model.primitives.push_back(make_plane(stage, {far_disparity, 0, 0}));
-  model.primitives.back().texture = model.add(
-      noise_texture(stage.pixel(stage.depth(far_disparity)), 4, {0.38F, 0.46F, 0.52F}, kContrast));
+  add_noisy(model, stage, make_plane(stage, {far_disparity, 0, 0}), far_disparity, 4,
+            {0.38F, 0.46F, 0.52F}, kContrast);
   const int texture = model.add(
       noise_texture(stage.pixel(stage.depth(near_disparity)), 5, {0.72F, 0.60F, 0.34F}, 0.4F));
   const auto add_bar = [&](const Card& card) {
@@ -259,18 +239,14 @@ Model transparent_scene(const Stage& stage) {
   constexpr double far_disparity = -0.5;
   constexpr double near_disparity = 0.5;
   Model model;
-  model.primitives.push_back(make_plane(stage, {far_disparity, 0, 0}));
-  model.primitives.back().texture = model.add(
-      noise_texture(stage.pixel(stage.depth(far_disparity)), 6, {0.45F, 0.55F, 0.45F}, 0.7F));
-  const double w = stage.width;
-  const double h = stage.height;
-  model.primitives.push_back(make_card(
-      stage, {w / 8 - 0.5, h / 8 - 0.5, w * 7 / 8 - 0.5, h * 7 / 8 - 0.5, near_disparity}));
-  Primitive& pane = model.primitives.back();
+  add_noisy(model, stage, make_plane(stage, {far_disparity, 0, 0}), far_disparity, 6,
+            {0.45F, 0.55F, 0.45F}, 0.7F);
+  const double w = stage.width, h = stage.height;
+  Primitive pane = make_card(
+      stage, {w / 8 - 0.5, h / 8 - 0.5, w * 7 / 8 - 0.5, h * 7 / 8 - 0.5, near_disparity});
   pane.label = 2;
   pane.is_pane = true;
-  pane.texture = model.add(
-      noise_texture(stage.pixel(stage.depth(near_disparity)), 7, {0.60F, 0.50F, 0.45F}, 0.7F));
+  add_noisy(model, stage, pane, near_disparity, 7, {0.60F, 0.50F, 0.45F}, 0.7F);
   return model;
 }
 
@@ -448,14 +424,9 @@ Model demo_scene(const Stage& stage) {
   add_solids(scene);
 
   Lighting lighting;
-  const float sky[3] = {0.60F, 0.63F, 0.68F};
-  const float ground[3] = {0.30F, 0.26F, 0.24F};
-  const float key[3] = {0.72F, 0.66F, 0.56F};
-  for (int c = 0; c < 3; ++c) {
-    lighting.sky[c] = sky[c];
-    lighting.ground[c] = ground[c];
-    lighting.key[c] = key[c];
-  }
+  set_color(lighting.sky, {0.60F, 0.63F, 0.68F});
+  set_color(lighting.ground, {0.30F, 0.26F, 0.24F});
+  set_color(lighting.key, {0.72F, 0.66F, 0.56F});
   scene.light(lighting, {-0.75, 1.1, -0.65});
   return scene.model();
 }

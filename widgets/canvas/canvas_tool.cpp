@@ -281,10 +281,6 @@ bool FillTool::cancel() {
   return was_filling;
 }
 
-void FillTool::putAway() {
-  cancel();
-}
-
 void FillTool::setPreview(const QImage& preview, QPoint at) {
   if (preview.isNull() && preview_.isNull()) return;
   preview_ = preview;

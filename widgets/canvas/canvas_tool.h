@@ -267,7 +267,7 @@ class FillTool : public CanvasTool {
   void hover(QPointF image) override { emit hovered(image); }
   bool end() override;
   bool cancel() override;
-  void putAway() override;
+  void putAway() override { cancel(); }
   [[nodiscard]] QCursor cursor() const override { return Qt::CrossCursor; }
   void paintShape(QPainter& painter, const QTransform& widget_from_image) const override;
 

@@ -24,7 +24,7 @@ ViewCanvas::ViewCanvas(QWidget* parent) : QWidget(parent) {
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setAccessibleName(tr("View"));
-  message_ = tr("Open a light field to see it here.");
+  message_ = empty_hint_;
 }
 
 void ViewCanvas::setPicture(const QImage& picture) {
@@ -133,14 +133,6 @@ void ViewCanvas::setRegion(PixelEdges region) {
   update();
 }
 
-void ViewCanvas::setParallaxEnabled(bool enabled) {
-  parallax_enabled_ = enabled;
-}
-
-void ViewCanvas::showEmpty() {
-  showMessage(State::Empty, empty_hint_);
-}
-
 void ViewCanvas::setEmptyHint(const QString& hint) {
   empty_hint_ = hint;
   if (state_ == State::Empty) showEmpty();
@@ -149,10 +141,6 @@ void ViewCanvas::setEmptyHint(const QString& hint) {
 void ViewCanvas::showLoading(const QString& name, double fraction) {
   loading_fraction_ = std::min(fraction, 1.0);
   showMessage(State::Loading, name);
-}
-
-void ViewCanvas::showError(const QString& sentence) {
-  showMessage(State::Failed, sentence);
 }
 
 void ViewCanvas::showMessage(State state, const QString& text) {
@@ -192,13 +180,6 @@ QRect ViewCanvas::visiblePixels() const {
   const QRectF seen(transform_.to_image({0, 0}, size()),
                     transform_.to_image({width() * 1.0, height() * 1.0}, size()));
   return seen.toAlignedRect() & picture_.rect();
-}
-
-QSize ViewCanvas::sizeHint() const {
-  return {640, 480};
-}
-QSize ViewCanvas::minimumSizeHint() const {
-  return {160, 120};
 }
 
 void ViewCanvas::setCanvasTransform(const CanvasTransform& transform) {

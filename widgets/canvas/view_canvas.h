@@ -67,16 +67,16 @@ class ViewCanvas : public QWidget {
   /// Gives the mouse to a tool, which outlives this; null removes it.
   void setTool(CanvasTool* tool);
   /// Whether a left drag is parallax (default) instead of a pan.
-  void setParallaxEnabled(bool enabled);
+  void setParallaxEnabled(bool enabled) { parallax_enabled_ = enabled; }
 
   /// Shows no picture, but a hint.
-  void showEmpty();
+  void showEmpty() { showMessage(State::Empty, empty_hint_); }
   /// Hint shown without a picture.
   void setEmptyHint(const QString& hint);
   /// Shows the name of what is being loaded and its progress in [0, 1]; negative = unknown.
   void showLoading(const QString& name, double fraction);
   /// Shows an error instead of a picture.
-  void showError(const QString& sentence);
+  void showError(const QString& sentence) { showMessage(State::Failed, sentence); }
 
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] const QImage& picture() const { return picture_; }
@@ -102,8 +102,8 @@ class ViewCanvas : public QWidget {
   /// Center of a pixel in widget coordinates.
   [[nodiscard]] QPointF positionOf(PixelIndex pixel) const;
 
-  [[nodiscard]] QSize sizeHint() const override;
-  [[nodiscard]] QSize minimumSizeHint() const override;
+  [[nodiscard]] QSize sizeHint() const override { return {640, 480}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {160, 120}; }
 
  public slots:
   /// Follows a linked viewport; does not emit `transformChanged` for an equal value.

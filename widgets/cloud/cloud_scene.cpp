@@ -130,20 +130,8 @@ void CloudScene::makeCurrent(void*) {
   if (!isCurrent()) view_.makeCurrent();
 }
 
-void CloudScene::tellCurrent(void* data) {
-  *static_cast<bool*>(data) = isCurrent();
-}
-
-void CloudScene::tellSupported(void* data) {
-  *static_cast<int*>(data) = 1;
-}
-
 void CloudScene::askForFrame(void*) {
   view_.update();
-}
-
-void CloudScene::setMoving(bool is_moving) {
-  is_moving_ = is_moving;
 }
 
 void CloudScene::setLook(const CloudLook& look) {

@@ -59,7 +59,7 @@ class CloudScene {
   void setNamedMarks(std::vector<CloudMark> marks);
   [[nodiscard]] CloudMarks& marks() { return marks_; }
   /// Draws few points while the camera moves.
-  void setMoving(bool is_moving);
+  void setMoving(bool is_moving) { is_moving_ = is_moving; }
   [[nodiscard]] bool isMoving() const { return is_moving_; }
   /// Looks from an azimuth and elevation in degrees, beginning with the next frame, when the
   /// window's size is known.
@@ -78,8 +78,8 @@ class CloudScene {
   void observe(const Subject& subject, unsigned long event, void (CloudScene::*handler)(void*));
   [[nodiscard]] bool isCurrent() const;
   void makeCurrent(void*);
-  void tellCurrent(void* data);
-  void tellSupported(void* data);
+  void tellCurrent(void* data) { *static_cast<bool*>(data) = isCurrent(); }
+  void tellSupported(void* data) { *static_cast<int*>(data) = 1; }
   void askForFrame(void*);
   void render();
   void applyDirection();

@@ -152,10 +152,6 @@ void PointCloudView::showPreset(CloudPreset preset) {
   update();
 }
 
-void PointCloudView::resetCamera() {
-  showPreset(CloudPreset::Tilted);
-}
-
 bool PointCloudView::handleMouse(const QMouseEvent& event) {
   const bool is_press = event.type() == QEvent::MouseButtonPress;
   switch (event.button()) {

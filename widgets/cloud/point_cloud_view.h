@@ -106,7 +106,7 @@ class PointCloudView : public OffscreenGl {
   /// Shows everything from a preset direction, also after a resize until the user turns the camera.
   void showPreset(episcope::CloudPreset preset);
   /// Shows everything from the tilted preset.
-  void resetCamera();
+  void resetCamera() { showPreset(CloudPreset::Tilted); }
 
  protected:
   bool event(QEvent* event) override;

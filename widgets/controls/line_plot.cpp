@@ -392,13 +392,6 @@ std::optional<PlotPlace> LinePlot::firstPoint() const {
   return std::nullopt;
 }
 
-QSize LinePlot::sizeHint() const {
-  return {320, 190};
-}
-QSize LinePlot::minimumSizeHint() const {
-  return {200, 70};
-}
-
 void LinePlot::paintMark(QPainter& painter, PlotPlace place, double radius) const {
   const QPointF at = positionOf(place);
   if (!std::isfinite(at.x()) || !std::isfinite(at.y())) return;

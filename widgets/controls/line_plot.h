@@ -74,8 +74,8 @@ class LinePlot : public QWidget {
   /// Nearest point within reach of the mouse.
   [[nodiscard]] std::optional<PlotPlace> placeAt(QPointF position) const;
 
-  [[nodiscard]] QSize sizeHint() const override;
-  [[nodiscard]] QSize minimumSizeHint() const override;
+  [[nodiscard]] QSize sizeHint() const override { return {320, 190}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {200, 70}; }
 
  signals:
   void pointChosen(episcope::PlotPlace place);

@@ -134,14 +134,6 @@ void BrushPanel::setSize(const SizeRow& row, double diameter_px) {
   row.spin->setValue(static_cast<int>(std::lround(diameter_px)));
 }
 
-void BrushPanel::setBrushSize(double diameter_px) {
-  setSize(brush_, diameter_px);
-}
-
-void BrushPanel::setEraserSize(double diameter_px) {
-  setSize(eraser_, diameter_px);
-}
-
 void BrushPanel::setSizeKeys(const QString& keys) {
   const QString tip =
       tr("Diameter in pixels of the view (%1)")

@@ -32,8 +32,8 @@ class BrushPanel : public QWidget {
   /// Adds a button for an action, in order of the calls, with a gap before another group.
   void addAction(QAction* action, const QString& object_name);
   void addGap();
-  void setBrushSize(double diameter_px);
-  void setEraserSize(double diameter_px);
+  void setBrushSize(double diameter_px) { setSize(brush_, diameter_px); }
+  void setEraserSize(double diameter_px) { setSize(eraser_, diameter_px); }
   /// Keys that change the size, for the tool tips; empty without keys.
   void setSizeKeys(const QString& keys);
   void setProtectsOthers(bool protects);

@@ -202,10 +202,6 @@ void CapturePanel::setMarks(const std::vector<CloudMark>& marks) {
   if (view_) view_->setNamedMarks(marks);
 }
 
-void CapturePanel::setHovered(std::optional<int> row) {
-  hover(row);
-}
-
 void CapturePanel::hover(std::optional<int> row) {
   if (row == hovered_) return;
   hovered_ = row;

@@ -55,7 +55,7 @@ class CapturePanel : public QWidget {
   void setPicked(const std::optional<std::array<double, 3>>& point);
   void setMarks(const std::vector<CloudMark>& marks);
   /// Row of the pair under the mouse elsewhere; none = none.
-  void setHovered(std::optional<int> row);
+  void setHovered(std::optional<int> row) { hover(row); }
   /// What is known of the pose, or what is missing.
   void setPose(const QString& text, bool is_known);
   void setUndoable(bool is_undoable);

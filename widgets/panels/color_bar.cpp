@@ -192,13 +192,6 @@ void ColorRamp::setMarker(double value) {
   update();
 }
 
-QSize ColorRamp::sizeHint() const {
-  return {120, 16};
-}
-QSize ColorRamp::minimumSizeHint() const {
-  return {60, 14};
-}
-
 void ColorRamp::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   QImage ramp(static_cast<int>(shading_.map.colors.size()), 1, QImage::Format_RGB32);

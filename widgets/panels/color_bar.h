@@ -77,8 +77,8 @@ class ColorRamp : public QWidget {
   /// NaN = none.
   void setMarker(double value);
   [[nodiscard]] const render::Shading& shading() const { return shading_; }
-  [[nodiscard]] QSize sizeHint() const override;
-  [[nodiscard]] QSize minimumSizeHint() const override;
+  [[nodiscard]] QSize sizeHint() const override { return {120, 16}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {60, 14}; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;

@@ -150,10 +150,6 @@ void OverlayBar::addFocusAction(QAction* action) {
                      make_action_button(action, "button." + action->objectName(), this));
 }
 
-void OverlayBar::setFocus(double focus_px) {
-  showFocus(focus_px);
-}
-
 void OverlayBar::showFocus(double focus_px) {
   const QSignalBlocker slider_blocker(focus_slider_);
   const QSignalBlocker spin_blocker(focus_spin_);

@@ -36,7 +36,7 @@ class OverlayBar : public QWidget {
   /// Range of the focus slider, px per view step. The field beside it takes numbers up to
   /// kFarthestFocus and extends the slider.
   void setFocusRange(Interval range_px);
-  void setFocus(double focus_px);
+  void setFocus(double focus_px) { showFocus(focus_px); }
   /// Adds a button for an action on the look of the overlay, beside its opacity.
   void addOpacityAction(QAction* action);
   /// Adds a button for a focus plane action, beside its controls.

@@ -174,13 +174,6 @@ double HistogramView::valueAt(double x) const {
          (x - area().left()) / std::max(1.0, area().width()) * histogram_.axis.length();
 }
 
-QSize HistogramView::sizeHint() const {
-  return {240, 96};
-}
-QSize HistogramView::minimumSizeHint() const {
-  return {120, 60};
-}
-
 void HistogramView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(area(), theme::kCanvas);

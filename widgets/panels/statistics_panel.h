@@ -76,8 +76,8 @@ class HistogramView : public QWidget {
   /// Position of a value in widget coordinates.
   [[nodiscard]] double xOf(double value) const;
 
-  [[nodiscard]] QSize sizeHint() const override;
-  [[nodiscard]] QSize minimumSizeHint() const override;
+  [[nodiscard]] QSize sizeHint() const override { return {240, 96}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {120, 60}; }
 
  signals:
   void rangeEdited(episcope::Interval range);

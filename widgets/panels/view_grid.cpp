@@ -237,13 +237,6 @@ std::optional<ViewIndex> ViewGridCells::viewAt(QPointF position) const {
   return view;
 }
 
-QSize ViewGridCells::sizeHint() const {
-  return {190, heightForWidth(190)};
-}
-QSize ViewGridCells::minimumSizeHint() const {
-  return {96, 64};
-}
-
 int ViewGridCells::heightForWidth(int width) const {
   if (grid_.count() <= 0) return width;
   const double height = 1.0 * width / grid_.u * aspect() * grid_.v;

@@ -91,8 +91,8 @@ class ViewGridCells : public QWidget {
   [[nodiscard]] QRectF cellRect(ViewIndex view) const;
   [[nodiscard]] std::optional<ViewIndex> viewAt(QPointF position) const;
 
-  [[nodiscard]] QSize sizeHint() const override;
-  [[nodiscard]] QSize minimumSizeHint() const override;
+  [[nodiscard]] QSize sizeHint() const override { return {190, heightForWidth(190)}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {96, 64}; }
   [[nodiscard]] bool hasHeightForWidth() const override { return true; }
   [[nodiscard]] int heightForWidth(int width) const override;
 

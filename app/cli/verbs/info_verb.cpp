@@ -1,26 +1,358 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
-#include "app/cli/file_info.h"
 #include "app/cli/input.h"
 #include "app/cli/output.h"
 #include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
+#include "app/session/command_line.h"
+#include "app/session/load_scene.h"
+#include "app/session/project_file.h"
+#include "app/session/result_files.h"
 #include "app/session/scene_summary.h"
+#include "engine/capture/camera.h"
+#include "engine/capture/solve_pose.h"
+#include "engine/core/camera_grid.h"
+#include "engine/core/error.h"
+#include "engine/core/hash.h"
 #include "engine/core/parameter.h"
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
+#include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_file.h"
+#include "engine/io/models/scribble_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <limits>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace episcope::cli {
 namespace {
+
+namespace fs = std::filesystem;
+
+/// What `info` tells of a file.
+struct FileInfo {
+  std::vector<std::pair<std::string, std::string>> lines;  ///< Label and text, in order.
+  Json json;
+};
+
+/// Whether options of reading are given, which make views of arrays and pictures.
+enum class Reads { AsItIs, AsViews };
+
+/// Adds `camera`, if it is known.
+void add_camera(const CameraGrid& camera, Json& json) {
+  if (!camera.is_known()) return;
+  json["camera"] = Json::object({{"baseline", camera.baseline},
+                                 {"focal_length", camera.focal_length},
+                                 {"shift", camera.shift}});
+  if (camera.cam_distance) json["camera"]["cam_distance"] = *camera.cam_distance;
+}
+
+/// "baseline 1, focal length 2, shift 0 px", or that it is not known.
+std::string camera_text(const CameraGrid& camera) {
+  if (!camera.is_known()) return "not known: disparity has no depth";
+  const std::string distance =
+      camera.cam_distance ? fmt::format(", d = 0 at Z = {:g}", *camera.cam_distance) : "";
+  return fmt::format("baseline {:g}, focal length {:g}, shift {:g} px{}", camera.baseline,
+                     camera.focal_length, camera.shift, distance);
+}
+
+/// "-1.5 … 2.25 px".
+std::string range_text(const Interval& range) {
+  return fmt::format("{:.4g} … {:.4g} px", range.min, range.max);
+}
+
+/// When a file was written last, in seconds since 1970.
+std::int64_t written_at(const std::string& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  if (error) return 0;
+  const auto since_1970 = std::chrono::file_clock::to_sys(time).time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::seconds>(since_1970).count();
+}
+
+/// What a file says of the run that made it.
+struct MadeBy {
+  ParameterSet parameters;
+  double seconds = 0;
+  std::string version;
+  std::string source;
+  Reading reading;
+};
+
+void add_made_by(const MadeBy& made, const std::string& file, FileInfo& info) {
+  Json& json = info.json;
+  json["parameters"] = io::parameters_json(made.parameters);
+  if (made.seconds > 0) json["seconds"] = made.seconds;
+  if (!made.version.empty()) json["version"] = made.version;
+  if (!made.source.empty()) {
+    json["source"] = made.source;
+    json["source_exists"] = !existing_source(made.source, file).empty();
+  }
+  if (!made.reading.reader.empty()) {
+    json["reader"] = made.reading.reader;
+    json["reading"] = io::parameters_json(made.reading.options);
+  }
+  json["date"] = time_text(written_at(file));
+  info.lines.emplace_back("parameters", joined(made.parameters, ", ", [](const auto& each) {
+                            return each.first + " " + to_text(each.second);
+                          }));
+  if (made.seconds > 0) info.lines.emplace_back("seconds", fmt::format("{:.4g}", made.seconds));
+  const bool is_there = !existing_source(made.source, file).empty();
+  const std::string gone = made.source.empty() || is_there ? "" : ", which is not there";
+  info.lines.emplace_back("source",
+                          made.source + reading_options_text(made.reading.options) + gone);
+  info.lines.emplace_back("version", made.version.empty() ? "" : "Episcope " + made.version);
+  info.lines.emplace_back("date", time_text(written_at(file)));
+}
+
+/// What a result says of its run beyond that: program, machine and light field.
+void add_run(const Provenance& made, FileInfo& info) {
+  const auto add = [&info](const char* key, const std::string& text) {
+    if (text.empty()) return;
+    info.json[key] = text;
+    info.lines.emplace_back(key, text);
+  };
+  add("commit", made.commit);
+  add("device", made.device);
+  add("finished", made.date);
+  if (made.source_hash != 0) add("source_hash", hash_digits(made.source_hash));
+  add_camera(made.camera, info.json);
+  if (made.camera.is_known()) info.lines.emplace_back("camera", camera_text(made.camera));
+}
+
+std::string views_text(GridShape grid, ViewIndex first) {
+  if (grid.count() == 1) return "view " + view_text(first);
+  return fmt::format("{}×{} views", grid.v, grid.u);
+}
+
+/// Range of the valid values, and their share.
+struct MapSummary {
+  Interval range{};
+  double valid_percent = 0;
+};
+
+MapSummary summary_of(const DisparityField& field) {
+  MapSummary summary{
+      {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}};
+  std::size_t valid = 0;
+  const std::size_t size = field.disparity.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!field.valid.empty() && field.valid.data()[i] == 0) continue;
+    const double value = field.disparity.data()[i];
+    summary.range = {std::min(summary.range.min, value), std::max(summary.range.max, value)};
+    ++valid;
+  }
+  if (valid == 0) summary.range = {};
+  summary.valid_percent = 100.0 * static_cast<double>(valid) / static_cast<double>(size);
+  return summary;
+}
+
+FileInfo describe_result(const std::string& file) {
+  const Estimate estimate = read_result_alone(file);
+  const auto& maps = estimate.field.disparity;
+  const MapSummary summary = summary_of(estimate.field);
+  const bool is_own = io::is_result_file(file);
+  const bool has_range = !(estimate.range == Interval{});
+  FileInfo info{{}, {{"input", file}, {"kind", "result"}}};
+  Json& json = info.json;
+  if (is_own) json["method"] = estimate.method;
+  json["views"] = Json::object({{"v", maps.grid().v}, {"u", maps.grid().u}});
+  if (is_own) json["first_view"] = view_json(maps.first());
+  json["height"] = maps.height();
+  json["width"] = maps.width();
+  json["valid_percent"] = summary.valid_percent;
+  json["disparity"] = interval_json(summary.range);
+  if (has_range) json["range"] = interval_json(estimate.range);
+  json["confidence"] = !estimate.confidence.empty();
+  json["second"] = !estimate.second.empty();
+  json["layers"] = estimate.layered.foreground.empty() ? 1 : 2;
+
+  const std::string views = is_own ? views_text(maps.grid(), maps.first())
+                                   : fmt::format("{}×{} views", maps.grid().v, maps.grid().u);
+  info.lines = {{"result", is_own ? "of " + estimate.method : "a map of another program"},
+                {"shape", fmt::format("{} of {}×{} px{}{}{}", views, maps.width(), maps.height(),
+                                      estimate.confidence.empty() ? "" : ", with confidence",
+                                      estimate.second.empty() ? "" : ", second disparity",
+                                      estimate.layered.foreground.empty() ? "" : ", two layers")},
+                {"disparity", fmt::format("{}, {:.4g} % of the pixels", range_text(summary.range),
+                                          summary.valid_percent)}};
+  if (has_range) info.lines.emplace_back("searched", range_text(estimate.range));
+  add_made_by(
+      {estimate.parameters, estimate.seconds, estimate.version, estimate.source, estimate.reading},
+      file, info);
+  add_run(estimate, info);
+  json["notes"] = estimate.notes;
+  json["findings"] = findings_json(estimate.notes);
+  for (const std::string& note : estimate.notes) info.lines.emplace_back("note", note);
+  return info;
+}
+
+FileInfo describe_labels(const std::string& file) {
+  const io::SegmentationFile labels(file);
+  const io::Hdf5Input attributes(file);
+  const Image<std::int32_t> first = labels.labels(labels.first());
+  FileInfo info{{}, {{"input", file}, {"kind", "labels"}}};
+  Json& json = info.json;
+  json["views"] = Json::object({{"v", labels.grid().v}, {"u", labels.grid().u}});
+  json["first_view"] = view_json(labels.first());
+  json["height"] = first.height();
+  json["width"] = first.width();
+  json["labels"] = Json::array();
+  for (const LabelInfo& label : labels.infos()) {
+    json["labels"].push_back(
+        Json::object({{"id", label.id}, {"name", label.name}, {"color", label.color}}));
+  }
+  json["probabilities"] = labels.has_probabilities();
+  info.lines = {{"labels", joined(labels.infos(), ", ",
+                                  [](const LabelInfo& label) {
+                                    return std::to_string(label.id) + " " + label.name;
+                                  })},
+                {"shape", fmt::format("{} of {}×{} px{}", views_text(labels.grid(), labels.first()),
+                                      first.width(), first.height(),
+                                      labels.has_probabilities() ? ", with probabilities" : "")}};
+  add_made_by({io::parameters_from_json(attributes.text("/", "parameters").value_or("")),
+               attributes.number("/", "seconds").value_or(0),
+               attributes.text("/", "version").value_or(""), labels.source(), labels.reading()},
+              file, info);
+  return info;
+}
+
+bool is_there(const std::string& input) {
+  std::error_code ignored;
+  return !builtin_scene_id(input).empty() || fs::exists(input, ignored);
+}
+
+void add_project_scene(const ProjectScene& scene, bool is_shown, FileInfo& info) {
+  const auto gone = [](const std::string& input) {
+    return is_there(input) ? "" : ", which is not there";
+  };
+  const bool has_strokes = !scene.strokes.empty();
+  info.lines.emplace_back(
+      is_shown ? "shown" : "scene",
+      fmt::format("{}, {}{}{}{}", scene.name, scene.input, reading_options_text(scene.reading),
+                  gone(scene.input), has_strokes ? ", with strokes" : ""));
+  Json results = Json::array();
+  for (const ProjectResult& result : scene.results) {
+    const std::string file = result.file.string();
+    results.push_back(
+        Json::object({{"name", result.name}, {"file", file}, {"exists", is_there(file)}}));
+    info.lines.emplace_back("  result",
+                            result.name + ", " + result.file.filename().string() + gone(file));
+  }
+  info.json["scenes"].push_back(Json::object({{"name", scene.name},
+                                              {"source", scene.input},
+                                              {"source_exists", is_there(scene.input)},
+                                              {"reading", io::parameters_json(scene.reading)},
+                                              {"shown", is_shown},
+                                              {"strokes", has_strokes},
+                                              {"results", std::move(results)}}));
+}
+
+FileInfo describe_project(const std::string& file) {
+  const Project project = read_project(file);
+  FileInfo info{{}, {{"input", file}, {"kind", "project"}, {"scenes", Json::array()}}};
+  info.lines = {{"project", fmt::format("{} light field{}", project.scenes.size(),
+                                        project.scenes.size() == 1 ? "" : "s")}};
+  for (std::size_t i = 0; i < project.scenes.size(); ++i) {
+    add_project_scene(project.scenes[i], i == project.current, info);
+  }
+  info.json["date"] = time_text(written_at(file));
+  info.lines.emplace_back("date", time_text(written_at(file)));
+  return info;
+}
+
+FileInfo describe_camera(const std::string& file) {
+  const capture::LensCamera camera = capture::read_camera(file);
+  FileInfo info{{}, {{"input", file}, {"kind", "camera"}}};
+  Json& json = info.json;
+  json["width"] = camera.width;
+  json["height"] = camera.height;
+  json["focal_length_px"] = std::vector<double>{camera.focal_x, camera.focal_y};
+  json["center_px"] = std::vector<double>{camera.center_x, camera.center_y};
+  json["distortion"] = std::vector<double>(camera.distortion.begin(), camera.distortion.end());
+  json["rms"] = camera.rms;
+  json["date"] = time_text(written_at(file));
+  info.lines = {{"camera", fmt::format("photographs of {}×{} px", camera.width, camera.height)},
+                {"focal", fmt::format("length {:.2f} × {:.2f} px", camera.focal_x, camera.focal_y)},
+                {"center", fmt::format("({:.2f}, {:.2f}) px", camera.center_x, camera.center_y)},
+                {"distortion", joined(camera.distortion, ", ",
+                                      [](double value) { return fmt::format("{:.4g}", value); }) +
+                                   " (k1, k2, p1, p2, k3)"},
+                {"error", fmt::format("{:.3f} px", camera.rms)},
+                {"date", time_text(written_at(file))}};
+  return info;
+}
+
+FileInfo describe_pose(const std::string& file) {
+  const capture::PoseStory story = capture::read_pose(file);
+  const capture::SolvedPose& solved = story.solved;
+  const auto outliers =
+      std::ranges::count_if(solved.pairs, [](const auto& pair) { return pair.is_outlier; });
+  std::error_code ignored;
+  const bool has_mesh = fs::exists(story.mesh, ignored);
+  FileInfo info{{}, {{"input", file}, {"kind", "pose"}}};
+  Json& json = info.json;
+  json["mesh"] = story.mesh.string();
+  json["mesh_exists"] = has_mesh;
+  json["light_field"] = story.light_field;
+  json["rotation"] = std::vector<double>(solved.pose.rotation.begin(), solved.pose.rotation.end());
+  json["translation"] =
+      std::vector<double>(solved.pose.translation.begin(), solved.pose.translation.end());
+  if (!story.pairs.empty()) {
+    json["reprojection_error_px"] = solved.reprojection_error_px;
+    json["delta_tz"] = solved.delta_tz;
+    json["pairs"] = story.pairs.size();
+    json["outliers"] = outliers;
+  }
+  json["date"] = time_text(written_at(file));
+  const auto text = [](double value) { return fmt::format("{:.4g}", value); };
+  info.lines = {{"pose", "of " + story.mesh.string() + (has_mesh ? "" : ", which is not there")},
+                {"source", story.light_field},
+                {"place", joined(solved.pose.translation, ", ", text) + " (X, Y, Z)"}};
+  if (!story.pairs.empty()) {
+    info.lines.emplace_back(
+        "pairs", fmt::format("{}, {} of them wrong picks", story.pairs.size(), outliers));
+    info.lines.emplace_back("error", fmt::format("{:.3f} px, depth {:.3g} (unit of the mesh)",
+                                                 solved.reprojection_error_px, solved.delta_tz));
+  }
+  info.lines.emplace_back("date", time_text(written_at(file)));
+  return info;
+}
+
+/// JSON with a rotation and a translation, as `pose` writes it.
+bool is_pose(const fs::path& path) {
+  if (suffix_of(path) != ".json") return false;
+  std::ifstream in(path);
+  const Json json = Json::parse(in, nullptr, false);
+  return json.is_object() && json.contains("rotation") && json.contains("translation");
+}
+
+/// Describes a result, labels, a project of the window, a camera or a pose. Nothing for what else
+/// there is, such as light fields. Throws IoError for a damaged file.
+std::optional<FileInfo> describe_file(const std::string& input, Reads reads) {
+  std::error_code ignored;
+  if (!builtin_scene_id(input).empty() || !fs::is_regular_file(input, ignored)) return {};
+  if (io::is_segmentation_file(input)) return describe_labels(input);
+  if (names_project(input)) return describe_project(input);
+  const std::string suffix = suffix_of(input);
+  if (suffix == ".yml" || suffix == ".yaml") return describe_camera(input);
+  if (is_pose(input)) return describe_pose(input);
+  if (reads == Reads::AsItIs && names_result(input)) return describe_result(input);
+  return {};
+}
 
 /// Keys of what there is; what is missing has no key.
 void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
