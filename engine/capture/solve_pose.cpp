@@ -115,6 +115,133 @@ constexpr double kPairOutlierMedians = 5;  // A pair beyond both is an outlier.
 constexpr double kUsualError = 0.5;        // px, of the paper's scenes
 constexpr std::size_t kStarts = 5;         // That are minimized.
 
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Jacobian = Eigen::Matrix<double, 2, 6>;
+
+constexpr int kMostIterations = 100;
+constexpr double kLeastStep = 1e-12;
+
+struct Pose {
+  Matrix3 rotation;
+  Eigen::Vector3d translation;
+};
+
+Pose pose_of(const RigidPose& pose) {
+  return {Eigen::Map<const Matrix3>(pose.rotation.data()),
+          Eigen::Map<const Eigen::Vector3d>(pose.translation.data())};
+}
+
+RigidPose rigid(const Pose& pose) {
+  return rigid(pose.rotation, pose.translation);
+}
+
+/// exp(ω)·R, t + δ.
+Pose moved(const Pose& pose, const Vector6& step) {
+  const Eigen::Vector3d axis = step.head<3>();
+  const double angle = axis.norm();
+  Pose result = pose;
+  if (angle > 0) {
+    result.rotation = Eigen::AngleAxisd(angle, axis / angle).toRotationMatrix() * pose.rotation;
+    result.rotation =
+        Eigen::Quaterniond(Eigen::Matrix3d(result.rotation)).normalized().toRotationMatrix();
+  }
+  result.translation += step.tail<3>();
+  return result;
+}
+
+/// Of the projection by rotation vector and translation; `turned` is R·X, `seen` R·X + t.
+Jacobian jacobian_of(const Eigen::Vector3d& turned, const Eigen::Vector3d& seen, double focal) {
+  Eigen::Matrix<double, 2, 3> by_place;
+  const double scale = focal / seen.z();
+  by_place << scale, 0, -scale * seen.x() / seen.z(), 0, scale, -scale * seen.y() / seen.z();
+  Matrix3 cross;
+  cross << 0, -turned.z(), turned.y(), turned.z(), 0, -turned.x(), -turned.y(), turned.x(), 0;
+  Jacobian jacobian;
+  jacobian << -by_place * cross, by_place;
+  return jacobian;
+}
+
+struct Normal {
+  Matrix6 matrix = Matrix6::Zero();
+  Vector6 gradient = Vector6::Zero();
+};
+
+Normal normal_equations(std::span<const PointPair> pairs, const Pose& pose,
+                        const Pinhole& pinhole) {
+  Normal normal;
+  const RigidPose current = rigid(pose);
+  for (const PointPair& pair : pairs) {
+    const Eigen::Vector3d turned =
+        pose.rotation * Eigen::Vector3d(pair.point.x, pair.point.y, pair.point.z);
+    const auto [rx, ry] = reprojection_residual(pair, current, pinhole);
+    const Eigen::Vector2d residual(rx, ry);
+    const double size = residual.norm();
+    const double weight = pair.is_locked || size <= kPairHuber_px ? 1 : kPairHuber_px / size;
+    const Jacobian j = jacobian_of(turned, turned + pose.translation, pinhole.focal_px);
+    normal.matrix += weight * j.transpose() * j;
+    normal.gradient += weight * j.transpose() * residual;
+  }
+  return normal;
+}
+
+/// The sum of Huber's function of the residuals and of the squares (halved) of locked pairs;
+/// infinite if a point lies behind the camera.
+double huber_cost(std::span<const PointPair> pairs, const RigidPose& pose, const Pinhole& pinhole) {
+  double sum = 0;
+  for (const PointPair& pair : pairs) {
+    const auto [x, y] = reprojection_residual(pair, pose, pinhole);
+    const double size = std::hypot(x, y);
+    if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
+    const bool is_square = pair.is_locked || size <= kPairHuber_px;
+    sum += is_square ? size * size / 2 : kPairHuber_px * (size - kPairHuber_px / 2);
+  }
+  return sum;
+}
+
+struct MinimizedPose {
+  RigidPose pose;
+  double cost = 0;
+  /// Inverse of the weighted JᵀJ for a standard deviation of 1 px, row by row: rotation vector
+  /// (radian, in the frame of the camera), then translation.
+  std::array<double, 36> unit_covariance{};
+};
+
+/// Levenberg and Marquardt on the reprojection error with Huber's weights and the analytic
+/// Jacobian, from `start`; ends when a step is below 1e-12 of the pose, after 100 iterations at
+/// most. λ begins at 1e-3 and changes by factors of 10.
+MinimizedPose minimize_reprojection(std::span<const PointPair> pairs, const RigidPose& start,
+                                    const Pinhole& pinhole) {
+  MinimizedPose result{start, huber_cost(pairs, start, pinhole), {}};
+  if (!std::isfinite(result.cost)) return result;
+  Pose pose = pose_of(start);
+  double damping = 1e-3;
+  Normal normal = normal_equations(pairs, pose, pinhole);
+  for (int i = 0; i < kMostIterations && damping < 1e12; ++i) {
+    Matrix6 damped = normal.matrix;
+    damped.diagonal() *= 1 + damping;
+    const Vector6 step = -damped.ldlt().solve(normal.gradient);
+    if (!step.allFinite()) break;
+    const Pose next = moved(pose, step);
+    const double cost = huber_cost(pairs, rigid(next), pinhole);
+    const bool is_tiny = step.head<3>().norm() < kLeastStep &&
+                         step.tail<3>().norm() < kLeastStep * pose.translation.norm();
+    if (cost <= result.cost) {
+      pose = next;
+      result.cost = cost;
+      damping /= 10;
+      normal = normal_equations(pairs, pose, pinhole);
+    } else {
+      damping *= 10;
+    }
+    if (is_tiny) break;
+  }
+  result.pose = rigid(pose);
+  cv::Mat inverse(6, 6, CV_64F, result.unit_covariance.data());
+  cv::invert(cv::Mat(6, 6, CV_64F, normal.matrix.data()), inverse, cv::DECOMP_SVD);
+  return result;
+}
+
 /// The best of all starts.
 MinimizedPose best_pose(std::span<const PointPair> pairs, const Pinhole& pinhole) {
   struct Start {
@@ -123,13 +250,13 @@ MinimizedPose best_pose(std::span<const PointPair> pairs, const Pinhole& pinhole
   };
   std::vector<Start> starts;
   for (const RigidPose& pose : first_poses(pairs, pinhole)) {
-    starts.push_back({huber_cost(pairs, pose, pinhole, kPairHuber_px), pose});
+    starts.push_back({huber_cost(pairs, pose, pinhole), pose});
   }
   std::ranges::stable_sort(starts, {}, &Start::cost);
   MinimizedPose best;
   best.cost = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < std::min(kStarts, starts.size()); ++i) {
-    const MinimizedPose pose = minimize_reprojection(pairs, starts[i].pose, pinhole, kPairHuber_px);
+    const MinimizedPose pose = minimize_reprojection(pairs, starts[i].pose, pinhole);
     if (pose.cost < best.cost) best = pose;
   }
   return best;
@@ -245,7 +372,7 @@ SolvedPose solve_pose(std::span<const PointPair> pairs, const CameraGrid& camera
   const std::vector<PointPair> rest = kept(pairs, solved.pairs);
   refuse_mirrored(pairs, pinhole, pose.cost);
   if (rest.size() < pairs.size()) {
-    pose = minimize_reprojection(rest, pose.pose, pinhole, kPairHuber_px);
+    pose = minimize_reprojection(rest, pose.pose, pinhole);
     const std::vector<double> sizes = residuals_of(pairs, pose.pose, pinhole);
     for (std::size_t i = 0; i < sizes.size(); ++i) solved.pairs[i].residual_px = sizes[i];
   }
@@ -253,83 +380,6 @@ SolvedPose solve_pose(std::span<const PointPair> pairs, const CameraGrid& camera
   set_errors(rest, pose, camera, solved);
   return solved;
 }
-
-namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Jacobian = Eigen::Matrix<double, 2, 6>;
-
-constexpr int kMostIterations = 100;
-constexpr double kLeastStep = 1e-12;
-
-struct Pose {
-  Matrix3 rotation;
-  Eigen::Vector3d translation;
-};
-
-Pose pose_of(const RigidPose& pose) {
-  return {Eigen::Map<const Matrix3>(pose.rotation.data()),
-          Eigen::Map<const Eigen::Vector3d>(pose.translation.data())};
-}
-
-RigidPose rigid(const Pose& pose) {
-  RigidPose result;
-  Eigen::Map<Matrix3>(result.rotation.data()) = pose.rotation;
-  Eigen::Map<Eigen::Vector3d>(result.translation.data()) = pose.translation;
-  return result;
-}
-
-/// exp(ω)·R, t + δ.
-Pose moved(const Pose& pose, const Vector6& step) {
-  const Eigen::Vector3d axis = step.head<3>();
-  const double angle = axis.norm();
-  Pose result = pose;
-  if (angle > 0) {
-    result.rotation = Eigen::AngleAxisd(angle, axis / angle).toRotationMatrix() * pose.rotation;
-    result.rotation =
-        Eigen::Quaterniond(Eigen::Matrix3d(result.rotation)).normalized().toRotationMatrix();
-  }
-  result.translation += step.tail<3>();
-  return result;
-}
-
-/// Of the projection by rotation vector and translation; `turned` is R·X, `seen` R·X + t.
-Jacobian jacobian_of(const Eigen::Vector3d& turned, const Eigen::Vector3d& seen, double focal) {
-  Eigen::Matrix<double, 2, 3> by_place;
-  const double scale = focal / seen.z();
-  by_place << scale, 0, -scale * seen.x() / seen.z(), 0, scale, -scale * seen.y() / seen.z();
-  Matrix3 cross;
-  cross << 0, -turned.z(), turned.y(), turned.z(), 0, -turned.x(), -turned.y(), turned.x(), 0;
-  Jacobian jacobian;
-  jacobian << -by_place * cross, by_place;
-  return jacobian;
-}
-
-struct Normal {
-  Matrix6 matrix = Matrix6::Zero();
-  Vector6 gradient = Vector6::Zero();
-};
-
-Normal normal_equations(std::span<const PointPair> pairs, const Pose& pose, const Pinhole& pinhole,
-                        double threshold) {
-  Normal normal;
-  const RigidPose current = rigid(pose);
-  for (const PointPair& pair : pairs) {
-    const Eigen::Vector3d turned =
-        pose.rotation * Eigen::Vector3d(pair.point.x, pair.point.y, pair.point.z);
-    const auto [rx, ry] = reprojection_residual(pair, current, pinhole);
-    const Eigen::Vector2d residual(rx, ry);
-    const double size = residual.norm();
-    const double weight = pair.is_locked || size <= threshold ? 1 : threshold / size;
-    const Jacobian j = jacobian_of(turned, turned + pose.translation, pinhole.focal_px);
-    normal.matrix += weight * j.transpose() * j;
-    normal.gradient += weight * j.transpose() * residual;
-  }
-  return normal;
-}
-
-}  // namespace
 
 std::array<double, 2> reprojection_residual(const PointPair& pair, const RigidPose& pose,
                                             const Pinhole& pinhole) {
@@ -340,51 +390,6 @@ std::array<double, 2> reprojection_residual(const PointPair& pair, const RigidPo
   }
   return {pinhole.focal_px * seen.x / seen.z + pinhole.center_x - pair.x_px,
           pinhole.focal_px * seen.y / seen.z + pinhole.center_y - pair.y_px};
-}
-
-double huber_cost(std::span<const PointPair> pairs, const RigidPose& pose, const Pinhole& pinhole,
-                  double threshold_px) {
-  double sum = 0;
-  for (const PointPair& pair : pairs) {
-    const auto [x, y] = reprojection_residual(pair, pose, pinhole);
-    const double size = std::hypot(x, y);
-    if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
-    const bool is_square = pair.is_locked || size <= threshold_px;
-    sum += is_square ? size * size / 2 : threshold_px * (size - threshold_px / 2);
-  }
-  return sum;
-}
-
-MinimizedPose minimize_reprojection(std::span<const PointPair> pairs, const RigidPose& start,
-                                    const Pinhole& pinhole, double threshold_px) {
-  MinimizedPose result{start, huber_cost(pairs, start, pinhole, threshold_px), 0, {}};
-  if (!std::isfinite(result.cost)) return result;
-  Pose pose = pose_of(start);
-  double damping = 1e-3;
-  Normal normal = normal_equations(pairs, pose, pinhole, threshold_px);
-  for (; result.iterations < kMostIterations && damping < 1e12; ++result.iterations) {
-    Matrix6 damped = normal.matrix;
-    damped.diagonal() *= 1 + damping;
-    const Vector6 step = -damped.ldlt().solve(normal.gradient);
-    if (!step.allFinite()) break;
-    const Pose next = moved(pose, step);
-    const double cost = huber_cost(pairs, rigid(next), pinhole, threshold_px);
-    const bool is_tiny = step.head<3>().norm() < kLeastStep &&
-                         step.tail<3>().norm() < kLeastStep * pose.translation.norm();
-    if (cost <= result.cost) {
-      pose = next;
-      result.cost = cost;
-      damping /= 10;
-      normal = normal_equations(pairs, pose, pinhole, threshold_px);
-    } else {
-      damping *= 10;
-    }
-    if (is_tiny) break;
-  }
-  result.pose = rigid(pose);
-  cv::Mat inverse(6, 6, CV_64F, result.unit_covariance.data());
-  cv::invert(cv::Mat(6, 6, CV_64F, normal.matrix.data()), inverse, cv::DECOMP_SVD);
-  return result;
 }
 
 namespace {
