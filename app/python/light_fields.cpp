@@ -231,10 +231,6 @@ None without truth.)")
       .def("__repr__", text_of);
 }
 
-}  // namespace
-
-namespace {
-
 OpenedScene decode_raw(const py::object& raw, const py::object& white, const py::object& dark,
                        const py::object& camera, const std::string& mosaic, int views, double step,
                        bool linear, const py::object& progress) {

@@ -7,18 +7,17 @@
 #include "app/session/load_scene.h"
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
+#include "engine/core/hash.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_file.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <set>
 
 namespace episcope {
@@ -174,7 +173,7 @@ Json result_json(const ProjectResult& result, const fs::path& project) {
 Json scene_json(const ProjectScene& scene, const fs::path& project) {
   Json json{{"name", scene.name},
             {"source", source_text(scene.input, project)},
-            {"hash", fmt::format("{:016x}", scene.sample_hash)},
+            {"hash", hash_digits(scene.sample_hash)},
             {"reading", io::parameters_json(scene.reading)},
             {"place", place_json(scene.place)},
             {"results", Json::array()}};
@@ -188,7 +187,7 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
   if (!scene.strokes.empty()) json["strokes"] = source_text(scene.strokes.string(), project);
   if (!scene.labels.file.empty()) {
     json["labels"] = {{"file", source_text(scene.labels.file.string(), project)},
-                      {"strokes_hash", fmt::format("{:016x}", scene.labels.strokes)}};
+                      {"strokes_hash", hash_digits(scene.labels.strokes)}};
   }
   return json;
 }
@@ -222,18 +221,12 @@ ProjectResult result_of(const Json& json, const fs::path& project) {
           .foreign_file = json.value("foreign_file", "")};
 }
 
-std::uint64_t hash_of(const std::string& text) {
-  std::uint64_t hash = 0;
-  std::from_chars(text.data(), text.data() + text.size(), hash, 16);
-  return hash;
-}
-
 ProjectScene scene_of(const Json& json, const fs::path& project) {
   ProjectScene scene;
   scene.name = json.at("name");
   const std::string source = json.at("source");
   scene.input = builtin_scene_id(source).empty() ? absolute_path(source, project) : source;
-  scene.sample_hash = hash_of(json.at("hash"));
+  scene.sample_hash = hash_from_digits(json.at("hash").get<std::string>());
   scene.reading = io::parameters_from(json.at("reading"));
   scene.place = place_of(json.at("place"));
   for (const Json& each : json.at("results")) scene.results.push_back(result_of(each, project));
@@ -244,7 +237,8 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
   if (json.contains("strokes")) scene.strokes = absolute_path(json.at("strokes"), project);
   if (json.contains("labels")) {
     scene.labels.file = absolute_path(json.at("labels").at("file"), project);
-    scene.labels.strokes = hash_of(json.at("labels").at("strokes_hash").get<std::string>());
+    scene.labels.strokes =
+        hash_from_digits(json.at("labels").at("strokes_hash").get<std::string>());
   }
   return scene;
 }
@@ -252,7 +246,7 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
 Json point_json(const SweepPoint& point) {
   Json json{{"values", io::parameters_json(point.point)},
             {"seconds", point.seconds},
-            {"display_range", {point.display_range.min, point.display_range.max}},
+            {"display_range", interval_json(point.display_range)},
             {"vmv2013", metrics_json(point.vmv2013)},
             {"benchmark2016", metrics_json(point.benchmark2016)}};
   if (point.change_px) json["change_px"] = *point.change_px;
@@ -264,7 +258,7 @@ SweepPoint point_of(const Json& json) {
   SweepPoint point;
   point.point = io::parameters_from(json.at("values"));
   point.seconds = json.at("seconds");
-  point.display_range = {json.at("display_range").at(0), json.at("display_range").at(1)};
+  point.display_range = interval_of(json.at("display_range"));
   point.vmv2013 = metrics_from(json.at("vmv2013"));
   point.benchmark2016 = metrics_from(json.at("benchmark2016"));
   if (json.contains("change_px")) point.change_px = json.at("change_px").get<double>();

@@ -111,7 +111,7 @@ Texts schema_texts() {
   add(texts, capture::pattern_schema().descriptions());
   add(texts, capture::rectify_schema().descriptions());
   for (const auto& scene : scenes::builtin_scenes()) add(texts, scene.summary);
-  for (const std::string& kind : scenes::random_kind_names()) add(texts, kind);
+  for (const std::string& kind : all_names<scenes::RandomKind>()) add(texts, kind);
   add_sample_texts<std::uint8_t, std::uint16_t, float>(texts);
   for (const bool v : {false, true}) {
     for (const bool u : {false, true}) add(texts, io::flip_text({u, v}));

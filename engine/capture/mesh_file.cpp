@@ -15,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -126,30 +127,12 @@ constexpr int kMostHeaderLines = 10'000;
 
 // Bytes of a type of PLY; 0 = there is no such type.
 int size_of(const std::string& type) {
-  struct Type {
-    const char* name;
-    int size;
-  };
-  static constexpr std::array<Type, 16> kTypes{{{"char", 1},
-                                                {"uchar", 1},
-                                                {"int8", 1},
-                                                {"uint8", 1},
-                                                {"short", 2},
-                                                {"ushort", 2},
-                                                {"int16", 2},
-                                                {"uint16", 2},
-                                                {"int", 4},
-                                                {"uint", 4},
-                                                {"int32", 4},
-                                                {"uint32", 4},
-                                                {"float", 4},
-                                                {"float32", 4},
-                                                {"double", 8},
-                                                {"float64", 8}}};
-  for (const Type& each : kTypes) {
-    if (type == each.name) return each.size;
-  }
-  return 0;
+  static const std::map<std::string, int> sizes{
+      {"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},  {"short", 2}, {"ushort", 2},
+      {"int16", 2}, {"uint16", 2},  {"int", 4},    {"uint", 4},   {"int32", 4}, {"uint32", 4},
+      {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
+  const auto found = sizes.find(type);
+  return found == sizes.end() ? 0 : found->second;
 }
 
 bool is_known(const std::string& word) {

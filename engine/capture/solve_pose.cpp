@@ -12,7 +12,6 @@
 #include <Eigen/Dense>
 #include <nlohmann/json.hpp>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/core/eigen.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -42,29 +41,6 @@ Eigen::Vector2d ray_of(const PointPair& pair, const Pinhole& pinhole) {
           (pair.y_px - pinhole.center_y) / pinhole.focal_px};
 }
 
-/// Principal axes of the points and their extents.
-struct Shape {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d axes;  ///< Columns, the longest first, right-handed.
-  Eigen::Vector3d extent;
-};
-
-Shape shape_of(std::span<const PointPair> pairs) {
-  Shape shape;
-  for (const PointPair& pair : pairs) shape.center += place_of(pair);
-  shape.center /= static_cast<double>(pairs.size());
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const PointPair& pair : pairs) {
-    const Eigen::Vector3d from = place_of(pair) - shape.center;
-    scatter += from * from.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  shape.axes = solver.eigenvectors().rowwise().reverse();
-  if (shape.axes.determinant() < 0) shape.axes.col(2) *= -1;
-  shape.extent = solver.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
-  return shape;
-}
-
 RigidPose rigid(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
   RigidPose pose;
   Eigen::Map<Matrix3>(pose.rotation.data()) = rotation;
@@ -72,77 +48,8 @@ RigidPose rigid(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translat
   return pose;
 }
 
-/// OpenCV decomposes matrices, since Eigen's templates take long to compile.
-cv::Mat to_cv(const Eigen::MatrixXd& matrix) {
-  cv::Mat copy;
-  cv::eigen2cv(matrix, copy);
-  return copy;
-}
-
-/// The nearest rotation.
-Eigen::Matrix3d orthogonal(const Eigen::Matrix3d& matrix) {
-  const cv::SVD svd(to_cv(matrix));
-  const Matrix3 u = Eigen::Map<const Matrix3>(svd.u.ptr<double>());
-  const Matrix3 vt = Eigen::Map<const Matrix3>(svd.vt.ptr<double>());
-  const Eigen::Vector3d turn(1, 1, (u * vt).determinant());
-  return u * turn.asDiagonal() * vt;
-}
-
-Eigen::VectorXd null_vector(const Eigen::MatrixXd& matrix) {
-  cv::Mat solution;
-  cv::SVD::solveZ(to_cv(matrix), solution);
-  return Eigen::Map<const Eigen::VectorXd>(solution.ptr<double>(), matrix.cols());
-}
-
-/// From H = [r1 r2 t] of the points in the axes of their plane.
-std::optional<RigidPose> by_homography(std::span<const PointPair> pairs, const Shape& shape,
-                                       const Pinhole& pinhole) {
-  Eigen::MatrixXd rows(2 * pairs.size(), 9);
-  const double scale = shape.extent[0];
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Eigen::Vector3d p = shape.axes.transpose() * (place_of(pairs[i]) - shape.center) / scale;
-    const Eigen::Vector2d ray = ray_of(pairs[i], pinhole);
-    const Eigen::RowVector3d q(p.x(), p.y(), 1);
-    const Eigen::RowVector3d none = Eigen::RowVector3d::Zero();
-    rows.row(2 * i) << q, none, -ray.x() * q;
-    rows.row(2 * i + 1) << none, q, -ray.y() * q;
-  }
-  const Eigen::VectorXd h = null_vector(rows);
-  Matrix3 homography = Eigen::Map<const Matrix3>(h.data());
-  homography *=
-      (homography(2, 2) < 0 ? -2 : 2) / (homography.col(0).norm() + homography.col(1).norm());
-  if (!homography.allFinite()) return {};
-  Eigen::Matrix3d frame;
-  frame << homography.col(0), homography.col(1),
-      homography.col(0).head<3>().cross(homography.col(1).head<3>());
-  const Eigen::Matrix3d rotation = orthogonal(frame) * shape.axes.transpose();
-  return rigid(rotation, homography.col(2) * scale - rotation * shape.center);
-}
-
-std::optional<RigidPose> by_linear_transform(std::span<const PointPair> pairs, const Shape& shape,
-                                             const Pinhole& pinhole) {
-  Eigen::MatrixXd rows(2 * pairs.size(), 12);
-  const double scale = shape.extent[0];
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Eigen::Vector3d p = (place_of(pairs[i]) - shape.center) / scale;
-    const Eigen::Vector2d ray = ray_of(pairs[i], pinhole);
-    const Eigen::RowVector4d q(p.x(), p.y(), p.z(), 1);
-    const Eigen::RowVector4d none = Eigen::RowVector4d::Zero();
-    rows.row(2 * i) << q, none, -ray.x() * q;
-    rows.row(2 * i + 1) << none, q, -ray.y() * q;
-  }
-  const Eigen::VectorXd p = null_vector(rows);
-  Eigen::Matrix<double, 3, 4, Eigen::RowMajor> projection =
-      Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(p.data());
-  const Eigen::Matrix3d left = projection.leftCols<3>();
-  const double size = std::cbrt(std::abs(left.determinant()));
-  if (!(size > 0)) return {};
-  projection *= (projection(2, 3) < 0 ? -1 : 1) / size;
-  const Eigen::Matrix3d rotation = orthogonal(projection.leftCols<3>());
-  return rigid(rotation, projection.col(3) * scale - rotation * shape.center);
-}
-
-std::optional<RigidPose> by_sqpnp(std::span<const PointPair> pairs, const Pinhole& pinhole) {
+std::optional<RigidPose> by_opencv(std::span<const PointPair> pairs, const Pinhole& pinhole,
+                                   cv::SolvePnPMethod method) {
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> rays;
   for (const PointPair& pair : pairs) {
@@ -150,14 +57,10 @@ std::optional<RigidPose> by_sqpnp(std::span<const PointPair> pairs, const Pinhol
     points.emplace_back(pair.point.x, pair.point.y, pair.point.z);
     rays.emplace_back(ray.x(), ray.y());
   }
-  cv::Mat axis;
-  cv::Mat shift;
-  cv::Mat rotation;
+  cv::Mat axis, shift, rotation;
   try {
-    if (!cv::solvePnP(points, rays, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), axis, shift, false,
-                      cv::SOLVEPNP_SQPNP)) {
-      return {};
-    }
+    const auto camera = cv::Mat::eye(3, 3, CV_64F);
+    if (!cv::solvePnP(points, rays, camera, cv::noArray(), axis, shift, false, method)) return {};
     cv::Rodrigues(axis, rotation);
   } catch (const cv::Exception&) {
     return {};
@@ -166,37 +69,34 @@ std::optional<RigidPose> by_sqpnp(std::span<const PointPair> pairs, const Pinhol
                Eigen::Map<const Eigen::Vector3d>(shift.ptr<double>()));
 }
 
-// By the singular values of their places: a direction counts from 1 % of the longest.
-PointLayout layout_of(const Shape& shape) {
-  if (shape.extent[1] < kFlat * shape.extent[0]) return PointLayout::Line;
-  return shape.extent[2] < kFlat * shape.extent[0] ? PointLayout::Plane : PointLayout::Space;
-}
-
+// By the extents along their principal axes: a direction counts from 1 % of the longest.
 PointLayout layout_of(std::span<const PointPair> pairs) {
-  return layout_of(shape_of(pairs));
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const PointPair& pair : pairs) center += place_of(pair);
+  center /= static_cast<double>(pairs.size());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const PointPair& pair : pairs) {
+    const Eigen::Vector3d from = place_of(pair) - center;
+    scatter += from * from.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d extents = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
+  if (extents[1] < kFlat * extents[2]) return PointLayout::Line;
+  return extents[0] < kFlat * extents[2] ? PointLayout::Plane : PointLayout::Space;
 }
 
-// A first pose: by the homography of points in a plane (≥ 4), by the direct linear transform of
-// points in space (≥ 6), else (4 or 5 points in space) by SQPnP (Terzakis, Lourakis: A
-// consistently fast and globally optimal solution to the perspective-n-point problem, ECCV 2020).
-// None if the points do not determine one in front of the camera.
-std::optional<RigidPose> first_pose(std::span<const PointPair> pairs, const Pinhole& pinhole) {
-  const Shape shape = shape_of(pairs);
-  const PointLayout layout = layout_of(shape);
-  if (layout == PointLayout::Line || pairs.size() < 4) return {};
-  if (layout == PointLayout::Plane) return by_homography(pairs, shape, pinhole);
-  if (pairs.size() < 6) return by_sqpnp(pairs, pinhole);
-  return by_linear_transform(pairs, shape, pinhole);
-}
-
-// First poses of all pairs and of subsets of them, so that wrong picks do not spoil all: at most
-// 60 sets of 4, drawn by a fixed seed.
+// First poses of all pairs, by the homography of points in a plane or the direct linear transform
+// of at least 6 in space, and by SQPnP (Terzakis, Lourakis: A consistently fast and globally
+// optimal solution to the perspective-n-point problem, ECCV 2020). Also of subsets, so that wrong
+// picks do not spoil all: at most 60 sets of 4, drawn by a fixed seed.
 std::vector<RigidPose> first_poses(std::span<const PointPair> pairs, const Pinhole& pinhole) {
   std::vector<RigidPose> poses;
-  const auto add = [&](std::span<const PointPair> of) {
-    if (const auto pose = first_pose(of, pinhole)) poses.push_back(*pose);
+  const auto add = [&](std::span<const PointPair> of, cv::SolvePnPMethod method) {
+    if (layout_of(of) == PointLayout::Line) return;
+    if (const auto pose = by_opencv(of, pinhole, method)) poses.push_back(*pose);
   };
-  add(pairs);
+  add(pairs, cv::SOLVEPNP_ITERATIVE);
+  add(pairs, cv::SOLVEPNP_SQPNP);
   if (pairs.size() < 5) return poses;
   std::mt19937 random(1);
   std::vector<PointPair> drawn(pairs.begin(), pairs.end());
@@ -204,7 +104,7 @@ std::vector<RigidPose> first_poses(std::span<const PointPair> pairs, const Pinho
     for (std::size_t k = 0; k < 4; ++k) {
       std::swap(drawn[k], drawn[k + random() % (drawn.size() - k)]);
     }
-    add(std::span(drawn).first(4));
+    add(std::span(drawn).first(4), cv::SOLVEPNP_SQPNP);
   }
   return poses;
 }
@@ -215,6 +115,133 @@ constexpr double kPairOutlierMedians = 5;  // A pair beyond both is an outlier.
 constexpr double kUsualError = 0.5;        // px, of the paper's scenes
 constexpr std::size_t kStarts = 5;         // That are minimized.
 
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Jacobian = Eigen::Matrix<double, 2, 6>;
+
+constexpr int kMostIterations = 100;
+constexpr double kLeastStep = 1e-12;
+
+struct Pose {
+  Matrix3 rotation;
+  Eigen::Vector3d translation;
+};
+
+Pose pose_of(const RigidPose& pose) {
+  return {Eigen::Map<const Matrix3>(pose.rotation.data()),
+          Eigen::Map<const Eigen::Vector3d>(pose.translation.data())};
+}
+
+RigidPose rigid(const Pose& pose) {
+  return rigid(pose.rotation, pose.translation);
+}
+
+/// exp(ω)·R, t + δ.
+Pose moved(const Pose& pose, const Vector6& step) {
+  const Eigen::Vector3d axis = step.head<3>();
+  const double angle = axis.norm();
+  Pose result = pose;
+  if (angle > 0) {
+    result.rotation = Eigen::AngleAxisd(angle, axis / angle).toRotationMatrix() * pose.rotation;
+    result.rotation =
+        Eigen::Quaterniond(Eigen::Matrix3d(result.rotation)).normalized().toRotationMatrix();
+  }
+  result.translation += step.tail<3>();
+  return result;
+}
+
+/// Of the projection by rotation vector and translation; `turned` is R·X, `seen` R·X + t.
+Jacobian jacobian_of(const Eigen::Vector3d& turned, const Eigen::Vector3d& seen, double focal) {
+  Eigen::Matrix<double, 2, 3> by_place;
+  const double scale = focal / seen.z();
+  by_place << scale, 0, -scale * seen.x() / seen.z(), 0, scale, -scale * seen.y() / seen.z();
+  Matrix3 cross;
+  cross << 0, -turned.z(), turned.y(), turned.z(), 0, -turned.x(), -turned.y(), turned.x(), 0;
+  Jacobian jacobian;
+  jacobian << -by_place * cross, by_place;
+  return jacobian;
+}
+
+struct Normal {
+  Matrix6 matrix = Matrix6::Zero();
+  Vector6 gradient = Vector6::Zero();
+};
+
+Normal normal_equations(std::span<const PointPair> pairs, const Pose& pose,
+                        const Pinhole& pinhole) {
+  Normal normal;
+  const RigidPose current = rigid(pose);
+  for (const PointPair& pair : pairs) {
+    const Eigen::Vector3d turned =
+        pose.rotation * Eigen::Vector3d(pair.point.x, pair.point.y, pair.point.z);
+    const auto [rx, ry] = reprojection_residual(pair, current, pinhole);
+    const Eigen::Vector2d residual(rx, ry);
+    const double size = residual.norm();
+    const double weight = pair.is_locked || size <= kPairHuber_px ? 1 : kPairHuber_px / size;
+    const Jacobian j = jacobian_of(turned, turned + pose.translation, pinhole.focal_px);
+    normal.matrix += weight * j.transpose() * j;
+    normal.gradient += weight * j.transpose() * residual;
+  }
+  return normal;
+}
+
+/// The sum of Huber's function of the residuals and of the squares (halved) of locked pairs;
+/// infinite if a point lies behind the camera.
+double huber_cost(std::span<const PointPair> pairs, const RigidPose& pose, const Pinhole& pinhole) {
+  double sum = 0;
+  for (const PointPair& pair : pairs) {
+    const auto [x, y] = reprojection_residual(pair, pose, pinhole);
+    const double size = std::hypot(x, y);
+    if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
+    const bool is_square = pair.is_locked || size <= kPairHuber_px;
+    sum += is_square ? size * size / 2 : kPairHuber_px * (size - kPairHuber_px / 2);
+  }
+  return sum;
+}
+
+struct MinimizedPose {
+  RigidPose pose;
+  double cost = 0;
+  /// Inverse of the weighted JᵀJ for a standard deviation of 1 px, row by row: rotation vector
+  /// (radian, in the frame of the camera), then translation.
+  std::array<double, 36> unit_covariance{};
+};
+
+/// Levenberg and Marquardt on the reprojection error with Huber's weights and the analytic
+/// Jacobian, from `start`; ends when a step is below 1e-12 of the pose, after 100 iterations at
+/// most. λ begins at 1e-3 and changes by factors of 10.
+MinimizedPose minimize_reprojection(std::span<const PointPair> pairs, const RigidPose& start,
+                                    const Pinhole& pinhole) {
+  MinimizedPose result{start, huber_cost(pairs, start, pinhole), {}};
+  if (!std::isfinite(result.cost)) return result;
+  Pose pose = pose_of(start);
+  double damping = 1e-3;
+  Normal normal = normal_equations(pairs, pose, pinhole);
+  for (int i = 0; i < kMostIterations && damping < 1e12; ++i) {
+    Matrix6 damped = normal.matrix;
+    damped.diagonal() *= 1 + damping;
+    const Vector6 step = -damped.ldlt().solve(normal.gradient);
+    if (!step.allFinite()) break;
+    const Pose next = moved(pose, step);
+    const double cost = huber_cost(pairs, rigid(next), pinhole);
+    const bool is_tiny = step.head<3>().norm() < kLeastStep &&
+                         step.tail<3>().norm() < kLeastStep * pose.translation.norm();
+    if (cost <= result.cost) {
+      pose = next;
+      result.cost = cost;
+      damping /= 10;
+      normal = normal_equations(pairs, pose, pinhole);
+    } else {
+      damping *= 10;
+    }
+    if (is_tiny) break;
+  }
+  result.pose = rigid(pose);
+  cv::Mat inverse(6, 6, CV_64F, result.unit_covariance.data());
+  cv::invert(cv::Mat(6, 6, CV_64F, normal.matrix.data()), inverse, cv::DECOMP_SVD);
+  return result;
+}
+
 /// The best of all starts.
 MinimizedPose best_pose(std::span<const PointPair> pairs, const Pinhole& pinhole) {
   struct Start {
@@ -223,13 +250,13 @@ MinimizedPose best_pose(std::span<const PointPair> pairs, const Pinhole& pinhole
   };
   std::vector<Start> starts;
   for (const RigidPose& pose : first_poses(pairs, pinhole)) {
-    starts.push_back({huber_cost(pairs, pose, pinhole, kPairHuber_px), pose});
+    starts.push_back({huber_cost(pairs, pose, pinhole), pose});
   }
   std::ranges::stable_sort(starts, {}, &Start::cost);
   MinimizedPose best;
   best.cost = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < std::min(kStarts, starts.size()); ++i) {
-    const MinimizedPose pose = minimize_reprojection(pairs, starts[i].pose, pinhole, kPairHuber_px);
+    const MinimizedPose pose = minimize_reprojection(pairs, starts[i].pose, pinhole);
     if (pose.cost < best.cost) best = pose;
   }
   return best;
@@ -345,7 +372,7 @@ SolvedPose solve_pose(std::span<const PointPair> pairs, const CameraGrid& camera
   const std::vector<PointPair> rest = kept(pairs, solved.pairs);
   refuse_mirrored(pairs, pinhole, pose.cost);
   if (rest.size() < pairs.size()) {
-    pose = minimize_reprojection(rest, pose.pose, pinhole, kPairHuber_px);
+    pose = minimize_reprojection(rest, pose.pose, pinhole);
     const std::vector<double> sizes = residuals_of(pairs, pose.pose, pinhole);
     for (std::size_t i = 0; i < sizes.size(); ++i) solved.pairs[i].residual_px = sizes[i];
   }
@@ -353,83 +380,6 @@ SolvedPose solve_pose(std::span<const PointPair> pairs, const CameraGrid& camera
   set_errors(rest, pose, camera, solved);
   return solved;
 }
-
-namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Jacobian = Eigen::Matrix<double, 2, 6>;
-
-constexpr int kMostIterations = 100;
-constexpr double kLeastStep = 1e-12;
-
-struct Pose {
-  Matrix3 rotation;
-  Eigen::Vector3d translation;
-};
-
-Pose pose_of(const RigidPose& pose) {
-  return {Eigen::Map<const Matrix3>(pose.rotation.data()),
-          Eigen::Map<const Eigen::Vector3d>(pose.translation.data())};
-}
-
-RigidPose rigid(const Pose& pose) {
-  RigidPose result;
-  Eigen::Map<Matrix3>(result.rotation.data()) = pose.rotation;
-  Eigen::Map<Eigen::Vector3d>(result.translation.data()) = pose.translation;
-  return result;
-}
-
-/// exp(ω)·R, t + δ.
-Pose moved(const Pose& pose, const Vector6& step) {
-  const Eigen::Vector3d axis = step.head<3>();
-  const double angle = axis.norm();
-  Pose result = pose;
-  if (angle > 0) {
-    result.rotation = Eigen::AngleAxisd(angle, axis / angle).toRotationMatrix() * pose.rotation;
-    result.rotation =
-        Eigen::Quaterniond(Eigen::Matrix3d(result.rotation)).normalized().toRotationMatrix();
-  }
-  result.translation += step.tail<3>();
-  return result;
-}
-
-/// Of the projection by rotation vector and translation; `turned` is R·X, `seen` R·X + t.
-Jacobian jacobian_of(const Eigen::Vector3d& turned, const Eigen::Vector3d& seen, double focal) {
-  Eigen::Matrix<double, 2, 3> by_place;
-  const double scale = focal / seen.z();
-  by_place << scale, 0, -scale * seen.x() / seen.z(), 0, scale, -scale * seen.y() / seen.z();
-  Matrix3 cross;
-  cross << 0, -turned.z(), turned.y(), turned.z(), 0, -turned.x(), -turned.y(), turned.x(), 0;
-  Jacobian jacobian;
-  jacobian << -by_place * cross, by_place;
-  return jacobian;
-}
-
-struct Normal {
-  Matrix6 matrix = Matrix6::Zero();
-  Vector6 gradient = Vector6::Zero();
-};
-
-Normal normal_equations(std::span<const PointPair> pairs, const Pose& pose, const Pinhole& pinhole,
-                        double threshold) {
-  Normal normal;
-  const RigidPose current = rigid(pose);
-  for (const PointPair& pair : pairs) {
-    const Eigen::Vector3d turned =
-        pose.rotation * Eigen::Vector3d(pair.point.x, pair.point.y, pair.point.z);
-    const auto [rx, ry] = reprojection_residual(pair, current, pinhole);
-    const Eigen::Vector2d residual(rx, ry);
-    const double size = residual.norm();
-    const double weight = pair.is_locked || size <= threshold ? 1 : threshold / size;
-    const Jacobian j = jacobian_of(turned, turned + pose.translation, pinhole.focal_px);
-    normal.matrix += weight * j.transpose() * j;
-    normal.gradient += weight * j.transpose() * residual;
-  }
-  return normal;
-}
-
-}  // namespace
 
 std::array<double, 2> reprojection_residual(const PointPair& pair, const RigidPose& pose,
                                             const Pinhole& pinhole) {
@@ -440,51 +390,6 @@ std::array<double, 2> reprojection_residual(const PointPair& pair, const RigidPo
   }
   return {pinhole.focal_px * seen.x / seen.z + pinhole.center_x - pair.x_px,
           pinhole.focal_px * seen.y / seen.z + pinhole.center_y - pair.y_px};
-}
-
-double huber_cost(std::span<const PointPair> pairs, const RigidPose& pose, const Pinhole& pinhole,
-                  double threshold_px) {
-  double sum = 0;
-  for (const PointPair& pair : pairs) {
-    const auto [x, y] = reprojection_residual(pair, pose, pinhole);
-    const double size = std::hypot(x, y);
-    if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
-    const bool is_square = pair.is_locked || size <= threshold_px;
-    sum += is_square ? size * size / 2 : threshold_px * (size - threshold_px / 2);
-  }
-  return sum;
-}
-
-MinimizedPose minimize_reprojection(std::span<const PointPair> pairs, const RigidPose& start,
-                                    const Pinhole& pinhole, double threshold_px) {
-  MinimizedPose result{start, huber_cost(pairs, start, pinhole, threshold_px), 0, {}};
-  if (!std::isfinite(result.cost)) return result;
-  Pose pose = pose_of(start);
-  double damping = 1e-3;
-  Normal normal = normal_equations(pairs, pose, pinhole, threshold_px);
-  for (; result.iterations < kMostIterations && damping < 1e12; ++result.iterations) {
-    Matrix6 damped = normal.matrix;
-    damped.diagonal() *= 1 + damping;
-    const Vector6 step = -damped.ldlt().solve(normal.gradient);
-    if (!step.allFinite()) break;
-    const Pose next = moved(pose, step);
-    const double cost = huber_cost(pairs, rigid(next), pinhole, threshold_px);
-    const bool is_tiny = step.head<3>().norm() < kLeastStep &&
-                         step.tail<3>().norm() < kLeastStep * pose.translation.norm();
-    if (cost <= result.cost) {
-      pose = next;
-      result.cost = cost;
-      damping /= 10;
-      normal = normal_equations(pairs, pose, pinhole, threshold_px);
-    } else {
-      damping *= 10;
-    }
-    if (is_tiny) break;
-  }
-  result.pose = rigid(pose);
-  cv::Mat inverse(6, 6, CV_64F, result.unit_covariance.data());
-  cv::invert(to_cv(normal.matrix), inverse, cv::DECOMP_SVD);
-  return result;
 }
 
 namespace {

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/hash.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 namespace episcope {
 
 std::string hash_digits(std::uint64_t hash) {
-  std::string digits(16, '0');
-  for (auto digit = digits.rbegin(); hash != 0; ++digit, hash >>= 4) {
-    *digit = "0123456789abcdef"[hash & 15];
-  }
-  return digits;
+  return fmt::format("{:016x}", hash);
 }
 
 std::uint64_t hash_from_digits(std::string_view digits) {

@@ -119,13 +119,13 @@ void require_builtin(const std::string& id) {
 std::string builtin_name(const std::string& id, const RenderOptions& options) {
   if (!is_drawn(id)) return id;
   if (options.kind == RandomKind::Any) return fmt::format("{}_{}", id, options.seed);
-  return fmt::format("{}_{}_{}", id, random_kind_name(options.kind), options.seed);
+  return fmt::format("{}_{}_{}", id, name_of(options.kind), options.seed);
 }
 
 std::string builtin_text(const std::string& id, const RenderOptions& options) {
   if (!is_drawn(id)) return id;
   const std::string text = fmt::format("{}?seed={}", id, options.seed);
-  return options.kind == RandomKind::Any ? text : text + "&kind=" + random_kind_name(options.kind);
+  return options.kind == RandomKind::Any ? text : text + "&kind=" + name_of(options.kind);
 }
 
 Scene render_builtin(const std::string& id, const RenderOptions& options,
@@ -202,12 +202,11 @@ void read_kind(const std::string& text, const BuiltinRequest& request, const std
   if (request.scene != kRandomScene) {
     refuse(text, fmt::format("only the scene '{}' has a kind", kRandomScene));
   }
-  const auto kind = random_kind_of(value);
-  if (!kind) {
-    const std::vector<std::string>& names = random_kind_names();
+  const std::vector<std::string> names = all_names<RandomKind>();
+  if (std::ranges::find(names, value) == names.end()) {
     refuse(text, no_such_name("kind", value, names) + " (there are " + joined(names, ", ") + ")");
   }
-  options.kind = *kind;
+  options.kind = value_named<RandomKind>(value);
 }
 
 void read_option(const std::string& text, const std::string& option, BuiltinRequest& request) {

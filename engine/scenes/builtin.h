@@ -79,7 +79,7 @@ struct BuiltinRequest {
 };
 
 /// Reads "<scene>" or "<scene>?key=value&key=value", e.g. "random?seed=7&kind=thin". Keys: seed
-/// (of a scene that is drawn, and of noise), kind (of a random scene: random_kind_names()), size
+/// (of a scene that is drawn, and of noise), kind (of a random scene: names_of(RandomKind)), size
 /// (px, "256" or "320x240" for width and height), grid ("9x9", rows and columns of views), noise
 /// (in units of 1/255) and channels (3, or 1 for gray). Throws Unavailable for an unknown scene and
 /// InvalidInput for a query that is not of this form; the message says what is possible.

@@ -307,22 +307,12 @@ Texture draw_chequered_texture(Draw draw, double pixel_units, const Detail& deta
   return texture;
 }
 
-const std::vector<std::string>& random_kind_names() {
-  static const std::vector<std::string> names = {
-      "any",    "occlusion", "dark", "thin",   "plain",   "periodic", "shiny",
-      "uneven", "noisy",     "room", "smooth", "aliased", "faint"};
-  return names;
-}
-
-const std::string& random_kind_name(RandomKind kind) {
-  return random_kind_names()[static_cast<std::size_t>(kind)];
-}
-
-std::optional<RandomKind> random_kind_of(const std::string& name) {
-  const std::vector<std::string>& names = random_kind_names();
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<RandomKind>(found - names.begin());
+Names<RandomKind> names_of(RandomKind) {
+  using enum RandomKind;
+  return {{Any, "any"},     {Occlusion, "occlusion"}, {Dark, "dark"},     {Thin, "thin"},
+          {Plain, "plain"}, {Periodic, "periodic"},   {Shiny, "shiny"},   {Uneven, "uneven"},
+          {Noisy, "noisy"}, {Room, "room"},           {Smooth, "smooth"}, {Aliased, "aliased"},
+          {Faint, "faint"}};
 }
 
 }  // namespace episcope::scenes

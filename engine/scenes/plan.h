@@ -2,11 +2,9 @@
 #pragma once
 
 #include "engine/core/indices.h"
+#include "engine/core/schema.h"
 #include "engine/scenes/stage.h"
 
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace episcope::scenes {
 
@@ -28,11 +26,7 @@ enum class RandomKind {
   Faint  ///< Few things before a large dark wall of faint texture, noise of 1 to 2/255.
 };
 
-/// All kinds as they are written, in the order of the enumeration.
-[[nodiscard]] const std::vector<std::string>& random_kind_names();
-[[nodiscard]] const std::string& random_kind_name(RandomKind kind);
-/// The kind of this name; nothing if there is none.
-[[nodiscard]] std::optional<RandomKind> random_kind_of(const std::string& name);
+[[nodiscard]] Names<RandomKind> names_of(RandomKind);
 
 /// Largest disparity of a random scene, px per view step, of either sign.
 inline constexpr double kMostDisparity = 3.5;

@@ -73,41 +73,6 @@ Sensor growing_noise(Draw draw, double least, double most) {
   return sensor;
 }
 
-}  // namespace
-
-std::span<const StratifiedRecipe> stratified_recipes() {
-  static constexpr StratifiedRecipe all[] = {
-      {"backgammon", "teeth before a wall, from a small step at the top to a large one",
-       StratifiedScene::Backgammon, backgammon_model, backgammon_regions},
-      {"dots", "dots of eight sizes before a wall, under noise that grows downwards",
-       StratifiedScene::Dots, dots_model, dots_regions},
-      {"stripes", "dark and bright bars before a wall, with less and less texture downwards",
-       StratifiedScene::Stripes, stripes_model, stripes_regions},
-      {"pyramids", "pyramids, a ball and a bowl on a wall", StratifiedScene::Pyramids,
-       pyramids_model, pyramids_regions},
-  };
-  return all;
-}
-
-const StratifiedRecipe* find_stratified(const std::string& id) {
-  const auto all = stratified_recipes();
-  const auto found = std::ranges::find(all, std::string_view(id), &StratifiedRecipe::id);
-  return found == all.end() ? nullptr : &*found;
-}
-
-Model stratified_model(const StratifiedRecipe& recipe, const Stage& stage, unsigned seed) {
-  const Draw draw(seed);
-  return recipe.lay_out(stage, draw.part(static_cast<std::uint64_t>(recipe.kind)));
-}
-
-void add_regions(const StratifiedRecipe& recipe, const Stage& stage, ViewIndex center,
-                 GroundTruth& truth) {
-  truth.stratified = recipe.kind;
-  truth.regions.merge(recipe.regions(stage, truth.labels.view(center)));
-}
-
-namespace {
-
 constexpr int kTeeth = 2;
 
 // Columns of the center view where the strip ends and where the tips lie. The metrics look for the
@@ -119,8 +84,10 @@ int tip_column(const Stage& stage) {
   return std::max(strip_end(stage) + 4, stage.width - strip_end(stage));
 }
 
-}  // namespace
-
+// Teeth that taper to the right from a strip at the left, before a wall; both slant so that the
+// step between them grows downwards, up to 0.9 … 1.5 px. Half of the seeds have noise that grows
+// downwards. Masks between the strip and the last tip: `foreground_fattening`, the gaps, and
+// `foreground_thinning`, the teeth.
 Model backgammon_model(const Stage& stage, Draw draw) {
   DisparityPlane wall;
   wall.center = draw.between(-0.8, -0.2);
@@ -175,8 +142,6 @@ Regions backgammon_regions(const Stage& stage, CenterLabels labels) {
   return regions;
 }
 
-namespace {
-
 constexpr int kSizes = 8;
 constexpr int kBoxes = 4;     // Along each side of a view.
 constexpr int kBoxCells = 3;  // Along each side of a box; one of the nine stays empty.
@@ -189,8 +154,9 @@ constexpr int label_of(int size) {
   return size + 1;
 }
 
-}  // namespace
-
+// 4×4 boxes, each with a dot of every size from 1 (a quarter of the box) to 8 (a twentieth),
+// 0.6 … 1.5 px before a wall, under noise that grows from nothing at the top to 4 … 12/255 at the
+// bottom. Masks: `dots_by_size` and `boxes`, both numbered, and `background`.
 Model dots_model(const Stage& stage, Draw draw) {
   const double wall = draw.between(-0.8, 0);
   const double dots = wall + draw.between(0.6, 1.5);
@@ -238,8 +204,6 @@ Regions dots_regions(const Stage& stage, CenterLabels labels) {
   regions.emplace("background", region_of(labels, kWallLabel));
   return regions;
 }
-
-namespace {
 
 constexpr int kPyramids = 2;
 constexpr int kBall = 3;
@@ -314,8 +278,8 @@ class Builder {
   Model model_;
 };
 
-}  // namespace
-
+// Seven pyramids, a ball and a bowl before a wall that faces the cameras. Masks: `pyramids`,
+// `sphere_out` (the ball), `sphere_in` (the bowl) and `plane` (the wall).
 Model pyramids_model(const Stage& stage, Draw draw) {
   const double wall = draw.between(-0.8, -0.3);
   Builder builder(stage, wall, draw.part(0));
@@ -345,8 +309,6 @@ Regions pyramids_regions(const Stage& /*stage*/, CenterLabels labels) {
   regions.emplace("sphere_in", region_of(labels, kBowl));
   return regions;
 }
-
-namespace {
 
 constexpr int kDark = 2;
 constexpr int kBright = 3;
@@ -391,8 +353,10 @@ class Weaver {
   Model model_;
 };
 
-}  // namespace
-
+// Upright bars, dark and bright in turn, that widen to the right, 0.3 … 1.5 px before a bright
+// wall; in four bands from the top the texture loses its contrast. Half of the seeds have noise
+// that grows downwards. Masks: `low_texture`, the wall in the lower two bands, `high_contrast`,
+// the dark bars, and `low_contrast`, the bright ones.
 Model stripes_model(const Stage& stage, Draw draw) {
   const double wall = draw.between(-0.8, -0.1);
   Weaver weaver(stage, draw.part(0));
@@ -421,6 +385,39 @@ Regions stripes_regions(const Stage& stage, CenterLabels labels) {
   regions.emplace("high_contrast", region_of(labels, kDark));
   regions.emplace("low_contrast", region_of(labels, kBright));
   return regions;
+}
+
+}  // namespace
+
+std::span<const StratifiedRecipe> stratified_recipes() {
+  static constexpr StratifiedRecipe all[] = {
+      {"backgammon", "teeth before a wall, from a small step at the top to a large one",
+       StratifiedScene::Backgammon, backgammon_model, backgammon_regions},
+      {"dots", "dots of eight sizes before a wall, under noise that grows downwards",
+       StratifiedScene::Dots, dots_model, dots_regions},
+      {"stripes", "dark and bright bars before a wall, with less and less texture downwards",
+       StratifiedScene::Stripes, stripes_model, stripes_regions},
+      {"pyramids", "pyramids, a ball and a bowl on a wall", StratifiedScene::Pyramids,
+       pyramids_model, pyramids_regions},
+  };
+  return all;
+}
+
+const StratifiedRecipe* find_stratified(const std::string& id) {
+  const auto all = stratified_recipes();
+  const auto found = std::ranges::find(all, std::string_view(id), &StratifiedRecipe::id);
+  return found == all.end() ? nullptr : &*found;
+}
+
+Model stratified_model(const StratifiedRecipe& recipe, const Stage& stage, unsigned seed) {
+  const Draw draw(seed);
+  return recipe.lay_out(stage, draw.part(static_cast<std::uint64_t>(recipe.kind)));
+}
+
+void add_regions(const StratifiedRecipe& recipe, const Stage& stage, ViewIndex center,
+                 GroundTruth& truth) {
+  truth.stratified = recipe.kind;
+  truth.regions.merge(recipe.regions(stage, truth.labels.view(center)));
 }
 
 }  // namespace episcope::scenes

@@ -88,8 +88,8 @@ std::vector<ParameterDescription> random_parameters() {
       .label = QT_TRANSLATE_NOOP("episcope::Schema", "Kind"),
       .help = QT_TRANSLATE_NOOP("episcope::Schema", "What the scene is made of; any is a mixture"),
       .unit = "",
-      .default_value = scenes::random_kind_name(defaults.kind),
-      .choices = scenes::random_kind_names(),
+      .default_value = name_of(defaults.kind),
+      .choices = all_names<scenes::RandomKind>(),
   };
   return {std::move(seed), std::move(kind)};
 }
@@ -150,7 +150,7 @@ QString BuiltinDialog::input() const {
   scenes::RenderOptions options;
   const ParameterSet values = form_->values();
   options.seed = static_cast<unsigned>(std::get<int>(values.at(0).second));
-  options.kind = scenes::random_kind_of(std::get<std::string>(values.at(1).second)).value();
+  options.kind = value_named<scenes::RandomKind>(std::get<std::string>(values.at(1).second));
   return "demo:" + QString::fromStdString(scenes::builtin_text(id.toStdString(), options));
 }
 

@@ -38,28 +38,9 @@ void differentiate(const DoubleBlock& block, const SecondOrderFilters& filters) 
     const long at = plane * block.pitch;
     float* const out[3] = {block.derivative[0] + at, block.derivative[1] + at,
                            block.derivative[2] + at};
-    const auto run = [&](auto kernel) {
-      kernel(block.samples + at, block.lanes, block.along, filters, out);
-    };
-    switch (filters.along[0].radius) {
-      case 1:
-        run(differentiate_plane<1>);
-        break;
-      case 2:
-        run(differentiate_plane<2>);
-        break;
-      case 3:
-        run(differentiate_plane<3>);
-        break;
-      case 4:
-        run(differentiate_plane<4>);
-        break;
-      case 5:
-        run(differentiate_plane<5>);
-        break;
-      default:
-        run(differentiate_plane<6>);
-    }
+    with_radius<1>(filters.along[0].radius, [&]<int kRadius>() {
+      differentiate_plane<kRadius>(block.samples + at, block.lanes, block.along, filters, out);
+    });
   }
 }
 
@@ -140,22 +121,8 @@ void filter_plane(const float* __restrict in, long begin, long end, long stride,
 }
 
 void filter(const float* in, long begin, long end, long stride, const Taps& taps, float* out) {
-  switch (taps.radius) {
-    case 0:
-      return filter_plane<0>(in, begin, end, stride, taps, out);
-    case 1:
-      return filter_plane<1>(in, begin, end, stride, taps, out);
-    case 2:
-      return filter_plane<2>(in, begin, end, stride, taps, out);
-    case 3:
-      return filter_plane<3>(in, begin, end, stride, taps, out);
-    case 4:
-      return filter_plane<4>(in, begin, end, stride, taps, out);
-    case 5:
-      return filter_plane<5>(in, begin, end, stride, taps, out);
-    default:
-      return filter_plane<6>(in, begin, end, stride, taps, out);
-  }
+  with_radius(taps.radius,
+              [&]<int kRadius>() { filter_plane<kRadius>(in, begin, end, stride, taps, out); });
 }
 
 template <bool kHasInvalid>

@@ -28,22 +28,9 @@ void filter_fixed(const float* __restrict in, int begin, int end, int stride, co
 }
 
 void filter(const float* in, int begin, int end, int stride, const Taps& taps, float* out) {
-  switch (taps.radius) {
-    case 0:
-      return filter_fixed<0>(in, begin, end, stride, taps.values, out);
-    case 1:
-      return filter_fixed<1>(in, begin, end, stride, taps.values, out);
-    case 2:
-      return filter_fixed<2>(in, begin, end, stride, taps.values, out);
-    case 3:
-      return filter_fixed<3>(in, begin, end, stride, taps.values, out);
-    case 4:
-      return filter_fixed<4>(in, begin, end, stride, taps.values, out);
-    case 5:
-      return filter_fixed<5>(in, begin, end, stride, taps.values, out);
-    default:
-      return filter_fixed<6>(in, begin, end, stride, taps.values, out);
-  }
+  with_radius(taps.radius, [&]<int kRadius>() {
+    filter_fixed<kRadius>(in, begin, end, stride, taps.values, out);
+  });
 }
 
 // Central difference and Scharr's smoothing of a pre-smoothed row.

@@ -16,6 +16,15 @@ struct Taps {
   float values[kMaxTaps + 1] = {};
 };
 
+/// Calls run.operator()<k>() with the radius of a filter as k, 6 at most.
+template <int kRadius = 0, class Run>
+void with_radius(int radius, const Run& run) {
+  if constexpr (kRadius < 6) {
+    if (radius != kRadius) return with_radius<kRadius + 1>(radius, run);
+  }
+  run.template operator()<kRadius>();
+}
+
 /// A banded linear map along the view axis: out(r) = Σ_i taps[i]·in(first + i).
 struct RowTaps {
   int first = 0;

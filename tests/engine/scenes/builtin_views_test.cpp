@@ -179,7 +179,7 @@ class BuiltinViewsTest : public QObject {
     for (const auto& scene : scenes::builtin_scenes()) {
       QTest::newRow(scene.id.c_str()) << QString::fromStdString(scene.id);
     }
-    for (const std::string& kind : scenes::random_kind_names()) {
+    for (const std::string& kind : all_names<scenes::RandomKind>()) {
       QTest::newRow(kind.c_str()) << QString("random?seed=12&kind=%1").arg(kind.c_str());
     }
   }

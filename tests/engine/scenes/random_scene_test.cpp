@@ -39,7 +39,7 @@ std::set<int> labels_of(const Scene& scene) {
 
 std::vector<RandomKind> all_kinds() {
   std::vector<RandomKind> kinds;
-  for (std::size_t i = 0; i < scenes::random_kind_names().size(); ++i) {
+  for (std::size_t i = 0; i < names_of(scenes::RandomKind{}).size(); ++i) {
     kinds.push_back(static_cast<RandomKind>(i));
   }
   return kinds;
@@ -48,7 +48,7 @@ std::vector<RandomKind> all_kinds() {
 void add_every_kind() {
   QTest::addColumn<int>("kind");
   for (const RandomKind kind : all_kinds()) {
-    QTest::newRow(scenes::random_kind_name(kind).c_str()) << static_cast<int>(kind);
+    QTest::newRow(name_of(kind).c_str()) << static_cast<int>(kind);
   }
 }
 

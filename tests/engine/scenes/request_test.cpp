@@ -47,7 +47,7 @@ class RequestTest : public QObject {
   }
 
   void everyKind_isReadByItsName() {
-    const auto& names = scenes::random_kind_names();
+    const auto names = all_names<scenes::RandomKind>();
 
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto request = read_request("random?kind=" + names[i]);
