@@ -316,11 +316,16 @@ PixelRect Stroke::extend(StrokePoint point) {
   return edit_.paint(view_, region, ink_);
 }
 
+bool fill_regions(AnnotationDocument& document, const std::vector<ViewRegion>& regions,
+                  const PaintStyle& style, EditKind kind) {
+  PendingEdit edit(document, kind);
+  for (const ViewRegion& each : regions) edit.paint(each.view, each.region, ink_of(style));
+  return edit.commit();
+}
+
 bool fill_region(AnnotationDocument& document, ViewIndex view, const PixelRegion& region,
                  const PaintStyle& style, EditKind kind) {
-  PendingEdit edit(document, kind);
-  edit.paint(view, region, ink_of(style));
-  return edit.commit();
+  return fill_regions(document, {{view, region}}, style, kind);
 }
 
 }  // namespace episcope

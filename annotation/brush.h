@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace episcope {
 
@@ -89,8 +90,17 @@ class Stroke {
   std::optional<StrokePoint> last_;
 };
 
-/// Paints or erases a region within the view as one edit: a fill, or the inside of a polygon.
-/// Returns whether that changed anything. Throws InvalidInput as Stroke does.
+/// Pixels of one view.
+struct ViewRegion {
+  ViewIndex view;
+  PixelRegion region;
+};
+
+/// Paints or erases regions within views as one edit: a fill, or the inside of a polygon. Returns
+/// whether that changed anything. Throws InvalidInput as Stroke does.
+bool fill_regions(AnnotationDocument& document, const std::vector<ViewRegion>& regions,
+                  const PaintStyle& style, EditKind kind = EditKind::Fill);
+/// Paints or erases a region of one view.
 bool fill_region(AnnotationDocument& document, ViewIndex view, const PixelRegion& region,
                  const PaintStyle& style, EditKind kind = EditKind::Fill);
 

@@ -295,6 +295,9 @@ void add_segmenting(const Workbench& bench) {
   auto* segment = new SegmentController(bench, panel);
   QObject::connect(bench.owner.findChild<LabelImporter*>(), &LabelImporter::segmented, segment,
                    &SegmentController::takeLabels);
+  QObject::connect(bench.owner.findChild<AnnotateController*>(),
+                   &AnnotateController::disparityWanted, segment,
+                   &SegmentController::provideDisparity);
   add_label_export(bench, *segment);
   panel->addAction(bench.commands.find("segment.export"), "button.segment.export");
 }

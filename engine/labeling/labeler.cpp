@@ -6,6 +6,7 @@
 #include "engine/cuda/device.h"
 #include "engine/labeling/correct_views.h"
 #include "engine/labeling/edge_probability.h"
+#include "engine/labeling/painted_views.h"
 #include "engine/labeling/pixel_features.h"
 #include "engine/labeling/predict_from_strokes.h"
 #include "engine/labeling/reweight_by_color.h"
@@ -88,30 +89,6 @@ void require_fit(const ViewScribbles& painted, const LightField& lf) {
       lf.grid().v, lf.grid().u, lf.width(), lf.height()));
 }
 
-bool are_same(const std::vector<ViewScribbles>& a, const std::vector<ViewScribbles>& b) {
-  return std::ranges::equal(a, b, [](const ViewScribbles& left, const ViewScribbles& right) {
-    return left.view == right.view && std::ranges::equal(left.labels, right.labels);
-  });
-}
-
-// The pixels of a view that have other strokes now, `[y][x]`, 1 = changed; empty if there are none.
-Image<std::uint8_t> new_strokes(const Scribbles& former, const Scribbles& now, ViewIndex view) {
-  const auto strokes = [view](const Scribbles& scribbles) {
-    const auto found = std::ranges::find(scribbles.views, view, &ViewScribbles::view);
-    return found == scribbles.views.end() ? nullptr : &found->labels;
-  };
-  const Image<std::int32_t>*const before = strokes(former), *const after = strokes(now);
-  if (!before && !after) return {};
-  const Image<std::int32_t> none(before ? before->height() : after->height(),
-                                 before ? before->width() : after->width());
-  const Image<std::int32_t>&a = before ? *before : none, &b = after ? *after : none;
-  Image<std::uint8_t> changed(none.height(), none.width());
-  std::transform(a.begin(), a.end(), b.begin(), changed.begin(),
-                 [](std::int32_t was, std::int32_t is) { return was != is ? 1 : 0; });
-  const bool is_any = std::ranges::any_of(changed, [](std::uint8_t each) { return each != 0; });
-  return is_any ? std::move(changed) : Image<std::uint8_t>();
-}
-
 // The same probabilities with layers for more labels, which have none. Precondition: `more`
 // includes `ids`.
 ProbabilityMap with_layers(VolumeView<const std::uint8_t> map, const std::vector<std::int32_t>& ids,
@@ -191,7 +168,7 @@ struct Labeler::State {
                   const Progress& progress) {
     const ParameterSet values = labeler_schema().values(parameters);
     if (said && said->view == view && said->parameters == values &&
-        are_same(said->strokes, scribbles.views)) {
+        have_same_strokes(said->strokes, scribbles.views)) {
       return *said;
     }
     Said now{view, scribbles.views, values, painted_labels(scribbles, *light_field), {}};
@@ -248,15 +225,9 @@ struct Labeler::State {
                                                 const LabelerParameters& parameters,
                                                 const LabelCorrection& correction,
                                                 const Progress& progress) {
-    std::set<std::pair<int, int>> painted;
-    for (const Scribbles* each : {&correction.former, &scribbles}) {
-      for (const ViewScribbles& view : each->views) painted.insert({view.view.v, view.view.u});
-    }
     std::vector<SaidNews> all;
-    for (const auto& [v, u] : painted) {
-      const ViewIndex view{v, u};
-      const Image<std::uint8_t> strokes = new_strokes(correction.former, scribbles, view);
-      if (strokes.empty()) continue;
+    for (const auto& [view, strokes] :
+         new_strokes(correction.former, scribbles, correction.first)) {
       const Said& former = say(correction.former, parameters, view, progress.part(0, 0.5));
       const ProbabilityMap before = with_layers(former.map.view(), former.ids, ids);
       const Said& now = say(scribbles, parameters, view, progress.part(0.5, 1));
@@ -389,11 +360,11 @@ struct Labeler::State {
                                          const Progress& progress) {
     ForestSamples samples;
     samples.label_count = static_cast<int>(ids.size());
-    for (const ViewScribbles& painted : scribbles.views) {
+    for (const ViewScribbles* painted : teaching_views(scribbles.views)) {
       progress.check();
-      const Features of_view = keep_features(painted.view, progress.part(0, 0));
+      const Features of_view = keep_features(painted->view, progress.part(0, 0));
       samples.feature_count = of_view->layers();
-      append_samples(painted, of_view->view(), ids, samples);
+      append_samples(*painted, of_view->view(), ids, samples);
     }
     return samples;
   }

@@ -73,7 +73,8 @@ struct LabelCorrection {
 /// The forest is kept while it would be the same, and the solvers of the painted view up to 1 GiB.
 ///
 /// A random forest (engine/labeling/forest.h) is trained on the painted pixels of all
-/// painted views, equally many per label, and votes on the pixels of the requested views by their
+/// painted views (of more than eight, those with most painted pixels, and any that alone has a
+/// label), equally many per label, and votes on the pixels of the requested views by their
 /// features (engine/labeling/pixel_features.h). Its votes are weighted by how well the
 /// disparity of a pixel fits the surface of each label's strokes (label_surfaces.h), if the
 /// parameters ask for it. With estimated disparity, a surface counts only where it agrees with the
@@ -132,7 +133,8 @@ class Labeler {
   /// the new probabilities are carried along the rays to all views, and only rays near those are
   /// solved again (`correct_rays`); all others keep their labels. The energy that is minimized, its
   /// gap and the votes are those of `label`. Only `label` lets the new strokes judge places that
-  /// none of these views shows.
+  /// none of these views shows. New strokes in more than four views at once, as of a fill of all
+  /// views, are read in `first` alone, or in the view that has most.
   ///
   /// None if that cannot be: without disparity of all views, with a regularizer other than
   /// Rayspace, without probabilities in `before`, or if a label has lost all its strokes. Throws as

@@ -5,6 +5,7 @@
 #include "engine/labeling/pixel_features.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
@@ -30,10 +31,45 @@ double right_share(ImageView<const std::int32_t> labels, ImageView<const std::in
   return all == 0 ? 1 : static_cast<double>(right) / static_cast<double>(all);
 }
 
+constexpr double kLeastTolerance = 0.02;
+constexpr int kDoublings = 6;
+
+// Paints what the wand selects; false, and nothing, if it never shows what is wanted.
+bool wave(const RaySuperpixels& wand, ViewIndex view, ImageView<const std::int32_t> labels,
+          ImageView<const std::int32_t> truth, ImageView<std::int32_t> strokes) {
+  const auto at = middle_of_wrong(labels, truth);
+  if (!at) return false;
+  const ImageView<const std::uint16_t> ids = wand.ids().view(view);
+  const std::int32_t label = truth.at(at->y, at->x);
+  std::vector<std::uint8_t> best;
+  int most = 0;
+  for (int i = 0; i <= kDoublings; ++i) {
+    const auto selected =
+        wand.alike(ids.at(at->y, at->x), static_cast<float>(std::ldexp(kLeastTolerance, i)));
+    int all = 0, wrong = 0, wanted = 0, found = 0;
+    for (std::size_t p = 0; p < truth.size(); ++p) {
+      const bool is_selected = strokes.data[p] == 0 && selected[ids.data[p]] != 0;
+      const bool is_wanted = truth.data[p] == label && labels.data[p] != label;
+      wanted += is_wanted;
+      found += is_wanted && is_selected;
+      all += is_selected && truth.data[p] > 0;
+      wrong += is_selected && truth.data[p] > 0 && truth.data[p] != label;
+    }
+    if (found <= most || found < wanted / 2 || wrong > kWrongSelected * all) continue;
+    most = found;
+    best = selected;
+  }
+  if (best.empty()) return false;
+  for (std::size_t p = 0; p < truth.size(); ++p) {
+    if (strokes.data[p] == 0 && best[ids.data[p]] != 0) strokes.data[p] = label;
+  }
+  return true;
+}
+
 }  // namespace
 
 CorrectionCounts count_corrections(const PaintedScene& painted, const LabelerParameters& parameters,
-                                   const LabelingDisparity& disparity) {
+                                   const LabelingDisparity& disparity, const RaySuperpixels* wand) {
   const LightFieldPtr& lf = painted.scene.light_field;
   const ViewIndex center = lf->center();
   const ImageView<const std::int32_t> truth = painted.truth.view(center);
@@ -44,7 +80,9 @@ CorrectionCounts count_corrections(const PaintedScene& painted, const LabelerPar
   ViewStack<std::int32_t> labels({1, 1}, lf->height(), lf->width(), 1, center);
   CorrectionCounts counts;
   for (int stroke = 1; stroke <= kMostCorrections && !counts.back(); ++stroke) {
-    if (!add_correction(labels.view(center), truth, painted_pixels.view())) break;
+    const bool is_selected =
+        wand && wave(*wand, center, labels.view(center), truth, painted_pixels.view());
+    if (!is_selected && !add_correction(labels.view(center), truth, painted_pixels.view())) break;
     if (const auto only = painted_in(painted_pixels); only.size() == 1) {
       std::fill_n(labels.data(), labels.size(), *only.begin());
       continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/labeling/ray_superpixels.h"
 #include "tests/accuracy/label_measure.h"
 
 #include <array>
@@ -21,10 +22,16 @@ using CorrectionCounts = std::array<std::optional<int>, kWantedShares.size()>;
 /// Has a user begin with a bare scene and stroke the largest wrong region of the center view
 /// (add_correction) until all of kWantedShares are reached. While one label alone is painted, every
 /// pixel has it. The scene's own strokes are not used, but only labels that have one are asked
-/// for.
+/// for. With `wand`, superpixels of all views, the user first clicks into the middle of the region
+/// with the tolerance that selects most, and takes the brush if that is less than half of the wrong
+/// pixels of the label, or more than kWrongSelected of it is wrong at every tolerance. Null = the
+/// brush alone.
 [[nodiscard]] CorrectionCounts count_corrections(const PaintedScene& painted,
                                                  const LabelerParameters& parameters,
-                                                 const LabelingDisparity& disparity);
+                                                 const LabelingDisparity& disparity,
+                                                 const RaySuperpixels* wand = nullptr);
+/// Share of what the wand shows that may be wrong for a user to click.
+inline constexpr double kWrongSelected = 0.02;
 
 /// Strokes that no way of labeling can do without: as many as there are labels, the largest first,
 /// which together have each of kWantedShares of the pixels of `truth` (0 = not judged). A labeler

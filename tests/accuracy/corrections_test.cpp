@@ -39,6 +39,20 @@ class CorrectionsTest : public QObject {
     QVERIFY(*counts[1] <= 20);
   }
 
+  void wand_reachesWhatIsWanted() {
+    const accuracy::PaintedScene painted = objects();
+    LabelerParameters parameters;
+    parameters.features = FeatureSet::ImageTruth;
+    parameters.regularizer = Regularizer::View;
+    const LabelingDisparity truth = accuracy::disparity_for(painted, FeatureSet::ImageTruth, {});
+    const RaySuperpixels wand(*painted.scene.light_field, *truth.field, Progress());
+
+    const auto counts = accuracy::count_corrections(painted, parameters, truth, &wand);
+
+    QVERIFY(counts[0] && counts[1]);
+    QVERIFY(*counts[1] >= 2 && *counts[1] <= 20);
+  }
+
   void median_countsWhatWasNotReachedAsTheMost() {
     QCOMPARE(accuracy::median_count({5, std::nullopt, 3}), std::optional(5));
     QCOMPARE(accuracy::median_count({std::nullopt, 4, std::nullopt}), std::optional<int>());

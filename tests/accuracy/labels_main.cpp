@@ -142,8 +142,14 @@ void print_corrections(const Request& request) {
     for_features(painted, request, [&](LabelerParameters parameters, const auto& disparity) {
       parameters.regularizer = Regularizer::View;
       const std::string features = name_of(parameters.features);
-      of_features[features].push_back(count_corrections(painted, parameters, disparity));
-      print_counts(painted.name, features, of_features[features].back());
+      const auto count = [&](const std::string& tools, const RaySuperpixels* wand) {
+        of_features[tools].push_back(count_corrections(painted, parameters, disparity, wand));
+        print_counts(painted.name, tools, of_features[tools].back());
+      };
+      count(features, nullptr);
+      if (!disparity.field) return;
+      const RaySuperpixels wand(*painted.scene.light_field, *disparity.field, Progress());
+      count(features + ", wand", &wand);
     });
   });
   for (const auto& [features, counts] : of_features) {

@@ -167,8 +167,11 @@ Image<std::int32_t> simulated_strokes(ImageView<const std::int32_t> labels, Stro
   return strokes;
 }
 
-bool add_correction(ImageView<const std::int32_t> labels, ImageView<const std::int32_t> truth,
-                    ImageView<std::int32_t> strokes) {
+namespace {
+
+// The largest connected region of wrong pixels that truly have one label; empty if there is none.
+cv::Mat largest_wrong_region(ImageView<const std::int32_t> labels,
+                             ImageView<const std::int32_t> truth) {
   // Wrong pixels of each true label are regions of their own.
   std::map<std::int32_t, cv::Mat> wrong;
   for (int y = 0; y < truth.height; ++y) {
@@ -192,10 +195,31 @@ bool add_correction(ImageView<const std::int32_t> labels, ImageView<const std::i
       region = parts == part;
     }
   }
-  if (largest == 0) return false;
-  const cv::Mat depth = depth_inside(region);
+  return region;
+}
+
+cv::Point middle_of(const cv::Mat& depth) {
   cv::Point middle;
   cv::minMaxLoc(depth, nullptr, nullptr, nullptr, &middle);
+  return middle;
+}
+
+}  // namespace
+
+std::optional<PixelIndex> middle_of_wrong(ImageView<const std::int32_t> labels,
+                                          ImageView<const std::int32_t> truth) {
+  const cv::Mat region = largest_wrong_region(labels, truth);
+  if (region.empty()) return std::nullopt;
+  const cv::Point middle = middle_of(depth_inside(region));
+  return PixelIndex{middle.y, middle.x};
+}
+
+bool add_correction(ImageView<const std::int32_t> labels, ImageView<const std::int32_t> truth,
+                    ImageView<std::int32_t> strokes) {
+  const cv::Mat region = largest_wrong_region(labels, truth);
+  if (region.empty()) return false;
+  const cv::Mat depth = depth_inside(region);
+  const cv::Point middle = middle_of(depth);
   const Ways ways = find_ways(depth, middle);
   const std::vector<cv::Point> way = way_to(ways, ways.farthest);
   const std::size_t length = std::min(way.size(), static_cast<std::size_t>(kLongestCorrection_px));

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "engine/core/image.h"
+#include "engine/core/indices.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace episcope::accuracy {
@@ -25,6 +27,11 @@ inline constexpr int kFewestPixels = 120;
 /// No stroke leaves its label.
 [[nodiscard]] Image<std::int32_t> simulated_strokes(ImageView<const std::int32_t> labels,
                                                     StrokeStyle style);
+
+/// The pixel farthest from the outline of the largest connected region of wrong pixels that truly
+/// have one label; none if every pixel is right.
+[[nodiscard]] std::optional<PixelIndex> middle_of_wrong(ImageView<const std::int32_t> labels,
+                                                        ImageView<const std::int32_t> truth);
 
 /// Adds the next stroke of a user who corrects `labels`, which were found: on the largest connected
 /// region of wrong pixels, from its middle (the pixel farthest from its outline) with a round brush

@@ -3,7 +3,9 @@
 // the simplex projected to by sorting), and against what the memory can copy; and labels of a whole
 // light field. All use as many threads as the machine has.
 #include "engine/core/parallel.h"
+#include "engine/labeling/ray_superpixels.h"
 #include "engine/labeling/regularizer.h"
+#include "engine/scenes/builtin.h"
 #include "engine/solvers/simplex_labeling.h"
 #include "tests/bench/bench_scene.h"
 
@@ -182,6 +184,28 @@ BENCHMARK(label_light_field)
     ->Arg(1)
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
+
+// The superpixels of 9×9 views, and one region of them to be shown under the cursor.
+void ray_superpixels(benchmark::State& state) {
+  scenes::RenderOptions options;
+  options.height = options.width = kSize;
+  const Scene scene = scenes::render_builtin("demo", options, Progress());
+  double made = 0, shown = 0;
+  for (auto _ : state) {
+    const double start = now();
+    const RaySuperpixels superpixels(*scene.light_field, scene.truth->field, Progress());
+    made = now() - start;
+    const auto ids = superpixels.ids().view({0, 0});
+    const auto selected = superpixels.alike(ids.at(kSize / 2, kSize / 2), 0.3F);
+    std::vector<std::uint8_t> mask(ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) mask[i] = selected[ids.data[i]];
+    benchmark::DoNotOptimize(mask.data());
+    shown = now() - start - made;
+  }
+  state.counters["s_made"] = made;
+  state.counters["ms_shown"] = 1e3 * shown;
+}
+BENCHMARK(ray_superpixels)->Unit(benchmark::kSecond)->Iterations(3);
 
 }  // namespace
 

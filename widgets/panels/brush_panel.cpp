@@ -114,8 +114,6 @@ void BrushPanel::addFill(QFormLayout& form) {
   line->addWidget(bound_, 1);
   line->addWidget(tolerance_);
   form.addRow(tr("Fill"), line);
-  connect(bound_, &QComboBox::currentIndexChanged, this,
-          [this] { tolerance_->setEnabled(fillBound() == FillBound::Likeness); });
   setSegmentationAvailable(false);
 }
 

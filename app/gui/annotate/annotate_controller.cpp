@@ -5,6 +5,7 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
 #include "app/gui/shell/panes.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/panels/brush_panel.h"
@@ -52,7 +53,8 @@ AnnotateController::AnnotateController(const Workbench& bench, BrushPanel* panel
       fill_tool_(new FillTool(this)),
       polygon_tool_(new PolygonTool(this)),
       lasso_tool_(new LassoTool(this)),
-      pick_tool_(new PointTool(this)) {
+      pick_tool_(new PointTool(this)),
+      wand_(bench.session, this) {
   addCommands();
   connectTools();
   connectPanel();
@@ -67,7 +69,11 @@ AnnotateController::AnnotateController(const Workbench& bench, BrushPanel* panel
   connect(&document_, &DocumentController::replaced, this, &AnnotateController::showMode);
   connect(&document_, &DocumentController::changed, &bench.commands, &Commands::refresh);
   connect(&document_, &DocumentController::steppedBack, this, &AnnotateController::goTo);
+  connect(&wand_, &Wand::ready, this, [this] {
+    if (tool_ == AnnotationTool::Wand) bench_.messages.hint(tr("The wand is ready."));
+  });
   session_.on_changed([this](Parts parts) {
+    if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) prepareWand();
     if (!parts.has(Part::View)) return;
     endGesture();
     polygon_tool_->setAway(session_.view() != polygon_view_);
@@ -155,7 +161,7 @@ void AnnotateController::showScribbles() {
 }
 
 CanvasTool* AnnotateController::canvasTool() const {
-  if (tool_ == AnnotationTool::Fill) return fill_tool_;
+  if (tool_ == AnnotationTool::Fill || tool_ == AnnotationTool::Wand) return fill_tool_;
   if (tool_ == AnnotationTool::Pick) return pick_tool_;
   if (tool_ == AnnotationTool::Polygon) return polygon_tool_;
   if (tool_ == AnnotationTool::Lasso) return lasso_tool_;
@@ -191,6 +197,21 @@ void AnnotateController::setTool(AnnotationTool tool) {
   stroke_tool_->setErasing(tool == AnnotationTool::Eraser);
   setAnnotating(true);
   showMode();
+  prepareWand();
+}
+
+void AnnotateController::prepareWand() {
+  if (tool_ != AnnotationTool::Wand || !hasDocument()) return;
+  const Wand::State state = wand_.prepare();
+  if (state == Wand::State::Making) {
+    bench_.messages.hint(tr("The wand gathers the rays of all views …"));
+  } else if (state == Wand::State::Missing) {
+    emit disparityWanted();
+    bench_.messages.hint(
+        bench_.jobs.count(Lane::Estimate) > 0
+            ? tr("The wand follows rays by disparity, which is being estimated …")
+            : tr("The wand needs the disparity of all views: run a method in the Estimate tab."));
+  }
 }
 
 void AnnotateController::stepSize(double steps) {
@@ -264,9 +285,13 @@ void AnnotateController::connectFill() {
     previewFill(pixel_of(at));
   });
   connect(tool, &FillTool::dragged, this, [this](double factor) {
-    if (panel_->fillBound() != FillBound::Likeness) return;
+    if (tool_ == AnnotationTool::Fill && panel_->fillBound() != FillBound::Likeness) return;
     panel_->setFillTolerance(tolerance_at_press_ * factor);
     previewFill(fill_seed_);
+  });
+  connect(tool, &FillTool::shapeChanged, this, [this] {
+    const bool is_shown = !fill_tool_->preview().isNull();
+    if (std::exchange(is_fill_shown_, is_shown) != is_shown) bench_.commands.refresh();
   });
   connect(tool, &FillTool::cancelled, this,
           [this] { panel_->setFillTolerance(tolerance_at_press_); });
@@ -311,6 +336,7 @@ const Likeness& AnnotateController::likeness() {
 
 PixelRegion AnnotateController::regionAt(PixelIndex seed) {
   const ViewIndex view = session_.view();
+  if (tool_ == AnnotationTool::Wand) return wand_.region(wandAt(seed), view);
   if (panel_->fillBound() == FillBound::Segmentation) {
     const auto source = bench_.overlay.sourceOf({render::Quantity::Segmentation});
     if (source) {
@@ -320,15 +346,28 @@ PixelRegion AnnotateController::regionAt(PixelIndex seed) {
   return likeness().region(seed, panel_->fillTolerance());
 }
 
+std::vector<std::uint8_t> AnnotateController::wandAt(PixelIndex seed) {
+  if (wand_.prepare() != Wand::State::Ready) return {};
+  return wand_.select(session_.view(), seed,
+                      static_cast<float>(panel_->fillTolerance()) * likeness().noise());
+}
+
+void AnnotateController::fillShown() {
+  if (is_fill_shown_) fill({.at = {fill_seed_.x + 0.5, fill_seed_.y + 0.5}});
+}
+
 void AnnotateController::fill(const StrokeStart& start) {
   if (!hasDocument() || (!start.erases && !requireLabel())) return;
-  const PixelRegion region = regionAt(pixel_of(start.at));
+  if (tool_ == AnnotationTool::Wand && wand_.prepare() != Wand::State::Ready) return prepareWand();
+  const PixelIndex seed = pixel_of(start.at);
+  const auto regions = tool_ == AnnotationTool::Wand
+                           ? wand_.regions(wandAt(seed))
+                           : std::vector<ViewRegion>{{session_.view(), regionAt(seed)}};
   fill_tool_->setPreview({}, {});
   // A fill reaches far: it goes around strokes unless Shift was held.
   PaintStyle style = styleOf(start);
   style.protects_others = !start.protects_others || protects_others_;
-  document_.edit(
-      [&](AnnotationDocument& document) { fill_region(document, session_.view(), region, style); });
+  document_.edit([&](AnnotationDocument& document) { fill_regions(document, regions, style); });
 }
 
 // Label of the segment at a pixel; 0 where there is none.
@@ -449,7 +488,7 @@ void AnnotateController::addToolCommands() {
     QString id;
     QString text;
     QString tip;
-    Qt::Key key;
+    QKeySequence key;
   };
   for (const Row& row : std::initializer_list<Row>{
            {AnnotationTool::Brush, "brush", tr("Brush"),
@@ -458,6 +497,10 @@ void AnnotateController::addToolCommands() {
             Qt::Key_E},
            {AnnotationTool::Fill, "fill", tr("Fill"),
             tr("Fills a region up to its edges; the right button clears it"), Qt::Key_F},
+           {AnnotationTool::Wand, "wand", tr("Wand, all views"),
+            tr("Fills a region in all views: like colors on one surface; the right button clears "
+               "it"),
+            tr("Shift+F")},
            {AnnotationTool::Polygon, "polygon", tr("Polygon"),
             tr("Paints the inside of a polygon: click its corners, then double-click or press "
                "Return; begin with the right button to erase"),
@@ -487,17 +530,22 @@ void AnnotateController::addPolygonCommands() {
   bench_.commands.add(
       {.id = "annotate.close_polygon",
        .menu = Menu::Annotate,
-       .text = tr("Close the polygon, or accept the region in doubt"),
-       .tip = tr("Paints the inside of the polygon being drawn; without one, paints "
-                 "the marked region in doubt with the label that it has"),
+       .text = tr("Close the polygon, or accept the region"),
+       .tip = tr("Paints the inside of the polygon being drawn; without one, paints the marked "
+                 "region in doubt with the label that it has, else what the fill or the wand "
+                 "shows under the cursor"),
        .keys = {Qt::Key_Return, Qt::Key_Enter},
        .run =
            [this] {
-             if (!polygon_tool_->closeUp()) bench_.labels.acceptRegion();
+             if (polygon_tool_->closeUp()) return;
+             bench_.labels.hasRegion() ? bench_.labels.acceptRegion() : fillShown();
            },
        .section = annotate_section::kTools,
        .scope = KeyScope::Viewer,
-       .enabled = [this, is_drawing] { return is_drawing() || bench_.labels.hasRegion(); }});
+       .enabled =
+           [this, is_drawing] {
+             return is_drawing() || bench_.labels.hasRegion() || is_fill_shown_;
+           }});
   bench_.commands.add({.id = "annotate.take_corner_back",
                        .menu = Menu::Annotate,
                        .text = tr("Remove the last corner"),

@@ -3,6 +3,7 @@
 
 #include "annotation/brush.h"
 #include "annotation/likeness.h"
+#include "app/gui/annotate/wand.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
@@ -21,7 +22,7 @@ class PointTool;
 class PolygonTool;
 class ViewCanvas;
 
-enum class AnnotationTool { Brush, Eraser, Fill, Polygon, Lasso, Pick };
+enum class AnnotationTool { Brush, Eraser, Fill, Wand, Polygon, Lasso, Pick };
 
 /// Painting on the view: the mode (browse or annotate), the current tool, sizes, strokes, fills and
 /// outlines.
@@ -43,6 +44,10 @@ class AnnotateController : public QObject {
   void stepSize(double steps);
   void setProtectsOthers(bool protects);
   [[nodiscard]] bool protectsOthers() const { return protects_others_; }
+
+ signals:
+  /// The wand needs the disparity of all views.
+  void disparityWanted();
 
  private:
   void addCommands();
@@ -77,6 +82,12 @@ class AnnotateController : public QObject {
   [[nodiscard]] const Likeness& likeness();
   void connectFill();
   void previewFill(PixelIndex seed);
+  /// Paints what the fill or the wand shows under the cursor, if anything.
+  void fillShown();
+  /// Superpixels that the wand selects at a pixel.
+  [[nodiscard]] std::vector<std::uint8_t> wandAt(PixelIndex seed);
+  /// Makes the wand ready if it is in use; tells why it must be waited for.
+  void prepareWand();
   [[nodiscard]] int segmentAt(PixelIndex pixel) const;
   void pick(QPointF image);
   void goTo(const DocumentChange& change);
@@ -97,10 +108,12 @@ class AnnotateController : public QObject {
     ViewIndex view;
     std::weak_ptr<const DisparityField> disparity;
   };
+  Wand wand_;
   LikenessKey likeness_key_;
   std::unique_ptr<const Likeness> likeness_;
   double tolerance_at_press_ = 0;
   PixelIndex fill_seed_;
+  bool is_fill_shown_ = false;
   ViewIndex polygon_view_;  // where it was begun
   bool is_polygon_open_ = false;
   AnnotationTool tool_ = AnnotationTool::Brush;

@@ -66,6 +66,9 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] std::optional<MapSource> map_source(render::Quantity quantity,
                                                     ViewIndex view) const override;
 
+  /// Begins to estimate the disparity of all views in the background, unless one is known.
+  void provideDisparity() { source_.provide(); }
+
  private:
   void addCommands();
   void addRunCommands();
