@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/io/models/open_options.h"
+#include "engine/core/error.h"
 #include "engine/io/models/reader.h"
 #include "tests/test_main.h"
 
@@ -43,6 +43,7 @@ class OpenOptionsTest : public QObject {
   void givenOption_readsBack();
   void allOptions_readBackTogether();
   void automaticOptions_areNotGiven();
+  void wholeLensletOfAnOlderFile_isRead();
   void unknownOption_isRefusedByName();
   void wrongValue_isRefusedByName();
   void readers_nameOptionsThatThereAre();
@@ -84,6 +85,15 @@ void OpenOptionsTest::allOptions_readBackTogether() {
 void OpenOptionsTest::automaticOptions_areNotGiven() {
   QVERIFY(io::given_options({}).empty());
   QVERIFY(io::given_options(io::open_schema().parse({})).empty());
+}
+
+void OpenOptionsTest::wholeLensletOfAnOlderFile_isRead() {
+  const ParameterSet stored{{"lenslet", 14}, {"frame", 2}};
+
+  const io::OpenOptions options = io::open_schema().parse(io::stored_options(stored));
+
+  QCOMPARE(options.lenslet, 14.0);
+  QCOMPARE(options.frame, 2);
 }
 
 void OpenOptionsTest::unknownOption_isRefusedByName() {
