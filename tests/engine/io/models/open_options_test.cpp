@@ -15,7 +15,9 @@ std::vector<std::string> other_texts(const ParameterDescription& option) {
   const ParameterValue& preset = option.default_value;
   if (std::holds_alternative<bool>(preset)) return {"true"};
   if (std::holds_alternative<int>(preset)) return {"7", to_text(option.max)};
-  if (std::holds_alternative<double>(preset)) return {"0.1", "-2", to_text(option.max)};
+  if (std::holds_alternative<double>(preset)) {
+    return {"0.1", option.min < 0 ? "-2" : "2.5", to_text(option.max)};
+  }
   if (option.choices.empty()) return {"view_{row}_{col}.png", "it's *{index}.tif"};
   std::vector<std::string> texts;
   for (const std::string& choice : option.choices) {
