@@ -406,7 +406,7 @@ std::string upright_note(const std::string& who, int orientation) {
                                        "turned and mirrored",
                                        "turned by a quarter to the right"};
   return fmt::format(
-      "{} that they are stored {} (Exif orientation {}): they are shown upright, with rows and "
+      "{} are stored {} (Exif orientation {}): they are shown upright, with rows and "
       "columns of pixels to match.",
       who, kMeanings[orientation - 1], orientation);
 }
@@ -418,7 +418,7 @@ CommonOrientation common_orientation(const std::vector<fs::path>& files) {
   if (counts.size() == 1) {
     const int value = most->first;
     if (value == 1) return {};
-    return {value, upright_note("All views state", value)};
+    return {value, upright_note("All views state that they", value)};
   }
   if (counts.empty()) return {};
   return {1, fmt::format("The views state {} different orientations (Exif), {} of {} orientation "
