@@ -12,6 +12,7 @@
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
+#include "engine/io/models/open_options.h"
 #include "engine/io/models/result_file.h"
 
 #include <nlohmann/json.hpp>
@@ -227,7 +228,7 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
   const std::string source = json.at("source");
   scene.input = builtin_scene_id(source).empty() ? absolute_path(source, project) : source;
   scene.sample_hash = hash_from_digits(json.at("hash").get<std::string>());
-  scene.reading = io::parameters_from(json.at("reading"));
+  scene.reading = io::stored_options(io::parameters_from(json.at("reading")));
   scene.place = place_of(json.at("place"));
   for (const Json& each : json.at("results")) scene.results.push_back(result_of(each, project));
   if (json.contains("capture")) {

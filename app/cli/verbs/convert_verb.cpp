@@ -402,6 +402,19 @@ void write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Jo
                          progress.part(0.5, 1));
 }
 
+/// Says that it is written, unless JSON does; returns that.
+[[nodiscard]] Json written(const ConvertRequest& request, const std::string& form,
+                           const std::filesystem::path& labels = {}) {
+  if (!request.is_json && !request.is_piped) {
+    std::cout << request.output << ": written\n";
+    print_labels_written(labels, request.output);
+  }
+  return Json::object({{"input", request.input},
+                       {"output", request.output},
+                       {"form", form},
+                       {"written", files_written(request.output, labels)}});
+}
+
 [[nodiscard]] Json convert_labels(const ConvertRequest& request, io::LabelForm form, Job& job,
                                   const Progress& progress) {
   check_label_folder(request);
@@ -411,11 +424,7 @@ void write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Jo
     write_labels_of_scene(request, form, job, progress);
   }
   job.finish();
-  if (!request.is_json) std::cout << request.output << ": written\n";
-  return Json::object({{"input", request.input},
-                       {"output", request.output},
-                       {"form", request.form},
-                       {"written", Json::array({request.output})}});
+  return written(request, request.form);
 }
 
 /// Returns what was converted, for JSON.
@@ -433,14 +442,7 @@ void write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Jo
   progress.check();
   const std::filesystem::path labels = write(subject, request, target, job, progress.part(0.5, 1));
   job.finish();
-  if (!request.is_json && !request.is_piped) {
-    std::cout << request.output << ": written\n";
-    print_labels_written(labels, request.output);
-  }
-  return Json::object({{"input", request.input},
-                       {"output", request.output},
-                       {"form", target.writer ? target.writer->id : kMap},
-                       {"written", files_written(request.output, labels)}});
+  return written(request, target.writer ? target.writer->id : kMap, labels);
 }
 
 /// Where a light field of a collection goes: a folder, or a file; files of the archive have a
@@ -500,7 +502,7 @@ std::filesystem::path repacked_file(const std::string& input) {
   return std::filesystem::is_directory(path, error) ? path / "lf.h5" : path;
 }
 
-void repack(const ConvertRequest& request, Job& job) {
+[[nodiscard]] Json repack(const ConvertRequest& request, Job& job) {
   if (!io::has_hdf5_name(request.output) || request.is_piped) {
     throw UsageError("--repack writes a file *.h5, but the output is " + request.output +
                      "; name it so");
@@ -509,7 +511,7 @@ void repack(const ConvertRequest& request, Job& job) {
   check_light_field_output(request.output, request.overwrite);
   io::repack_hdf5(repacked_file(request.input), request.output, job.progress());
   job.finish();
-  if (!request.is_json) std::cout << request.output << ": written\n";
+  return written(request, "repacked");
 }
 
 /// Whether OUT is to be a folder for the light fields of a folder.
@@ -532,17 +534,11 @@ void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   to.require_alone(request.is_json);
   request.is_piped = to.is_meant();
   Job job(std::move(stop), request.job);
-  if (request.is_repacked) {
-    repack(request, job);
-    if (!request.is_json) return;
-    return print_answer(Json::object({{"input", request.input},
-                                      {"output", request.output},
-                                      {"form", "repacked"},
-                                      {"written", files_written(request.output, {})}}),
-                        job.notes());
+  if (!request.is_repacked && is_many(request, job.progress())) {
+    return convert_collection(request, job);
   }
-  if (is_many(request, job.progress())) return convert_collection(request, job);
-  Json answer = convert_one(request, job, job.progress());
+  Json answer =
+      request.is_repacked ? repack(request, job) : convert_one(request, job, job.progress());
   if (to.is_meant()) return to.send();
   if (request.is_json) print_answer(std::move(answer), job.notes());
 }

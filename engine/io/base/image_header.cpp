@@ -2,6 +2,7 @@
 #include "engine/io/base/image_header.h"
 
 #include "engine/core/error.h"
+#include "engine/io/base/tiff_file.h"
 
 #include <fmt/format.h>
 
@@ -72,50 +73,21 @@ ImageHeader pnm_header(FileBytes& file, int channels) {
   return {length(numbers[1]), length(numbers[0]), channels, of_bits(numbers[2] > 255 ? 16 : 8)};
 }
 
-ImageHeader tiff_header(FileBytes& file, bool is_little_endian) {
-  const auto number = [&](std::streamoff at, int count) {
-    return file.number(at, count, is_little_endian);
+ImageHeader tiff_header(const std::filesystem::path& path) {
+  constexpr std::uint64_t kWidth = 256, kHeight = 257, kBits = 258, kOrientation = 274,
+                          kChannels = 277, kFormat = 339;
+  constexpr std::uint32_t kFloats = 3;
+  TiffFile file(path);
+  const auto number = [&](std::uint64_t tag, std::uint32_t otherwise) {
+    const auto value = file.tag(tag);
+    return value ? static_cast<std::uint32_t>(value->number) : otherwise;
   };
-  constexpr std::uint32_t short_type = 3;
-  constexpr std::uint32_t float_format = 3;
-  ImageHeader header{0, 0, 1, SampleType::UInt8};
-  std::uint32_t bits = 8;
-  std::uint32_t format = 1;
-  bool is_turned = false;  // decoded upright
-  const std::streamoff directory = number(4, 4);
-  const std::uint32_t entries = number(directory, 2);
-  for (std::uint32_t i = 0; i < entries && !file.is_short(); ++i) {
-    const std::streamoff at = directory + 2 + 12 * static_cast<std::streamoff>(i);
-    const std::uint32_t type = number(at + 2, 2);
-    const std::uint32_t count = number(at + 4, 4);
-    // Several values do not fit into the entry, which says where they lie; all are alike.
-    const std::streamoff place = type == short_type && count > 2 ? number(at + 8, 4) : at + 8;
-    const std::uint32_t value = number(place, type == short_type ? 2 : 4);
-    switch (number(at, 2)) {
-      case 256:
-        header.width = length(value);
-        break;
-      case 257:
-        header.height = length(value);
-        break;
-      case 258:
-        bits = value;
-        break;
-      case 274:
-        is_turned = value >= 5 && value <= 8;
-        break;
-      case 277:
-        header.channels = value < 3 ? 1 : 3;
-        break;
-      case 339:
-        format = value;
-        break;
-      default:
-        break;
-    }
-  }
+  ImageHeader header{
+      length(number(kHeight, 0)), length(number(kWidth, 0)), number(kChannels, 1) < 3 ? 1 : 3,
+      number(kFormat, 1) == kFloats ? SampleType::Float32 : of_bits(number(kBits, 8))};
+  const std::uint32_t orientation = number(kOrientation, 1);
+  const bool is_turned = orientation >= 5 && orientation <= 8;  // decoded upright
   if (is_turned) std::swap(header.width, header.height);
-  header.sample_type = format == float_format ? SampleType::Float32 : of_bits(bits);
   return header;
 }
 
@@ -134,10 +106,8 @@ std::optional<ImageHeader> stated_image_header(const std::filesystem::path& path
     header = pnm_header(file, 1);
   } else if (file.begins_with("P6") || file.begins_with("P3")) {
     header = pnm_header(file, 3);
-  } else if (file.begins_with(std::string_view("II*\0", 4))) {
-    header = tiff_header(file, true);
-  } else if (file.begins_with(std::string_view("MM\0*", 4))) {
-    header = tiff_header(file, false);
+  } else if (file.begins_with("II") || file.begins_with("MM")) {
+    header = tiff_header(path);
   }
   const bool is_whole = header.height > 0 && header.width > 0 && !file.is_short();
   return is_whole ? std::optional(header) : std::nullopt;
@@ -145,86 +115,36 @@ std::optional<ImageHeader> stated_image_header(const std::filesystem::path& path
 
 namespace {
 
-/// The directories of a TIFF file.
-class TiffDirectories {
- public:
-  TiffDirectories(FileBytes& file, bool is_little_endian)
-      : file_(file), is_little_endian_(is_little_endian), at_(number(4, 4)) {}
+/// One of the values of a tag; 0 for types that are no positive numbers.
+double number_of(TiffFile& file, std::uint64_t directory, std::uint64_t tag, std::uint64_t index,
+                 double otherwise = 0) {
+  constexpr std::uint64_t kShort = 3, kLong = 4, kRatio = 5;
+  const auto value = file.tag(directory, tag);
+  if (!value) return otherwise;
+  if (value->type < kShort || value->type > kRatio) return 0;
+  const std::uint64_t bytes = value->type == kShort ? 2 : value->type == kLong ? 4 : 8;
+  const std::uint64_t place = value->place + bytes * index;
+  if (value->type != kRatio) return static_cast<double>(file.at(place, bytes));
+  const std::uint64_t below = file.at(place + 4, 4);
+  return below == 0 ? 0 : static_cast<double>(file.at(place, 4)) / static_cast<double>(below);
+}
 
-  [[nodiscard]] bool is_at_end() const { return at_ == 0 || file_.is_short(); }
+int in_pixels(double value) {
+  constexpr double kFarthest = 1 << 24;
+  return static_cast<int>(std::lround(std::min(value, kFarthest)));
+}
 
-  void step() { at_ = number(at_ + 2 + 12 * static_cast<std::streamoff>(number(at_, 2)), 4); }
-
-  /// Of the position in units of the resolution, and of the part of a raw picture that is shown.
-  [[nodiscard]] PagePlace place() {
-    double x_pixels = 1, y_pixels = 1, x = 0, y = 0;  // pixels of a unit, units
-    double left = 0, top = 0;                         // in pixels
-    const std::uint32_t entries = number(at_, 2);
-    for (std::uint32_t i = 0; i < entries && !file_.is_short(); ++i) {
-      const std::streamoff entry = at_ + 2 + 12 * static_cast<std::streamoff>(i);
-      switch (number(entry, 2)) {
-        case 282:
-          x_pixels = value(entry, 0);
-          break;
-        case 283:
-          y_pixels = value(entry, 0);
-          break;
-        case 286:
-          x = value(entry, 0);
-          break;
-        case 287:
-          y = value(entry, 0);
-          break;
-        case kCropOrigin:
-          left += value(entry, 0);
-          top += value(entry, 1);
-          break;
-        case kActiveArea:
-          top += value(entry, 0);
-          left += value(entry, 1);
-          break;
-        default:
-          break;
-      }
-    }
-    return {in_pixels(x * x_pixels + left), in_pixels(y * y_pixels + top)};
-  }
-
- private:
-  static constexpr std::uint32_t kCropOrigin = 50719, kActiveArea = 50829;  // of DNG
-
-  static int in_pixels(double value) {
-    constexpr double kFarthest = 1 << 24;
-    return static_cast<int>(std::lround(std::min(value, kFarthest)));
-  }
-
-  std::uint32_t number(std::streamoff at, int count) {
-    return file_.number(at, count, is_little_endian_);
-  }
-
-  /// One of the values of an entry; 0 for types that are no positive numbers.
-  double value(std::streamoff entry, int index) {
-    constexpr std::uint32_t kShort = 3, kLong = 4, kRatio = 5;
-    const std::uint32_t type = number(entry + 2, 2);
-    const int bytes = type == kShort ? 2 : type == kLong ? 4 : 8;
-    if (type < kShort || type > kRatio) return 0;
-    const bool is_here = static_cast<std::uint64_t>(bytes) * number(entry + 4, 4) <= 4;
-    const std::streamoff first = is_here ? entry + 8 : std::streamoff{number(entry + 8, 4)};
-    const std::streamoff at = first + std::streamoff{bytes} * index;
-    if (type != kRatio) return number(at, bytes);
-    const std::uint32_t below = number(at + 4, 4);
-    return below == 0 ? 0 : static_cast<double>(number(at, 4)) / below;
-  }
-
-  FileBytes& file_;
-  bool is_little_endian_;
-  std::streamoff at_;
-};
-
-std::optional<TiffDirectories> tiff_directories(FileBytes& file) {
-  if (file.begins_with(std::string_view("II*\0", 4))) return TiffDirectories(file, true);
-  if (file.begins_with(std::string_view("MM\0*", 4))) return TiffDirectories(file, false);
-  return std::nullopt;
+/// Of the position in units of the resolution, and of the part of a raw picture that is shown.
+PagePlace place_of_page(TiffFile& file, std::uint64_t directory) {
+  constexpr std::uint64_t kXResolution = 282, kYResolution = 283, kX = 286, kY = 287;
+  constexpr std::uint64_t kCropOrigin = 50719, kActiveArea = 50829;  // of DNG
+  const auto number = [&](std::uint64_t tag, std::uint64_t index, double otherwise = 0) {
+    return number_of(file, directory, tag, index, otherwise);
+  };
+  const double x = number(kX, 0) * number(kXResolution, 0, 1);
+  const double y = number(kY, 0) * number(kYResolution, 0, 1);
+  return {in_pixels(x + number(kCropOrigin, 0) + number(kActiveArea, 1)),
+          in_pixels(y + number(kCropOrigin, 1) + number(kActiveArea, 0))};
 }
 
 /// Of a chunk oFFs in pixels, before the samples.
@@ -249,18 +169,17 @@ PagePlace png_place(FileBytes& file) {
 PagePlace stated_place(const std::filesystem::path& path) {
   FileBytes file(path);
   if (file.begins_with("\x89PNG\r\n\x1a\n")) return png_place(file);
-  auto directories = tiff_directories(file);
-  return directories ? directories->place() : PagePlace();
+  TiffFile tiff(path);
+  const auto directories = tiff.directories(0);
+  return directories.empty() ? PagePlace() : place_of_page(tiff, directories.front());
 }
 
 std::vector<PagePlace> stated_places(const std::filesystem::path& path) {
-  constexpr std::size_t kMostPages = 10000;
-  FileBytes file(path);
+  constexpr int kMostPages = 10000;
+  TiffFile file(path);
   std::vector<PagePlace> places;
-  auto directories = tiff_directories(file);
-  for (; directories && !directories->is_at_end() && places.size() < kMostPages;
-       directories->step()) {
-    places.push_back(directories->place());
+  for (const std::uint64_t directory : file.directories(kMostPages)) {
+    places.push_back(place_of_page(file, directory));
   }
   return places;
 }

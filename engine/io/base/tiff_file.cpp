@@ -62,7 +62,7 @@ std::optional<TiffFile::Value> TiffFile::tag(std::uint64_t directory, std::uint6
     if (at(entry, 2) != tag) continue;
     const std::uint64_t type = at(entry + 2, 2);
     const std::uint64_t size = type < kSizes.size() ? kSizes[type] : 8;
-    Value value{entry + 4 + place_bytes(), size * at(entry + 4, place_bytes())};
+    Value value{type, entry + 4 + place_bytes(), size * at(entry + 4, place_bytes())};
     if (value.bytes > place_bytes()) value.place = at(value.place, place_bytes());
     value.number = at(value.place, size);
     return value;

@@ -15,6 +15,7 @@ class TiffFile {
  public:
   /// Value of a tag.
   struct Value {
+    std::uint64_t type = 0;    ///< As the file numbers types: 3 = 16 bit, 4 = 32 bit, 5 = ratio.
     std::uint64_t place = 0;   ///< Where the first value lies,
     std::uint64_t bytes = 0;   ///< and how many bytes all have.
     std::uint64_t number = 0;  ///< The first, if it is a whole number.

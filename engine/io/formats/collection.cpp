@@ -491,22 +491,26 @@ std::string image_kind(const fs::path& path) {
 }
 
 /// Not a pointer or a web page in place of one: they all fail for the same reason.
-bool may_be_picture(const ListedFile& file) {
-  return is_image_name(file.path) && file.bytes > 0 && foreign_content(file.path).empty();
+bool is_picture(const ListedFile* file) {
+  return foreign_content(file->path).empty();
 }
 
-/// The images that are light fields each. One of every kind is tried, since trying all the views of
-/// a grid would take long.
+/// The images that are light fields each. One of every kind is tried, since trying, or only
+/// opening, all the views of a grid would take long.
 std::vector<CollectionEntry> image_entries(const FolderListing& listing) {
   std::map<std::string, std::vector<const ListedFile*>> kinds;
   for (const ListedFile& file : listing.files) {
-    if (may_be_picture(file)) kinds[image_kind(file.path)].push_back(&file);
+    if (is_image_name(file.path) && file.bytes > 0) {
+      kinds[image_kind(file.path)].push_back(&file);
+    }
   }
   std::vector<CollectionEntry> entries;
   if (kinds.size() > kMostNameKinds) return entries;
   for (const auto& [kind, files] : kinds) {
-    if (!scan_file(files.front()->path)) continue;
+    const auto first = std::ranges::find_if(files, is_picture);
+    if (first == files.end() || !scan_file((*first)->path)) continue;
     for (const ListedFile* file : files) {
+      if (!is_picture(file)) continue;
       if (auto entry = scan_file(file->path)) entries.push_back(std::move(*entry));
     }
   }

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <string_view>
@@ -29,6 +30,7 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/display.h>
 #include <libavutil/log.h>
 #include <libswscale/swscale.h>
 }
@@ -113,6 +115,28 @@ void require_plausible_film(const fs::path& path, std::uint64_t pixels) {
                                   pixels / 1'000'000, bytes));
 }
 
+/// The Exif orientation whose turn a matrix of a film states; 0 = none does.
+int orientation_of(const std::array<std::int32_t, 9>& matrix) {
+  constexpr std::int32_t kOne = 1 << 16;
+  // Where columns (first pair) and rows of stored pixels point to on the screen, as (right, down).
+  constexpr std::array<std::array<int, 4>, 8> kTurns{{{1, 0, 0, 1},
+                                                      {-1, 0, 0, 1},
+                                                      {-1, 0, 0, -1},
+                                                      {1, 0, 0, -1},
+                                                      {0, 1, 1, 0},
+                                                      {0, 1, -1, 0},
+                                                      {0, -1, -1, 0},
+                                                      {0, -1, 1, 0}}};
+  for (std::size_t i = 0; i < kTurns.size(); ++i) {
+    const auto& turn = kTurns[i];
+    if (matrix[0] == turn[0] * kOne && matrix[1] == turn[1] * kOne && matrix[3] == turn[2] * kOne &&
+        matrix[4] == turn[3] * kOne) {
+      return static_cast<int>(i) + 1;
+    }
+  }
+  return 0;
+}
+
 /// The container, its first video and the decoder of that.
 class FilmDecoder {
  public:
@@ -141,6 +165,21 @@ class FilmDecoder {
   }
 
   [[nodiscard]] std::string codec_name() const { return avcodec_get_name(codec_->codec_id); }
+
+  /// How the camera was turned, as Exif tells it (load_views.h). Throws IoError for angles between
+  /// quarters.
+  [[nodiscard]] int orientation() const {
+    const std::uint8_t* const stated =
+        av_stream_get_side_data(file_->streams[stream_], AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+    if (stated == nullptr) return 1;
+    std::array<std::int32_t, 9> matrix;
+    std::memcpy(matrix.data(), stated, sizeof matrix);
+    if (const int found = orientation_of(matrix)) return found;
+    throw IoError(
+        path_, fmt::format("the film states that its pictures are turned by {:.1f}°, which is no "
+                           "quarter of a turn; export its pictures upright, as images in a folder",
+                           -av_display_rotation_get(matrix.data())));
+  }
 
   /// Gives every picture to `take`.
   template <class Take>
@@ -195,7 +234,7 @@ bool is_animated_png(const fs::path& path) {
 Film read_film(const fs::path& path, int most, const Progress& progress) {
   require_readable_file(path);
   FilmDecoder decoder(path);
-  Film film{{}, decoder.codec_name()};
+  Film film{{}, decoder.codec_name(), decoder.orientation()};
   decoder.decode([&](const AVFrame& frame) {
     progress.check();
     const auto count = static_cast<int>(film.pictures.size());
@@ -207,7 +246,7 @@ Film read_film(const fs::path& path, int most, const Progress& progress) {
     const std::uint64_t pixels = pixels_of(frame.height, frame.width) * (film.pictures.size() + 1);
     require_plausible_film(path, pixels);
     require_view_memory(path, 2.0 * 3 * static_cast<double>(pixels));
-    film.pictures.emplace_back(picture_of(path, frame));
+    film.pictures.push_back(upright(picture_of(path, frame), film.orientation));
     progress.report((count + 1.0) / most);
   });
   if (film.pictures.empty()) refuse_film(path);
@@ -310,6 +349,7 @@ struct Frames {
   std::vector<AnyImage> pictures;
   std::string what;                         ///< "pages", "pictures of a film (h264)".
   std::vector<Image<std::uint8_t>> seen{};  ///< As in SeenImage; empty = all as a whole.
+  int orientation = 1;                      ///< In which they are stored.
 };
 
 /// Throws IoError if pages state that they were cut out at different places.
@@ -327,7 +367,8 @@ void require_one_place(const fs::path& path) {
 Frames read_frames(const fs::path& path, const Progress& progress) {
   if (!has_tiff_name(path)) {
     Film film = read_film(path, kMostPictures, progress);
-    return {std::move(film.pictures), "pictures of a film (" + film.codec + ")"};
+    return {
+        std::move(film.pictures), "pictures of a film (" + film.codec + ")", {}, film.orientation};
   }
   const int pages = count_tiff_pages(path, kMostPictures);
   if (pages > kMostPictures) {
@@ -406,6 +447,10 @@ Scene read_light_field(const fs::path& path, const OpenOptions& options, const P
       },
       parts.samples);
   frames.pictures.clear();
+  if (frames.orientation != 1) {
+    scene.convention.warnings.push_back(
+        upright_note("The film states that its pictures", frames.orientation));
+  }
   settle_range(parts.samples, options.levels, scene.convention);
   std::string reason = fmt::format("{} {}", count, frames.what);
   const auto stated = has_tiff_name(path)

@@ -22,7 +22,8 @@ namespace episcope::io {
 /// The pictures of a film, or of an animated PNG, RGB8.
 struct Film {
   std::vector<AnyImage> pictures;
-  std::string codec;  ///< "h264".
+  std::string codec;    ///< "h264".
+  int orientation = 1;  ///< As in Exif, in which the film stores them; here they are upright.
 };
 
 /// Decodes the pictures of the first video in a file, in the order of display. No other file is

@@ -13,7 +13,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace episcope::io {
@@ -68,6 +71,7 @@ struct Question {
   int width;
   Image<float> along_x;
   Image<float> along_y;
+  std::string evidence_of_options = "as the options say";
   std::string subject{};  ///< What messages call it.
 };
 
@@ -81,17 +85,23 @@ int in_percent(double part) {
   return static_cast<int>(std::lround(100 * part));
 }
 
+/// Views along one axis of lenslets that are a pitch apart.
+int views_of_pitch(double pitch_px) {
+  return std::max(1, static_cast<int>(std::lround(pitch_px)));
+}
+
 std::optional<GridShape> stated_grid(const OpenOptions& options) {
   const std::optional<GridShape> grid = given_grid(options);
   if (options.lenslet == 0) return grid;
-  const GridShape lenslet{options.lenslet, options.lenslet};
+  const int views = views_of_pitch(options.lenslet);
+  const GridShape lenslet{views, views};
   if (options.mosaic != Mosaic::Auto && options.mosaic != Mosaic::Lenslets) {
     throw InvalidInput(
         "--lenslet belongs to --mosaic lenslets; for views side by side give --grid");
   }
   if (grid && !(*grid == lenslet)) {
     throw InvalidInput(
-        fmt::format("--lenslet {} and --grid {} contradict each other; give one of "
+        fmt::format("--lenslet {:g} and --grid {} contradict each other; give one of "
                     "them",
                     options.lenslet, options.grid));
   }
@@ -176,7 +186,7 @@ void require_sensible_cut(const Question& question, GridShape grid) {
 
 std::optional<Answer> find_answer(const Question& question) {
   if (question.grid && question.kind != Mosaic::Auto) {
-    return Answer{question.kind, *question.grid, "as the options say"};
+    return Answer{question.kind, *question.grid, question.evidence_of_options};
   }
   if (question.kind == Mosaic::Quilt) {
     if (const auto tiles = quilt_tiles_of_name(question.path)) {
@@ -207,8 +217,8 @@ std::vector<ReadingChoice> possible_lenslets(const Question& question) {
 
 /// What cameras record under lenslets has any pitch, and often a rotation.
 constexpr const char* kRectify =
-    "; a raw picture, whose lenslets are no whole number of pixels apart or turned, must be "
-    "rectified before, as episcope-cli decode does";
+    "; if lenslets are no whole number of pixels apart, give their distance, as --lenslet 15.38; "
+    "if they are turned or hexagonal, as in raw pictures of cameras, use episcope-cli decode";
 
 [[noreturn]] void refuse(const Question& question) {
   const std::string size = fmt::format("of {}×{} px", question.width, question.height);
@@ -246,14 +256,19 @@ ImageSize size_of(const AnyImage& picture) {
 Question question_of(const AnyImage& picture, ImageSize size, const fs::path& path,
                      const OpenOptions& options) {
   const MosaicName name = mosaic_name(path);
-  return {path,
-          name,
-          stated_kind(options, name),
-          stated_grid(options),
-          size.height,
-          size.width,
-          picture_lines(picture, LineAxis::X),
-          picture_lines(picture, LineAxis::Y)};
+  Question question{path,
+                    name,
+                    stated_kind(options, name),
+                    stated_grid(options),
+                    size.height,
+                    size.width,
+                    picture_lines(picture, LineAxis::X),
+                    picture_lines(picture, LineAxis::Y)};
+  if (has_fraction(options.lenslet)) {
+    question.evidence_of_options =
+        fmt::format("resampled from {:g} px, as the options say", options.lenslet);
+  }
+  return question;
 }
 
 /// Throws IoError for a quilt whose tiles do not fill the picture: it was cut or scaled.
@@ -291,6 +306,99 @@ MosaicLayout find_mosaic_layout(const AnyImage& picture, const fs::path& path,
   const bool is_unseen = question.grid && question.kind != Mosaic::Auto;
   if (is_unseen && answer->kind != Mosaic::Lenslets) require_sensible_cut(question, grid);
   return layout_of(std::move(*answer), {height / grid.v, width / grid.u}, {height, width}, path);
+}
+
+namespace {
+
+/// Four samples around a place between samples, and their weights (Keys 1981, a = −1/2).
+struct Taps {
+  std::array<int, 4> at;
+  std::array<float, 4> weights;
+};
+
+/// Of all pixels of lenslets of `views` px, along an axis of `length` px where they are a pitch
+/// apart.
+std::vector<Taps> taps_along(int length, double pitch_px) {
+  const int views = views_of_pitch(pitch_px);
+  std::vector<Taps> taps(static_cast<std::size_t>(length / pitch_px) *
+                         static_cast<std::size_t>(views));
+  for (std::size_t i = 0; i < taps.size(); ++i) {
+    const double place = (static_cast<double>(i) + 0.5) * pitch_px / views - 0.5;
+    const int first = static_cast<int>(std::floor(place)) - 1;
+    const auto t = static_cast<float>(place - std::floor(place));
+    for (int k = 0; k < 4; ++k) taps[i].at[k] = std::clamp(first + k, 0, length - 1);
+    taps[i].weights = {t * (-0.5F + t * (1 - 0.5F * t)), 1 + t * t * (1.5F * t - 2.5F),
+                       t * (0.5F + t * (2 - 1.5F * t)), t * t * (0.5F * t - 0.5F)};
+  }
+  return taps;
+}
+
+template <class T>
+T sample_of(float value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return value;
+  } else {
+    return static_cast<T>(
+        std::clamp(value + 0.5F, 0.F, static_cast<float>(std::numeric_limits<T>::max())));
+  }
+}
+
+template <class T>
+Image<T> resampled(const Image<T>& from, const std::vector<Taps>& along_y,
+                   const std::vector<Taps>& along_x) {
+  const int channels = from.channels();
+  Image<T> to(static_cast<int>(along_y.size()), static_cast<int>(along_x.size()), channels);
+  parallel_for(to.height(), Progress(), [&](int y) {
+    const Taps& rows = along_y[static_cast<std::size_t>(y)];
+    std::vector<float> line(static_cast<std::size_t>(from.width()) * channels, 0.F);
+    for (int k = 0; k < 4; ++k) {
+      const T* row = from.row(rows.at[k]);
+      for (std::size_t i = 0; i < line.size(); ++i) {
+        line[i] += rows.weights[k] * static_cast<float>(row[i]);
+      }
+    }
+    T* out = to.row(y);
+    for (const Taps& columns : along_x) {
+      for (int c = 0; c < channels; ++c) {
+        float sum = 0;
+        for (int k = 0; k < 4; ++k) sum += columns.weights[k] * line[columns.at[k] * channels + c];
+        *out++ = sample_of<T>(sum);
+      }
+    }
+  });
+  return to;
+}
+
+/// Whether a pixel that something was seen in stands for all that a resampled one is made of.
+Image<std::uint8_t> resampled_mask(Image<std::uint8_t> seen, std::vector<Taps> along_y,
+                                   std::vector<Taps> along_x) {
+  for (std::vector<Taps>* taps : {&along_y, &along_x}) {
+    for (Taps& each : *taps) {
+      float sum = 0;
+      for (const float weight : each.weights) sum += std::abs(weight);
+      for (float& weight : each.weights) weight = std::abs(weight) / sum;
+    }
+  }
+  for (std::uint8_t& each : seen) each = each != 0 ? 255 : 0;
+  seen = resampled(seen, along_y, along_x);
+  for (std::uint8_t& each : seen) each = each == 255 ? 1 : 0;
+  return seen;
+}
+
+}  // namespace
+
+bool has_fraction(double pitch_px) {
+  return pitch_px != std::floor(pitch_px);
+}
+
+SeenImage with_whole_lenslets(const SeenImage& picture, double pitch_px) {
+  const auto [height, width] = size_of(picture.image);
+  const auto along_y = taps_along(height, pitch_px), along_x = taps_along(width, pitch_px);
+  SeenImage whole{
+      std::visit([&](const auto& image) -> AnyImage { return resampled(image, along_y, along_x); },
+                 picture.image)};
+  if (!picture.seen.empty()) whole.seen = resampled_mask(picture.seen, along_y, along_x);
+  return whole;
 }
 
 std::optional<MosaicLayout> evident_mosaic(const fs::path& path) {

@@ -51,6 +51,14 @@ struct MosaicLayout {
                                               const OpenOptions& options,
                                               const std::string& subject = "this picture");
 
+/// Whether lenslets so far apart need `with_whole_lenslets`.
+[[nodiscard]] bool has_fraction(double pitch_px);
+
+/// Resamples a picture of lenslets whose pitch is no whole number to the nearest one, along both
+/// axes: cubically (Keys 1981), from the upper left corner, where a lenslet begins, to the last
+/// whole lenslet. Disparity per view grows by the pitch over that number.
+[[nodiscard]] SeenImage with_whole_lenslets(const SeenImage& picture, double pitch_px);
+
 /// The layout of a picture of views side by side that shows by itself that it is one. Empty if it
 /// does not, or cannot be decoded.
 [[nodiscard]] std::optional<MosaicLayout> evident_mosaic(const std::filesystem::path& path);

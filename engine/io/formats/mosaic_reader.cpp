@@ -352,6 +352,20 @@ bool may_have_gaps(const fs::path& path, const OpenOptions& options) {
          options.lenslet == 0 && (name == MosaicName::Plain || name == MosaicName::Mosaic);
 }
 
+/// Of lenslets that are no whole number of pixels apart. Throws IoError.
+void make_lenslets_whole(SeenImage& picture, const fs::path& path, const OpenOptions& options) {
+  if (!has_fraction(options.lenslet)) return;
+  constexpr double kSmallestPitch = 2;
+  const auto [height, width] = std::visit(
+      [](const auto& image) { return std::pair(image.height(), image.width()); }, picture.image);
+  if (options.lenslet < kSmallestPitch || std::min(height, width) < 2 * options.lenslet) {
+    throw IoError(path, fmt::format("a picture of {}×{} px is no light field of lenslets that are "
+                                    "{:g} px apart; correct --lenslet",
+                                    width, height, options.lenslet));
+  }
+  picture = with_whole_lenslets(picture, options.lenslet);
+}
+
 /// Of views side by side, gaps between them are cut out of the picture.
 MosaicLayout find_layout(AnyImage& picture, Image<std::uint8_t>& seen, const fs::path& path,
                          const OpenOptions& options) {
@@ -374,6 +388,7 @@ MosaicLayout find_layout(AnyImage& picture, Image<std::uint8_t>& seen, const fs:
 
 MosaicPicture read_from_image(const fs::path& path, const OpenOptions& options) {
   SeenImage decoded = decode_seen(path);
+  make_lenslets_whole(decoded, path, options);
   MosaicLayout layout = find_layout(decoded.image, decoded.seen, path, options);
   return {
       std::move(decoded.image), std::move(decoded.seen), std::move(layout), {}, account_of(path)};
@@ -382,7 +397,9 @@ MosaicPicture read_from_image(const fs::path& path, const OpenOptions& options) 
 /// What the dataset says is as if options said it, unless they do.
 MosaicPicture read_from_dataset(const fs::path& path, const MosaicDataset& dataset,
                                 OpenOptions options) {
-  AnyImage picture = read_mosaic_dataset(path, dataset);
+  SeenImage read{read_mosaic_dataset(path, dataset)};
+  make_lenslets_whole(read, path, options);
+  AnyImage picture = std::move(read.image);
   if (options.mosaic == Mosaic::Auto && options.lenslet == 0) options.mosaic = dataset.kind;
   const bool is_stated = options.grid.empty() && options.lenslet == 0 && dataset.grid.count() > 0;
   if (is_stated) options.grid = fmt::format("{}x{}", dataset.grid.v, dataset.grid.u);
@@ -461,7 +478,8 @@ SceneProbe probe_mosaic(const fs::path& path, const OpenOptions& options) {
   const auto header = stated_image_header(path);
   if (!header || !has_png_signature(path)) return {};
   const MosaicName name = mosaic_name(path);
-  if (name != MosaicName::Eslf && name != MosaicName::Lenslets) return {};
+  const bool is_named = name == MosaicName::Eslf || name == MosaicName::Lenslets;
+  if (!is_named || has_fraction(options.lenslet)) return {};
   const auto grid = find_lenslets(decode_png_top(path, kRows), header->height, path, options);
   if (!grid) return {};
   return {.grid = *grid,

@@ -396,7 +396,7 @@ AnyImage upright(AnyImage stored, int orientation) {
       [&](const auto& image) -> AnyImage { return upright_image(image, orientation); }, stored);
 }
 
-CommonOrientation common_orientation(const std::vector<fs::path>& files) {
+std::string upright_note(const std::string& who, int orientation) {
   constexpr const char* kMeanings[] = {"upright",
                                        "mirrored",
                                        "turned by half",
@@ -405,15 +405,20 @@ CommonOrientation common_orientation(const std::vector<fs::path>& files) {
                                        "turned by a quarter to the left",
                                        "turned and mirrored",
                                        "turned by a quarter to the right"};
+  return fmt::format(
+      "{} are stored {} (Exif orientation {}): they are shown upright, with rows and "
+      "columns of pixels to match.",
+      who, kMeanings[orientation - 1], orientation);
+}
+
+CommonOrientation common_orientation(const std::vector<fs::path>& files) {
   std::map<int, int> counts;
   for (const fs::path& file : files) ++counts[exif_orientation(file)];
   const auto most = std::ranges::max_element(counts, {}, &std::pair<const int, int>::second);
   if (counts.size() == 1) {
     const int value = most->first;
     if (value == 1) return {};
-    return {value, fmt::format("All views state that they are stored {} (Exif orientation {}): "
-                               "they are shown upright, with rows and columns of pixels to match.",
-                               kMeanings[value - 1], value)};
+    return {value, upright_note("All views state that they", value)};
   }
   if (counts.empty()) return {};
   return {1, fmt::format("The views state {} different orientations (Exif), {} of {} orientation "

@@ -87,6 +87,10 @@ void require_view_memory(const std::filesystem::path& path, double bytes);
   return orientation > 4;
 }
 
+/// Says that views were turned upright from this orientation; `who` states it: "All views state
+/// that they".
+[[nodiscard]] std::string upright_note(const std::string& who, int orientation);
+
 /// Orientation in which to show views: the one that all files state, or 1 if they differ. `note` is
 /// a sentence for the report if samples are not stored so.
 struct CommonOrientation {

@@ -5,12 +5,13 @@
 
 #include <charconv>
 #include <utility>
+#include <variant>
 
 namespace episcope::io {
 namespace {
 
 constexpr double kMaxFocus_px = 1000;
-constexpr int kLargestLenslet = 100;
+constexpr double kLargestLenslet = 100;
 constexpr int kLastFrame = 999999;
 
 }  // namespace
@@ -67,9 +68,13 @@ Schema<OpenOptions> open_schema() {
            "Rows and columns of views to keep around the center: 9x9, or all; empty = the largest "
            "grid whose views are filled"})
       .choice("mosaic", &O::mosaic, {"Mosaic", "How one image holds all views"})
-      .integer("lenslet", &O::lenslet,
-               {"Lenslet", "Pixels along a side of a lenslet of a mosaic; 0 = detected", "px"},
-               {0, kLargestLenslet})
+      .real(
+          "lenslet", &O::lenslet,
+          {"Lenslet",
+           "Pixels from one lenslet of a mosaic to the next; of a fraction, as 15.38, the picture "
+           "is resampled to lenslets of whole pixels; 0 = detected",
+           "px"},
+          {0, kLargestLenslet})
       .text("dataset", &O::dataset,
             {"Dataset",
              "Name of the array that holds the light field, in a file with several of them"})
@@ -99,6 +104,17 @@ Schema<OpenOptions> open_schema() {
 
 ParameterSet given_options(const OpenOptions& options) {
   return open_schema().changed_values(options);
+}
+
+ParameterSet stored_options(ParameterSet options) {
+  for (const ParameterDescription& description : open_schema().descriptions()) {
+    if (!std::holds_alternative<double>(description.default_value)) continue;
+    for (auto& [key, value] : options) {
+      const int* const whole = key == description.key ? std::get_if<int>(&value) : nullptr;
+      if (whole) value = static_cast<double>(*whole);
+    }
+  }
+  return options;
 }
 
 namespace {

@@ -47,7 +47,7 @@ struct OpenOptions {
   std::string crop{};  ///< Views to keep around the center, "9x9", or "all"; empty = all that are
                        ///< filled.
   Mosaic mosaic = Mosaic::Auto;
-  int lenslet = 0;        ///< Mosaics of lenslets: pixels a side of a lenslet; 0 = found.
+  double lenslet = 0;     ///< Mosaics of lenslets: pixels from one to the next; 0 = found.
   std::string dataset{};  ///< Files of several arrays: which holds the light field; empty = found.
   std::string axes{};     ///< Arrays: their axes in C order, as "vuyxc"; empty = found.
   int frame = 0;          ///< Sequences of light fields: which one, from 0.
@@ -78,6 +78,10 @@ struct OpenOptions {
 
 /// Reading options that differ from automatic, by key.
 [[nodiscard]] ParameterSet given_options(const OpenOptions& options);
+
+/// Options as a file stores them, those of earlier versions too: whole numbers of an option that
+/// takes fractions become such.
+[[nodiscard]] ParameterSet stored_options(ParameterSet options);
 
 /// "7×7", for sentences.
 [[nodiscard]] std::string grid_text(GridShape grid);

@@ -304,6 +304,9 @@ constexpr PoseForm kPoseForms[] = {{"transforms.json", read_nerf_poses},
                                    {"images.txt", read_colmap_poses, "cameras.txt"},
                                    {"images.bin", read_binary_colmap_poses, "cameras.bin"}};
 
+/// Folders beside images that hold poses.
+constexpr std::array kPoseFolders{"", "sparse/0", "sparse", "colmap"};
+
 constexpr std::array kParts{"train", "val", "test"};  ///< Of data sets for learning.
 
 bool is_file(const fs::path& path) {
@@ -425,7 +428,7 @@ std::vector<FoundPoses> find_poses(const fs::path& folder, const fs::path& scene
     if (inside.filename() == "images") bases.push_back(inside.parent_path());
   }
   for (const fs::path& base : bases) {
-    for (const char* inside : {"", "sparse/0", "sparse", "colmap"}) {
+    for (const char* inside : kPoseFolders) {
       for (const PoseForm& form : kPoseForms) {
         if (is_file(base / inside / form.name)) return {read_form(base / inside, form, images)};
       }
@@ -435,6 +438,26 @@ std::vector<FoundPoses> find_poses(const fs::path& folder, const fs::path& scene
   return {};
 }
 
+namespace {
+
+bool has_named_poses(const fs::path& folder) {
+  return std::ranges::any_of(kPoseFolders, [&](const char* inside) {
+    return std::ranges::any_of(kPoseForms, [&](const PoseForm& form) {
+      return form.read != read_llff_poses && is_file(folder / inside / form.name);
+    });
+  });
+}
+
+/// Adds the folders of images inside a folder and inside these.
+void add_folders_inside(const fs::path& folder, int depth, std::vector<fs::path>& all) {
+  for (const fs::path& inside : list_folders(folder)) {
+    if (count_images(inside) > 0) all.push_back(inside);
+    if (depth > 1) add_folders_inside(inside, depth - 1, all);
+  }
+}
+
+}  // namespace
+
 std::vector<fs::path> folders_of_parts(const fs::path& folder) {
   std::vector<fs::path> folders;
   for (const char* part : kParts) {
@@ -442,6 +465,11 @@ std::vector<fs::path> folders_of_parts(const fs::path& folder) {
     if (is_file(folder / part_file(part)) && fs::is_directory(folder / part, error)) {
       folders.push_back(folder / part);
     }
+  }
+  std::error_code error;
+  const fs::path images = folder / "images";
+  if (folders.empty() && fs::is_directory(images, error) && has_named_poses(folder)) {
+    add_folders_inside(images, kDeepestImage, folders);
   }
   return folders;
 }

@@ -76,8 +76,8 @@ struct FoundPoses {
                                                  const std::filesystem::path& scene,
                                                  const std::vector<std::filesystem::path>& images);
 
-/// Folders inside `folder` with the images of a training or test part each: `train`, `val`, `test`.
-/// Empty if it has no such pose files.
+/// Folders inside `folder` with the images of a training or test part each, `train`, `val`, `test`,
+/// or of one camera each, below `images`. Empty if it has no such pose files.
 [[nodiscard]] std::vector<std::filesystem::path> folders_of_parts(
     const std::filesystem::path& folder);
 

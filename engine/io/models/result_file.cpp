@@ -7,6 +7,7 @@
 #include "engine/core/version.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/external_result.h"
+#include "engine/io/models/open_options.h"
 #include "engine/io/models/stored_maps.h"
 
 #include <fmt/format.h>
@@ -330,7 +331,7 @@ void write_reading(Hdf5Output& file, const std::string& group, const Reading& re
 Reading reading_in(const Hdf5Input& file, const std::string& group) {
   const auto options = file.text(group, "reading");
   return {file.text(group, "reader").value_or(""),
-          options ? parameters_from_json(*options) : ParameterSet()};
+          options ? stored_options(parameters_from_json(*options)) : ParameterSet()};
 }
 
 }  // namespace episcope::io

@@ -334,6 +334,14 @@ ListLayout layout_of(int count, const Arrangement& one, bool is_along_x) {
 /// Of the difference of neighbors; views that are in order reach several times as much.
 constexpr double kParallax = 0.15;
 
+/// What pictures of a line are whose motion does not tell; empty if they show parallax.
+std::string text_without_parallax(const AxisEvidence& in_line) {
+  const bool has_parallax = std::max(in_line.gone_along_x(), in_line.gone_along_y()) >= kParallax;
+  if (!in_line.has_pairs() || has_parallax) return {};
+  return ": the pictures differ by something else than parallax, as those of a focal stack do, "
+         "which is no light field";
+}
+
 /// The arrangement with the image axes along which it runs; not decided if these contradict it.
 ListLayout with_axes(int count, const Arrangement& one, const ListPictures& pictures) {
   const AxisEvidence in_rows = motion(pictures, one, true);
@@ -341,12 +349,7 @@ ListLayout with_axes(int count, const Arrangement& one, const ListPictures& pict
   if (one.period == count) {
     layout.is_decided = in_rows.is_decided();
     layout.evidence = motion_text("between neighbors", in_rows);
-    const bool has_parallax = std::max(in_rows.gone_along_x(), in_rows.gone_along_y()) >= kParallax;
-    if (!layout.is_decided && in_rows.has_pairs() && !has_parallax) {
-      layout.evidence +=
-          ": the pictures differ by something else than parallax, as those of a focal stack do, "
-          "which is no light field";
-    }
+    if (!layout.is_decided) layout.evidence += text_without_parallax(in_rows);
     return layout;
   }
   const AxisEvidence across = motion(pictures, one, false);
@@ -374,11 +377,13 @@ ListLayout chosen(const std::vector<Fit>& found, const ListPictures& pictures, L
   const std::string compared = unknown.evidence;
   unknown.evidence = compared + ": none fits";
   ListLayout best = unknown;
+  bool is_any_likely = false;
   for (const Fit& fit : found) {
     const int period = fit.arrangement.period;
     const double most = std::min(period == count ? kWorstLine : kWorstFit,
                                  1.5 * (found[0].unexplained + kNegligible) - kNegligible);
     if (fit.unexplained > most) continue;
+    is_any_likely = true;
     progress.check();
     ListLayout layout = with_axes(count, fit.arrangement, pictures);
     layout.evidence = compared + "; " + layout.evidence;
@@ -392,6 +397,9 @@ ListLayout chosen(const std::vector<Fit>& found, const ListPictures& pictures, L
       return unknown;
     }
     best = std::move(layout);
+  }
+  if (!is_any_likely) {
+    best.evidence += text_without_parallax(motion(pictures, {count, false}, true));
   }
   return best;
 }

@@ -408,9 +408,14 @@ void SetOutcome::tell(const std::string& kind, const SidecarNotes& notes) const 
 
 void require_view_size(const fs::path& path, int height, int width, const SidecarViews& views) {
   if (height == views.height() && width == views.width()) return;
-  throw IoError(path, fmt::format("this map has {}×{} px, but the views have {}×{} px; remove or "
-                                  "replace it",
-                                  width, height, views.width(), views.height()));
+  const bool may_be_padded = height >= views.height() && width >= views.width();
+  throw IoError(
+      path,
+      fmt::format("this map has {}×{} px, but the views have {}×{} px; {}remove or replace it",
+                  width, height, views.width(), views.height(),
+                  may_be_padded ? "if it is padded, cut it by episcope-cli convert "
+                                  "--map-crop corner --truth LIGHT_FIELD, else "
+                                : ""));
 }
 
 std::vector<MapSet::Entry> entries_to_read(const MapSet& set, const SidecarViews& views) {

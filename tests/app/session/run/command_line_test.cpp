@@ -128,7 +128,7 @@ void CommandLineTest::readingOptions_readBack() {
                            {"grid", std::string("1x49")},
                            {"crop", std::string("9x9")},
                            {"mosaic", std::string("lenslets")},
-                           {"lenslet", 14},
+                           {"lenslet", 15.38},
                            {"dataset", std::string("s/LF")},
                            {"axes", std::string("vuyxc")},
                            {"frame", 3},

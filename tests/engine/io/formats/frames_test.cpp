@@ -4,6 +4,7 @@
 #include "engine/io/formats/frames_reader.h"
 #include "engine/io/formats/movie.h"
 #include "engine/io/formats/tiff_pages.h"
+#include "engine/io/models/load_views.h"
 #include "engine/io/open.h"
 #include "tests/engine/io/formats/described_tiff.h"
 #include "tests/engine/io/models/order/layered_scene.h"
@@ -12,9 +13,11 @@
 #include <QTemporaryDir>
 #include <opencv2/imgcodecs.hpp>
 
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -192,6 +195,23 @@ void write_animated_png(const fs::path& path, ViewStack<std::uint8_t>& views) {
   put_chunk(out, "IEND", {});
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(out.data()), static_cast<std::streamsize>(out.size()));
+}
+
+/// States in the track of an MP4 how its pictures are turned: a, b, c, d of an ISO matrix, in
+/// 1/65536.
+void state_turn(const fs::path& path, std::array<std::int32_t, 4> turn) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(in), {});
+  in.close();
+  constexpr std::size_t kMatrix = 44, kNext = 12;  // from the name of the box; from a to c
+  const std::size_t track = bytes.find("tkhd");
+  QVERIFY(track != std::string::npos);
+  for (std::size_t i = 0; i < turn.size(); ++i) {
+    const std::size_t at = track + kMatrix + kNext * (i / 2) + 4 * (i % 2);
+    const auto number = static_cast<std::uint32_t>(turn[i]);
+    for (std::size_t k = 0; k < 4; ++k) bytes[at + k] = static_cast<char>(number >> (24 - 8 * k));
+  }
+  std::ofstream(path, std::ios::binary) << bytes;
 }
 
 double mean_error(const ViewStack<std::uint8_t>& wanted, const LightField& found) {
@@ -378,6 +398,51 @@ class FramesTest : public QObject {
     // Compression and, of GIF, a palette of 256 colors; another view is off by more than 15.
     const double error = mean_error(views, *scene.light_field);
     QVERIFY2(error < 6, qPrintable(QString::number(error)));
+  }
+
+  void filmOfATurnedCamera_isUpright_data() {
+    QTest::addColumn<std::array<std::int32_t, 4>>("turn");
+    QTest::addColumn<int>("orientation");
+    constexpr std::int32_t kOne = 1 << 16;
+    using Turn = std::array<std::int32_t, 4>;
+    QTest::newRow("mirrored") << Turn{-kOne, 0, 0, kOne} << 2;
+    QTest::newRow("by half") << Turn{-kOne, 0, 0, -kOne} << 3;
+    QTest::newRow("to the right") << Turn{0, kOne, -kOne, 0} << 6;
+    QTest::newRow("to the left") << Turn{0, -kOne, kOne, 0} << 8;
+  }
+  void filmOfATurnedCamera_isUpright() {
+    using Turn = std::array<std::int32_t, 4>;
+    QFETCH(Turn, turn);
+    QFETCH(int, orientation);
+    write_film(path("views.mp4"), some_views());
+    const io::Film plain = io::read_film(path("views.mp4"), 100, Progress(1));
+    state_turn(path("views.mp4"), turn);
+
+    const io::Film turned = io::read_film(path("views.mp4"), 100, Progress(1));
+
+    QCOMPARE(turned.orientation, orientation);
+    const auto wanted =
+        std::get<Image<std::uint8_t>>(io::upright(plain.pictures.front(), orientation));
+    const auto& found = std::get<Image<std::uint8_t>>(turned.pictures.front());
+    QCOMPARE(found.height(), wanted.height());
+    QCOMPARE(found.width(), wanted.width());
+    QVERIFY(std::equal(found.begin(), found.end(), wanted.begin(), wanted.end()));
+    const Scene scene = open(path("views.mp4"));
+    QCOMPARE(scene.light_field->height(), wanted.height());
+    QVERIFY(scene.convention.warnings.front().starts_with("The film states"));
+  }
+
+  void filmTurnedByNoQuarter_isRefused() {
+    write_film(path("views.mp4"), some_views());
+    state_turn(path("views.mp4"), {46341, 46341, -46341, 46341});
+
+    try {
+      (void)open(path("views.mp4"));
+      QFAIL("it was read");
+    } catch (const IoError& error) {
+      QVERIFY2(std::string(error.what()).find("turned by 45.0°") != std::string::npos,
+               error.what());
+    }
   }
 
   void statedGrid_isTaken() {

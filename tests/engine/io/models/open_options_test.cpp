@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/error.h"
 #include "engine/io/models/open_options.h"
+#include "engine/core/error.h"
 #include "engine/io/models/reader.h"
 #include "tests/test_main.h"
 
@@ -15,7 +15,9 @@ std::vector<std::string> other_texts(const ParameterDescription& option) {
   const ParameterValue& preset = option.default_value;
   if (std::holds_alternative<bool>(preset)) return {"true"};
   if (std::holds_alternative<int>(preset)) return {"7", to_text(option.max)};
-  if (std::holds_alternative<double>(preset)) return {"0.1", "-2", to_text(option.max)};
+  if (std::holds_alternative<double>(preset)) {
+    return {"0.1", option.min < 0 ? "-2" : "2.5", to_text(option.max)};
+  }
   if (option.choices.empty()) return {"view_{row}_{col}.png", "it's *{index}.tif"};
   std::vector<std::string> texts;
   for (const std::string& choice : option.choices) {
@@ -43,6 +45,7 @@ class OpenOptionsTest : public QObject {
   void givenOption_readsBack();
   void allOptions_readBackTogether();
   void automaticOptions_areNotGiven();
+  void wholeLensletOfAnOlderFile_isRead();
   void unknownOption_isRefusedByName();
   void wrongValue_isRefusedByName();
   void readers_nameOptionsThatThereAre();
@@ -84,6 +87,15 @@ void OpenOptionsTest::allOptions_readBackTogether() {
 void OpenOptionsTest::automaticOptions_areNotGiven() {
   QVERIFY(io::given_options({}).empty());
   QVERIFY(io::given_options(io::open_schema().parse({})).empty());
+}
+
+void OpenOptionsTest::wholeLensletOfAnOlderFile_isRead() {
+  const ParameterSet stored{{"lenslet", 14}, {"frame", 2}};
+
+  const io::OpenOptions options = io::open_schema().parse(io::stored_options(stored));
+
+  QCOMPARE(options.lenslet, 14.0);
+  QCOMPARE(options.frame, 2);
 }
 
 void OpenOptionsTest::unknownOption_isRefusedByName() {

@@ -227,6 +227,22 @@ class PosedViewsTest : public QObject {
     QVERIFY2(check.starts_with("3×5 by images.txt"), check.c_str());
   }
 
+  void imagesInSeveralFolders_areOneLightField() {
+    const auto name_of = [](int i) {
+      return fmt::format("rig/{} eye/img{:02}.png", i % 2 == 0 ? "left" : "right", i / 2);
+    };
+    for (int i = 0; i < kGrid.count(); ++i) {
+      io::write_png(folder_->place("images/" + name_of(i)), folder_->scene.views.view(view_of(i)));
+    }
+    write_colmap(name_of);
+
+    const Scene scene = folder_->open();
+
+    QVERIFY2(has_views_in_order(scene), describe(scene.convention).c_str());
+    const std::string check = scene.convention.order_check;
+    QVERIFY2(check.starts_with("3×5 by images.txt"), check.c_str());
+  }
+
   void missingCamera_leavesOutItsColumn() {
     write_views("images/");
     write_nerf();

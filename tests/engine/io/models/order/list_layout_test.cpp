@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <mutex>
 #include <set>
 
@@ -69,11 +70,18 @@ class ListLayoutTest : public QObject {
     if (rows > 1 && columns > 1) QCOMPARE(static_cast<int>(found.order), order);
   }
 
+  void focalStack_isNoLightField_data() {
+    QTest::addColumn<int>("sharpest");
+    QTest::newRow("the first") << 0;
+    QTest::newRow("the middle") << 3;
+  }
   void focalStack_isNoLightField() {
+    QFETCH(int, sharpest);
     const LightField::Samples one = layered_views({.grid = {1, 1}});
     const auto& sharp = std::get<ViewStack<std::uint8_t>>(one);
     ViewStack<std::uint8_t> stack({1, 7}, sharp.height(), sharp.width(), sharp.channels());
     for (int i = 0; i < 7; ++i) {
+      const int radius = std::abs(i - sharpest);
       const auto from = sharp.view({0, 0});
       const auto to = stack.view({0, i});
       // Means over more and more pixels: no point moves.
@@ -81,8 +89,8 @@ class ListLayoutTest : public QObject {
         for (int x = 0; x < to.width; ++x) {
           for (int c = 0; c < to.channels; ++c) {
             int sum = 0, count = 0;
-            for (int dy = -i; dy <= i; ++dy) {
-              for (int dx = -i; dx <= i; ++dx) {
+            for (int dy = -radius; dy <= radius; ++dy) {
+              for (int dx = -radius; dx <= radius; ++dx) {
                 const int py = std::clamp(y + dy, 0, to.height - 1);
                 const int px = std::clamp(x + dx, 0, to.width - 1);
                 sum += from.at(py, px, c);

@@ -307,6 +307,23 @@ class SidecarMapsTest : public QObject {
     QVERIFY(has_labels(read, folder.scene));
   }
 
+  // By repeated samples, as programs pad whose sizes are multiples of 16.
+  void mapsThatMayBePadded_areLeftOutWithTheRemedy() {
+    const LayeredFolder folder;
+    folder.write_views(named("{}_{}.png"));
+    Image<float> large(64, 80);
+    for (int y = 0; y < large.height(); ++y) {
+      for (int x = 0; x < large.width(); ++x) large.at(y, x) = static_cast<float>(x + y);
+    }
+    io::write_pfm(folder.path("disparity.pfm"), large.view());
+
+    const Scene read = folder.open();
+
+    QVERIFY(!read.truth->has_disparity());
+    QVERIFY2(warns_of(read, "cut it by episcope-cli convert --map-crop corner --truth"),
+             describe(read.convention).c_str());
+  }
+
   void mapsThatExplainNothing_areWarnedOf() {
     const LayeredFolder folder;
     folder.write_views(named("{}_{}.png"));
