@@ -66,21 +66,38 @@ void AnnotationDocument::recolor_label(int id, Rgb color) {
   edit_labels(EditKind::RecolorLabel, [&](LabelSet& labels) { labels.recolor(id, color); });
 }
 
+void AnnotationDocument::remove_label(int id) {
+  LabelSet changed = labels_;
+  changed.remove(id);
+  take_over(EditKind::RemoveLabel, id, 0, std::move(changed));
+}
+
 void AnnotationDocument::merge_label(int id, int into) {
   if (!labels_.contains(into) || into == id) {
     throw InvalidInput(fmt::format("label {} cannot be merged into label {}", id, into));
   }
-  take_over(id, static_cast<std::uint8_t>(into));
-}
-
-void AnnotationDocument::take_over(int id, std::uint8_t by) {
   LabelSet changed = labels_;
   changed.remove(id);
-  PendingEdit edit(*this, by == 0 ? EditKind::RemoveLabel : EditKind::MergeLabel);
+  take_over(EditKind::MergeLabel, id, static_cast<std::uint8_t>(into), std::move(changed));
+}
+
+void AnnotationDocument::renumber_label(int id, int to) {
+  if (id == to) return;
+  LabelSet changed = labels_;
+  changed.renumber(id, to);
+  take_over(EditKind::RenumberLabel, id, static_cast<std::uint8_t>(to), std::move(changed));
+}
+
+void AnnotationDocument::move_label(int id, int place) {
+  edit_labels(EditKind::MoveLabel, [&](LabelSet& labels) { labels.move(id, place); });
+}
+
+void AnnotationDocument::take_over(EditKind kind, int id, std::uint8_t by, LabelSet labels) {
+  PendingEdit edit(*this, kind);
+  edit.set_labels(std::move(labels));
   for (const ViewIndex view : scribbles_.painted_views()) {
     edit.paint(view, pixels_of(scribbles_.view(view), static_cast<std::uint8_t>(id)), {by, {}});
   }
-  edit.set_labels(std::move(changed));
   edit.commit();
 }
 
@@ -141,7 +158,7 @@ void AnnotationDocument::require_fitting(const Edit& edit) const {
     if (!is_sound) {
       throw InvalidInput(fmt::format("an edit of view ({}) does not fit {}×{} views of {}×{} px",
                                      view_text(part.view), scribbles_.grid().v, scribbles_.grid().u,
-                                     scribbles_.height(), scribbles_.width()));
+                                     scribbles_.width(), scribbles_.height()));
     }
   }
 }

@@ -151,9 +151,13 @@ class AnnotationDocument {
   void rename_label(int id, const std::string& name);
   void recolor_label(int id, Rgb color);
   /// Also erases everything painted with it, on all views.
-  void remove_label(int id) { take_over(id, 0); }
+  void remove_label(int id);
   /// Gives everything painted with a label to another one, and removes it.
   void merge_label(int id, int into);
+  /// Gives a label another id, everywhere.
+  void renumber_label(int id, int to);
+  /// Moves a label to a place of the list, from 0.
+  void move_label(int id, int place);
 
   /// Undoes the last edit, or redoes it; an empty change if there is none.
   DocumentChange undo();
@@ -184,8 +188,8 @@ class AnnotationDocument {
   void require_fitting(const Edit& edit) const;
   DocumentChange put(const Edit& edit, EditSide side);
   void keep(Edit edit);
-  /// Removes a label; its pixels get another one, or none (0).
-  void take_over(int id, std::uint8_t by);
+  /// Gives the pixels of a label another one, or none (0), and replaces the labels.
+  void take_over(EditKind kind, int id, std::uint8_t by, LabelSet labels);
   void tell(DocumentStep step, const Edit* edit) const;
   template <class Change>
   void edit_labels(EditKind kind, const Change& change);

@@ -22,11 +22,13 @@ enum class EditKind : std::uint8_t {
   SmoothBoundaries,
   Polygon,
   Lasso,
-  MergeLabel
+  MergeLabel,
+  RenumberLabel,
+  MoveLabel
 };
 
 /// The last of them: journals keep their numbers, so that new ones come after it.
-inline constexpr EditKind kLastEditKind = EditKind::MergeLabel;
+inline constexpr EditKind kLastEditKind = EditKind::MoveLabel;
 
 /// Consecutive pixels of a row that had the same label and got the same label.
 struct LabelRun {

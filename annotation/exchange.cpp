@@ -15,8 +15,8 @@ namespace {
 void require_fitting(const ViewScribbles& painted, const ScribbleLayer& layer) {
   if (painted.labels.height() != layer.height() || painted.labels.width() != layer.width()) {
     throw InvalidInput(fmt::format("scribbles of {}×{} px do not fit views of {}×{} px",
-                                   painted.labels.height(), painted.labels.width(), layer.height(),
-                                   layer.width()));
+                                   painted.labels.width(), painted.labels.height(), layer.width(),
+                                   layer.height()));
   }
 }
 

@@ -96,7 +96,7 @@ void require_fitting(const ScribbleLayer& painted, const DisparityField& field) 
   if (maps.height() != painted.height() || maps.width() != painted.width()) {
     throw InvalidInput(fmt::format(
         "scribbles on views of {}×{} px cannot be propagated with a disparity of {}×{} px",
-        painted.height(), painted.width(), maps.height(), maps.width()));
+        painted.width(), painted.height(), maps.width(), maps.height()));
   }
   const ViewIndex last{maps.first().v + maps.grid().v - 1, maps.first().u + maps.grid().u - 1};
   if (!painted.grid().contains(maps.first()) || !painted.grid().contains(last)) {

@@ -33,7 +33,7 @@ ScribbleLayer::ScribbleLayer(GridShape grid, int height, int width)
     throw InvalidInput(
         fmt::format("scribbles cannot be painted on {}×{} views of {}×{} px; views may have 1 to "
                     "65535 rows and columns",
-                    grid.v, grid.u, height, width));
+                    grid.v, grid.u, width, height));
   }
   views_.resize(static_cast<std::size_t>(grid.count()));
 }
@@ -105,8 +105,8 @@ void require_name(const std::string& name) {
 }  // namespace
 
 const LabelInfo* LabelSet::find(int id) const {
-  const auto place = std::ranges::lower_bound(labels_, id, {}, &LabelInfo::id);
-  return place != labels_.end() && place->id == id ? &*place : nullptr;
+  const auto place = std::ranges::find(labels_, id, &LabelInfo::id);
+  return place != labels_.end() ? &*place : nullptr;
 }
 
 LabelInfo& LabelSet::known(int id) {
@@ -133,17 +133,18 @@ int LabelSet::add(const std::string& name, std::optional<Rgb> color) {
   return id;
 }
 
+void LabelSet::require_free(int id) const {
+  if (id < 1 || id > kMaxId) {
+    throw InvalidInput(fmt::format("the label id {} is out of range; ids range from 1 to 255", id));
+  }
+  if (contains(id)) throw InvalidInput(fmt::format("the label id {} is already in use", id));
+}
+
 void LabelSet::insert(LabelInfo label) {
   require_name(label.name);
-  if (label.id < 1 || label.id > kMaxId) {
-    throw InvalidInput(
-        fmt::format("the label id {} is out of range; ids range from 1 to 255", label.id));
-  }
-  if (contains(label.id)) {
-    throw InvalidInput(fmt::format("the label id {} is already in use", label.id));
-  }
+  require_free(label.id);
   reserve_ids(label.id);
-  labels_.insert(std::ranges::lower_bound(labels_, label.id, {}, &LabelInfo::id), std::move(label));
+  labels_.push_back(std::move(label));
 }
 
 void LabelSet::rename(int id, const std::string& name) {
@@ -153,6 +154,19 @@ void LabelSet::rename(int id, const std::string& name) {
 
 void LabelSet::remove(int id) {
   labels_.erase(labels_.begin() + (&known(id) - labels_.data()));
+}
+
+void LabelSet::renumber(int id, int to) {
+  LabelInfo& label = known(id);
+  require_free(to);
+  reserve_ids(to);
+  label.id = to;
+}
+
+void LabelSet::move(int id, int place) {
+  const auto from = labels_.begin() + (&known(id) - labels_.data());
+  const auto to = labels_.begin() + std::clamp(place, 0, static_cast<int>(labels_.size()) - 1);
+  from < to ? std::rotate(from, from + 1, to + 1) : std::rotate(to, from, from + 1);
 }
 
 void LabelSet::reserve_ids(int id) {

@@ -65,15 +65,14 @@ struct PixelSpan {
 /// A set of pixels of one view.
 using PixelRegion = std::vector<PixelSpan>;
 
-/// The labels that a user paints with: ids 1 … 255, which never change. Removing a label does not
-/// renumber the others, and its id is reused only after all others have been used.
+/// The labels that a user paints with, in the order of their list: ids 1 … 255. Removing a label
+/// does not renumber the others, and its id is reused only after all others have been used.
 class LabelSet {
  public:
   static constexpr int kMaxId = 255;
   /// Bytes of a name: names of all labels together must fit an attribute of an HDF5 file.
   static constexpr std::size_t kMaxNameBytes = 200;
 
-  /// By id.
   [[nodiscard]] const std::vector<LabelInfo>& labels() const { return labels_; }
   [[nodiscard]] bool contains(int id) const { return find(id) != nullptr; }
   /// Null if there is no such label.
@@ -88,10 +87,14 @@ class LabelSet {
   /// Adds a label of a known id, as read from a file. Throws InvalidInput for an id out of range or
   /// taken, or a bad name.
   void insert(LabelInfo label);
-  /// The next three throw InvalidInput for an unknown id or a bad name.
+  /// Those below throw InvalidInput for an unknown id or a bad name.
   void rename(int id, const std::string& name);
   void recolor(int id, Rgb color) { known(id).color = color; }
   void remove(int id);
+  /// Also throws InvalidInput for a new id that is out of range or taken.
+  void renumber(int id, int to);
+  /// Moves a label to a place of the list, from 0; beyond the ends, to the first or last place.
+  void move(int id, int place);
   /// Marks ids up to `id` as used.
   void reserve_ids(int id);
 
@@ -99,6 +102,7 @@ class LabelSet {
 
  private:
   [[nodiscard]] LabelInfo& known(int id);
+  void require_free(int id) const;
 
   std::vector<LabelInfo> labels_;
   int last_id_ = 0;

@@ -115,13 +115,29 @@ RecoveredAnnotation read_journal(const fs::path& path) {
   }
 }
 
+namespace {
+
+// All of them if the saved state is no longer among those that the history keeps.
+int unsaved_strokes(const AnnotationDocument& document) {
+  const History<Edit>& history = document.history();
+  int strokes = 0;
+  for (std::size_t i = history.applied_count(); i-- > 0;) {
+    if (history.state_after(i + 1) == document.saved_state()) break;
+    if (!history.edit(i).views.empty()) ++strokes;
+  }
+  return strokes;
+}
+
+}  // namespace
+
 std::vector<RecoverableJournal> recoverable_journals(const fs::path& folder) {
   std::vector<RecoverableJournal> left;
   for (const OrphanedJournal& each : orphaned_journals(folder)) {
     try {
       RecoveredAnnotation found = read_journal(each.path);
       if (found.document.has_unsaved_changes()) {
-        left.push_back({each.path, std::move(found.owner), each.last_change});
+        left.push_back(
+            {each.path, std::move(found.owner), each.last_change, unsaved_strokes(found.document)});
         continue;
       }
     } catch (const IoError&) {

@@ -77,6 +77,7 @@ struct RecoverableJournal {
   std::filesystem::path path;
   JournalOwner owner;
   std::filesystem::file_time_type last_change;
+  int strokes = 0;  ///< Edits of pixels that were not saved.
 };
 
 /// Journals in `folder` whose session crashed with unsaved changes, the latest first. Skips

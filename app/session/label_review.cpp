@@ -8,6 +8,8 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
+#include <utility>
 
 namespace episcope {
 
@@ -43,16 +45,27 @@ LabelingScores matched(LabelingScores scores, const std::vector<LabelInfo>& give
   return scores;
 }
 
+namespace {
+
+// Neighbors mostly have one label, which is looked up once.
+void add_ids(std::span<const std::int32_t> labels, std::set<std::int32_t>& ids) {
+  std::int32_t last = 0;
+  for (const std::int32_t id : labels) {
+    if (id == std::exchange(last, id) || id <= 0) continue;
+    ids.insert(id);
+  }
+}
+
+}  // namespace
+
 std::string unknown_labels_text(const Scribbles& scribbles, const ViewStack<std::int32_t>& truth) {
   if (truth.empty()) return {};
-  std::set<std::int32_t> known(truth.data(), truth.data() + truth.size());
-  known.erase(0);
-  std::set<std::int32_t> unknown;
+  std::set<std::int32_t> known, unknown;
+  add_ids({truth.data(), truth.size()}, known);
   for (const ViewScribbles& one : scribbles.views) {
-    for (const std::int32_t id : one.labels) {
-      if (id > 0 && !known.contains(id)) unknown.insert(id);
-    }
+    add_ids({one.labels.data(), one.labels.size()}, unknown);
   }
+  std::erase_if(unknown, [&known](std::int32_t id) { return known.contains(id); });
   if (unknown.empty()) return {};
   const auto text = [](std::int32_t id) { return std::to_string(id); };
   return "GT_LABELS do not have " + std::string(unknown.size() == 1 ? "label " : "labels ") +

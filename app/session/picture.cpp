@@ -5,6 +5,7 @@
 #include "engine/core/error.h"
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
+#include "engine/evaluation/metrics.h"
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/formats/movie.h"
 
@@ -54,7 +55,14 @@ RgbaImage shaded(const QuantityMap& map, const render::Shading& shading, const C
 }  // namespace
 
 RgbaImage overlay_picture(const QuantityMap& map, const render::Shading& shading) {
-  return shaded(map, shading, [](std::uint8_t* pixel) { pixel[kAlpha] = 0; });
+  RgbaImage picture = shaded(map, shading, [](std::uint8_t* pixel) { pixel[kAlpha] = 0; });
+  if (!map.has_bad_alone) return picture;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      if (map.map.at(y, x) != kBadPixel) picture.at(y, x, kAlpha) = 0;
+    }
+  }
+  return picture;
 }
 
 RgbaImage map_picture(const QuantityMap& map, const render::Shading& shading) {

@@ -275,6 +275,7 @@ void fill_wrong(ImageView<const std::int32_t> labels, const MapSource& source, Q
     }
   }
   made.inside = made.computed_valid;
+  made.has_bad_alone = true;
 }
 
 Map segmentation_map(const MapSource& source) {

@@ -61,6 +61,7 @@ struct QuantityMap {
   render::LabelStyle label_style{};      ///< How they are drawn.
   ImageView<const std::uint8_t> valid;   ///< 0 = no value; empty = all valid.
   ImageView<const std::uint8_t> inside;  ///< 0 = not judged; empty = all are.
+  bool has_bad_alone = false;            ///< Over a view, only pixels of kBadPixel are drawn.
   Image<float> computed;
   Image<float> computed_measured;
   Image<std::uint8_t> computed_valid;

@@ -313,13 +313,11 @@ std::vector<ViewIndex> outwards(const LabelProbabilities& p, ViewIndex first) {
 RayLabeling correct_rays(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                          const RayCorrection& correction, const Progress& progress) {
   const LabelProbabilities& p = *input.probabilities;
-  const RayColors colors = input.light_field == nullptr ? RayColors()
-                                                        : RayColors(*input.light_field, p.grid,
-                                                                    p.first, progress.part(0, 0));
   const ViewStack<std::int32_t>& labels = correction.labels;
+  // The first view does not wait for the pages of all.
   const auto room = [&labels] {
     return ViewStack<std::int32_t>(labels.grid(), labels.height(), labels.width(), 1,
-                                   labels.first());
+                                   labels.first(), allocate_large_zeros);
   };
   RayLabeling result;
   result.labels = room();
@@ -334,17 +332,17 @@ RayLabeling correct_rays(const RayLabelingInput& input, const RayLabelingParamet
     parts[i] = corrector.correct(views[i], correction.changed.view(views[i]), part, layers);
     if (correction.on_view) correction.on_view(views[i], layers);
   };
-  ViewCorrector first(input, parameters, colors);
+  ViewCorrector first(input, parameters, correction.colors);
   correct(first, 0, progress.part(0, 0.05));
   if (correction.complete) correction.complete(progress.part(0.05, 0.1));
   const Progress alone = progress.part(0, 0).on_one_thread();
   parallel_for_workers(static_cast<int>(views.size()) - 1, progress.part(0.1, 0.9), [&] {
-    return [&, corrector = ViewCorrector(input, parameters, colors)](int i) mutable {
+    return [&, corrector = ViewCorrector(input, parameters, correction.colors)](int i) mutable {
       correct(corrector, static_cast<std::size_t>(i) + 1, alone);
     };
   });
   for (const SimplexResult& part : parts) add_part(part, result);
-  vote_in_rounds({static_cast<int>(p.ids.size()), *input.disparity, colors}, &before,
+  vote_in_rounds({static_cast<int>(p.ids.size()), *input.disparity, correction.colors}, &before,
                  progress.part(0.9, 1), result.labels);
   replace_layers_by_ids(p.ids, result);
   return result;

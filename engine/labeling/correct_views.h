@@ -47,7 +47,8 @@ inline constexpr int kReach_px = 12;
 struct RayCorrection {
   const ViewStack<std::int32_t>& labels;  ///< Of all views, ids or 0, before the change.
   const ChangedRays& changed;
-  ViewIndex first;  ///< The view that is solved first; the others follow by their distance.
+  ViewIndex first;          ///< The view that is solved first; the others follow by their distance.
+  const RayColors& colors;  ///< Of all views.
   /// Called for each view that is solved, from any thread, the first one before all others.
   std::function<void(ViewIndex, ImageView<const std::int32_t> layers)> on_view{};
   /// Called after the first view. Until then, probabilities and `changed` need to be there for the

@@ -161,7 +161,8 @@ struct Labeler::State {
     std::vector<std::int32_t> ids;
     ProbabilityMap map;
   };
-  std::optional<Said> said;  // The newest, by `say`.
+  std::optional<Said> said;         // The newest, by `say`.
+  std::optional<RayColors> colors;  // Of all views, by `find_colors`.
 
   /// Probabilities of one view by all trees, kept until the next call.
   const Said& say(const Scribbles& scribbles, const LabelerParameters& parameters, ViewIndex view,
@@ -203,10 +204,13 @@ struct Labeler::State {
     std::vector<SaidNews> news;
   };
 
+  void find_colors(const Progress& progress) {
+    if (!colors) colors.emplace(*light_field, light_field->grid(), ViewIndex{0, 0}, progress);
+  }
+
   /// Takes over the probabilities of these views, unless that was done, with all news.
   void bring(const Labeling& before, const std::vector<ViewIndex>& views, const Progress& progress,
              Corrected& into) const {
-    const RayColors colors(*light_field, light_field->grid(), {0, 0}, progress.part(0, 0));
     parallel_for(static_cast<int>(views.size()), progress, [&](int i) {
       const ViewIndex view = views[static_cast<std::size_t>(i)];
       ProbabilityMap& own = into.probabilities.view(view);
@@ -214,7 +218,7 @@ struct Labeler::State {
       own = with_layers(before.probabilities.view(view).view(), before.probabilities.ids,
                         into.probabilities.ids);
       for (const SaidNews& each : into.news) {
-        carry_news({each.view, each.news, each.after.view()}, *disparity, colors, view,
+        carry_news({each.view, each.news, each.after.view()}, *disparity, *colors, view,
                    into.probabilities, into.changed);
       }
     });
@@ -263,12 +267,13 @@ struct Labeler::State {
                                        Corrected& corrected) {
     const ViewRectangle everything{{0, 0}, light_field->grid()};
     find_edges(everything, progress.part(0, 0.2));
+    find_colors(progress.part(0.2, 0.2));
     std::vector<ViewIndex> near = near_views(everything, correction.first);
     near.push_back(correction.first);
     bring(correction.before, near, progress.part(0.2, 0.25), corrected);
     const RayLabelingInput input{&corrected.probabilities, disparity.get(), edges.get(),
                                  light_field.get()};
-    RayCorrection rays{correction.before.labels, corrected.changed, correction.first};
+    RayCorrection rays{correction.before.labels, corrected.changed, correction.first, *colors};
     rays.complete = [&](const Progress& part) {
       std::vector<ViewIndex> all;
       for (int i = 0; i < everything.grid.count(); ++i) all.push_back(everything.grid.view_at(i));
@@ -302,6 +307,7 @@ struct Labeler::State {
 
   void forget_views() {
     kept.clear();
+    colors.reset();
     drop_solvers();
   }
 
@@ -637,7 +643,8 @@ void Labeler::prepare_correction(const Scribbles& scribbles, const LabelerParame
   state_->use({uses_disparity(parameters)});
   static_cast<void>(state_->say(scribbles, parameters, view, progress.part(0, 0.3)));
   progress.step("finding edges");
-  state_->find_edges({{0, 0}, state_->light_field->grid()}, progress.part(0.3, 1));
+  state_->find_edges({{0, 0}, state_->light_field->grid()}, progress.part(0.3, 0.9));
+  state_->find_colors(progress.part(0.9, 1));
 }
 
 Labeling Labeler::smooth(LabelProbabilities probabilities, const LabelerParameters& parameters,

@@ -205,6 +205,12 @@ Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view,
       light_field.samples());
 }
 
+namespace {
+
+constexpr int kDash = 4;  // px of a contour
+
+}  // namespace
+
 Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
                                  const std::vector<LabelInfo>& infos, const LabelStyle& style) {
   Image<std::uint8_t> picture(labels.height, labels.width, kRgba);
@@ -224,8 +230,11 @@ Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
         last = id;
       }
       if (is_hidden) continue;
-      if (!has_contours || is_on_contour(labels, y, x)) {
+      if (!has_contours) {
         put(&picture.at(y, x), color);
+      } else if (is_on_contour(labels, y, x)) {
+        const bool is_gap = (x / kDash + y / kDash) % 2 != 0;
+        put(&picture.at(y, x), is_gap ? Rgb{} : color);
       } else if (style.drawing == LabelDrawing::Both) {
         put(&picture.at(y, x), color, kFaintLabel);
       }

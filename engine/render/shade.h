@@ -101,8 +101,8 @@ struct Shading {
 [[nodiscard]] Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view,
                                              const ToneTable* tone = nullptr);
 
-/// How areas of labels are drawn. Contours: the pixels of an area that touch another at a side.
-/// Both: the areas are drawn fainter within them.
+/// How areas of labels are drawn. Contours: the pixels of an area that touch another at a side, in
+/// dashes. Both: the areas are drawn fainter within them.
 enum class LabelDrawing : std::uint8_t { Fill, Contours, Both };
 /// Opacity of areas within contours, of 255.
 inline constexpr int kFaintLabel = 90;

@@ -126,12 +126,14 @@ class Player {
     return is_there ? QString() : "the demo is not there";
   }
 
-  /// Names a file for a dialog that asks where to save.
+  /// Names a file for a dialog that asks for one.
   QString save(const QString& what) {
     auto* dialog = fixture_.window.findChild<QFileDialog*>(what.section(' ', 0, 0));
     if (!dialog) return "nobody asks for that file";
+    const QString file = fixture_.path(what.section(' ', 1));
     dialog->close();
-    emit dialog->fileSelected(fixture_.path(what.section(' ', 1)));
+    emit dialog->fileSelected(file);
+    emit dialog->filesSelected({file});
     return {};
   }
 

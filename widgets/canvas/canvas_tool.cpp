@@ -170,6 +170,11 @@ namespace {
 constexpr double kMinSize = 1;
 constexpr double kMaxSize = 100;
 constexpr double kSmallRing = 9;  // logical pixels, below which ticks point at the ring
+constexpr double kTickGap = 3;  // logical pixels from the ring to its ticks, as long as kSmallRing
+
+bool has_ticks(double radius) {
+  return radius < kSmallRing / 2;
+}
 
 }  // namespace
 
@@ -224,7 +229,8 @@ bool StrokeTool::cancel() {
 }
 
 QRectF StrokeTool::markRect(QPointF center, double scale) const {
-  const double reach = std::max(ringDiameter() * scale / 2, kSmallRing) + 2 * kRingMargin;
+  const double radius = ringDiameter() * scale / 2;
+  const double reach = radius + (has_ticks(radius) ? kTickGap + kSmallRing : 0) + kRingMargin;
   return {center.x() - reach, center.y() - reach, 2 * reach, 2 * reach};
 }
 
@@ -237,7 +243,7 @@ void StrokeTool::paintMark(QPainter& painter, QPointF center, double scale) cons
   painter.drawEllipse(center, radius, radius);
   painter.setPen(QPen(Qt::white, 1.2, erases() ? Qt::DashLine : Qt::SolidLine));
   painter.drawEllipse(center, radius, radius);
-  if (radius < kSmallRing / 2) {
+  if (has_ticks(radius)) {
     paintTicks(painter, center, radius);
   } else if (!erases() && color_.isValid()) {
     painter.setPen(QPen(kToolShadow, 1));
@@ -250,7 +256,8 @@ void StrokeTool::paintMark(QPainter& painter, QPointF center, double scale) cons
 // A tiny ring is hard to find: four ticks point at it.
 void StrokeTool::paintTicks(QPainter& painter, QPointF center, double radius) const {
   for (const QPointF& way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)}) {
-    const QLineF tick(center + way * (radius + 3), center + way * (radius + 3 + kSmallRing));
+    const double begin = radius + kTickGap;
+    const QLineF tick(center + way * begin, center + way * (begin + kSmallRing));
     painter.setPen(QPen(kToolShadow, 3));
     painter.drawLine(tick);
     painter.setPen(QPen(Qt::white, 1.2));

@@ -150,7 +150,7 @@ namespace {
 constexpr int kBarSteps = 1000;
 constexpr int kBarHeight = 6;
 constexpr int kRowSpacing = 2;
-constexpr double kRowsInSight = 1.3;  // the top of the next tells that there is more
+constexpr int kRowsInSight = 2;
 
 }  // namespace
 
@@ -295,7 +295,7 @@ void JobPanel::showRows() {
 
 void JobPanel::fitHeight() {
   const int row = 2 * fontMetrics().height() + kBarHeight + 2 * kRowSpacing;
-  setFixedHeight(static_cast<int>(kRowsInSight * row) + theme::kSpacing);
+  setFixedHeight(kRowsInSight * row + theme::kSpacing);
 }
 
 void JobPanel::changeEvent(QEvent* event) {

@@ -227,6 +227,7 @@ bool CapturePanel::eventFilter(QObject* watched, QEvent* event) {
 
 void CapturePanel::setRows(const std::vector<CaptureRow>& rows) {
   const QSignalBlocker blocker(table_);
+  const bool has_new = static_cast<int>(rows.size()) > table_->rowCount();
   table_->setRowCount(static_cast<int>(rows.size()));
   for (int i = 0; i < table_->rowCount(); ++i) {
     const CaptureRow& row = rows[i];
@@ -248,6 +249,7 @@ void CapturePanel::setRows(const std::vector<CaptureRow>& rows) {
     table_->setItem(i, kPairOff,
                     make_cell(row.is_outlier ? tr("%1, wrong?").arg(off) : off, false));
   }
+  if (has_new) table_->scrollToBottom();
   enableRowButtons();
 }
 

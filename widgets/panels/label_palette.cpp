@@ -254,6 +254,9 @@ void LabelPalette::showMenu(const QPoint& position) {
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addAction(themed_icon("rename"), tr("Rename"), this, [this, id] { editName(id); });
   menu->addAction(tr("Change color…"), this, [this, id] { emit colorRequested(id); });
+  menu->addAction(tr("Change number…"), this, [this, id] { emit numberRequested(id); });
+  menu->addAction(tr("Move up"), this, [this, id] { emit moveRequested(id, -1); });
+  menu->addAction(tr("Move down"), this, [this, id] { emit moveRequested(id, 1); });
   menu->addSeparator();
   const bool is_hidden = hidden_.contains(id);
   const bool is_locked = locked_.contains(id);

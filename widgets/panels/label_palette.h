@@ -54,6 +54,9 @@ class LabelPalette : public QWidget {
   void addRequested();
   void renameRequested(int id, const QString& name);
   void colorRequested(int id);
+  void numberRequested(int id);
+  /// Down the list by so many places.
+  void moveRequested(int id, int by);
   void removeRequested(int id);
   void hiddenRequested(int id, bool hides);
   void onlyRequested(int id);

@@ -280,6 +280,9 @@ void AnnotateController::connectFill() {
   FillTool* tool = fill_tool_;
   connect(tool, &FillTool::fillRequested, this, &AnnotateController::fill);
   connect(tool, &FillTool::hovered, this, [this](QPointF at) { previewFill(pixel_of(at)); });
+  connect(canvas_, &ViewCanvas::cursorMoved, this, [this](std::optional<PixelIndex> pixel) {
+    if (!pixel) fill_tool_->setPreview({}, {});
+  });
   connect(tool, &FillTool::pressed, this, [this](QPointF at) {
     tolerance_at_press_ = panel_->fillTolerance();
     previewFill(pixel_of(at));
@@ -429,6 +432,10 @@ QString edit_text(EditKind kind) {
       return AnnotateController::tr("lasso");
     case EditKind::MergeLabel:
       return AnnotateController::tr("merging of labels");
+    case EditKind::RenumberLabel:
+      return AnnotateController::tr("label number");
+    case EditKind::MoveLabel:
+      return AnnotateController::tr("order of labels");
   }
   return {};
 }

@@ -10,6 +10,7 @@
 #include "app/gui/shell/frame.h"
 #include "app/session/picture.h"
 #include "app/session/segmentation.h"
+#include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "engine/core/shear.h"
 #include "engine/io/base/hdf5_file.h"
@@ -120,7 +121,17 @@ void AnnotationFiles::save() {
 void AnnotationFiles::saveAndThen(std::function<void()> then) {
   if (!document_.document()) return;
   const QString path = place();
-  path.isEmpty() ? askForPlace(std::move(then)) : saveTo(path, std::move(then));
+  if (!path.isEmpty()) return saveTo(path, std::move(then));
+  tellReadOnly();
+  askForPlace(std::move(then));
+}
+
+void AnnotationFiles::tellReadOnly() const {
+  if (!document_.isWhole()) return;
+  const std::filesystem::path beside = label_place(*session_.light_field());
+  if (beside.empty()) return;
+  bench_.messages.warn(tr("%1 cannot be written: choose another place for labels and scribbles.")
+                           .arg(QString::fromStdString(beside.string())));
 }
 
 void AnnotationFiles::saveAsDialog() {
@@ -229,14 +240,16 @@ void AnnotationFiles::exportDialog() {
     bench_.messages.hint(tr("Nothing is painted yet: there are no scribbles to export."));
     return;
   }
-  ask_for_folder(
-      &bench_.window,
-      {.name = "export_scribbles", .title = tr("Folder for the images of the painted views")},
-      [this](const QString& folder) {
-        confirm_replacing(&bench_.window,
-                          QDir(folder).entryList({"scribbles_*.png"}, QDir::Files, QDir::Name),
-                          [this, folder] { exportPictures(folder); });
-      });
+  ask_for_folder(&bench_.window,
+                 {.name = "export_scribbles",
+                  .title = tr("Folder for the images of the painted views"),
+                  .makes_folder = true},
+                 [this](const QString& folder) {
+                   confirm_replacing(
+                       &bench_.window,
+                       QDir(folder).entryList({"scribbles_*.png"}, QDir::Files, QDir::Name),
+                       [this, folder] { exportPictures(folder); });
+                 });
 }
 
 void AnnotationFiles::exportPictures(const QString& folder) {
@@ -326,7 +339,8 @@ void ask_to_export_masks(const Workbench& bench, const SegmentController& segmen
       {.name = "export_masks",
        .title = has_all ? SegmentationExportText::tr("Folder for the masks of all views")
                         : SegmentationExportText::tr("Folder for the masks of this view; segment "
-                                                     "all views first to save all masks")},
+                                                     "all views first to save all masks"),
+       .makes_folder = true},
       [bench, &segment](const QString& folder) {
         confirm_replacing(&bench.window, QDir(folder).entryList({kListOfMasks}, QDir::Files),
                           [bench, &segment, folder] { export_masks(bench, segment, folder); });
@@ -400,12 +414,14 @@ void RecoveryController::offerNext() {
 }
 
 void RecoveryController::offer(const RecoverableJournal& journal) {
-  bar_->showMessage(Severity::Warning,
-                    tr("Episcope ended unexpectedly while “%1” was being annotated (%2). Your work "
-                       "can be recovered.")
-                        .arg(name_of(journal), short_text(journal.last_change)),
-                    {tr("Recover"), [this, journal] { recover(journal); }},
-                    {tr("Discard…"), [this, journal] { discard(journal); }});
+  bar_->showMessage(
+      Severity::Warning,
+      tr("Episcope ended unexpectedly while “%1” was being annotated (%2). Strokes to "
+         "recover: %3.")
+          .arg(name_of(journal), short_text(journal.last_change))
+          .arg(journal.strokes),
+      {tr("Recover"), [this, journal] { recover(journal); }},
+      {tr("Discard…"), [this, journal] { discard(journal); }});
 }
 
 void RecoveryController::discard(const RecoverableJournal& journal) {

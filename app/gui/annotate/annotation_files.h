@@ -62,6 +62,8 @@ class AnnotationFiles : public QObject {
   [[nodiscard]] bool hasChangedOnDisk(const QString& path) const;
   /// Saves, then calls `then` on success.
   void saveAndThen(std::function<void()> then);
+  /// Why the file beside the light field is not the place, if there could be one.
+  void tellReadOnly() const;
   void askForPlace(std::function<void()> then);
   /// Asks first if this is another file that exists.
   void saveToChosen(const QString& path, std::function<void()> then);

@@ -42,6 +42,8 @@ LabelController::LabelController(const Workbench& bench, LabelPalette* palette)
   connect(palette_, &LabelPalette::removeRequested, this, &LabelController::remove);
   connect(palette_, &LabelPalette::colorRequested, this, &LabelController::recolor);
   connect(palette_, &LabelPalette::renameRequested, this, &LabelController::setName);
+  connect(palette_, &LabelPalette::numberRequested, this, &LabelController::askForNumber);
+  connect(palette_, &LabelPalette::moveRequested, this, &LabelController::move);
   connect(&labels_, &LabelChoice::changed, this, &LabelController::show);
   connect(&document_, &DocumentController::replaced, this, &LabelController::show);
   connect(&document_, &DocumentController::changed, this, [this](const DocumentChange& change) {
@@ -124,6 +126,16 @@ void LabelController::addEditCommands() {
          "and removes it"),
       {}, {}, [this] { merge(); },
       [this] { return hasDocument() && document_.document()->labels().labels().size() > 1; });
+  add_one(
+      "renumber_label", tr("Change number…"),
+      tr("Gives the current label another number, in everything painted with it"), {}, {},
+      [this] { askForNumber(labels_.current()); }, has_label);
+  add_one(
+      "label_up", tr("Move label up"), tr("Moves the current label up in the list"), {},
+      {tr("Alt+Up")}, [this] { move(labels_.current(), -1); }, has_label);
+  add_one(
+      "label_down", tr("Move label down"), tr("Moves the current label down in the list"), {},
+      {tr("Alt+Down")}, [this] { move(labels_.current(), 1); }, has_label);
 }
 
 bool LabelController::hasDocument() const {
@@ -221,6 +233,47 @@ void LabelController::merge() {
             labels_.choose(into);
           });
   dialog->open();
+}
+
+void LabelController::move(int id, int by) {
+  const LabelInfo* label = find(id);
+  if (!label) return;
+  const auto& labels = std::as_const(document_).document()->labels().labels();
+  const int place = static_cast<int>(label - labels.data()) + by;
+  document_.edit([id, place](AnnotationDocument& document) { document.move_label(id, place); });
+}
+
+void LabelController::askForNumber(int id) {
+  const LabelInfo* label = find(id);
+  if (!label || refuseLocked(*label, tr("“%1” is locked: unlock it to change its number."))) return;
+  auto* dialog = new QInputDialog(&bench_.window);
+  dialog->setObjectName("renumber_label");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setWindowTitle(tr("Change the number of a label"));
+  dialog->setLabelText(tr("Number of “%1”, from 1 to %2:")
+                           .arg(QString::fromStdString(label->name))
+                           .arg(LabelSet::kMaxId));
+  dialog->setInputMode(QInputDialog::IntInput);
+  dialog->setIntRange(1, LabelSet::kMaxId);
+  dialog->setIntValue(id);
+  connect(dialog, &QInputDialog::intValueSelected, this, [this, id](int to) { renumber(id, to); });
+  dialog->open();
+}
+
+void LabelController::renumber(int id, int to) {
+  if (!find(id) || id == to) return;
+  if (const LabelInfo* other = find(to)) {
+    bench_.messages.warn(tr("“%1” has the number %2: choose another one, or merge the two.")
+                             .arg(QString::fromStdString(other->name))
+                             .arg(to));
+    return;
+  }
+  LabelMarks marks = bench_.session.place().label_marks;
+  const bool is_current = labels_.current() == id;
+  document_.edit([=](AnnotationDocument& document) { document.renumber_label(id, to); });
+  if (marks.hidden.erase(id) > 0) marks.hidden.insert(to);
+  bench_.session.set_label_marks(marks);
+  if (is_current) labels_.choose(to);
 }
 
 void LabelController::rename() {

@@ -16,7 +16,8 @@ namespace episcope {
 struct Edit;
 class LabelPalette;
 
-/// Lists the labels, and adds, renames, recolors, removes and chooses them.
+/// Lists the labels, and adds, renames, renumbers, moves, recolors, merges, removes and chooses
+/// them.
 class LabelController : public QObject {
   Q_OBJECT
 
@@ -47,6 +48,11 @@ class LabelController : public QObject {
   [[nodiscard]] bool refuseLocked(const LabelInfo& label, const QString& hint);
   /// Refuses a name that another label has.
   void setName(int id, const QString& typed);
+  /// Moves a label down the list by so many places.
+  void move(int id, int by);
+  void askForNumber(int id);
+  /// Refuses a number that another label has.
+  void renumber(int id, int to);
 
   Workbench bench_;
   DocumentController& document_;

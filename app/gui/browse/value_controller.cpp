@@ -13,6 +13,7 @@
 #include "widgets/panels/value_bar.h"
 
 #include <QDialog>
+#include <QSettings>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -199,7 +200,45 @@ void ToneController::addCommands() {
 
 void ToneController::update(Parts parts) {
   if (parts.has(Part::Tone)) panel_->setTone(bench_.session.place().tone);
-  if (parts.has(Part::Scene)) look();
+  if (parts.has(Part::Scene)) {
+    look();
+  } else if (parts.has(Part::Tone)) {
+    remember();
+  }
+}
+
+namespace {
+
+// A list of "black exposure gamma path", the newest first.
+constexpr const char* kTonesKey = "tones";
+constexpr int kMostTones = 50;
+constexpr int kPathPart = 3;
+
+}  // namespace
+
+void ToneController::remember() const {
+  const QString path = QString::fromStdString(bench_.session.input());
+  if (path.isEmpty()) return;
+  QStringList tones = QSettings().value(kTonesKey).toStringList();
+  tones.removeIf([&](const QString& each) { return each.section(' ', kPathPart) == path; });
+  const render::Tone& tone = bench_.session.place().tone;
+  if (!tone.is_plain()) {
+    tones.prepend(QStringList{QString::number(tone.black, 'g', 17),
+                              QString::number(tone.exposure, 'g', 17),
+                              QString::number(tone.gamma, 'g', 17), path}
+                      .join(' '));
+  }
+  QSettings().setValue(kTonesKey, tones.mid(0, kMostTones));
+}
+
+std::optional<render::Tone> ToneController::remembered() const {
+  const QString path = QString::fromStdString(bench_.session.input());
+  for (const QString& each : QSettings().value(kTonesKey).toStringList()) {
+    if (each.section(' ', kPathPart) != path) continue;
+    const auto number = [&each](int part) { return each.section(' ', part, part).toDouble(); };
+    return render::Tone{number(0), number(1), number(2)};
+  }
+  return std::nullopt;
 }
 
 void ToneController::brighten() {
@@ -216,6 +255,7 @@ void ToneController::brighten() {
 void ToneController::look() {
   job_.drop();
   if (!bench_.session.scene() || !bench_.session.place().tone.is_plain()) return;
+  if (const auto tone = remembered()) return bench_.session.set_tone(*tone);
   job_.start<bool>(
       [light_field = bench_.session.light_field()](const Progress&) {
         return render::is_dark(*light_field, light_field->center());

@@ -7,6 +7,7 @@
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
+#include "engine/render/shade.h"
 
 #include <QObject>
 #include <QStringList>
@@ -88,6 +89,9 @@ class ToneController : public QObject {
   void update(Parts parts);
   void brighten();
   void look();
+  /// Keeps the brightness for the next time that the light field is opened.
+  void remember() const;
+  [[nodiscard]] std::optional<render::Tone> remembered() const;
 
   Workbench bench_;
   QDialog* dialog_;

@@ -112,7 +112,8 @@ void ask_to_submit(const Workbench& bench, const EstimateEntry& entry) {
   ask_for_folder(&bench.window,
                  {.name = "export_submission",
                   .title = ResultExportText::tr("Folder of the submission for %1")
-                               .arg(QString::fromStdString(entry.name))},
+                               .arg(QString::fromStdString(entry.name)),
+                  .makes_folder = true},
                  [bench, id = entry.id](const QString& path) {
                    const auto map = io::submitted_map_file(
                        path.toStdString(), bench.session.light_field()->info().name);

@@ -338,13 +338,15 @@ void Overlay::showClasses(Quantity quantity) const {
   const auto color_of = [&shading](float value) {
     return shading.map.color(value, shading.range.min, shading.range.max);
   };
-  const bool is_of_labels = quantity == Quantity::WrongLabels;
+  if (quantity == Quantity::WrongLabels) {  // right ones are not tinted
+    return viewer_area_.colorBar()->setSwatches(
+        quantity_label(quantity), {{color_of(kBadPixel), tr("wrong")}}, shading.map.invalid);
+  }
   const QString threshold = number_text(session_.bad_threshold_px(), 2);
-  viewer_area_.colorBar()->setSwatches(
-      quantity_label(quantity),
-      {{color_of(kGoodPixel), is_of_labels ? tr("right") : tr("≤ %1 px").arg(threshold)},
-       {color_of(kBadPixel), is_of_labels ? tr("wrong") : tr("> %1 px").arg(threshold)}},
-      shading.map.invalid);
+  viewer_area_.colorBar()->setSwatches(quantity_label(quantity),
+                                       {{color_of(kGoodPixel), tr("≤ %1 px").arg(threshold)},
+                                        {color_of(kBadPixel), tr("> %1 px").arg(threshold)}},
+                                       shading.map.invalid);
 }
 
 void Overlay::showCaption(const MapChoice& choice) const {

@@ -72,9 +72,24 @@ QString folder_of_front(const Session& session) {
   return QFileInfo(QString::fromStdString(input)).absolutePath();
 }
 
+// Qt's dialog refuses a name of no folder.
+class NewFolderDialog : public QFileDialog {
+ public:
+  using QFileDialog::QFileDialog;
+
+ protected:
+  void accept() override {
+    const QString typed = selectedFiles().value(0);
+    if (!typed.isEmpty()) QDir().mkdir(typed);
+    QFileDialog::accept();
+  }
+};
+
 // The folder is given at once, since the dialog would else look into the one it remembers itself.
 QFileDialog* make_dialog(QWidget* window, const FileQuestion& question, const QString& folder) {
-  auto* dialog = new QFileDialog(window, question.title, folder, question.filter);
+  auto* dialog = question.makes_folder
+                     ? new NewFolderDialog(window, question.title, folder, question.filter)
+                     : new QFileDialog(window, question.title, folder, question.filter);
   dialog->setObjectName(question.name);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   return dialog;

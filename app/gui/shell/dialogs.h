@@ -26,6 +26,7 @@ struct FileQuestion {
   QString
       proposal{};  ///< When saving: the path or name to begin with, whose suffix is the default.
   bool confirms_overwrite = true;
+  bool makes_folder = false;  ///< Of ask_for_folder: a name that is typed becomes a new folder.
 };
 using Answer = std::function<void(const QString& path)>;
 

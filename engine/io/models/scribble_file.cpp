@@ -68,8 +68,8 @@ void require_fitting(const fs::path& path, const Scribbles& scribbles, const Fie
     }
     throw IoError(path, fmt::format("scribbles of {}×{} px on view ({}) do not fit the light field "
                                     "of {}×{} views of {}×{} px; open the one that they belong to",
-                                    labels.height(), labels.width(), view_text(view), shape.grid.v,
-                                    shape.grid.u, shape.height, shape.width));
+                                    labels.width(), labels.height(), view_text(view), shape.grid.v,
+                                    shape.grid.u, shape.width, shape.height));
   }
 }
 

@@ -128,6 +128,40 @@ class DocumentTest : public QObject {
     QCOMPARE(colors.size(), std::size_t{201});
   }
 
+  void renumberedLabel_isSoInAllViews_andUndone() {
+    AnnotationDocument document = document_with_labels(2);
+    paint(document, kView, {}, {5, 5}, {9, 9});
+    paint(document, {0, 0}, {}, {5, 5}, {9, 9});
+    const Snapshot before = snapshot(document);
+
+    document.renumber_label(1, 7);
+
+    QCOMPARE(document.labels().labels()[0].id, 7);  // in its place
+    QCOMPARE(document.scribbles().label_at(kView, {5, 5}), 7);
+    QCOMPARE(document.scribbles().label_at({0, 0}, {5, 5}), 7);
+    document.undo();
+    QVERIFY(matches(document, before));
+  }
+
+  void movedLabel_isInItsPlace() {
+    LabelSet labels;
+    for (int i = 0; i < 4; ++i) labels.add();
+    const auto ids = [&labels] {
+      std::vector<int> all;
+      for (const LabelInfo& label : labels.labels()) all.push_back(label.id);
+      return all;
+    };
+
+    labels.move(4, 1);
+    QCOMPARE(ids(), (std::vector{1, 4, 2, 3}));
+    labels.move(1, 2);
+    QCOMPARE(ids(), (std::vector{4, 2, 1, 3}));
+    labels.move(2, 9);
+    QCOMPARE(ids(), (std::vector{4, 1, 3, 2}));
+    labels.move(3, -1);
+    QCOMPARE(ids(), (std::vector{3, 4, 1, 2}));
+  }
+
   void badLabels_areRefused() {
     LabelSet labels;
     labels.insert({5, "five", {}});
@@ -139,6 +173,10 @@ class DocumentTest : public QObject {
     QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.rename(5, "two\nlines"));
     QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.rename(5, std::string(201, 'x')));
     QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.remove(6));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.renumber(6, 7));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.renumber(5, 5));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.renumber(5, 256));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, labels.move(6, 0));
     QCOMPARE(labels.labels().size(), std::size_t{1});
   }
 

@@ -165,6 +165,23 @@ class ShadeTest : public QObject {
     QCOMPARE(alpha({LabelDrawing::Contours, {2}}, 3), 255);
   }
 
+  // Dashed, whatever their direction, unlike outlined strokes.
+  void contours_haveGaps() {
+    Image<std::int32_t> labels(32, 32, 1, 1);
+    for (int i = 0; i < 32; ++i) labels.at(i, 16) = labels.at(7, i) = 2;
+
+    const auto picture = shade_labels(labels.view(), {}, {LabelDrawing::Contours});
+
+    int down = 0, across = 0;
+    for (int i = 0; i < 32; ++i) {
+      down += pixel(picture, i, 16) == label_color(2);
+      across += pixel(picture, 7, i) == label_color(2);
+    }
+    QCOMPARE(down, 16);
+    QCOMPARE(across, 16);
+    QCOMPARE(pixel(picture, 7, 0), (Rgb{0, 0, 0}));
+  }
+
   void robustRange_ignoresOutliersAndInvalidPixels() {
     Image<float> map(10, 100);
     for (int i = 0; i < 1000; ++i) map.data()[i] = static_cast<float>(i);

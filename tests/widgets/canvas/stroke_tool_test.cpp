@@ -12,6 +12,7 @@
 #include <QSignalSpy>
 #include <QTabletEvent>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -69,6 +70,25 @@ class StrokeToolTest : public QObject {
         }
       }
       QVERIFY2(std::abs(place - radius) <= 1.5, qPrintable(QString::number(place)));
+    }
+  }
+
+  // What lies outside its rectangle stays on the screen when the cursor moves on.
+  void mark_liesWithinItsRectangle() {
+    constexpr QPointF center(150.3, 149.6);
+    tool_->setColor(Qt::green);
+    for (double scale = 0.2; scale < 40; scale *= 1.15) {
+      QImage plate(300, 300, QImage::Format_ARGB32_Premultiplied);
+      plate.fill(Qt::transparent);
+      tool_->setBrushSize(std::max(1.0, std::round(8 / scale)));
+
+      QPainter painter(&plate);
+      tool_->paintMark(painter, center, scale);
+      painter.setCompositionMode(QPainter::CompositionMode_Clear);
+      painter.fillRect(tool_->markRect(center, scale).toAlignedRect(), Qt::transparent);
+      painter.end();
+
+      QVERIFY2(test::color_count(plate) == 1, qPrintable(QString::number(scale)));
     }
   }
 

@@ -355,8 +355,7 @@ LabelPicture picture_of(Image<std::int32_t> numbers) {
   return {std::move(numbers), {}, {}, {}};
 }
 
-void add_coco(Import& import, const fs::path& path) {
-  CocoLabels coco = read_coco(path);
+void add_coco(Import& import, const fs::path& path, CocoLabels coco) {
   std::vector<fs::path> names;
   for (const JsonPicture& picture : coco.pictures) names.emplace_back(picture.file_name);
   if (names.empty()) throw IoError(path, "has no pictures; export it again");
@@ -373,17 +372,19 @@ void add_coco(Import& import, const fs::path& path) {
 }
 
 void add_json(Import& import, const NamedFile& file) {
-  const LabelJson kind = label_json_kind(file.path);
-  if (kind == LabelJson::Coco) return add_coco(import, file.path);
-  if (kind == LabelJson::None) {
+  LabelJson labels = read_label_json(file.path, import.names);
+  if (auto* const coco = std::get_if<CocoLabels>(&labels)) {
+    return add_coco(import, file.path, std::move(*coco));
+  }
+  auto* const picture = std::get_if<JsonPicture>(&labels);
+  if (!picture) {
     throw IoError(file.path,
                   "is JSON, but neither of labelme (shapes) nor of COCO (images, "
                   "annotations); choose another file");
   }
-  JsonPicture picture = read_labelme(file.path, import.names);
-  const auto named = view_of_name(picture.file_name, import.places);
+  const auto named = view_of_name(picture->file_name, import.places);
   const ViewIndex view = file.view ? *file.view : named.value_or(import.places.shape.grid.center());
-  import.add(file.path, view, picture_of(std::move(picture.labels)));
+  import.add(file.path, view, picture_of(std::move(picture->labels)));
   import.stated = import.names.labels();
 }
 

@@ -29,7 +29,7 @@ constexpr const char* kOwn = "episcope";
 template <class Read>
 auto reading(const fs::path& path, const char* form, const Read& read) {
   try {
-    return read(read_json<Json>(path));
+    return read();
   } catch (const Json::exception& error) {
     throw IoError(path, fmt::format("is no file of {} ({}); export it again", form, error.what()));
   } catch (const InvalidInput& error) {
@@ -142,33 +142,22 @@ std::vector<LabelInfo> LabelNames::labels() const {
   return labels;
 }
 
-LabelJson label_json_kind(const fs::path& path) {
-  return reading(path, "labels", [](const Json& json) {
-    if (!json.is_object()) return LabelJson::None;
-    if (json.contains("shapes")) return LabelJson::Labelme;
-    const bool is_coco = json.contains("images") && json.contains("annotations");
-    return is_coco ? LabelJson::Coco : LabelJson::None;
-  });
-}
-
-JsonPicture read_labelme(const fs::path& path, LabelNames& names) {
-  return reading(path, "labelme", [&](const Json& json) {
-    if (json.contains(kOwn)) {
-      for (const Json& label : json.at(kOwn).at("labels")) {
-        const std::int32_t id = int_of(label.at("id"));
-        names.state({id, label.at("name").get<std::string>(), color_of(label.at("color"), id)});
-      }
-    }
-    JsonPicture picture{json.value("imagePath", ""),
-                        empty_map(json.at("imageHeight"), json.at("imageWidth"))};
-    for (const Json& shape : json.at("shapes")) {
-      draw_shape(path, shape, picture.labels, names.id_of(shape.at("label").get<std::string>()));
-    }
-    return picture;
-  });
-}
-
 namespace {
+
+JsonPicture labelme_of(const fs::path& path, const Json& json, LabelNames& names) {
+  if (json.contains(kOwn)) {
+    for (const Json& label : json.at(kOwn).at("labels")) {
+      const std::int32_t id = int_of(label.at("id"));
+      names.state({id, label.at("name").get<std::string>(), color_of(label.at("color"), id)});
+    }
+  }
+  JsonPicture picture{json.value("imagePath", ""),
+                      empty_map(json.at("imageHeight"), json.at("imageWidth"))};
+  for (const Json& shape : json.at("shapes")) {
+    draw_shape(path, shape, picture.labels, names.id_of(shape.at("label").get<std::string>()));
+  }
+  return picture;
+}
 
 /// False if there is neither an outline nor a mask.
 bool draw_segmentation(const Json& segmentation, Image<std::int32_t>& map, std::int32_t label) {
@@ -250,8 +239,15 @@ CocoLabels coco_of(const Json& json) {
 
 }  // namespace
 
-CocoLabels read_coco(const fs::path& path) {
-  return reading(path, "COCO", coco_of);
+LabelJson read_label_json(const fs::path& path, LabelNames& names) {
+  const Json json = reading(path, "labels", [&] { return read_json<Json>(path); });
+  if (!json.is_object()) return {};
+  if (json.contains("shapes")) {
+    return reading(path, "labelme", [&] { return labelme_of(path, json, names); });
+  }
+  const bool is_coco = json.contains("images") && json.contains("annotations");
+  if (!is_coco) return {};
+  return reading(path, "COCO", [&] { return coco_of(json); });
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace episcope::io {
@@ -35,16 +36,6 @@ class LabelNames {
   std::vector<LabelInfo> used_;
 };
 
-/// What a JSON file of labels is by its members; None for other JSON. Throws IoError for text that
-/// is no JSON.
-enum class LabelJson { None, Labelme, Coco };
-[[nodiscard]] LabelJson label_json_kind(const std::filesystem::path& path);
-
-/// Reads a file of labelme: polygons, rectangles, circles, masks; lines are 10 px wide and points
-/// discs of 10 px, as labelme draws them. Later shapes cover earlier ones. A pixel belongs to a
-/// shape if its center lies inside. Throws IoError for other content.
-[[nodiscard]] JsonPicture read_labelme(const std::filesystem::path& path, LabelNames& names);
-
 /// Pictures of a COCO file, with the ids of its categories.
 struct CocoLabels {
   std::vector<JsonPicture> pictures;
@@ -52,10 +43,17 @@ struct CocoLabels {
   std::vector<std::string> notes;  ///< On annotations without an outline, as sentences.
 };
 
-/// Reads a COCO file of object detection: polygons, and runs as numbers or packed. Later
-/// annotations cover earlier ones; ids of categories are raised by one if one of them is 0. Throws
-/// IoError.
-[[nodiscard]] CocoLabels read_coco(const std::filesystem::path& path);
+/// Reads a JSON file of labels; nothing for other JSON. Throws IoError for what is no JSON, and for
+/// unsound content.
+///
+/// Of labelme: polygons, rectangles, circles, masks; lines are 10 px wide and points discs of
+/// 10 px, as labelme draws them. Later shapes cover earlier ones. A pixel belongs to a shape if its
+/// center lies inside.
+///
+/// Of object detection by COCO: polygons, and runs as numbers or packed. Later annotations cover
+/// earlier ones; ids of categories are raised by one if one of them is 0.
+using LabelJson = std::variant<std::monostate, JsonPicture, CocoLabels>;
+[[nodiscard]] LabelJson read_label_json(const std::filesystem::path& path, LabelNames& names);
 
 /// Writes a file of labelme for one picture, with a polygon for each region, or a mask if it has
 /// holes; ids and colors stand under `episcope`, which labelme keeps. Atomic. Throws IoError.

@@ -21,8 +21,11 @@
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QScreen>
 #include <QSpinBox>
 #include <QTreeWidget>
+
+#include <cstdlib>
 
 namespace episcope::in_annotate_test {
 
@@ -49,6 +52,7 @@ class AnnotateTest : public QObject {
   void fill_staysWithinEdges();
   void fill_isShownBefore_andWidenedByDragging();
   void fill_goesAroundStrokes();
+  void cursorThatLeaves_leavesNothingBehind();
   void pick_takesTheLabelOfASegment();
   void statusBar_namesTheLabelsUnderTheCursor();
   void pick_takesTheLabelUnderTheMouse();
@@ -248,6 +252,50 @@ void AnnotateTest::fill_isShownBefore_andWidenedByDragging() {
   f.release({90, 60});
   QVERIFY(f.document().history().next_undo()->kind == EditKind::Fill);
   QCOMPARE(f.labelAt({90, 20}), f.window.bench().labels.current());
+}
+
+// Looks at the screen: what is not repainted would stay there.
+void AnnotateTest::cursorThatLeaves_leavesNothingBehind() {
+  Annotating f;
+  f.key(Qt::Key_B);
+  const auto shown = [&f] {
+    QCoreApplication::processEvents();
+    const QRect canvas(f.canvas()->mapTo(&f.window, QPoint()), f.canvas()->size());
+    return f.window.screen()->grabWindow(f.window.winId()).copy(canvas).toImage();
+  };
+  const auto leave = [&f] {
+    QEvent event(QEvent::Leave);
+    QCoreApplication::sendEvent(f.canvas(), &event);
+  };
+  // Where a part is drawn anew, pixels at the borders of large samples may differ a little.
+  const auto differing = [](const QImage& a, const QImage& b) {
+    constexpr int kVisible = 48;
+    int count = 0;
+    for (int y = 0; y < a.height(); ++y) {
+      for (int x = 0; x < a.width(); ++x) {
+        count += std::abs(qGray(a.pixel(x, y)) - qGray(b.pixel(x, y))) > kVisible;
+      }
+    }
+    return count;
+  };
+  leave();
+  const QImage before = shown();
+
+  f.move({40, 40});
+  QVERIFY(differing(shown(), before) > 0);
+  for (int i = 0; i < 12; ++i) f.key(Qt::Key_BracketRight);
+  f.move({50, 60});
+  for (int i = 0; i < 20; ++i) f.key(Qt::Key_BracketLeft);
+  f.move({70, 30});
+  leave();
+  QTRY_COMPARE(differing(shown(), before), 0);
+
+  f.key(Qt::Key_F);
+  f.move({40, 40});
+  f.move({41, 41});
+  QTRY_VERIFY(!f.window.findChild<FillTool*>()->preview().isNull());
+  leave();
+  QTRY_COMPARE(differing(shown(), before), 0);
 }
 
 void AnnotateTest::fill_goesAroundStrokes() {

@@ -17,13 +17,42 @@
 #include <QDir>
 #include <QFile>
 #include <QFileDialog>
+#include <QFileInfo>
+#include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSignalSpy>
 
+#include <unistd.h>
+
 #include <filesystem>
+#include <utility>
 
 namespace episcope::in_annotation_files_test {
+
+namespace {
+
+// A folder that cannot be written meanwhile, not even by root: access(2) asks for the real user.
+class ReadOnlyFolder {
+ public:
+  explicit ReadOnlyFolder(QString folder) : folder_(std::move(folder)) {
+    QFile::setPermissions(folder_, QFile::ReadOwner | QFile::ExeOwner);
+    if (is_root_) is_root_ = ::setresuid(kNobody, 0, 0) == 0;
+  }
+  ~ReadOnlyFolder() {
+    if (is_root_ && ::setresuid(0, 0, 0) != 0) qFatal("the user cannot be changed back");
+    QFile::setPermissions(folder_, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+  }
+  ReadOnlyFolder(const ReadOnlyFolder&) = delete;
+  ReadOnlyFolder& operator=(const ReadOnlyFolder&) = delete;
+
+ private:
+  static constexpr uid_t kNobody = 65534;
+  QString folder_;
+  bool is_root_ = ::getuid() == 0;
+};
+
+}  // namespace
 
 class AnnotationFilesTest : public QObject {
   Q_OBJECT
@@ -38,6 +67,9 @@ class AnnotationFilesTest : public QObject {
   void fileChangedOnDisk_isNotOverwrittenSilently();
   void ownSave_isNoChangeOnDisk();
   void anotherFile_isReplacedWhenConfirmed();
+  void placeThatCannotBeWritten_isTold();
+  void folderThatIsTyped_isMade();
+  void strokesOfTwoViews_takeLittleRoom();
 };
 
 void AnnotationFilesTest::failedSave_keepsTheDocument() {
@@ -51,6 +83,50 @@ void AnnotationFilesTest::failedSave_keepsTheDocument() {
   QVERIFY(f.window.findChild<MessageBar*>("messageBar")->text().contains("labels.h5"));
   QVERIFY(f.window.isWindowModified());
   QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+void AnnotationFilesTest::placeThatCannotBeWritten_isTold() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  const QString folder = QFileInfo(QString::fromStdString(f.window.bench().session.input())).path();
+  {
+    const ReadOnlyFolder is_read_only(folder);
+    f.trigger("file.save_scribbles");
+  }
+
+  const auto* dialog = f.window.findChild<QFileDialog*>("save_scribbles");
+  QVERIFY(dialog && dialog->isVisible());
+  const QString told = f.window.findChild<MessageBar*>("messageBar")->text();
+  QVERIFY2(told.contains(folder) && told.contains("cannot be written"), qPrintable(told));
+}
+
+void AnnotationFilesTest::folderThatIsTyped_isMade() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  f.trigger("file.export_scribbles");
+  auto* dialog = f.window.findChild<QFileDialog*>("export_scribbles");
+  QVERIFY(dialog);
+  dialog->setDirectory(f.path(""));
+
+  dialog->findChild<QLineEdit*>("fileNameEdit")->setText("new pictures");
+  QTest::keyClick(dialog->findChild<QLineEdit*>("fileNameEdit"), Qt::Key_Return);
+
+  QTRY_COMPARE(QDir(f.path("new pictures")).entryList({"scribbles_*.png"}).size(), 1);
+}
+
+void AnnotationFilesTest::strokesOfTwoViews_takeLittleRoom() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  f.key(Qt::Key_Right);
+  QTRY_VERIFY((f.view() == ViewIndex{4, 5}));
+  f.drag({60, 20}, {60, 60});
+  const QString file = f.path("strokes.h5");
+
+  find<AnnotationFiles>(f.window).saveAs(file);
+
+  QTRY_VERIFY(!f.window.isWindowModified());
+  const qint64 size = QFileInfo(file).size();
+  QVERIFY2(size < 81 * 96 * 96 / 8, qPrintable(QString::number(size)));  // a bit for each ray
 }
 
 void AnnotationFilesTest::exportedPictures_comeBackByImport() {

@@ -2,9 +2,11 @@
 // Labels that are hidden, locked, counted and drawn around, on the window that ships.
 #include "app/gui/annotate/annotate_controller.h"
 
+#include "app/gui/annotate/annotation_files.h"
 #include "app/gui/annotate/scribble_controller.h"
 #include "app/session/project_file.h"
 #include "app/session/project_store.h"
+#include "engine/io/models/scribble_file.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/canvas_tool.h"
@@ -17,6 +19,8 @@
 #include <QInputDialog>
 #include <QLineEdit>
 #include <QTreeWidget>
+
+#include <set>
 
 namespace episcope::in_label_tools_test {
 
@@ -60,6 +64,9 @@ class LabelToolsTest : public QObject {
   void mergedLabel_isTakenOver_andComesBack();
   void nameOfAnotherLabel_isRefused();
   void digits_arePlacesInTheList();
+  void label_getsAnotherNumber();
+  void numberOfAnotherLabel_isRefused();
+  void label_isMovedInTheList();
   void undoOfALockedLabel_isDoneAndSaid();
   void hiddenLabel_isNeitherDrawnNorPaintedOver();
   void hiddenLabel_isShownAgainOncePainted();
@@ -67,6 +74,7 @@ class LabelToolsTest : public QObject {
   void marks_comeBackWithTheProject();
   void drawing_goesRound_andIsRemembered();
   void segments_areDrawnAsContours();
+  void contoursOfSegments_differFromStrokes();
   void polygon_isPaintedByReturn_andUndone();
   void polygon_isClosedByADoubleClick();
   void polygon_losesItsLastCornerByBackspace_andEndsByEscape();
@@ -158,6 +166,74 @@ void LabelToolsTest::digits_arePlacesInTheList() {
   QCOMPARE(f.window.bench().labels.current(), 2);
   f.key(Qt::Key_2);
   QCOMPARE(f.window.bench().labels.current(), 3);
+}
+
+void LabelToolsTest::label_getsAnotherNumber() {
+  Labels f;
+  f.drag({40, 20}, {40, 60});
+  f.key(Qt::Key_V);  // hidden labels stay hidden
+  const std::string name = f.document().labels().find(1)->name;
+
+  f.trigger("annotate.renumber_label");
+  auto* dialog = f.window.findChild<QInputDialog*>("renumber_label");
+  QVERIFY(dialog && dialog->isVisible());
+  QCOMPARE(dialog->intValue(), 1);
+  dialog->setIntValue(40);
+  dialog->accept();
+
+  QCOMPARE(f.document().labels().find(40)->name, name);
+  QVERIFY(!f.document().labels().contains(1));
+  QCOMPARE(f.labelAt({40, 40}), 40);
+  QCOMPARE(f.window.bench().labels.current(), 40);
+  QCOMPARE(f.marks().hidden, std::set<std::int32_t>{40});
+  f.key(Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QCOMPARE(f.document().labels().find(1)->name, name);
+}
+
+void LabelToolsTest::numberOfAnotherLabel_isRefused() {
+  Labels f;
+  f.drag({40, 20}, {40, 60});
+  f.trigger("annotate.add_label");
+
+  f.trigger("annotate.renumber_label");
+  auto* dialog = f.window.findChild<QInputDialog*>("renumber_label");
+  dialog->setIntValue(1);
+  dialog->accept();
+
+  QVERIFY(f.document().labels().contains(2));
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QVERIFY2(f.message().contains("another"), qPrintable(f.message()));
+}
+
+// The order is kept in the file, and digits follow it.
+void LabelToolsTest::label_isMovedInTheList() {
+  Labels f;
+  for (int i = 0; i < 3; ++i) f.trigger("annotate.add_label");
+  f.drag({40, 20}, {40, 60});
+  const auto row = [&f](int i) { return f.list().topLevelItem(i)->text(1); };
+
+  f.trigger("annotate.label_up");
+  f.trigger("annotate.label_up");
+  f.trigger("annotate.label_up");  // it is the first already
+
+  QCOMPARE(row(0), QString("3"));
+  QCOMPARE(row(2), QString("2"));
+  QCOMPARE(f.labelAt({40, 40}), 3);
+  f.key(Qt::Key_2);
+  QCOMPARE(f.window.bench().labels.current(), 1);
+  f.trigger("annotate.label_down");
+  QCOMPARE(row(2), QString("1"));
+  f.key(Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(row(1), QString("1"));
+
+  const QString file = f.path("labels.h5");
+  find<AnnotationFiles>(f.window).saveAs(file);
+  QTRY_VERIFY(!f.window.isWindowModified());
+  const auto kept =
+      io::read_scribbles(file.toStdString(), *f.window.bench().session.scene(), Progress(1));
+  QCOMPARE(kept.labels, f.document().labels().labels());
+  QCOMPARE(kept.labels.front().id, 3);
 }
 
 // As in painting programs: the history goes back whatever was locked since.
@@ -279,6 +355,34 @@ void LabelToolsTest::segments_areDrawnAsContours() {
   f.key(Qt::Key_C, Qt::ShiftModifier);
   f.key(Qt::Key_C, Qt::ShiftModifier);
   QTRY_COMPARE_WITH_TIMEOUT(transparent(), 0, kPatience);
+}
+
+// With contours, strokes are outlined in the color of their label throughout.
+void LabelToolsTest::contoursOfSegments_differFromStrokes() {
+  Labels f("objects");
+  f.key(Qt::Key_L);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  f.key(Qt::Key_C, Qt::ShiftModifier);
+  const Overlay& overlay = f.window.bench().overlay;
+  std::set<QRgb> colors;
+  for (const LabelInfo& label : f.document().labels().labels()) {
+    colors.insert(qRgb(label.color[0], label.color[1], label.color[2]));
+  }
+  const auto count = [&](bool has_color) {
+    const QImage picture = overlay.picture();
+    int found = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const QRgb pixel = picture.pixel(x, y);
+        found += qAlpha(pixel) == 255 && colors.contains(pixel) == has_color;
+      }
+    }
+    return found;
+  };
+
+  QTRY_VERIFY_WITH_TIMEOUT(count(false) > 0, kPatience);
+  const int share = 100 * count(false) / (count(false) + count(true));
+  QVERIFY2(share > 30 && share < 70, qPrintable(QString::number(share)));
 }
 
 void LabelToolsTest::polygon_isPaintedByReturn_andUndone() {

@@ -156,10 +156,14 @@ void RecoveryTest::whatWasPaintedAtAFocusPlane_comesBackThere() {
   QTRY_VERIFY(dying->window.bench().document.document());
   dying->trigger("annotate.mode");
   dying->drag({40, 20}, {40, 60});
-  dying.reset();  // nobody decided about the changes
+  dying->drag({60, 20}, {60, 60});
+  dying->trigger("annotate.add_label");  // is no stroke
+  dying.reset();                         // nobody decided about the changes
 
   f.window.bench().frame.start();
   QTRY_VERIFY(f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
+  const QString offer = f.window.findChild<MessageBar*>("recoveryBar")->text();
+  QVERIFY2(offer.contains("recover: 2."), qPrintable(offer));
   button(f, "message.action")->click();
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), kPatience);

@@ -18,6 +18,8 @@
 #include <QAction>
 #include <QSignalSpy>
 
+#include <cmath>
+
 // Segments in the window that ships, from what is painted with the mouse.
 
 namespace episcope::in_segment_test {
@@ -47,6 +49,7 @@ class SegmentTest : public QObject {
   void oneLabel_isAHintAndNoError();
   void overlays_areDrawn();
   void recolouredLabel_isSeenAtOnce();
+  void wrongPixels_areTintedAlone();
   void labels_areComparedWithThoseOfAnotherFile();
   void foreignNumbers_areMatchedByNameOrOverlap();
   void allViews_areExportedAndReadAgain();
@@ -185,6 +188,28 @@ void SegmentTest::recolouredLabel_isSeenAtOnce() {
 
   QTRY_COMPARE(f.window.bench().overlay.picture().pixelColor(0, 0), QColor(1, 2, 3));
   QVERIFY(f.segment().labeler().is_up_to_date(f.view()));
+}
+
+void SegmentTest::wrongPixels_areTintedAlone() {
+  Segmenting f;
+  f.key(Qt::Key_L);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+
+  f.trigger("segment.wrong");
+  const Overlay& overlay = f.window.bench().overlay;
+  QTRY_COMPARE(overlay.quantity(), Quantity::WrongLabels);
+  const auto tinted = [&overlay] {
+    const QImage picture = overlay.picture();
+    int count = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) count += picture.pixelColor(x, y).alpha() > 0;
+    }
+    return count;
+  };
+
+  const auto wrong = static_cast<int>(std::lround((1 - f.accuracy()) * 96 * 96));
+  QVERIFY(wrong > 0);
+  QTRY_COMPARE_WITH_TIMEOUT(tinted(), wrong, kPatience);
 }
 
 void SegmentTest::labels_areComparedWithThoseOfAnotherFile() {

@@ -59,6 +59,7 @@ class BrightnessTest : public QObject {
   void brightViews_areLeftAlone();
   void exposure_doublesTheBrightness();
   void tone_belongsToItsScene();
+  void tone_comesBackWithItsFile();
   void tone_changesNoSample();
 };
 
@@ -112,6 +113,29 @@ void BrightnessTest::tone_belongsToItsScene() {
 
   QTRY_COMPARE(f.brightness(), shown);
   QCOMPARE(f.window.findChild<QDoubleSpinBox*>("tone.exposure")->value(), 3.0);
+}
+
+void BrightnessTest::tone_comesBackWithItsFile() {
+  Dark f;
+  f.trigger("view.tone");
+  f.set("tone.exposure", 2.5);
+  f.set("tone.gamma", 1.5);
+  QTRY_COMPARE(f.window.bench().session.place().tone.gamma, 1.5);
+  QCoreApplication::processEvents();
+  f.window.bench().session.close();
+  const auto tone = [&f]() -> const render::Tone& { return f.window.bench().session.place().tone; };
+
+  f.window.bench().opener.open(f.path("night/lf.h5"));
+  QTRY_COMPARE_WITH_TIMEOUT(tone().exposure, 2.5, kScenePatience);
+  QCOMPARE(tone().gamma, 1.5);
+
+  f.trigger("view.auto_tone");  // off again
+  QTRY_VERIFY(tone().is_plain());
+  QCoreApplication::processEvents();
+  f.window.bench().session.close();
+  f.window.bench().opener.open(f.path("night/lf.h5"));
+  QTRY_VERIFY_WITH_TIMEOUT(f.messages()->text().contains("dark"), kScenePatience);
+  QVERIFY(tone().is_plain());
 }
 
 void BrightnessTest::tone_changesNoSample() {

@@ -15,6 +15,7 @@
 #include <QDialog>
 #include <QFile>
 #include <QFileDialog>
+#include <QHeaderView>
 #include <QPushButton>
 #include <QTableWidget>
 #include <QToolButton>
@@ -36,6 +37,7 @@ class CaptureTest : public QObject {
     auto* remove = f.window.findChild<QPushButton*>("capture.remove");
     auto* write = f.window.findChild<QPushButton*>("capture.export");
     for (const auto* each : {add, remove, write}) QVERIFY(!each->isEnabled());
+    table->setFixedHeight(4 * table->verticalHeader()->defaultSectionSize());  // few fit
     int picked = 0;
     for (std::size_t i = 0; i < f.mesh.vertices.size() && picked < 6; i += 131) {
       const capture::PointPair pair = pair_of("", f.mesh.vertices[i]);
@@ -48,6 +50,8 @@ class CaptureTest : public QObject {
       QVERIFY(add->isEnabled());
       f.click("capture.add");
       QCOMPARE(table->rowCount(), ++picked);
+      const QRect row = table->visualItemRect(table->item(picked - 1, 0));
+      QVERIFY2(table->viewport()->rect().contains(row), "the new pair is out of sight");
       QVERIFY(!add->isEnabled());  // a pair needs a new point
     }
     QCOMPARE(picked, 6);

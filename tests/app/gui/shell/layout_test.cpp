@@ -11,6 +11,7 @@
 #include <QAction>
 #include <QDialog>
 #include <QPointer>
+#include <QProgressBar>
 #include <QScreen>
 #include <QSettings>
 #include <QSplitter>
@@ -46,6 +47,7 @@ class LayoutTest : public QObject {
   void message_coversNoCaptionAtTheTop();
   void epis_takeTheDarkMarginsOfALargeWindow();
   void jobs_moveNothing();
+  void twoJobs_fitASmallScreen();
   void longMessage_isSeenWhole();
   void firstWindow_fitsTheScreen();
   void dialogs_closeWithTheWindow();
@@ -191,6 +193,26 @@ void LayoutTest::jobs_moveNothing() {
 
   QCOMPARE(f.window.findChild<JobPanel*>()->jobCount(), 4);
   QCOMPARE(place_of(*tabs, f.window), before);
+  f.window.bench().jobs.cancelLane(Lane::Export);
+}
+
+void LayoutTest::twoJobs_fitASmallScreen() {
+  WindowFixture f;
+  f.openSmall();
+  const QSize small(1280, 740);  // of 800, without panel and title
+  f.window.resize(small);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
+
+  for (int i = 0; i < 2; ++i) start_endless(f.window.bench().jobs);
+
+  const auto* panel = f.window.findChild<JobPanel*>();
+  QTRY_COMPARE(panel->findChildren<QProgressBar*>().size(), 2);
+  QCoreApplication::processEvents();
+  QCOMPARE(f.window.size(), small);
+  for (const QProgressBar* bar : panel->findChildren<QProgressBar*>()) {
+    const QWidget* row = bar->parentWidget();
+    QCOMPARE(row->visibleRegion().boundingRect(), row->rect());
+  }
   f.window.bench().jobs.cancelLane(Lane::Export);
 }
 

@@ -45,7 +45,7 @@ struct Corrected {
     }
   }
   [[nodiscard]] RayLabeling correct(int threads = 0) const {
-    return correct_rays(of.input(), parameters, {before.labels, changed, kCenter},
+    return correct_rays(of.input(), parameters, {before.labels, changed, kCenter, colors},
                         Progress(threads));
   }
   /// Of ids, with the costs of smooth_rays.
@@ -177,6 +177,7 @@ void CorrectViewsTest::viewInSight_comesFirst() {
                                  {f.before.labels,
                                   f.changed,
                                   {1, 3},
+                                  f.colors,
                                   [&](ViewIndex view, ImageView<const std::int32_t>) {
                                     const std::lock_guard lock(mutex);
                                     told.push_back(view);

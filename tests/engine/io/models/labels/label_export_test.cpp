@@ -120,7 +120,8 @@ class LabelExportTest : public QObject {
       "imagePath": "view.png", "imageData": null, "imageHeight": 5, "imageWidth": 7})");
     io::LabelNames names({{3, "box", {1, 2, 3}}});
 
-    const io::JsonPicture read = io::read_labelme(path("view.json"), names);
+    const io::LabelJson labels = io::read_label_json(path("view.json"), names);
+    const auto& read = std::get<io::JsonPicture>(labels);
 
     QCOMPARE(picture(read.labels), QString("1....../.1111../.1331../.1111../......./"));
     QCOMPARE(names.labels().size(), std::size_t{2});
@@ -135,7 +136,8 @@ class LabelExportTest : public QObject {
       "imagePath": "", "imageHeight": 40, "imageWidth": 40})");
     io::LabelNames names({});
 
-    const Image<std::int32_t> map = io::read_labelme(path("view.json"), names).labels;
+    const io::LabelJson labels = io::read_label_json(path("view.json"), names);
+    const Image<std::int32_t>& map = std::get<io::JsonPicture>(labels).labels;
 
     const auto width = [&](int y, int x0, int x1) {
       return std::count(map.row(y) + x0, map.row(y) + x1, 1);
