@@ -6,6 +6,7 @@
 #include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/scene_summary.h"
+#include "engine/core/finding.h"
 #include "engine/core/parameter.h"
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
@@ -217,7 +218,9 @@ void print_scene(const Scene& scene) {
   print_line("sign", checked_text(sign_text(how), how.sign_check));
   print_line("units", units_text(scene.convention));
   print_line("files", files_text(scene.convention));
-  for (const auto& warning : scene.convention.warnings) print_line("warning", warning);
+  for (const auto& said : scene.convention.warnings) {
+    print_line(is_note(said) ? "note" : "warning", said);
+  }
 }
 
 }  // namespace
