@@ -34,12 +34,12 @@ struct LoadOptions {
 [[nodiscard]] std::string reader_of(const std::string& input, const io::OpenOptions& options);
 
 /// Opens anything that a user can name: `demo`, `demo:<scene>`, `demo:random?seed=7`, or a path
-/// that `io::open_scene` opens, or the container of a raw picture of a Lytro camera, which is
-/// decoded with the white picture in it or beside it. The light field's `source` is what opens it
-/// again. A built-in scene is read from the cache where it is there and whole, else rendered;
-/// `store_in_cache` keeps it for the next time, but for the gantry, which is kept at once. Throws
-/// IoError, IsCollection for a folder of several light fields, Unavailable for an unknown built-in
-/// scene, InvalidInput for what cannot be read behind its '?', Cancelled.
+/// that `io::open_scene` opens, or a container of a Lytro camera: its raw picture is decoded with
+/// the white picture in it or beside it, a processed one is a single view. The light field's
+/// `source` is what opens it again. A built-in scene is read from the cache where it is there and
+/// whole, else rendered; `store_in_cache` keeps it for the next time, but for the gantry, which is
+/// kept at once. Throws IoError, IsCollection for a folder of several light fields, Unavailable for
+/// an unknown built-in scene, InvalidInput for what cannot be read behind its '?', Cancelled.
 [[nodiscard]] Scene load_scene(const std::string& input, const LoadOptions& options,
                                const Progress& progress);
 

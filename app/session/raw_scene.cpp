@@ -43,18 +43,23 @@ Scene ideal_views(const scenes::BuiltinRequest& scene, const capture::SyntheticC
   return scenes::render_builtin(request.scene, request.options, progress);
 }
 
-Scene load_plenoptic(const Progress& progress) {
+capture::FoundPictures expose_plenoptic(const Progress& progress) {
   capture::SyntheticCamera camera = capture::synthetic_camera(capture::CameraModel::F01);
   camera.width = 2000;
   camera.height = 1504;
   progress.step("exposing the sensor");
   capture::SyntheticPictures seen =
-      capture::expose(camera, light_of({"demo", {}}, camera), progress.part(0, 0.6));
+      capture::expose(camera, light_of({"demo", {}}, camera), progress);
   capture::FoundPictures found;
   found.pictures.raw = std::move(seen.raw);
   found.pictures.white = std::move(seen.white);
   found.pictures.raw.name = kPlenopticScene;
   found.pictures.raw.source = std::string("demo:") + kPlenopticScene;
+  return found;
+}
+
+Scene load_plenoptic(const Progress& progress) {
+  const capture::FoundPictures found = expose_plenoptic(progress.part(0, 0.6));
   const capture::LensGrid grid = find_lenses(found.pictures, progress.part(0.6, 0.8));
   return scene_of(decode(found.pictures, grid, {}, progress.part(0.8, 1)), found);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/capture/plenoptic/decode_files.h"
 #include "engine/capture/plenoptic/synthetic_camera.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
@@ -25,7 +26,10 @@ namespace episcope {
 /// picture.
 inline constexpr const char* kPlenopticScene = "plenoptic";
 
-/// The demo before an F01 with a smaller sensor, exposed and decoded. Throws Cancelled.
+/// Raw and white picture of the demo before an F01 with a smaller sensor. Throws Cancelled.
+[[nodiscard]] capture::FoundPictures expose_plenoptic(const Progress& progress);
+
+/// What `expose_plenoptic` exposes, decoded. Throws Cancelled.
 [[nodiscard]] Scene load_plenoptic(const Progress& progress);
 
 /// Files of a synthetic raw picture.

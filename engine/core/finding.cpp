@@ -101,4 +101,9 @@ std::optional<Finding> finding_of(std::string_view sentence) {
   return std::nullopt;
 }
 
+bool is_note(std::string_view sentence) {
+  const auto finding = finding_of(sentence);
+  return finding && find_finding_text(finding->code)->level == FindingLevel::Note;
+}
+
 }  // namespace episcope

@@ -19,11 +19,15 @@ struct Finding {
   friend bool operator==(const Finding&, const Finding&) = default;
 };
 
+enum class FindingLevel { Warning, Note };
+
 /// The sentence of a finding.
 struct FindingText {
   std::string_view code;
   std::string_view english;  ///< With placeholders of fmt, without numbers.
   std::string_view brief{};  ///< For a line of a list: "%1" is the first value; empty = none.
+  FindingLevel level =
+      FindingLevel::Warning;  ///< A note tells what was done, of which all is well.
 };
 
 /// All sentences. Codes stay what they are: scripts read them.
@@ -259,6 +263,31 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "The poses of {} are not used, as {}; the names and the views themselves tell rows and "
      "columns.",
      "The poses of %1 are not used."},
+    // Raw pictures of plenoptic cameras.
+    {"plenoptic.white", "white picture {}", "White picture %1", FindingLevel::Note},
+    {"plenoptic.white_inside",
+     "white picture: the one in the file of the raw picture",
+     {},
+     FindingLevel::Note},
+    {"plenoptic.white_nearest",
+     "white picture {} ({}) is the nearest of {} to the raw picture ({})", "White picture %1",
+     FindingLevel::Note},
+    {"plenoptic.white_steps", "white picture {} ({}); the raw picture has {}", "White picture %1",
+     FindingLevel::Note},
+    {"plenoptic.dark", "dark picture {}", "Dark picture %1", FindingLevel::Note},
+    {"plenoptic.no_white",
+     "without a white picture the lenses were found in the raw picture itself, and their "
+     "vignetting "
+     "remains; give one with --white",
+     "No white picture: vignetting remains"},
+    {"plenoptic.pitch",
+     "The lenses were found {:.2f} px apart, but according to its pitches of lenses and pixels the "
+     "camera has them {:.2f} px apart: check the white picture and the optics.",
+     "Lenses are %1 px apart, not %2 px as the camera says."},
+    {"plenoptic.processed",
+     "This container of a Lytro camera holds processed pictures, without what the sensor saw: {}. "
+     "They are no views of a light field; episcope-cli decode writes them as files.",
+     "Processed pictures, no light field: %1", FindingLevel::Note},
     {"option.ignored", "--{} is ignored, because this is {}.", "“%1” is ignored."},
     {"scribbles.unread", "Scribbles were not read: {}"},
 });
@@ -271,6 +300,9 @@ consteval std::string_view finding_text(std::string_view code) {
 
 /// The finding that a sentence tells, the most special one; none for a sentence of another kind.
 [[nodiscard]] std::optional<Finding> finding_of(std::string_view sentence);
+
+/// Whether the sentence tells a note; any other is a warning.
+[[nodiscard]] bool is_note(std::string_view sentence);
 
 /// The entry of a code among `kFindingTexts`; null for an unknown one.
 [[nodiscard]] const FindingText* find_finding_text(std::string_view code);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/plenoptic/processed_container.h"
 #include "engine/capture/plenoptic/raw_picture.h"
 #include "engine/capture/plenoptic/white_pictures.h"
 #include "tests/fuzz/harness.h"
@@ -21,7 +22,7 @@ capture::RawPicture small_raw() {
   return raw;
 }
 
-/// A picture with its white picture, and a storage container of one white picture.
+/// A picture with its white picture, a storage container of one white picture, and a depth map.
 void write_seeds(const std::filesystem::path& folder) {
   const capture::RawPicture raw = small_raw();
   const auto samples = pack(raw.samples, capture::Packing::Bits10);
@@ -37,6 +38,11 @@ void write_seeds(const std::filesystem::path& folder) {
                      {{{true, {}, table}, {false, {}, samples}, {false, {}, metadata}}});
   capture::write_lfp(folder / "storage",
                      {{{true, {}, files}, {false, {}, samples}, {false, {}, metadata}}});
+  const auto depth = bytes_of("AAAABBBBCCCCDDDD");
+  const auto processed = bytes_of(
+      R"({"picture":{"frameArray":[{"frame":{}}],"width":2,"height":2,"depthMap":{"imageRef":")" +
+      capture::lfp_reference(depth) + R"("}}})");
+  capture::write_lfp(folder / "processed", {{{true, {}, processed}, {false, {}, depth}}});
   write_bytes(folder / "metadata", illum_metadata(raw));
 }
 
@@ -44,6 +50,9 @@ void write_seeds(const std::filesystem::path& folder) {
 void read(const std::filesystem::path& file) {
   tolerate([&] { (void)capture::read_raw(file); });
   tolerate([&] { (void)capture::read_white(file, small_raw()); });
+  tolerate([&] {
+    if (const auto processed = capture::read_processed(file)) (void)scene_of(*processed);
+  });
   std::ifstream text(file, std::ios::binary);
   const auto samples = pack(small_raw().samples, capture::Packing::Bits10);
   tolerate([&] {

@@ -284,6 +284,18 @@ class SidePanelsTest : public QObject {
     QVERIFY(top_of(warning) < top_of(first));
   }
 
+  void info_showsNotesAsInformation() {
+    InfoPanel panel;
+    const auto text_color = [&](bool is_note) {
+      InfoWarning said{"White picture a.png"};
+      said.is_note = is_note;
+      panel.setInfo("scene", {}, {said});
+      return panel.findChild<QLabel*>("info.warning")->palette().color(QPalette::WindowText);
+    };
+    QVERIFY(text_color(true) != text_color(false));
+    QCOMPARE(text_color(true), panel.palette().color(QPalette::WindowText));
+  }
+
   void info_hidesEvidenceBehindAnArrow() {
     InfoPanel panel;
     panel.resize(180, 300);

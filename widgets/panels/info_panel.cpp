@@ -104,12 +104,12 @@ void InfoPanel::addWarning(const InfoWarning& warning, QGridLayout* grid) {
   QWidget* body = grid->parentWidget();
   auto* line = new QWidget(body);
   auto* icon = new QLabel(line);
-  icon->setPixmap(themed_icon("warning").pixmap(kIconSize));
+  icon->setPixmap(themed_icon(warning.is_note ? "info" : "warning").pixmap(kIconSize));
   icon->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   auto* label = new FoldedLabel(line);
   label->setFullText(with_units(warning.brief.isEmpty() ? warning.text : warning.brief));
   label->setObjectName("info.warning");
-  label->setPalette(theme::text_palette(theme::warning_text(palette())));
+  if (!warning.is_note) label->setPalette(theme::text_palette(theme::warning_text(palette())));
   auto* layout = new QGridLayout(line);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setHorizontalSpacing(theme::kSpacing);

@@ -33,6 +33,7 @@ struct InfoWarning {
   QString text;
   QString brief{};  ///< One line in its place, which an arrow opens; empty = its first lines.
   QAction* action = nullptr;  ///< A command that may help; may be null.
+  bool is_note = false;       ///< It tells what was done, of which all is well.
   friend bool operator==(const InfoWarning&, const InfoWarning&) = default;
 };
 

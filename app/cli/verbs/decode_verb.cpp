@@ -4,6 +4,8 @@
 #include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
 #include "engine/capture/plenoptic/decode_files.h"
+#include "engine/capture/plenoptic/lfp_container.h"
+#include "engine/capture/plenoptic/processed_container.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -34,12 +36,14 @@ bool parse(const VerbArguments& arguments, DecodeRequest& request) {
       {"Makes a light field of a raw picture of a plenoptic camera: a container of a Lytro camera\n"
        "(.lfp, .lfr), its bare .raw with the JSON beside it, or any picture of a sensor behind an\n"
        "array of microlenses, square or hexagonal. The white picture is taken from the container\n"
-       "or from beside it (NAME_white.png, white.png, caldata-*.tar, MOD_0000.RAW, data.C.0).",
+       "or from beside it (NAME_white.png, white.png, caldata-*.tar, MOD_0000.RAW, data.C.0).\n"
+       "Of a processed container (-stk.lfp, -dm.lfp), pictures and depth map are written into a\n"
+       "new folder.",
        "episcope-cli decode IMG_0001.lfr --white caldata-A303134643.tar -o lf.h5\n"
        "  episcope-cli decode raw.png --white white.png --dark dark.png -o lf.h5"});
   parser.positional("RAW", request.raw, "The raw picture");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
-                         "Light field to write");
+                         "Light field to write; of a processed container, a new folder");
   parser.option("--white", request.white, text_value("FILE|FOLDER|TAR"),
                 "White picture, or calibration data of the camera, of which the nearest is taken");
   parser.option("--dark", request.dark, text_value("FILE"), "Picture without light, subtracted");
@@ -113,14 +117,40 @@ void check_outputs(const DecodeRequest& request) {
   check_light_field_output(request.output, request.overwrite);
 }
 
+/// Of a container without a raw picture; false for any other file.
+bool write_processed(const DecodeRequest& request, Job& job) {
+  if (!capture::is_lfp_container(request.raw)) return false;
+  const auto container = capture::read_processed(request.raw);
+  if (!container) return false;
+  if (std::filesystem::path(request.output).has_extension()) {
+    throw UsageError(
+        fmt::format("{} holds {}, which are written into a new folder; name one with -o",
+                    request.raw, container->text()));
+  }
+  capture::write_processed(request.output, *container, job.progress());
+  job.finish();
+  if (!request.is_json) {
+    std::cout << request.output << ": " << container->text() << '\n';
+    return true;
+  }
+  Json json;
+  json["pictures"] = container->pictures.size();
+  json["maps"] = Json::array();
+  for (const capture::ProcessedMap& map : container->maps) json["maps"].push_back(map.name);
+  json["output"] = request.output;
+  print_answer(std::move(json), job.notes(), {request.output});
+  return true;
+}
+
 }  // namespace
 
 void run_decode(const VerbArguments& arguments, std::stop_token stop) {
   DecodeRequest request;
   if (!parse(arguments, request)) return;
-  check_outputs(request);
   Job job(std::move(stop), request.job);
   job.progress().step("reading " + request.raw);
+  if (write_processed(request, job)) return;
+  check_outputs(request);
   const capture::FoundPictures found = capture::read_pictures(
       {request.raw, request.white, request.dark, request.camera, request.mosaic});
   for (const std::string& note : found.notes) job.note(note);

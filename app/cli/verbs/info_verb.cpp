@@ -13,6 +13,7 @@
 #include "engine/capture/solve_pose.h"
 #include "engine/core/camera_grid.h"
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/hash.h"
 #include "engine/core/parameter.h"
 #include "engine/core/scene.h"
@@ -549,7 +550,9 @@ void print_scene(const Scene& scene) {
   print_line("sign", checked_text(sign_text(how), how.sign_check));
   print_line("units", units_text(scene.convention));
   print_line("files", files_text(scene.convention));
-  for (const auto& warning : scene.convention.warnings) print_line("warning", warning);
+  for (const auto& said : scene.convention.warnings) {
+    print_line(is_note(said) ? "note" : "warning", said);
+  }
 }
 
 }  // namespace

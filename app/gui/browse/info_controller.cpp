@@ -8,6 +8,7 @@
 #include "app/session/scene_summary.h"
 #include "app/session/session.h"
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/parameter.h"
 #include "engine/core/scene.h"
 #include "engine/io/models/names/view_folders.h"
@@ -377,7 +378,7 @@ InfoWarning in_window(const std::string& warning, QAction* conventions) {
     }
     match = option.match(text, end);
   }
-  return {text, finding_brief(warning), has_options ? conventions : nullptr};
+  return {text, finding_brief(warning), has_options ? conventions : nullptr, is_note(warning)};
 }
 
 // The GPU that methods compute on.

@@ -2,6 +2,7 @@
 #include "app/gui/capture/capture_controller.h"
 
 #include "app/gui/capture/photographs.h"
+#include "app/gui/capture/raw_pictures.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
@@ -17,6 +18,7 @@
 #include "engine/io/formats/write_scene.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/panels/capture_panel.h"
+#include "widgets/panels/raw_picture_panel.h"
 
 #include <QAction>
 #include <QCursor>
@@ -24,6 +26,7 @@
 #include <QFileInfo>
 #include <QKeyEvent>
 #include <QLocale>
+#include <QTabWidget>
 #include <QVBoxLayout>
 
 #include <array>
@@ -177,6 +180,7 @@ CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
       documents_(new CaptureDocuments(bench, this)),
       shelf_(new MeshShelf(bench, this)),
       photographs_(new Photographs(bench, *documents_, this)),
+      raw_pictures_(new RawPictures(bench, this)),
       results_(new MeshResults(bench, *documents_, *shelf_, this)) {
   tab->installEventFilter(this);
   bench.viewer_area.canvas()->installEventFilter(this);
@@ -228,15 +232,26 @@ void CaptureController::followGantry() {
 
 void CaptureController::makePanel() {
   if (panel_) return;
-  panel_ = new CapturePanel(tab_);
+  auto* pages = new QTabWidget(tab_);
+  pages->setObjectName("capture.pages");
+  pages->setDocumentMode(true);
+  panel_ = new CapturePanel(pages);
+  QStringList mosaics;
+  for (const auto& each : names_of(capture::Mosaic{})) mosaics << QString(each.name);
+  auto* raw = new RawPicturePanel(mosaics, pages);
+  pages->addTab(panel_, tr("Photographs"));
+  pages->addTab(raw, tr("Raw picture"));
+  connect(raw_pictures_, &RawPictures::begun, pages,
+          [pages, raw] { pages->setCurrentWidget(raw); });
   auto* layout = new QVBoxLayout(tab_);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(panel_);
+  layout->addWidget(pages);
   connectObjects();
   connectPairs();
   connectResults();
   connectFiles();
   photographs_->attach(panel_->steps());
+  raw_pictures_->attach(raw);
   show();
   followGantry();
 }

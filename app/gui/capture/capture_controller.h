@@ -94,6 +94,7 @@ class CapturePanel;
 class MeshResults;
 class MeshShelf;
 class Photographs;
+class RawPictures;
 struct ReadMesh;
 
 /// Snaps picks in the center view to the nearest corner or blob. Caches the grey center view of the
@@ -111,7 +112,7 @@ class PickSnapper {
 };
 
 /// The Capture tab: objects with their meshes, picks on view and mesh, and the poses computed from
-/// them.
+/// them; on a page of its own, raw pictures.
 class CaptureController : public QObject {
   Q_OBJECT
 
@@ -129,6 +130,7 @@ class CaptureController : public QObject {
   void pickVertex(std::size_t vertex);
 
   [[nodiscard]] Photographs& photographs() { return *photographs_; }
+  [[nodiscard]] RawPictures& rawPictures() { return *raw_pictures_; }
   /// Work on the shown light field.
   [[nodiscard]] const CaptureWork& work() const;
   /// Pairs of the current object.
@@ -176,6 +178,7 @@ class CaptureController : public QObject {
   CaptureDocuments* documents_;
   MeshShelf* shelf_;
   Photographs* photographs_;
+  RawPictures* raw_pictures_;
   MeshResults* results_;
   CapturePanel* panel_ = nullptr;
   const void* shown_mesh_ = nullptr;  // to see whether it is another

@@ -30,39 +30,6 @@ class QWidget;
 namespace episcope {
 namespace {
 
-/// Values that are asked for in a dialog that blocks nothing.
-struct FormQuestion {
-  QString name;  ///< Of the dialog, as an object.
-  QString title;
-  QString accept;  ///< Text of the button that goes on.
-  std::vector<ParameterDescription> parameters;
-  ParameterSet values{};  ///< To begin with, in place of defaults.
-};
-
-// Calls `answer` with all values if the user confirms.
-void ask_for_values(QWidget* window, const FormQuestion& question,
-                    std::function<void(const ParameterSet&)> answer) {
-  auto* dialog = new QDialog(window);
-  dialog->setObjectName(question.name);
-  dialog->setWindowTitle(question.title);
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  auto* form = new ParameterForm(dialog);
-  form->setParameters(question.parameters);
-  form->setValues(question.values);
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, dialog);
-  auto* accept = buttons->addButton(question.accept, QDialogButtonBox::AcceptRole);
-  accept->setObjectName(question.name + ".accept");
-  accept->setDefault(true);
-  auto* layout = new QVBoxLayout(dialog);
-  layout->addWidget(form);
-  layout->addWidget(buttons);
-  QObject::connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
-  QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
-  QObject::connect(dialog, &QDialog::accepted, window,
-                   [form, answer = std::move(answer)] { answer(form->values()); });
-  dialog->open();
-}
-
 namespace fs = std::filesystem;
 
 std::vector<fs::path> paths_of(const QStringList& names) {
@@ -113,6 +80,29 @@ CaptureWork work_of(const GantryFolder& demo) {
 }
 
 }  // namespace
+
+void ask_for_values(QWidget* window, const FormQuestion& question,
+                    std::function<void(const ParameterSet&)> answer) {
+  auto* dialog = new QDialog(window);
+  dialog->setObjectName(question.name);
+  dialog->setWindowTitle(question.title);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  auto* form = new ParameterForm(dialog);
+  form->setParameters(question.parameters);
+  form->setValues(question.values);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, dialog);
+  auto* accept = buttons->addButton(question.accept, QDialogButtonBox::AcceptRole);
+  accept->setObjectName(question.name + ".accept");
+  accept->setDefault(true);
+  auto* layout = new QVBoxLayout(dialog);
+  layout->addWidget(form);
+  layout->addWidget(buttons);
+  QObject::connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
+  QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+  QObject::connect(dialog, &QDialog::accepted, window,
+                   [form, answer = std::move(answer)] { answer(form->values()); });
+  dialog->open();
+}
 
 Photographs::Photographs(const Workbench& bench, CaptureDocuments& documents, QObject* parent)
     : QObject(parent), bench_(bench), documents_(documents) {

@@ -8,6 +8,7 @@
 #include "engine/capture/demo_folder.h"
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/solve_pose.h"
+#include "engine/core/parameter.h"
 #include "widgets/canvas/canvas_geometry.h"
 #include "widgets/cloud/cloud_look.h"
 #include "widgets/panels/capture_panel.h"
@@ -64,6 +65,19 @@ class Photographs : public QObject {
   CaptureDocuments& documents_;
   PhotographSteps* steps_ = nullptr;
 };
+
+/// Values that are asked for in a dialog that blocks nothing.
+struct FormQuestion {
+  QString name;  ///< Of the dialog, as an object.
+  QString title;
+  QString accept;  ///< Text of the button that goes on.
+  std::vector<ParameterDescription> parameters;
+  ParameterSet values{};  ///< To begin with, in place of defaults.
+};
+
+/// Calls `answer` with all values if the user confirms.
+void ask_for_values(QWidget* window, const FormQuestion& question,
+                    std::function<void(const ParameterSet&)> answer);
 
 class Messages;
 

@@ -2,6 +2,7 @@
 #include "engine/capture/plenoptic/decode.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 
@@ -300,6 +301,9 @@ ViewGeometry geometry_of(const LensGrid& grid, const DecodeOptions& options, int
   g.step_px = options.step_px > 0 ? options.step_px : std::max(1.0, grid.pitch_px / kMostViews);
   const int room = static_cast<int>(grid.pitch_px / g.step_px + 1e-6);
   g.views = options.views > 0 ? options.views : std::max(1, room % 2 == 1 ? room : room - 1);
+  if (g.views % 2 == 0) {
+    throw InvalidInput(fmt::format("{} views have no center view; ask for an odd number", g.views));
+  }
   if ((g.views - 1) * g.step_px > grid.pitch_px) {
     throw InvalidInput(
         fmt::format("{} views at a step of {:.3g} px do not fit below lenses of "
@@ -483,6 +487,16 @@ void require_same(const RawPicture& raw, const RawPicture& other, const char* wh
   }
 }
 
+/// Says so if the lenses stand otherwise than the optics tell. The main lens spreads them a little.
+void check_pitch(const RawFacts& facts, Decoded& decoded) {
+  constexpr double kSpread = 0.1;
+  if (!facts.lens_pitch_um || !facts.pixel_pitch_um) return;
+  const double expected = *facts.lens_pitch_um / *facts.pixel_pitch_um;
+  if (std::abs(decoded.grid.pitch_px / expected - 1) < kSpread) return;
+  decoded.warnings.push_back(
+      fmt::format(finding_text("plenoptic.pitch"), decoded.grid.pitch_px, expected));
+}
+
 void drop_unneeded_mask(ViewStack<std::uint8_t>& valid, Decoded& decoded) {
   const std::size_t seen = static_cast<std::size_t>(
       std::count(valid.data(), valid.data() + valid.size(), std::uint8_t{1}));
@@ -492,6 +506,15 @@ void drop_unneeded_mask(ViewStack<std::uint8_t>& valid, Decoded& decoded) {
 
 }  // namespace
 
+Schema<DecodeOptions> decode_schema() {
+  return Schema<DecodeOptions>()
+      .integer("views", &DecodeOptions::views,
+               {"Views along each axis", "Odd; 0 = as many as a lens has room for"}, {0, 63})
+      .real("step", &DecodeOptions::step_px,
+            {"Step", "Between neighboring views below a lens; 0 = found", "px"}, {0, 1000})
+      .flag("linear", &DecodeOptions::is_linear, {"Linear", "Leave out the gamma of the camera"});
+}
+
 void require_matching(const PlenopticPictures& pictures) {
   if (pictures.white) require_same(pictures.raw, *pictures.white, "white");
   if (pictures.dark) require_same(pictures.raw, *pictures.dark, "dark");
@@ -500,7 +523,8 @@ void require_matching(const PlenopticPictures& pictures) {
 LensGrid find_lenses(const PlenopticPictures& pictures, const Progress& progress) {
   require_matching(pictures);
   const RawPicture& shown = pictures.white ? *pictures.white : pictures.raw;
-  return fit_lens_grid(evened(shown, pictures.dark, progress.part(0, 0.2)), progress.part(0.2, 1));
+  return fit_lens_grid(evened(shown, pictures.dark, progress.part(0, 0.2)), progress.part(0.2, 1),
+                       pictures.white ? LensLight::Even : LensLight::Scene);
 }
 
 Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,
@@ -509,11 +533,8 @@ Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,
   const RawPicture& raw = pictures.raw;
   Decoded decoded;
   decoded.grid = grid;
-  if (!pictures.white) {
-    decoded.warnings.emplace_back(
-        "without a white picture the lenses were found in the raw picture itself, and their "
-        "vignetting remains; give one with --white");
-  }
+  if (!pictures.white) decoded.warnings.emplace_back(finding_text("plenoptic.no_white"));
+  check_pitch(raw.facts, decoded);
   const ViewGeometry geometry =
       geometry_of(grid, options, raw.samples.height(), raw.samples.width());
   decoded.step_px = geometry.step_px;

@@ -5,6 +5,7 @@
 #include "engine/capture/plenoptic/raw_picture.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/core/schema.h"
 
 #include <optional>
 #include <string>
@@ -19,6 +20,8 @@ struct DecodeOptions {
   double step_px = 0;
   bool is_linear = false;  ///< Leave out the gamma of the camera.
 };
+
+[[nodiscard]] Schema<DecodeOptions> decode_schema();
 
 /// Pictures of one exposure. All are of one size and mosaic.
 struct PlenopticPictures {

@@ -3,6 +3,7 @@
 
 #include "engine/capture/plenoptic/white_pictures.h"
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/formats/write_scene.h"
@@ -61,7 +62,7 @@ void find_white(const PictureFiles& files, std::optional<RawPicture> own, FoundP
   RawPicture& raw = found.pictures.raw;
   if (files.white.empty() && own) {
     found.pictures.white = std::move(own);
-    found.notes.push_back("white picture: the one in the file of the raw picture");
+    found.notes.emplace_back(finding_text("plenoptic.white_inside"));
     return;
   }
   const fs::path path = files.white.empty() ? find_beside(files.raw, "white") : files.white;
@@ -77,7 +78,7 @@ void find_dark(const PictureFiles& files, FoundPictures& found) {
   if (path.empty()) return;
   found.pictures.dark = read_raw(path).raw;
   take_mosaic(*found.pictures.dark, files.mosaic);
-  found.notes.push_back("dark picture " + found.pictures.dark->name);
+  found.notes.push_back(fmt::format(finding_text("plenoptic.dark"), found.pictures.dark->name));
 }
 
 }  // namespace
@@ -119,14 +120,16 @@ RawFacts read_optics(const fs::path& path) {
 
 namespace {
 
+constexpr const char* kDecodedFrom = "decoded from ";
+
 /// Raw picture, lenses and facts in one line.
 std::string origin_text(const Decoded& decoded, const RawPicture& raw) {
   const LensGrid& grid = decoded.grid;
   std::string text = fmt::format(
-      "decoded from {}: {} lenses of {:.2f} px, turned by {:.3f}°, views {:.3g} px apart, {} "
+      "{}{}: {} lenses of {:.2f} px, turned by {:.3f}°, views {:.3g} px apart, {} "
       "samples",
-      raw.name, grid.lattice == LensLattice::Hexagonal ? "hexagonal" : "square", grid.pitch_px,
-      grid.rotation_degrees, decoded.step_px,
+      kDecodedFrom, raw.name, grid.lattice == LensLattice::Hexagonal ? "hexagonal" : "square",
+      grid.pitch_px, grid.rotation_degrees, decoded.step_px,
       decoded.is_gamma_encoded ? "gamma-encoded" : "linear");
   const auto facts = raw.facts.table();
   if (facts.empty()) return text;
@@ -147,6 +150,12 @@ Scene scene_of(const Decoded& decoded, const FoundPictures& found) {
   scene.convention.warnings = found.notes;
   std::ranges::copy(decoded.warnings, std::back_inserter(scene.convention.warnings));
   return scene;
+}
+
+bool is_decoded(const Scene& scene, const fs::path& input) {
+  const std::string suffix = suffix_of(input);
+  return (suffix == ".lfp" || suffix == ".lfr") &&
+         scene.convention.format.starts_with(kDecodedFrom);
 }
 
 Scene decode_files(const PictureFiles& files, const DecodeOptions& options,

@@ -42,6 +42,9 @@ struct FoundPictures {
 /// Its warnings begin with the notes of `found`.
 [[nodiscard]] Scene scene_of(const Decoded& decoded, const FoundPictures& found);
 
+/// Whether a scene is what `decode_files` makes of the container that it was opened from.
+[[nodiscard]] bool is_decoded(const Scene& scene, const std::filesystem::path& input);
+
 /// Reads, finds the lenses and decodes: all of it. Throws IoError, InvalidInput, Cancelled.
 [[nodiscard]] Scene decode_files(const PictureFiles& files, const DecodeOptions& options,
                                  const Progress& progress);

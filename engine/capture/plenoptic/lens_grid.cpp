@@ -28,6 +28,10 @@ constexpr int kLargestCrop = 1024;      // px, of the spectrum
 constexpr int kSmallestCrop = 64;
 constexpr int kPeriods = 5;               // the fewest that a crop shows
 constexpr std::size_t kMeasured = 60000;  // lenses; more add nothing to a polynomial
+constexpr double kOneLens = 0.95;         // radius around a lens, in pitches
+constexpr double kManyLenses = 16;
+constexpr int kSmooth = 11;  // px; edges of larger lenses remain
+constexpr std::size_t kMeasuredScene = 600;
 constexpr std::size_t kLensesForCubic = 300;
 constexpr double kFaintest = 0.002;      // amplitude of the lattice over the mean
 constexpr double kWorstResidual = 0.08;  // of the pitch
@@ -206,12 +210,27 @@ Lattice find_lattice(const Image<float>& picture) {
 
 // ---------------------------------------------------------------- the place of a single lens
 
+/// A picture over its means in squares of `size` px around each pixel: of a scene, mainly the
+/// lenses are left.
+Image<float> leveled(const Image<float>& picture, int size) {
+  const cv::Mat whole(picture.height(), picture.width(), CV_32F,
+                      const_cast<float*>(picture.data()));
+  cv::Mat means;
+  cv::blur(whole, means, {size, size}, {-1, -1}, cv::BORDER_REFLECT);
+  const double least = 0.05 * cv::mean(whole)[0] + 1e-9;
+  Image<float> result(picture.height(), picture.width());
+  cv::divide(whole, cv::max(means, least),
+             cv::Mat(picture.height(), picture.width(), CV_32F, result.data()));
+  return result;
+}
+
 /// Measures where the lens near a place stands: the phases of the base frequencies in a window
 /// around it. What is even within a pitch has no effect.
 class LensMeter {
  public:
-  LensMeter(const Image<float>& picture, const Lattice& lattice)
-      : picture_(picture), frequencies_(lattice.frequencies()), radius_(0.95 * lattice.a.norm()) {
+  /// `reach`: radius of the window, in pitches.
+  LensMeter(const Image<float>& picture, const Lattice& lattice, double reach)
+      : picture_(picture), frequencies_(lattice.frequencies()), radius_(reach * lattice.a.norm()) {
     Eigen::MatrixX2d rows(frequencies_.size(), 2);
     for (std::size_t k = 0; k < frequencies_.size(); ++k) {
       rows.row(static_cast<Eigen::Index>(k)) = frequencies_[k].transpose();
@@ -348,7 +367,7 @@ void fit_robustly(LensGrid& grid, std::vector<Measured>& lenses) {
 
 /// Grid positions within `reach` of the middle whose lens the picture can show, thinned out evenly.
 std::vector<Measured> places(const LensGrid& grid, const LensMeter& meter, const Vector2& middle,
-                             double reach) {
+                             double reach, std::size_t most_measured) {
   const int most = static_cast<int>(reach / std::min(grid.row_distance_px, grid.pitch_px)) + 2;
   std::vector<Measured> all;
   for (int j = -most; j <= most; ++j) {
@@ -361,9 +380,9 @@ std::vector<Measured> places(const LensGrid& grid, const LensMeter& meter, const
         all.push_back({i, double(j), place});
     }
   }
-  if (all.size() <= kMeasured) return all;
+  if (all.size() <= most_measured) return all;
   std::vector<Measured> some;
-  const double step = static_cast<double>(all.size()) / kMeasured;
+  const double step = static_cast<double>(all.size()) / static_cast<double>(most_measured);
   for (double k = 0; k < static_cast<double>(all.size()); k += step) {
     some.push_back(all[static_cast<std::size_t>(k)]);
   }
@@ -423,23 +442,30 @@ PlanePoint LensGrid::center(double i, double j) const {
   return at;
 }
 
-LensGrid fit_lens_grid(const Image<float>& picture, const Progress& progress) {
+LensGrid fit_lens_grid(const Image<float>& picture, const Progress& progress, LensLight light) {
   progress.step("finding the lenses");
-  const Lattice lattice = find_lattice(picture);
-  const LensMeter meter(picture, lattice);
+  const bool is_scene = light == LensLight::Scene;
+  const Lattice lattice = find_lattice(is_scene ? leveled(picture, kSmooth) : picture);
+  const Image<float> lenses =
+      is_scene ? leveled(picture, static_cast<int>(lattice.a.norm() / 2) | 1) : Image<float>();
   const Vector2 middle((picture.width() - 1) / 2.0, (picture.height() - 1) / 2.0);
+  const double room = 0.6 * std::min(middle.x(), middle.y()) / lattice.a.norm();
+  const LensMeter meter(is_scene ? lenses : picture, lattice,
+                        is_scene ? std::min(kManyLenses, room) : kOneLens);
   if (!meter.has_room(middle)) refuse("its strongest pattern is too coarse");
   LensGrid grid = first_guess(lattice, meter, middle);
   // A fit of a part predicts the next larger part to a fraction of the pitch.
   const double corner = middle.norm();
   for (double reach = 8 * grid.pitch_px;; reach *= 2) {
     const bool is_all = reach >= corner;
-    std::vector<Measured> lenses = measured(places(grid, meter, middle, reach), meter,
-                                            is_all ? progress : progress.part(0, 0));
-    if (lenses.size() < 6) refuse("too few lenses show");
-    if (is_all && lenses.size() >= kLensesForCubic) grid.degree = 3;
+    const std::size_t most = is_scene ? kMeasuredScene : kMeasured;
+    std::vector<Measured> centers = measured(places(grid, meter, middle, reach, most), meter,
+                                             is_all ? progress : progress.part(0, 0));
+    if (centers.size() < 6) refuse("too few lenses show");
+    // Of a scene, what is bent cannot be told from what texture disturbs.
+    if (is_all && !is_scene && centers.size() >= kLensesForCubic) grid.degree = 3;
     grid.scale = std::max(1.0, reach / grid.pitch_px);
-    fit_robustly(grid, lenses);
+    fit_robustly(grid, centers);
     describe(grid);
     if (is_all) break;
   }

@@ -34,12 +34,19 @@ struct LensGrid {
   [[nodiscard]] PlanePoint center(double i, double j) const;
 };
 
+/// What the lenses of a picture shade.
+enum class LensLight {
+  Even,  ///< A white area: each lens is measured by itself.
+  Scene  ///< A raw picture, whose texture is averaged out over many lenses around each.
+};
+
 /// Fits the grid of lenses to a picture in which each lens shows as a bright spot: a white picture,
 /// or a raw one whose vignetting shows the lenses. `picture`: one channel, colors evened out.
 /// The lattice is found in the spectrum of the middle; then each lens is measured by the phases of
 /// the lattice's base frequencies around it, and the polynomial fitted to all, without outliers.
 /// Throws InvalidInput for a picture without an array of lenses; Cancelled.
-[[nodiscard]] LensGrid fit_lens_grid(const Image<float>& picture, const Progress& progress);
+[[nodiscard]] LensGrid fit_lens_grid(const Image<float>& picture, const Progress& progress,
+                                     LensLight light = LensLight::Even);
 
 /// Lenses of a grid whose centers lie within a picture, at least `border` px from its edges: the
 /// largest upright block. Column c of row j is lens i = c − shift(j).

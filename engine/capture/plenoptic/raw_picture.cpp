@@ -192,14 +192,14 @@ FrameReferences references_of(const LfpContainer& container) {
 }
 
 RawFile raw_in(const LfpContainer& container) {
-  const FrameReferences frame = references_of(container);
-  const LfpSection* image = container.find(frame.image);
-  const LfpSection* metadata = container.find(frame.metadata);
-  if (!image || !metadata) {
+  if (!holds_raw(container)) {
     throw InvalidInput(
         "this container holds a processed picture, without what the sensor saw; "
         "choose the raw one, as the camera wrote it");
   }
+  const FrameReferences frame = references_of(container);
+  const LfpSection* image = container.find(frame.image);
+  const LfpSection* metadata = container.find(frame.metadata);
   const LfpSection* hidden = container.find(frame.private_metadata);
   const std::string private_text = hidden ? hidden->text() : std::string();
   RawFile file{raw_from_json(image->data, metadata->text(), private_text)};
@@ -382,6 +382,11 @@ RawPicture raw_from_json(ByteView samples, const std::string& metadata,
   }
   raw.samples = unpack(samples, packing, side_of(json, "height"), side_of(json, "width"));
   return raw;
+}
+
+bool holds_raw(const LfpContainer& container) {
+  const FrameReferences frame = references_of(container);
+  return container.find(frame.image) && container.find(frame.metadata);
 }
 
 RawFacts facts_from_json(const std::string& metadata) {

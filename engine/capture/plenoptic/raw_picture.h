@@ -80,6 +80,9 @@ struct RawFile {
 /// that do not fit the data, for a picture of several channels.
 [[nodiscard]] RawFile read_raw(const std::filesystem::path& path);
 
+/// Whether a container holds what the sensor saw. Throws InvalidInput if its table names no frame.
+[[nodiscard]] bool holds_raw(const LfpContainer& container);
+
 /// What the JSON of a camera says of a picture. Throws InvalidInput for what is no JSON.
 [[nodiscard]] RawFacts facts_from_json(const std::string& metadata);
 

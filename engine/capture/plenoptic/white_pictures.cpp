@@ -2,6 +2,7 @@
 #include "engine/capture/plenoptic/white_pictures.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/numbers.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
@@ -201,9 +202,8 @@ ChosenWhite choose(const fs::path& path, const RawPicture& raw) {
   ChosenWhite chosen;
   chosen.picture = raw_from_json(files.at(best.name)(), {text.begin(), text.end()}, {});
   chosen.picture.name = best.name;
-  chosen.reason =
-      fmt::format("white picture {} ({}) is the nearest of {} to the raw picture ({})", best.name,
-                  steps_text(best.facts), candidates.size(), steps_text(raw.facts));
+  chosen.reason = fmt::format(finding_text("plenoptic.white_nearest"), best.name,
+                              steps_text(best.facts), candidates.size(), steps_text(raw.facts));
   return chosen;
 }
 
@@ -221,10 +221,11 @@ ChosenWhite read_white(const fs::path& path, const RawPicture& raw) {
           "this camera",
           chosen.picture.facts.serial, raw.facts.serial));
     }
-    chosen.reason =
-        fmt::format("white picture {} ({}); the raw picture has {}", chosen.picture.name,
-                    steps_text(chosen.picture.facts), steps_text(raw.facts));
-    if (!chosen.picture.facts.zoom_step) chosen.reason = "white picture " + chosen.picture.name;
+    const RawFacts& facts = chosen.picture.facts;
+    chosen.reason = facts.zoom_step
+                        ? fmt::format(finding_text("plenoptic.white_steps"), chosen.picture.name,
+                                      steps_text(facts), steps_text(raw.facts))
+                        : fmt::format(finding_text("plenoptic.white"), chosen.picture.name);
     return chosen;
   } catch (const InvalidInput& error) {
     throw IoError(path, error.what());

@@ -33,3 +33,22 @@ expect("a sensor too small" 2 ERR "--size is 100x100" ARGS synthesize edge --cam
        -o small)
 expect("no effect" 2 ERR "--grid has no effect with --camera" ARGS synthesize edge --camera f01
        --grid 3x3 -o small)
+
+# A processed container, as bytes: a table and a depth map of 2×2 px.
+file(WRITE "${WORK}/depth" "AAAABBBBCCCCDDDD")
+file(SHA1 "${WORK}/depth" depth)
+file(WRITE "${WORK}/table" "{\"picture\":{\"frameArray\":[{\"frame\":{}}],\"width\":2,\"height\":2,\"depthMap\":{\"imageRef\":\"sha1-${depth}\"}}}")
+file(SHA1 "${WORK}/table" table)
+file(SIZE "${WORK}/table" bytes)
+execute_process(COMMAND sh -c "z='\\0\\0\\0\\0'; z35=\"$z$z$z$z$z$z$z$z\\0\\0\\0\"
+  section() { printf \"\\211LF$1\\r\\n\\032\\n$z\\0\\0\\0$(printf '\\\\%03o' $2)sha1-$3$z35\"; cat $4; }
+  { printf \"\\211LFP\\r\\n\\032\\n\\0\\0\\0\\1$z\"
+    section M ${bytes} ${table} table; head -c $(( (16 - ${bytes} % 16) % 16 )) /dev/zero
+    section C 16 ${depth} depth; } > a-dm.lfp"
+  WORKING_DIRECTORY "${WORK}")
+expect("a processed container is a picture" 0 OUT "1×1.*note.*depthMap of 2×2 px" ARGS info a-dm.lfp)
+expect("it has no light field" 2 ERR "depthMap of 2×2 px.*new folder" ARGS decode a-dm.lfp -o a.h5)
+expect("its files" 0 OUT "depthMap of 2×2 px" ARGS decode a-dm.lfp -o processed)
+if(NOT EXISTS "${WORK}/processed/depthMap.pfm")
+  message(FATAL_ERROR "no depth map was written")
+endif()

@@ -141,8 +141,6 @@ Brightness brightness(const LightField& field, const LightField& ideal) {
       }
     }
     if (seen * 2 < a.size() / a.channels()) continue;  // a dark corner
-    printf("%d,%d: %.3f (%.2f)\n", view.v, view.u, found / truth,
-           double(seen) / (a.size() / a.channels()));
     ratios.push_back(found / truth);
     found_all += found;
     truth_all += truth;

@@ -70,6 +70,13 @@ class PlenopticChainTest : public QObject {
     QVERIFY2(std::abs(errors.level - 1) <= 0.02, text.c_str());
   }
 
+  // Vignetting shows the lenses of the raw picture itself, to a fraction of a pixel.
+  void withoutWhitePicture_theLensesAreFound() {
+    const ChainErrors errors = chain_errors("demo", small_camera(capture::CameraModel::F01), false);
+    QVERIFY2(errors.center_px <= 0.5, errors.text().c_str());
+    QVERIFY(!errors.decoded.warnings.empty());
+  }
+
   void writtenPictures_areDecodedByTheirNames() {
     const QTemporaryDir folder;
     for (const auto& each : names_of(capture::CameraModel{})) {

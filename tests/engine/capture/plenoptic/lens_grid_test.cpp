@@ -134,6 +134,42 @@ class LensGridTest : public QObject {
     QVERIFY(std::abs(grid.rotation_degrees - degrees) < 0.02);
   }
 
+  // Texture disturbs single lenses; many around each tell where it is.
+  void lensesOfAScene_areFoundByTheirShading() {
+    const Array array{.pitch = 10.02, .degrees = 0.1, .width = 900, .height = 700};
+    Image<float> picture = picture_of(array);
+    for (int y = 0; y < array.height; ++y) {
+      for (int x = 0; x < array.width; ++x) {
+        const bool is_bright = (x / 37 + y / 29) % 2 == 0;
+        picture.at(y, x) *= static_cast<float>(is_bright ? 1 : 0.2) *
+                            static_cast<float>(1 + 0.3 * std::sin(0.21 * x + 0.13 * y));
+      }
+    }
+
+    const LensGrid grid = fit_lens_grid(picture, Progress(2), LensLight::Scene);
+
+    QCOMPARE(grid.lattice, LensLattice::Hexagonal);
+    const double error = rms_error(grid, array);
+    QVERIFY2(error <= 0.2, qPrintable(QString("off by %1 px rms").arg(error)));
+  }
+
+  void pitchOfTheOptics_isChecked() {
+    PlenopticPictures pictures;
+    const Array array;
+    const Image<float> light = picture_of({.noise = 0});
+    pictures.raw.samples = Image<std::uint16_t>(array.height, array.width);
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      pictures.raw.samples.data()[i] = static_cast<std::uint16_t>(20000 * light.data()[i]);
+    }
+    pictures.white = pictures.raw;
+    pictures.raw.facts.pixel_pitch_um = 1.4;
+    for (const double lens_pitch_um : {14.0, 20.0}) {
+      pictures.raw.facts.lens_pitch_um = lens_pitch_um;
+      const Decoded decoded = decode(pictures, find_lenses(pictures, Progress(2)), {}, Progress(2));
+      QCOMPARE(decoded.warnings.size(), std::size_t(lens_pitch_um == 20 ? 1 : 0));
+    }
+  }
+
   void threads_changeNothing() {
     const Image<float> picture = picture_of({});
     const LensGrid one = fit_lens_grid(picture, Progress(1)),
