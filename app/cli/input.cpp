@@ -78,9 +78,16 @@ void declare_map_options(Arguments& arguments, ParameterOptions& options) {
 
 io::MapReading map_reading(const ParameterOptions& options) {
   const io::MapReading reading = io::map_schema().parse(options.values());
-  if (reading.scale != 0) return reading;
-  throw UsageError(
-      "--map-scale is 0, which makes every value 0; give what one stored unit is in px");
+  if (reading.scale == 0) {
+    throw UsageError(
+        "--map-scale is 0, which makes every value 0; give what one stored unit is in px");
+  }
+  try {
+    static_cast<void>(io::missing_values(reading));
+  } catch (const InvalidInput& error) {
+    throw UsageError(error.what());
+  }
+  return reading;
 }
 
 void require_no_map_options(const ParameterOptions& options, const std::string& input) {

@@ -3,6 +3,8 @@
 
 #include "engine/core/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,6 +59,22 @@ void add_ids(std::span<const std::int32_t> labels, std::set<std::int32_t>& ids) 
 }
 
 }  // namespace
+
+std::string other_numbers_text(const LabelingScores& scores) {
+  const auto share_of = [](const LabelingScores& of) {
+    return of.all_views.all.judged() > 0 ? of.all_views.all.share() : of.view.all.share();
+  };
+  const std::optional<double> as_numbered = share_of(scores);
+  const LabelingScores other = matched(scores, {}, {});
+  if (!as_numbered || !other.is_by_overlap) return {};
+  const double by_overlap = share_of(other).value_or(0);
+  if (1 - by_overlap > 0.5 * (1 - *as_numbered)) return {};
+  return fmt::format(
+      "{:.2f} % of the pixels have the number of their true label, but {:.2f} % do once labels are "
+      "matched by overlap: the strokes number them otherwise than GT_LABELS; give --colors TABLE "
+      "or strokes with those numbers",
+      100 * *as_numbered, 100 * by_overlap);
+}
 
 std::string unknown_labels_text(const Scribbles& scribbles, const ViewStack<std::int32_t>& truth) {
   if (truth.empty()) return {};

@@ -41,6 +41,10 @@ struct LabelingScores {
 [[nodiscard]] LabelingScores matched(LabelingScores scores, const std::vector<LabelInfo>& given,
                                      const std::vector<LabelInfo>& truth);
 
+/// Sentence with both numbers if far more is right once labels are matched by overlap, as after
+/// strokes whose numbers were chosen anew; else empty.
+[[nodiscard]] std::string other_numbers_text(const LabelingScores& scores);
+
 /// Sentence about painted ids that true labels do not have, which can only be wrong; empty if there
 /// are none, or no truth.
 [[nodiscard]] std::string unknown_labels_text(const Scribbles& scribbles,

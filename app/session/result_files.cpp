@@ -19,6 +19,7 @@
 #include "engine/io/formats/tiff_pages.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/models/external_result.h"
+#include "engine/io/models/map_padding.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/stored_maps.h"
@@ -241,7 +242,10 @@ std::optional<io::BetterReading> find_better_reading(const Estimate& estimate, c
   if (!has_truth) return io::find_better_reading(estimate.field.view(*view), evidence);
   const ShownDisparity shown(truth.view(*view), light_field.valid_of(*view));
   evidence.truth = shown.view();
-  return io::find_better_reading(estimate.field.view(*view), evidence);
+  auto better = io::find_better_reading(estimate.field.view(*view), evidence);
+  // This program writes NaN where nothing is known: a value that many pixels have ends its range.
+  const bool is_own = !estimate.version.empty();
+  return better && is_own && !better->reading.missing.empty() ? std::nullopt : std::move(better);
 }
 
 std::string poor_fit_text(const Estimate& estimate, const Scene& scene) {

@@ -289,6 +289,8 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
       judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
                      *scene.truth, disparity.field.get(), progress.part(1, 1)),
       seconds, std::move(written)};
+  const std::string other_numbers = other_numbers_text(answer.scores);
+  if (!other_numbers.empty()) job.note(other_numbers);
   job.finish();
   request.is_json ? print_json_answer(request, answer, job) : print_text_answer(request, answer);
 }

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -156,6 +157,12 @@ DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
   DisparityField field;
   field.disparity = read_laid_out<float>(file, map.name, layout,
                                          layout.has_one_view() ? grid.center() : ViewIndex{});
+  for (const char* name : {"_FillValue", "missing_value"}) {  // of netCDF and xarray
+    const auto none = file.number(map.name, name);
+    if (none)
+      std::replace(field.disparity.data(), field.disparity.data() + field.disparity.size(),
+                   static_cast<float>(*none), std::numeric_limits<float>::quiet_NaN());
+  }
   mark_invalid(field);
   return field;
 }

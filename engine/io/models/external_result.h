@@ -19,8 +19,9 @@ inline constexpr const char* kMapForms =
 /// `.npy` of two or four axes, an `.npz` or MATLAB file with one such array, or an HDF5 file with
 /// one 2-D or 4-D dataset of float samples, in the order of axes that it states
 /// (`stated_map_layout`). Of several arrays, the only one named like disparity is meant. A 2-D map
-/// belongs to the center view of `grid`. Values that are not finite become invalid pixels. Throws
-/// IoError with one sentence, also for an `.npz` or MATLAB file with a light field.
+/// belongs to the center view of `grid`. Values that are not finite, and those that an HDF5 file
+/// states as `_FillValue` or `missing_value`, become invalid pixels. Throws IoError with one
+/// sentence, also for an `.npz` or MATLAB file with a light field.
 [[nodiscard]] DisparityField read_disparity_map(const std::filesystem::path& path, GridShape grid);
 
 /// Reads a result of another program: a file as above, or a folder of the 2016 submission form

@@ -3,16 +3,18 @@
 
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
+#include "engine/core/text.h"
 #include "engine/io/models/order/warp_check.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <span>
+#include <string_view>
 #include <vector>
 
 namespace episcope::io {
@@ -32,6 +34,13 @@ constexpr double kClearlyBetter = 0.9;
 constexpr double kLeastCompared = 0.5;
 /// How much better the views must fit the map as it is to speak against another reading.
 constexpr double kContradicts = 1.1;
+
+/// A value that stands for no estimate: share of the pixels that have it, how far it lies beyond
+/// all others, in their spread, and how much farther from the truth than they are.
+constexpr double kLeastMissing = 0.001;
+constexpr double kFarBeyond = 0.5;
+constexpr double kFarFromTruth = 4;
+constexpr float kUsualMissing[] = {0, -1};
 
 constexpr double kLargestScale = 1e5;
 constexpr int kWidestBorder = 1 << 12;
@@ -97,6 +106,15 @@ DisparityField read_maps_so(const DisparityField& field, const MapReading& readi
   return read;
 }
 
+/// Makes the pixels that have one of these values invalid.
+void mark_missing(const std::vector<float>& values, DisparityField& field) {
+  if (values.empty() || field.empty()) return;
+  field.require_mask();
+  for (std::size_t i = 0; i < field.disparity.size(); ++i) {
+    if (std::ranges::count(values, field.disparity.data()[i]) > 0) field.valid.data()[i] = 0;
+  }
+}
+
 }  // namespace
 
 Names<MapFlip> names_of(MapFlip) {
@@ -141,12 +159,33 @@ Schema<MapReading> map_schema() {
                 "px"},
                {0, kWidestBorder})
       .choice("map-crop", &R::crop,
-              {"Part of maps", "Part of maps larger than the views that belongs to the views"});
+              {"Part of maps", "Part of maps larger than the views that belongs to the views"})
+      .text("map-missing", &R::missing,
+            {"Missing values of maps",
+             "Stored values, between commas, that stand for no estimate: -1 or 0,9999"});
   return schema;
 }
 
 ParameterSet given_options(const MapReading& reading) {
   return map_schema().changed_values(reading);
+}
+
+std::vector<float> missing_values(const MapReading& reading) {
+  std::vector<float> values;
+  std::string_view rest = reading.missing;
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const std::string_view text = trimmed(rest.substr(0, comma));
+    double value = 0;
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size()) {
+      throw InvalidInput(fmt::format(
+          "--map-missing: '{}' is no number; give values between commas, as -1 or 0,9999", text));
+    }
+    values.push_back(static_cast<float>(value));
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return values;
 }
 
 std::string reading_text(const MapReading& reading) {
@@ -165,6 +204,9 @@ std::string reading_text(const MapReading& reading) {
   }
   if (reading.crop == MapCrop::Corner) parts.emplace_back("the upper left of padded maps");
   if (reading.crop == MapCrop::Middle) parts.emplace_back("the middle of padded maps");
+  if (!reading.missing.empty()) {
+    parts.push_back(fmt::format("{} taken as no estimate", reading.missing));
+  }
   return fmt::format("{}", fmt::join(parts, " and "));
 }
 
@@ -223,6 +265,9 @@ MapTarget target_of(const MapReading& reading, const LightField* light_field, in
 void apply_reading(const MapReading& reading, const LightField* light_field, Estimate& estimate) {
   if (reading == MapReading{}) return;
   require_possible(reading, light_field, estimate);
+  const std::vector<float> missing = missing_values(reading);
+  mark_missing(missing, estimate.field);
+  mark_missing(missing, estimate.second);
   const ViewStack<float>& maps = estimate.field.disparity;
   const MapTarget target = reading.is_transposed
                                ? target_of(reading, light_field, maps.width(), maps.height())
@@ -478,6 +523,81 @@ std::optional<double> mse_100(const DisparityView& map, const MapReading& readin
   return 100 * sum / static_cast<double>(count);
 }
 
+/// Values that many pixels have exactly: the usual ones for no estimate, and the least and the
+/// largest if it lies far beyond all others.
+std::vector<float> possible_missing(const DisparityView& map) {
+  std::vector<float> all;
+  for (int y = 0; y < map.disparity.height; ++y) {
+    for (int x = 0; x < map.disparity.width; ++x) {
+      if (map.is_valid(y, x)) all.push_back(map.disparity.at(y, x));
+    }
+  }
+  std::ranges::sort(all);
+  const auto enough =
+      static_cast<std::ptrdiff_t>(std::max(4.0, kLeastMissing * static_cast<double>(all.size())));
+  std::vector<float> values;
+  const auto add = [&](float value) {
+    const auto same = std::ranges::equal_range(all, value);
+    if (std::ssize(same) >= enough && std::ranges::count(values, value) == 0) {
+      values.push_back(value);
+    }
+  };
+  if (all.empty()) return {};
+  const auto low = std::ranges::equal_range(all, all.front());
+  const auto high = std::ranges::equal_range(all, all.back());
+  if (low.end() == all.end()) return {};
+  const float spread = high.begin() > low.end() ? *(high.begin() - 1) - *low.end() : 0;
+  const auto is_far = [spread](float gap) { return gap > kFarBeyond * spread; };
+  if (is_far(*low.end() - all.front())) add(all.front());
+  if (is_far(all.back() - *(high.begin() - 1))) add(all.back());
+  for (const float value : kUsualMissing) add(value);
+  return values;
+}
+
+/// A map of which the pixels of one value are set apart.
+struct SplitMap {
+  DisparityField rest;
+  DisparityField missing;
+
+  SplitMap(const DisparityView& map, float value)
+      : rest(DisparityField::unknown({1, 1}, map.disparity.height, map.disparity.width, {})),
+        missing(DisparityField::unknown({1, 1}, map.disparity.height, map.disparity.width, {})) {
+    for (int y = 0; y < map.disparity.height; ++y) {
+      for (int x = 0; x < map.disparity.width; ++x) {
+        if (!map.is_valid(y, x)) continue;
+        DisparityField& part = map.disparity.at(y, x) == value ? missing : rest;
+        part.disparity.view({}).at(y, x) = map.disparity.at(y, x);
+        part.valid.view({}).at(y, x) = 1;
+      }
+    }
+  }
+};
+
+/// A reading by which the pixels of one value stand for no estimate, and its errors without them.
+std::optional<BetterReading> found_with_missing(const DisparityView& map,
+                                                const MapEvidence& evidence,
+                                                const MapTarget& target, double most_mse_100) {
+  std::optional<BetterReading> best;
+  for (const float value : possible_missing(map)) {
+    const SplitMap parts(map, value);
+    const DisparityView rest = parts.rest.view({});
+    MapReading reading = found_by_truth(rest, evidence, target).value_or(MapReading{});
+    const TruthPoints points(evidence.truth);
+    const double error = points.error(rest, reading, target);
+    if (!(error < kFarBetterByTruth * points.constant_error())) continue;
+    const auto apart = mse_100(parts.missing.view({}), reading, evidence.truth, target);
+    const double least = std::max(kSmallError_px, kFarFromTruth * error);
+    if (!apart || *apart < 100 * least * least) continue;
+    const auto mse = mse_100(rest, reading, evidence.truth, target);
+    if (!mse || *mse > kFarBetterByTruth * most_mse_100) continue;
+    most_mse_100 = *mse;
+    const auto warped = WarpedViews(evidence, target).errors(rest, reading);
+    reading.missing = fmt::format("{:.9g}", value);
+    best = BetterReading{reading, {}, {mse, warped ? std::optional(warped->warped) : std::nullopt}};
+  }
+  return best;
+}
+
 }  // namespace
 
 bool BetterReading::is_contradicted() const {
@@ -492,15 +612,22 @@ std::optional<BetterReading> find_better_reading(const DisparityView& map,
   const bool has_truth = !evidence.truth.disparity.empty();
   const auto found =
       has_truth ? found_by_truth(map, evidence, target) : found_by_views(map, evidence, target);
-  if (!found) return std::nullopt;
-  const WarpedViews views(evidence, target);
   const auto errors_of = [&](const MapReading& reading) {
     MapErrors errors;
     if (has_truth) errors.mse_100 = mse_100(map, reading, evidence.truth, target);
-    if (const auto warped = views.errors(map, reading)) errors.grey_levels = warped->warped;
+    const auto warped = WarpedViews(evidence, target).errors(map, reading);
+    if (warped) errors.grey_levels = warped->warped;
     return errors;
   };
-  return BetterReading{*found, errors_of({}), errors_of(*found)};
+  std::optional<BetterReading> better;
+  if (found) better = BetterReading{*found, {}, errors_of(*found)};
+  if (has_truth) {
+    const MapReading reading = found.value_or(MapReading{});
+    const auto known = mse_100(map, reading, evidence.truth, target);
+    if (auto more = found_with_missing(map, evidence, target, known.value_or(0))) better = more;
+  }
+  if (better) better->as_read = errors_of({});
+  return better;
 }
 
 std::optional<PoorFit> find_poor_fit(const DisparityView& map, const DisparityView& truth) {
@@ -524,170 +651,6 @@ std::optional<PoorFit> find_poor_fit(const DisparityView& map, const DisparityVi
   }
   const PoorFit fit{100 * errors / count, 100 * (squares - sum * sum / count) / count};
   return fit.mse_100 > kPoor * fit.constant_mse_100 ? std::optional(fit) : std::nullopt;
-}
-
-namespace {
-
-struct PaddedPlace {
-  int y = 0;
-  int x = 0;
-  const char* text = "";
-};
-
-/// Whether all of a map outside the place is invalid or of the value in the last corner.
-bool is_padding(const DisparityView& map, const PaddedPlace& place, int height, int width) {
-  const ImageView<const float>& values = map.disparity;
-  std::optional<float> padding;
-  for (int y = 0; y < values.height; ++y) {
-    for (int x = 0; x < values.width; ++x) {
-      const bool is_inside =
-          y >= place.y && y < place.y + height && x >= place.x && x < place.x + width;
-      if (is_inside || !map.is_valid(y, x)) continue;
-      if (!padding) padding = values.at(y, x);
-      if (values.at(y, x) != *padding) return false;
-    }
-  }
-  return true;
-}
-
-template <class T>
-ViewStack<T> cut(const ViewStack<T>& stack, const PaddedPlace& place, int height, int width) {
-  if (stack.empty()) return {};
-  ViewStack<T> part(stack.grid(), height, width, 1, stack.first());
-  for (int i = 0; i < stack.grid().count(); ++i) {
-    const ViewIndex view = stack.view_at(i);
-    for (int y = 0; y < height; ++y) {
-      std::copy_n(stack.view(view).row(place.y + y) + place.x, width, part.view(view).row(y));
-    }
-  }
-  return part;
-}
-
-/// The widest border that is taken for one that maps lack.
-int widest_border(int height, int width) {
-  return std::min(height, width) / 8;
-}
-
-/// Calls `visit(y, x)` for the pixels that are `depth` away from the border.
-template <class Visit>
-void visit_ring(int height, int width, int depth, Visit visit) {
-  const int bottom = height - 1 - depth, right = width - 1 - depth;
-  for (int x = depth; x <= right; ++x) {
-    visit(depth, x);
-    if (bottom > depth) visit(bottom, x);
-  }
-  for (int y = depth + 1; y < bottom; ++y) {
-    visit(y, depth);
-    if (right > depth) visit(y, right);
-  }
-}
-
-/// How much of a ring has this value.
-double share_of(const DisparityView& map, int depth, float value) {
-  double all = 0, alike = 0;
-  visit_ring(map.disparity.height, map.disparity.width, depth, [&](int y, int x) {
-    all += 1;
-    alike += map.is_valid(y, x) && map.disparity.at(y, x) == value ? 1 : 0;
-  });
-  return alike / all;
-}
-
-/// Width of a frame of one value, which ends at once; 0 if there is none.
-int frame_width(const DisparityView& map) {
-  constexpr int least = 2;
-  constexpr double few = 0.1;
-  if (!map.is_valid(0, 0)) return 0;
-  const float value = map.disparity.at(0, 0);
-  const int widest = widest_border(map.disparity.height, map.disparity.width);
-  int width = 0;
-  while (width <= widest && share_of(map, width, value) == 1) ++width;
-  if (width < least || width > widest) return 0;
-  return share_of(map, width, value) <= few ? width : 0;
-}
-
-/// Width of the frame that is equal in every map, or 0.
-int common_frame(const DisparityField& field) {
-  const ViewStack<float>& maps = field.disparity;
-  const int first = frame_width(field.view(maps.view_at(0)));
-  for (int i = 1; first > 0 && i < maps.grid().count(); ++i) {
-    if (frame_width(field.view(maps.view_at(i))) != first) return 0;
-  }
-  return first;
-}
-
-/// The maps in the middle of larger ones, whose border of `border` px is invalid.
-DisparityField framed(const DisparityField& field, int border) {
-  const ViewStack<float>& maps = field.disparity;
-  const int height = maps.height() + 2 * border, width = maps.width() + 2 * border;
-  DisparityField result = DisparityField::unknown(maps.grid(), height, width, maps.first());
-  for (int i = 0; i < maps.grid().count(); ++i) {
-    const ViewIndex view = maps.view_at(i);
-    const DisparityView in = field.view(view);
-    for (int y = 0; y < maps.height(); ++y) {
-      std::copy_n(in.disparity.row(y), maps.width(),
-                  result.disparity.view(view).row(y + border) + border);
-      for (int x = 0; x < maps.width(); ++x) {
-        result.valid.view(view).at(y + border, x + border) = in.is_valid(y, x) ? 1 : 0;
-      }
-    }
-  }
-  return result;
-}
-
-void make_border_invalid(DisparityField& field, int border) {
-  const ViewStack<float>& maps = field.disparity;
-  field.require_mask();
-  for (int i = 0; i < maps.grid().count(); ++i) {
-    const auto valid = field.valid.view(maps.view_at(i));
-    for (int depth = 0; depth < border; ++depth) {
-      visit_ring(maps.height(), maps.width(), depth, [&](int y, int x) { valid.at(y, x) = 0; });
-    }
-  }
-}
-
-}  // namespace
-
-BareBorder find_bare_border(DisparityField& field, int height, int width) {
-  const int high = field.disparity.height(), wide = field.disparity.width();
-  if (high == height && wide == width) {
-    const int border = common_frame(field);
-    if (border == 0) return {};
-    make_border_invalid(field, border);
-    return {border, fmt::format("A border of {} px has one value only and counts as padding; {}×{} "
-                                "px are used.",
-                                border, wide - 2 * border, high - 2 * border)};
-  }
-  const int lacking = height - high;
-  const bool fits = lacking > 0 && lacking == width - wide && lacking % 2 == 0 &&
-                    lacking / 2 <= widest_border(height, width);
-  if (!fits) return {};
-  field = framed(field, lacking / 2);
-  return {lacking / 2, fmt::format("The maps of {}×{} px are taken for the middle of {}×{} px.",
-                                   wide, high, width, height)};
-}
-
-std::string remove_padding(DisparityField& field, int height, int width) {
-  const int high = field.disparity.height();
-  const int wide = field.disparity.width();
-  if (high < height || wide < width || (high == height && wide == width)) return {};
-  const PaddedPlace places[] = {{(high - height) / 2, (wide - width) / 2, "on all sides"},
-                                {0, 0, "on the right and below"}};
-  const auto fits = [&](const PaddedPlace& place) {
-    for (int i = 0; i < field.disparity.grid().count(); ++i) {
-      const DisparityView map = field.view(field.disparity.view_at(i));
-      if (!is_padding(map, place, height, width)) return false;
-    }
-    return true;
-  };
-  // Of one row or column too many, half is none: both places are the same.
-  const bool is_one = places[0].y == places[1].y && places[0].x == places[1].x;
-  const auto different = std::span(places).subspan(is_one ? 1 : 0);
-  if (std::ranges::count_if(different, fits) != 1) return {};
-  const PaddedPlace place = *std::ranges::find_if(different, fits);
-  field.valid = cut(field.valid, place, height, width);
-  field.disparity = cut(field.disparity, place, height, width);
-  return fmt::format("The maps of {}×{} px are padded {} with a constant; {}×{} px are used.", wide,
-                     high, place.text, width, height);
 }
 
 }  // namespace episcope::io

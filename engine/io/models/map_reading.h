@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace episcope::io {
 
@@ -35,23 +36,29 @@ struct MapReading {
   /// (`border_px`, `border_px`) of a view. Only the middle of the views is judged.
   int border_px = 0;
   MapCrop crop = MapCrop::None;  ///< Maps that are larger than the views, as networks pad them.
+  /// Stored values, between commas, that stand for no estimate: "-1" or "0,9999". Empty = none.
+  std::string missing = {};
 
   friend bool operator==(const MapReading&, const MapReading&) = default;
 };
 
 /// Schema of the options, one row each: `map-transpose`, `map-flip`, `map-scale`, `map-values`,
-/// `map-border`, `map-crop`.
+/// `map-border`, `map-crop`, `map-missing`.
 [[nodiscard]] Schema<MapReading> map_schema();
 
 /// Options that differ from reading a map as it is, by key.
 [[nodiscard]] ParameterSet given_options(const MapReading& reading);
+
+/// Its stored values that stand for no estimate. Throws InvalidInput if they are no numbers.
+[[nodiscard]] std::vector<float> missing_values(const MapReading& reading);
 
 /// What a reading changes, for sentences: "rows and columns exchanged and values times 0.01".
 [[nodiscard]] std::string reading_text(const MapReading& reading);
 
 /// Reads all maps of an estimate so. `light_field` tells size and camera; null = it is not known.
 /// Throws InvalidInput for a scale of 0, for an estimate in two layers, for a border, a part or
-/// depth if the light field or its camera is not known, and for a part of maps smaller than views.
+/// depth if the light field or its camera is not known, for a part of maps smaller than views, and
+/// for missing values that are no numbers.
 void apply_reading(const MapReading& reading, const LightField* light_field, Estimate& estimate);
 
 /// What the map of one view is compared with.
@@ -81,7 +88,9 @@ struct BetterReading {
 
 /// Looks for a reading of a map in the ways in which people err: rows and columns exchanged,
 /// reversed, negated, another scale, depth instead of disparity, and a map without a border
-/// that lies in the upper left corner, with nothing beside it. With truth, the mean absolute error
+/// that lies in the upper left corner, with nothing beside it. So does a value that stands for no
+/// estimate: one that many pixels have, far beyond all others or 0 or -1, where the truth is not
+/// near it. With truth, the mean absolute error
 /// decides, over all combinations of turns and values: it must be less than half of the error as
 /// read, and of the error of the best constant. Without, the views decide alone, over turns with
 /// either sign, and values of maps that are not turned: the error of the next views must be below
@@ -103,25 +112,5 @@ struct PoorFit {
 /// Precondition: map and truth have one size.
 [[nodiscard]] std::optional<PoorFit> find_poor_fit(const DisparityView& map,
                                                    const DisparityView& truth);
-
-/// Crops maps that networks have padded to the size of the views. The padding must be evident:
-/// equal on all sides, or right and below, and in every map of one value or invalid. Returns a
-/// sentence about what was cut off; empty if the maps fit already or the padding is not evident.
-[[nodiscard]] std::string remove_padding(DisparityField& field, int height, int width);
-
-/// A border of the views for which maps have no values.
-struct BareBorder {
-  int width_px = 0;  ///< On each side; 0 = the maps fill the views, or do not fit.
-  std::string note;  ///< Says so; empty if the maps fill the views.
-};
-
-/// Finds the part of the views that maps cover, if it is evident, and makes the pixels around it
-/// invalid:
-/// - maps that lack the same even number of rows and columns, as convolutions without padding leave
-///   them (490×490 px for 512×512), are put into the middle;
-/// - in maps of the size of the views, a frame of one value in every map, at least two pixels wide,
-///   is taken for padding if at most a tenth of the ring within has that value. The border is at
-///   most an eighth of the shorter side wide.
-[[nodiscard]] BareBorder find_bare_border(DisparityField& field, int height, int width);
 
 }  // namespace episcope::io

@@ -6,7 +6,7 @@
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/external_result.h"
-#include "engine/io/models/map_reading.h"
+#include "engine/io/models/map_padding.h"
 #include "engine/io/models/names/view_folders.h"
 
 #include <fmt/format.h>

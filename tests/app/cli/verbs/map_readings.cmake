@@ -47,6 +47,23 @@ foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
   expect("show ${file} as told" 0 ARGS show ${file} --truth lf.h5 -o told_${file}.png ${option})
 endforeach()
 
+# A number where nothing is known: told with both numbers, too.
+expect("the truth as text" 0 ARGS convert lf.h5 truth.csv)
+file(READ "${WORK}/truth.csv" rows)
+string(REPEAT "-1," 63 missing)
+string(FIND "${rows}" "\n" end)
+string(SUBSTRING "${rows}" ${end} -1 rows)
+file(WRITE "${WORK}/missing.csv" "${missing}-1${rows}")
+expect("evaluate it" 0 ERR "missing.csv: the map fits the truth far better with -1 taken as no estimate .*; if it is stored so, add --map-missing=-1\n"
+       ARGS evaluate missing.csv --truth lf.h5 --json)
+json_is("${out}" "--map-missing=-1" results 0 better_reading options)
+json_near("${out}" 0 0.0001 results 0 better_reading mse_100)
+expect("evaluate it as told" 0 ERR "have no value" ARGS evaluate missing.csv --truth lf.h5 --map-missing=-1 --json)
+json_near("${out}" 0 0.0001 results 0 mse_100_present)
+json_absent("${out}" results 0 better_reading)
+expect("no number" 2 ERR "--map-missing: 'x' is no number; give values between commas"
+       ARGS evaluate missing.csv --truth lf.h5 --map-missing=x)
+
 # Of another scene: no reading helps, and both numbers say so. What was estimated from these samples
 # is not doubted.
 expect("another scene" 0 ARGS synthesize edge -o edge.h5 --views 3x3 --size 64x64)

@@ -53,7 +53,25 @@ class ViewReviewTest : public QObject {
   void strip_hasTheLabelsOfItsLines();
   void strip_ofALabelThatIsNotSeen_isEmpty();
   void masks_ofOneView_areWrittenWithANameForAnyFileSystem();
+  void otherNumbers_areToldWithBothShares();
 };
+
+void ViewReviewTest::otherNumbers_areToldWithBothShares() {
+  const Labeled f;
+  const ViewStack<std::int32_t>& truth = f.scene.truth->labels;
+  ViewStack<std::int32_t> turned = truth.clone();
+  for (std::size_t i = 0; i < turned.size(); ++i) turned.data()[i] = turned.data()[i] % 3 + 1;
+  const auto judged = [&](const ViewStack<std::int32_t>& labels) {
+    return judge_labeling(labels, kView, truth, *f.scene.truth, nullptr, Progress());
+  };
+
+  const QString text = QString::fromStdString(other_numbers_text(judged(turned)));
+
+  QVERIFY2(
+      text.startsWith("0.00 % of the pixels have the number of their true label, but 100.00 %"),
+      qPrintable(text));
+  QVERIFY(other_numbers_text(judged(truth)).empty());
+}
 
 void ViewReviewTest::labels_areCountedAndMeasured() {
   const Labeled f;

@@ -187,6 +187,49 @@ class MapReadingTest : public QObject {
     QVERIFY(!fit || fit->mse_100 > 0.5 * fit->constant_mse_100);
   }
 
+  /// Other programs write a number where they know nothing, some of them within the range.
+  void valuesForNoEstimate_areSeenByTheTruth_data() {
+    QTest::addColumn<double>("value");
+    QTest::addColumn<MapReading>("mistake");
+    QTest::newRow("0") << 0.0 << MapReading{.missing = "0"};
+    QTest::newRow("-1") << -1.0 << MapReading{.missing = "-1"};
+    QTest::newRow("9999") << 9999.0 << MapReading{.missing = "9999"};
+    QTest::newRow("hundredths, -32768")
+        << -32768.0 << MapReading{.scale = 0.01, .missing = "-32768"};
+    QTest::newRow("mirrored, 1e10") << 1e10 << MapReading{.flip = MapFlip::X, .missing = "1e+10"};
+  }
+  void valuesForNoEstimate_areSeenByTheTruth() {
+    QFETCH(double, value);
+    QFETCH(MapReading, mistake);
+    Estimate estimate = spoilt(mistake);
+    const auto map = estimate.field.disparity.view(center());
+    for (int i = 0; i < kSide; ++i) map.at((7 * i) % kSide, (11 * i + 5) % kSide / 4) = value;
+
+    const auto found = better(estimate, true);
+
+    QVERIFY(found.has_value());
+    QCOMPARE(QString::fromStdString(io::reading_text(found->reading)),
+             QString::fromStdString(io::reading_text(mistake)));
+    QVERIFY(*found->better.mse_100 < 0.1);
+    QVERIFY(*found->as_read.mse_100 > 2 * *found->better.mse_100);
+    io::apply_reading(found->reading, scene_.light_field.get(), estimate);
+    const auto left_out = std::count(estimate.field.valid.data(),
+                                     estimate.field.valid.data() + estimate.field.valid.size(), 0);
+    // A few good pixels have the value by chance.
+    QVERIFY(left_out >= kSide && left_out < kSide + 8);
+    QVERIFY(!better(estimate, true));
+  }
+
+  /// A value that many pixels have may be right, or the end of a range.
+  void valuesOfManyPixels_areNotDoubtedWhereTheyFit() {
+    const Estimate quantized =
+        map_of([&](int y, int x) { return std::round(10 * good(y, x)) / 10; });
+    const Estimate cut = map_of([&](int y, int x) { return std::max(good(y, x), -0.2); });
+
+    QVERIFY(!better(quantized, true));
+    QVERIFY(!better(cut, true));
+  }
+
   /// Where truth and views do not agree, the truth may be the one that is wrong.
   void views_speakAgainstAWrongTruth() {
     const Estimate right = spoilt({});
@@ -245,13 +288,13 @@ class MapReadingTest : public QObject {
 
     for (const MapReading& reading :
          {MapReading{.scale = 0}, MapReading{.values = MapValues::Depth},
-          MapReading{.border_px = 1}}) {
+          MapReading{.border_px = 1}, MapReading{.missing = "-1,none"}}) {
       QVERIFY_THROWS_EXCEPTION(InvalidInput, io::apply_reading(reading, nullptr, estimate));
     }
   }
 
   void givenOptions_areReadBack() {
-    const MapReading reading{true, MapFlip::X, -0.01, MapValues::Depth, 3, MapCrop::Middle};
+    const MapReading reading{true, MapFlip::X, -0.01, MapValues::Depth, 3, MapCrop::Middle, "0,-1"};
 
     QVERIFY(io::given_options(MapReading{}).empty());
     QVERIFY(io::map_schema().parse(io::given_options(reading)) == reading);

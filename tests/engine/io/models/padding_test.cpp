@@ -2,7 +2,7 @@
 #include "engine/core/error.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/models/external_result.h"
-#include "engine/io/models/map_reading.h"
+#include "engine/io/models/map_padding.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>

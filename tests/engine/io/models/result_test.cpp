@@ -438,6 +438,26 @@ class ResultTest : public QObject {
     }
   }
 
+  /// As netCDF and xarray write them.
+  void statedMissingValues_areHonored() {
+    for (const char* attribute : {"_FillValue", "missing_value"}) {
+      io::AtomicFile target(path("stated.h5"));
+      io::Hdf5Output out(target);
+      out.add_dataset<float>("map", {2, 2}, "", "");
+      const std::vector<float> values{0.5F, -999, 0, 1};
+      out.write("map", {{0, 0}, {2, 2}}, values.data());
+      out.set_number("map", attribute, -999.0);
+      out.close();
+      target.commit();
+
+      const Estimate read = io::read_result(path("stated.h5"), kGrid);
+
+      const DisparityView map = read.field.view(kGrid.center());
+      QVERIFY(!map.is_valid(0, 1));
+      QVERIFY(map.is_valid(0, 0) && map.is_valid(1, 0) && map.is_valid(1, 1));
+    }
+  }
+
   void statedAxesOfAllViews_areHonored() {
     std::vector<float> stored(2 * 3 * 5 * 3);
     std::iota(stored.begin(), stored.end(), 0.0F);
