@@ -24,6 +24,17 @@ std::string new_name(const std::vector<EstimateEntry>& entries, const std::strin
   });
 }
 
+EstimateEntry* entry_in(OpenScene& scene, int id) {
+  const auto found = std::ranges::find(scene.estimates, id, &EstimateEntry::id);
+  return found == scene.estimates.end() ? nullptr : &*found;
+}
+
+Parts everything() {
+  return Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
+         Part::CrossHair | Part::Focus | Part::TrueLabels | Part::Scenes | Part::Tone |
+         Part::LabelLook | Part::Measured | Part::Capture | Part::Live | Part::Judged;
+}
+
 }  // namespace
 
 Session::Session(JobRunner::Post post)
@@ -80,8 +91,7 @@ bool Session::is_comparing(const OpenScene& scene) const {
 }
 
 void Session::remove_estimate(int id) {
-  const auto found = std::find_if(now_->estimates.begin(), now_->estimates.end(),
-                                  [&](const EstimateEntry& entry) { return entry.id == id; });
+  const auto found = std::ranges::find(now_->estimates, id, &EstimateEntry::id);
   if (found == now_->estimates.end()) return;
   const auto next = now_->estimates.erase(found);
   evaluations_.forget(id);
@@ -110,55 +120,43 @@ void Session::restore_estimate(EstimateEntry entry, std::size_t place) {
   show_estimate(id);
 }
 
-EstimateEntry* Session::entry_of(int id) {
-  const auto found = std::ranges::find(now_->estimates, id, &EstimateEntry::id);
-  return found == now_->estimates.end() ? nullptr : &*found;
-}
-
-OpenScene* Session::scene_with(int estimate) const {
-  const auto found = std::ranges::find_if(scenes_, [&](const auto& scene) {
-    return std::ranges::count(scene->estimates, estimate, &EstimateEntry::id) > 0;
-  });
-  return found == scenes_.end() ? nullptr : found->get();
+void Session::edit(int id, const std::function<bool(OpenScene&, EstimateEntry&)>& edit) {
+  for (const auto& scene : scenes_) {
+    EstimateEntry* entry = entry_in(*scene, id);
+    if (entry && edit(*scene, *entry)) changed(Part::Estimates);
+  }
 }
 
 void Session::rename_estimate(int id, const std::string& name) {
-  OpenScene* scene = scene_with(id);
-  if (!scene || name.empty()) return;
-  EstimateEntry& entry = *std::ranges::find(scene->estimates, id, &EstimateEntry::id);
-  if (name == entry.name) return;
-  entry.name = new_name(scene->estimates, name);
-  changed(Part::Estimates);
+  edit(id, [&](OpenScene& scene, EstimateEntry& entry) {
+    if (name.empty() || name == entry.name) return false;
+    entry.name = new_name(scene.estimates, name);
+    return true;
+  });
 }
 
 void Session::set_note(int id, const std::string& note) {
-  OpenScene* scene = scene_with(id);
-  if (!scene) return;
-  EstimateEntry& entry = *std::ranges::find(scene->estimates, id, &EstimateEntry::id);
-  if (note == entry.note) return;
-  entry.note = note;
-  changed(Part::Estimates);
+  edit(id,
+       [&](OpenScene&, EstimateEntry& entry) { return std::exchange(entry.note, note) != note; });
 }
 
 void Session::set_foreign_file(int id, const std::filesystem::path& file) {
-  OpenScene* scene = scene_with(id);
-  if (!scene) return;
-  std::ranges::find(scene->estimates, id, &EstimateEntry::id)->foreign_file = file;
-  changed(Part::Estimates);
+  edit(id, [&](OpenScene&, EstimateEntry& entry) {
+    entry.foreign_file = file;
+    return true;
+  });
 }
 
 void Session::mark_saved(int id) {
-  for (const auto& scene : scenes_) {
-    const auto found = std::ranges::find(scene->estimates, id, &EstimateEntry::id);
-    if (found != scene->estimates.end()) found->is_saved = true;
-  }
+  edit(id, [](OpenScene&, EstimateEntry& entry) {
+    entry.is_saved = true;
+    return false;  // nothing shows it
+  });
 }
 
 const EstimateEntry* Session::find_estimate(int id) const {
   if (const EstimateEntry* tried = live(); tried && tried->id == id) return tried;
-  const auto found = std::find_if(now_->estimates.begin(), now_->estimates.end(),
-                                  [&](const EstimateEntry& entry) { return entry.id == id; });
-  return found == now_->estimates.end() ? nullptr : &*found;
+  return entry_in(*now_, id);
 }
 
 void Session::set_live(EstimateEntry entry, std::uint64_t scene) {
@@ -195,7 +193,7 @@ void Session::see(EstimateEntry& entry) {
 }
 
 void Session::show_estimate(int id) {
-  EstimateEntry* entry = entry_of(id);
+  EstimateEntry* entry = entry_in(*now_, id);
   if (id == now_->shown || !entry) return;
   see(*entry);
   if (const EstimateEntry* other = compared();
@@ -207,7 +205,7 @@ void Session::show_estimate(int id) {
 }
 
 void Session::compare_with(int id) {
-  EstimateEntry* entry = entry_of(id);
+  EstimateEntry* entry = entry_in(*now_, id);
   if (!entry) return;
   if (live()) return show_estimate(id);
   see(*entry);
@@ -370,30 +368,6 @@ std::shared_ptr<const DisparityField> Session::known_disparity(ViewIndex view) c
   const auto& of_labels = now_->label_disparity;
   return of_labels && of_labels->contains(view) ? of_labels : nullptr;
 }
-
-namespace {
-
-Parts everything() {
-  return Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
-         Part::CrossHair | Part::Focus | Part::TrueLabels | Part::Scenes | Part::Tone |
-         Part::LabelLook | Part::Measured | Part::Capture | Part::Live | Part::Judged;
-}
-
-// The light field may have become another since the place was looked at.
-ScenePlace within(const LightField& light_field, ScenePlace place) {
-  const int height = light_field.height(), width = light_field.width();
-  if (!light_field.grid().contains(place.view)) place.view = light_field.center();
-  place.cross_hair = {std::clamp(place.cross_hair.y, 0, height - 1),
-                      std::clamp(place.cross_hair.x, 0, width - 1)};
-  JudgedPart& judged = place.judged;
-  judged.rectangle = clipped(judged.rectangle, height, width);
-  if (judged.rectangle.empty() && judged.pixels == JudgedPixels::Rectangle) {
-    judged.pixels = JudgedPixels::Whole;
-  }
-  return place;
-}
-
-}  // namespace
 
 void Session::open(std::shared_ptr<const Scene> scene, std::string input) {
   const auto place = std::ranges::find(scenes_, now_->id, &OpenScene::id) - scenes_.begin();

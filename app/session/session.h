@@ -208,12 +208,12 @@ class Session {
   void deliver();
   void show_nothing();
   [[nodiscard]] OpenScene* open_scene(std::uint64_t id) const;
-  [[nodiscard]] EstimateEntry* entry_of(int id);
+  /// Edits an estimate of any open scene, and reports it if the edit says so.
+  void edit(int id, const std::function<bool(OpenScene&, EstimateEntry&)>& edit);
   /// Whether two results of the scene are on screen together.
   [[nodiscard]] bool is_comparing(const OpenScene& scene) const;
   /// The user has chosen it.
   void see(EstimateEntry& entry);
-  [[nodiscard]] OpenScene* scene_with(int estimate) const;
 
   JobRunner::Post post_;
   std::vector<Listener> listeners_;
