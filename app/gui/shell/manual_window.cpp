@@ -119,6 +119,7 @@ ManualWindow::ManualWindow(QWidget* parent)
   }
   words_->setObjectName("manual.search");
   words_->setPlaceholderText(tr("Search the manual"));
+  words_->setAccessibleName(words_->placeholderText());
   words_->setClearButtonEnabled(true);
   row->addWidget(words_, 1);
   auto* layout = new QVBoxLayout(this);
