@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace episcope {
@@ -46,6 +47,19 @@ std::size_t byte_size(const OpenScene& scene) {
     }
   }
   return bytes;
+}
+
+ScenePlace within(const LightField& light_field, ScenePlace place) {
+  const int height = light_field.height(), width = light_field.width();
+  if (!light_field.grid().contains(place.view)) place.view = light_field.center();
+  place.cross_hair = {std::clamp(place.cross_hair.y, 0, height - 1),
+                      std::clamp(place.cross_hair.x, 0, width - 1)};
+  JudgedPart& judged = place.judged;
+  judged.rectangle = clipped(judged.rectangle, height, width);
+  if (judged.rectangle.empty() && judged.pixels == JudgedPixels::Rectangle) {
+    judged.pixels = JudgedPixels::Whole;
+  }
+  return place;
 }
 
 namespace {

@@ -135,6 +135,9 @@ struct OpenScene {
   std::uint64_t last_used = 0;  ///< Larger = later.
 };
 
+/// The place, moved into a light field that may have become another since it was looked at.
+[[nodiscard]] ScenePlace within(const LightField& light_field, ScenePlace place);
+
 /// Bytes of memory that the maps of an estimate take.
 [[nodiscard]] std::size_t byte_size(const Estimate& estimate);
 /// Bytes of memory that the samples, the truth and the estimates of a scene take, about.

@@ -29,6 +29,12 @@ EstimateEntry* entry_in(OpenScene& scene, int id) {
   return found == scene.estimates.end() ? nullptr : &*found;
 }
 
+Parts everything() {
+  return Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
+         Part::CrossHair | Part::Focus | Part::TrueLabels | Part::Scenes | Part::Tone |
+         Part::LabelLook | Part::Measured | Part::Capture | Part::Live | Part::Judged;
+}
+
 }  // namespace
 
 Session::Session(JobRunner::Post post)
@@ -302,30 +308,6 @@ std::shared_ptr<const DisparityField> Session::known_disparity(ViewIndex view) c
   const auto& of_labels = now_->label_disparity;
   return of_labels && of_labels->contains(view) ? of_labels : nullptr;
 }
-
-namespace {
-
-Parts everything() {
-  return Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
-         Part::CrossHair | Part::Focus | Part::TrueLabels | Part::Scenes | Part::Tone |
-         Part::LabelLook | Part::Measured | Part::Capture | Part::Live | Part::Judged;
-}
-
-// The light field may have become another since the place was looked at.
-ScenePlace within(const LightField& light_field, ScenePlace place) {
-  const int height = light_field.height(), width = light_field.width();
-  if (!light_field.grid().contains(place.view)) place.view = light_field.center();
-  place.cross_hair = {std::clamp(place.cross_hair.y, 0, height - 1),
-                      std::clamp(place.cross_hair.x, 0, width - 1)};
-  JudgedPart& judged = place.judged;
-  judged.rectangle = clipped(judged.rectangle, height, width);
-  if (judged.rectangle.empty() && judged.pixels == JudgedPixels::Rectangle) {
-    judged.pixels = JudgedPixels::Whole;
-  }
-  return place;
-}
-
-}  // namespace
 
 void Session::open(std::shared_ptr<const Scene> scene, std::string input) {
   const auto place = std::ranges::find(scenes_, now_->id, &OpenScene::id) - scenes_.begin();

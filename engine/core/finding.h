@@ -36,7 +36,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"run.gpu", "computed on {}"},
     {"run.cpu", "computed on the CPU: {}"},
     {"run.early", "ended early"},
-    {"run.propagated", "carried to all views from {} of them"},
+    {"run.propagated", "propagated to all views from {} of them"},
     {"run.evened", "brightness of the views, which differs by up to {:.1f} %, was evened out"},
     {"run.weights", "weights of {}, hash {}"},
     {"gap", "largest relative duality gap {:.1e}"},
@@ -87,7 +87,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"brightness.differs",
      "The brightness of the views differs by up to {:.1f} % (view {}: {:.3f}); methods even it "
      "out, --equalize for pictures as well, --no-equalize for none.",
-     "Brightness differs by %1 %; methods even it out"},
+     "Brightness differs by %1 %"},
     {"gain.same", "the same in all views"},
     {"gain.differs", "differs by up to {:.1f} % (view {}: {:.3f})"},
     {"gain.evened", "evened out; it differed by up to {:.1f} % (view {}: {:.3f})"},
@@ -107,7 +107,24 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"valid.corners",
      "The corners of the views are black, {:.1f} % of their pixels, as a lens cuts them off; they "
      "are marked as not valid.",
-     "Black corners, %1 % of the pixels, do not count."},
+     "Black corners (%1 %) do not count."},
+    // Views that cannot be read, or are unlike the others; what follows are findings of their own.
+    {"views.unusable", "{} cannot be used: {}. {}", "%1 cannot be used."},
+    {"views.unusable_others", "Nor can {} other views. {}"},
+    {"views.unlike", "this view has {}, but {} has {}"},
+    {"exif.all",
+     "All views state that they are stored {} (Exif orientation {}): they are shown upright, with "
+     "rows and columns of pixels to match.",
+     "The views were turned upright."},
+    {"exif.film",
+     "The film states that its pictures are stored {} (Exif orientation {}): they are shown "
+     "upright, "
+     "with rows and columns of pixels to match.",
+     "The pictures of the film were turned upright."},
+    {"exif.different",
+     "The views state {} different orientations (Exif), {} of {} orientation {}: all are taken as "
+     "they are stored; if the camera was turned, turn the pictures before.",
+     "Orientations (Exif) differ."},
     // Samples.
     {"samples.bits",
      "No sample of the views exceeds {} of 65535: they are taken as samples of {} bits. --levels "
@@ -133,6 +150,13 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "Samples are divided by %2"},
     {"samples.not_finite", "{} of {} samples of the views are NaN or infinite; they are read as 0.",
      "%1 samples are NaN or infinite"},
+    {"samples.y_cb_cr",
+     "By its name {} holds Y, Cb and Cr: they were taken as those of {} and turned into colors.",
+     "Y, Cb, Cr are turned into colors."},
+    {"samples.fourth",
+     "The fourth channel of {} is left out: it is no weight of pixels, for {}. If it is depth or "
+     "disparity, store it as an array of its own, as disparity or depth.",
+     "The fourth channel is left out."},
     // Order of views; near and far.
     {"order.swapped", "Rows and columns of views seem to be swapped: {}.",
      "Rows and columns of views seem to be swapped."},
@@ -140,7 +164,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "The check favors another order of views."},
     {"order.unexpected",
      "The order of views is \"{}\" and not \"{}\", which was expected because {}.",
-     "The order of views is \"%1\"."},
+     "The views were reordered: %1."},
     {"order.line",
      "Points move across the line of views as well: by {:.2f} px between views {} apart, beside "
      "{:.2f} px along it. This may be a film of a camera that zooms or turns, or views that are "
@@ -173,20 +197,32 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "the truth fits this order of views, and negated the opposite one; nothing tells which is "
      "right"},
     {"sign.few_views", "occlusion cannot be seen in fewer than three views in a row"},
+    {"sign.larger_hide", "larger values are nearer: they {}"},
+    {"sign.smaller_hide", "smaller values are nearer: they {}"},
+    {"sign.larger", "larger values are nearer, by {}"},
+    {"sign.smaller", "smaller values are nearer, by {}"},
+    {"sign.hiding",
+     "hide others in other views (grey error {:.2f}, the hidden ones {:.2f}, {} pairs)"},
+    {"sign.by_order",
+     "no depth edges tell near from far: the sign is the one that leaves the views in the order in "
+     "which they are stored"},
     {"sign.no_edges", "no depth edges with clear occlusion: {} points for this order, {} against"},
     // Truth.
     {"truth.unchecked",
-     "The values of the truth could not be checked: one disparity for all explains the views as "
+     "The values of the ground truth could not be checked: one disparity for all explains the "
+     "views as "
      "well, or better (where both differ, in {} squares of the view, the truth is better by "
      "{:.1f} standard deviations of chance).",
      "The ground truth could not be checked."},
     {"truth.poor",
-     "The truth hardly explains the views: warped by it, they differ by {} grey levels along {}, "
-     "the other way by {} and unwarped by {}; check the truth, and dH, focalLength and shift if it "
-     "was stored as depth.",
+     "The ground truth hardly explains the views: warped by it, they differ by {} grey levels "
+     "along "
+     "{}, the other way by {} and unwarped by {}; check it, and dH, focalLength and shift if it "
+     "was "
+     "stored as depth.",
      "The ground truth hardly explains the views."},
     {"truth.turned",
-     "The truth was stored with {}, as comparing it with the views shows; it was put right.",
+     "The ground truth was stored with {}, as comparing it with the views shows; it was put right.",
      "The ground truth was turned."},
     {"truth.rows_reversed", "rows from bottom to top"},
     {"truth.columns_reversed", "columns from right to left"},
@@ -220,7 +256,53 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "ignored.",
      "No depth at %2 % of the pixels of %1"},
     {"depth.by_warping", "this warps the views onto each other best ({} grey levels)"},
+    // Maps beside views: their unit, and what is left out.
+    {"map.unknown_value",
+     "{} is {:.7g} at {:.3g} % of its pixels, which the views contradict ({}): no disparity is "
+     "known there.",
+     "%1 is unknown at %3 % of the pixels."},
+    {"map.error_there", "grey error {:.2f} there, {:.2f} elsewhere"},
+    {"map.leads_out", "it leads out of the picture"},
+    {"map.unused",
+     "{} is not used ({}): save disparity in px per view step as .npy, .pfm or float .tif.",
+     "%1 is not used."},
+    {"map.damaged", "{} of {} {} are left out. {}.", "%1 of %2 maps are left out."},
+    {"map.border",
+     "A border of {} px has one value only and counts as padding; {}×{} px are used."},
+    {"map.middle", "The maps of {}×{} px are taken for the middle of {}×{} px."},
+    {"map.padded", "The maps of {}×{} px are padded {} with a constant; {}×{} px are used."},
+    {"units.warp", "mean grey error of neighboring views after warping {}, unwarped {}"},
+    {"units.warp_stored",
+     "mean grey error of neighboring views after warping {}, unwarped {}, with the values as "
+     "stored "
+     "{}"},
+    {"units.fit", "{:.1f} % of the depth map agree within 0.01 px with d = {:.6g}/Z {} {:.6g}"},
+    {"units.camera", "the camera follows from disparity and depth"},
     // Files.
+    {"dataset.left_out", "{} {}: left out."},
+    {"companion.ignored", "The file of {} is ignored: {}.", "The file of %1 is ignored."},
+    {"attribute.unlike",
+     "The attribute {} says {}, but LF has {} along that axis; the shape of LF is used.",
+     "The attribute %1 does not fit."},
+    {"config.sign",
+     "disp_min and disp_max of {} have the other sign than the truth, in which larger values are "
+     "nearer; they were negated.",
+     "disp_min and disp_max were negated."},
+    {"config.no_number", "{}: {}, which is not a number; it is not used."},
+    {"config.size", "{} of {} is {}, but the views have {} px; the size of the views is used.",
+     "The image size of %2 is not used."},
+    {"config.grid",
+     "{} promises {}×{} views, but the files are {}×{}; correct num_cams_x and num_cams_y.",
+     "%2×%3 views are promised, %4×%5 are there."},
+    {"config.camera", "The camera of {} is ignored: {}.", "The camera is ignored."},
+    {"config.missing", "{} is missing; add it"},
+    {"frames.gap", "The frame number {} is missing; frames are counted without it.",
+     "Frame %1 is missing."},
+    {"conventions.unused", "The conventions that you set for this file were not used: {}",
+     "Your conventions were not used."},
+    {"labels.raised_files",
+     "Labels start at 0 in these files: all labels are raised by one, so that 0 means none.",
+     "Labels are raised by one."},
     {"labels.raised",
      "Labels start at 0 in this file and unpainted pixels are marked by another value: all labels "
      "are raised by one, so that 0 means unpainted.",
@@ -242,6 +324,11 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "The names number {} {}: the grid is subsampled, and disparities are per {} steps of the "
      "numbers.",
      "The grid is subsampled: every %3th view"},
+    {"views.arranged", "The views are not {}×{}, row by row, but {}: {}.", "The views are %3."},
+    {"views.axes_unclear",
+     "The views differ too little to tell rows from columns of views; if they are exchanged, state "
+     "the axes as {}.",
+     "Rows and columns may be exchanged."},
     {"views.uneven", "The names number {} {}: they are taken for neighbors at equal distances.",
      "Views are numbered with gaps."},
     {"views.begin", "Rows begin at {} and columns at {}: perhaps a {} of views is missing.",

@@ -489,7 +489,7 @@ Schema<PlaneParameters> plane_pm_schema() {
              "corners, where there are any"})
       .flag("silhouettes", &P::silhouettes,
             {"Place silhouettes",
-             "Beside jumps, take the median of the surroundings, weighted by likeness of color"})
+             "At depth jumps, take the median of the neighbors, weighted by similarity of color"})
       .part(&P::islands, island_schema())
       .search("smoothness", {0.75, 1.5, 3})
       .search("rounds", {0, 1, 2});
@@ -505,7 +505,7 @@ Estimator plane_pm_estimator() {
   return make_estimator<PlaneParameters>(
       {.id = "plane_pm",
        .name = "PLANE_PM",
-       .summary = "Multi-view stereo over visible views, refined by TGV, carried to all views",
+       .summary = "Multi-view stereo over visible views, refined by TGV, propagated to all views",
        .reference = "Own; builds on Kolmogorov 2006 [Kol06] and Bredies et al. 2010 [BKP10]",
        .all_views = true,
        .iterative = true,

@@ -4,6 +4,7 @@
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 
+#include <QContextMenuEvent>
 #include <QGuiApplication>
 #include <QMouseEvent>
 #include <QPaintEvent>
@@ -203,12 +204,23 @@ void EpiPane::mouseReleaseEvent(QMouseEvent* event) {
   if (was_left && drawing_) {
     if (measured_px_) emit disparityMeasured(*measured_px_);
   } else if (was_left) {
-    const QPointF point = epiAt(press_position_);
+    const int row = static_cast<int>(epiAt(press_position_).y());
     clearMeasurement();
-    const int pixel = static_cast<int>(std::floor(point.x()));
-    if (pixel < 0 || pixel >= epi_.width()) return;
-    emit positionClicked(pixel, std::clamp(static_cast<int>(point.y()), 0, epi_.height() - 1));
+    if (const auto pixel = pixelAt(press_position_)) {
+      emit positionClicked(*pixel, std::clamp(row, 0, epi_.height() - 1));
+    }
   }
+}
+
+std::optional<int> EpiPane::pixelAt(QPointF position) const {
+  const int pixel = static_cast<int>(std::floor(epiAt(position).x()));
+  return pixel >= 0 && pixel < epi_.width() ? std::optional(pixel) : std::nullopt;
+}
+
+void EpiPane::contextMenuEvent(QContextMenuEvent* event) {
+  const auto pixel = epi_.isNull() ? std::nullopt : pixelAt(event->pos());
+  if (!pixel) return event->ignore();
+  emit menuRequested(*pixel, event->globalPos());
 }
 
 namespace {

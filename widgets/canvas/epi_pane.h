@@ -69,6 +69,8 @@ class EpiPane : public QWidget {
   void disparityMeasured(double disparity_px);
   /// The user clicked a pixel along the image axis and a row (u or v).
   void positionClicked(int pixel, int row);
+  /// A menu is wanted for a pixel along the image axis, at a place of the screen.
+  void menuRequested(int pixel, QPoint place);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -76,6 +78,7 @@ class EpiPane : public QWidget {
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
 
  private:
   /// Whether the image axis is horizontal.
@@ -83,6 +86,8 @@ class EpiPane : public QWidget {
   /// Converts a transform between the orientations of canvas and pane.
   [[nodiscard]] CanvasTransform turned(const CanvasTransform& transform) const;
   [[nodiscard]] QPointF epiAt(QPointF position) const;
+  /// Pixel along the image axis at a widget position; none outside.
+  [[nodiscard]] std::optional<int> pixelAt(QPointF position) const;
   /// Line through the cross-hair over all rows, in EPI coordinates.
   [[nodiscard]] QLineF epiLine(double disparity_px) const;
   [[nodiscard]] QLineF slopeLine(double disparity_px) const;

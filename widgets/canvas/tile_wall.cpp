@@ -69,6 +69,7 @@ ViewCanvas* TileWall::addTile() {
   });
   connect(tile, &ViewCanvas::centerRequested, this, [this, index] { emit opened(ids_[index]); });
   connect(tile, &ViewCanvas::focusRequested, this, &TileWall::focusRequested);
+  connect(tile, &ViewCanvas::menuRequested, this, &TileWall::menuRequested);
   connect(tile, &ViewCanvas::cursorMoved, this, &TileWall::cursorMoved);
   connect(tile, &ViewCanvas::spaceTapped, this, &TileWall::spaceTapped);
   connect(tile, &ViewCanvas::focusStepped, this, &TileWall::focusStepped);

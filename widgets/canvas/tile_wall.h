@@ -55,6 +55,7 @@ class TileWall : public QScrollArea {
   void opened(quint64 id);
   void crossHairRequested(episcope::PixelIndex pixel);
   void focusRequested(episcope::PixelIndex pixel);
+  void menuRequested(episcope::PixelIndex pixel, QPoint place);
   void cursorMoved(std::optional<episcope::PixelIndex> pixel);
   void spaceTapped();
   void focusStepped(double steps);

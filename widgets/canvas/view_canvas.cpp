@@ -494,21 +494,6 @@ void ViewCanvas::updateMark() {
   update(mark_rect_);
 }
 
-void ViewCanvas::paintMark(QPainter& painter) const {
-  const bool is_in_use = gesture_ == Gesture::None || gesture_ == Gesture::Tool;
-  if (tool_ && cursor_ && is_in_use && !space_held_) {
-    tool_->paintMark(painter, *cursor_, transform_.scale);
-  }
-}
-
-void ViewCanvas::paintShape(QPainter& painter) const {
-  if (!tool_) return;
-  const QPointF origin = transform_.to_widget(QPointF(0, 0), size());
-  QTransform widget_from_image = QTransform::fromTranslate(origin.x(), origin.y());
-  widget_from_image.scale(transform_.scale, transform_.scale);
-  tool_->paintShape(painter, widget_from_image);
-}
-
 bool ViewCanvas::pressTool(QPointF position, Qt::MouseButton button,
                            Qt::KeyboardModifiers modifiers, bool is_double) {
   const bool is_painting = tool_ && (button == Qt::LeftButton || button == Qt::RightButton) &&

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/canvas/canvas_geometry.h"
+#include "widgets/canvas/canvas_tool.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
@@ -8,6 +9,7 @@
 #include <QLineF>
 #include <QPaintEvent>
 #include <QPainter>
+#include <QTransform>
 
 #include <algorithm>
 #include <cmath>
@@ -275,6 +277,21 @@ void ViewCanvas::paintMarks(QPainter& painter) const {
     }
   }
   painter.restore();
+}
+
+void ViewCanvas::paintMark(QPainter& painter) const {
+  const bool is_in_use = gesture_ == Gesture::None || gesture_ == Gesture::Tool;
+  if (tool_ && cursor_ && is_in_use && !space_held_) {
+    tool_->paintMark(painter, *cursor_, transform_.scale);
+  }
+}
+
+void ViewCanvas::paintShape(QPainter& painter) const {
+  if (!tool_) return;
+  const QPointF origin = transform_.to_widget(QPointF(0, 0), size());
+  QTransform widget_from_image = QTransform::fromTranslate(origin.x(), origin.y());
+  widget_from_image.scale(transform_.scale, transform_.scale);
+  tool_->paintShape(painter, widget_from_image);
 }
 
 }  // namespace episcope

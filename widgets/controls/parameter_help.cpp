@@ -21,12 +21,12 @@ namespace episcope {
 QString parameter_help(const ParameterDescription& description) {
   const QString domain = domain_text(description);
   QStringList facts;
-  if (!domain.isEmpty()) facts << ParameterHelp::tr("Range %1").arg(domain);
+  if (!domain.isEmpty()) facts << ParameterHelp::tr("Range %1").arg(with_minus(domain));
   facts << ParameterHelp::tr("Default %1").arg(value_text(description, description.default_value));
   return QString("<p><b>%1</b></p><p>%2</p><p>%3<br/><code>--%4</code></p>")
       .arg(schema_text(description.label).toHtmlEscaped(),
            schema_text(description.help).toHtmlEscaped(), facts.join(" · ").toHtmlEscaped(),
-           QString::fromStdString(description.key).toHtmlEscaped());
+           QString::fromStdString(description.key).replace('_', '-').toHtmlEscaped());
 }
 
 namespace {
@@ -174,33 +174,53 @@ using Draw = void (*)(const Canvas&);
 struct Picture {
   std::string_view key;
   Draw draw;
+  const char* caption;
 };
 
 constexpr std::string_view kRange = "range";
+constexpr const char* kSlopes =
+    QT_TRANSLATE_NOOP("episcope::ParameterHelp",
+                      "An EPI, a row for each view: points move along lines of these slopes.");
+constexpr const char* kWindow = QT_TRANSLATE_NOOP(
+    "episcope::ParameterHelp", "The weight of each neighbor; a bar is a pixel, or a view.");
+constexpr const char* kSmoothing =
+    QT_TRANSLATE_NOOP("episcope::ParameterHelp",
+                      "Disparity along a row of pixels: grey as measured, blue as smoothed.");
+constexpr const char* kFalloff = QT_TRANSLATE_NOOP(
+    "episcope::ParameterHelp", "How strongly neighbors are smoothed, from equal to unlike colors.");
+constexpr const char* kCap =
+    QT_TRANSLATE_NOOP("episcope::ParameterHelp",
+                      "The cost of a difference, 0 in the middle: blue grows no more at the cap.");
+constexpr const char* kPower = QT_TRANSLATE_NOOP(
+    "episcope::ParameterHelp", "The weight of an estimate, from no to full confidence.");
+constexpr const char* kLabels = QT_TRANSLATE_NOOP(
+    "episcope::ParameterHelp", "The disparities that are tested, over the whole range.");
+constexpr const char* kDescent = QT_TRANSLATE_NOOP(
+    "episcope::ParameterHelp", "What is left to improve; the iterations end at the dashed line.");
 
 constexpr std::array kPictures{
-    Picture{"inner_scale", draw_window},
-    Picture{"outer_scale", draw_window},
-    Picture{"view_scale", draw_window},
-    Picture{"cross_scale", draw_window},
-    Picture{"double_inner_scale", draw_window},
-    Picture{"double_outer_scale", draw_window},
-    Picture{"lambda", draw_smoothing},
-    Picture{"smoothness", draw_smoothing},
-    Picture{"layer_smoothness", draw_smoothing},
-    Picture{"settling", draw_smoothing},
-    Picture{"tgv", draw_smoothing},
-    Picture{"edge_strength", draw_falloff},
-    Picture{"epsilon", draw_cap},
-    Picture{"truncation", draw_cap},
-    Picture{"jump", draw_cap},
-    Picture{"weight_power", draw_power},
-    Picture{"fusion_power", draw_power},
-    Picture{"labels", draw_labels},
-    Picture{"max_iterations", draw_descent},
-    Picture{"tgv_iterations", draw_descent},
-    Picture{"cycles", draw_descent},
-    Picture{"passes", draw_descent},
+    Picture{"inner_scale", draw_window, kWindow},
+    Picture{"outer_scale", draw_window, kWindow},
+    Picture{"view_scale", draw_window, kWindow},
+    Picture{"cross_scale", draw_window, kWindow},
+    Picture{"double_inner_scale", draw_window, kWindow},
+    Picture{"double_outer_scale", draw_window, kWindow},
+    Picture{"lambda", draw_smoothing, kSmoothing},
+    Picture{"smoothness", draw_smoothing, kSmoothing},
+    Picture{"layer_smoothness", draw_smoothing, kSmoothing},
+    Picture{"settling", draw_smoothing, kSmoothing},
+    Picture{"tgv", draw_smoothing, kSmoothing},
+    Picture{"edge_strength", draw_falloff, kFalloff},
+    Picture{"epsilon", draw_cap, kCap},
+    Picture{"truncation", draw_cap, kCap},
+    Picture{"jump", draw_cap, kCap},
+    Picture{"weight_power", draw_power, kPower},
+    Picture{"fusion_power", draw_power, kPower},
+    Picture{"labels", draw_labels, kLabels},
+    Picture{"max_iterations", draw_descent, kDescent},
+    Picture{"tgv_iterations", draw_descent, kDescent},
+    Picture{"cycles", draw_descent, kDescent},
+    Picture{"passes", draw_descent, kDescent},
 };
 
 const Picture* picture_of(const std::string& key) {
@@ -245,8 +265,10 @@ class PictureLabel : public QWidget {
 
 }  // namespace
 
-bool has_parameter_picture(const std::string& key) {
-  return key == kRange || picture_of(key) != nullptr;
+QString parameter_caption(const std::string& key) {
+  const Picture* picture = picture_of(key);
+  if (!picture && key != kRange) return {};
+  return ParameterHelp::tr(picture ? picture->caption : kSlopes);
 }
 
 void draw_parameter(QPainter& painter, const QRectF& place, const ParameterDescription& description,
@@ -270,18 +292,22 @@ ParameterHelp::ParameterHelp(const ParameterDescription& description, const Para
     : QFrame(parent, Qt::Popup) {
   setObjectName("parameterHelp");
   setFrameShape(QFrame::StyledPanel);
-  auto* text = new QLabel(parameter_help(description), this);
-  text->setObjectName("parameterHelp.text");
-  text->setTextFormat(Qt::RichText);
-  text->setWordWrap(true);
-  text->setFixedWidth(kTextWidth);
-  text->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(theme::kMargin, theme::kMargin, theme::kMargin, theme::kMargin);
-  layout->addWidget(text);
-  if (has_parameter_picture(description.key)) {
-    layout->addWidget(new PictureLabel(description, value, this));
-  }
+  const auto add = [this, layout](const QString& words) {
+    auto* label = new QLabel(words, this);
+    label->setWordWrap(true);
+    label->setFixedWidth(kTextWidth);
+    layout->addWidget(label);
+    return label;
+  };
+  QLabel* text = add(parameter_help(description));
+  text->setObjectName("parameterHelp.text");
+  text->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  const QString caption = parameter_caption(description.key);
+  if (caption.isEmpty()) return;
+  layout->addWidget(new PictureLabel(description, value, this));
+  add(caption)->setPalette(theme::text_palette(theme::muted_text(palette())));
 }
 
 void ParameterHelp::showAt(const QPoint& corner) {

@@ -12,8 +12,8 @@ namespace episcope {
 /// Label, help, domain, default and key of a parameter, as rich text.
 [[nodiscard]] QString parameter_help(const ParameterDescription& description);
 
-/// Whether there is a picture of what the parameter of this key does.
-[[nodiscard]] bool has_parameter_picture(const std::string& key);
+/// What the picture of the parameter of this key shows; empty if there is no picture.
+[[nodiscard]] QString parameter_caption(const std::string& key);
 
 /// Draws what a value of a parameter does: the slopes of a range, the window of a scale, a curve
 /// that smoothing makes of noise. Schematic, without numbers. Nothing for a parameter without a

@@ -158,7 +158,7 @@ void LabelController::show() {
 
 void LabelController::showHint() {
   palette_->setHint(
-      hasDocument() ? tr("No labels yet. Add one for each kind of thing, then paint a few strokes "
+      hasDocument() ? tr("No labels yet. Add one for each kind of object, then paint a few strokes "
                          "on the view.")
       : bench_.viewer_area.isPreviewing() ? tr("The light field is still loading.")
                                           : tr("Open a light field to label it."));

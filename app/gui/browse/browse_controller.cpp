@@ -88,7 +88,6 @@ BrowseController::BrowseController(const Workbench& bench)
       epi_job_(this),
       refocus_job_(this),
       thumbnail_job_(this),
-      range_job_(this),
       match_job_(this) {
   grid_->setContentsMargins(theme::kSpacing, theme::kSpacing, theme::kSpacing, 0);
   bench.frame.addToColumn(grid_, false);
@@ -139,14 +138,21 @@ void BrowseController::showMenu(PixelIndex pixel, QPoint place) {
       ->setObjectName("view.menu.focus");
   menu->addAction(tr("Measure here"), this, [this, pixel] { measureAt(pixel); })
       ->setObjectName("view.menu.measure");
-  for (const char* id : {"view.center", "", "file.save_picture", "file.save_map", "", "view.tone",
-                         "view.auto_tone"}) {
-    if (*id == '\0') {
-      menu->addSeparator();
-    } else {
-      menu->addAction(bench_.commands.find(id));
-    }
-  }
+  menu->addAction(bench_.commands.find("view.center"));
+  menu->addSeparator();
+  const auto add_as = [this, menu](const QString& text, const char* id) {
+    const QAction* known = bench_.commands.find(id);
+    QAction* action =
+        menu->addAction(known->icon(), text, this, [this, id] { bench_.commands.trigger(id); });
+    action->setObjectName(id);
+    action->setShortcut(known->shortcut());
+    action->setEnabled(known->isEnabled());
+  };
+  add_as(tr("Save picture…"), "file.save_picture");
+  add_as(tr("Save map…"), "file.save_map");
+  menu->addSeparator();
+  menu->addAction(bench_.commands.find("view.tone"));
+  menu->addAction(bench_.commands.find("view.auto_tone"));
   menu->popup(place);
 }
 
@@ -171,6 +177,12 @@ void BrowseController::connectEpis() {
   connect(viewer_area_.horizontalEpi(), &EpiPane::positionClicked, this, [this](int x, int u) {
     session_.set_cross_hair({session_.cross_hair().y, x});
     session_.set_view({session_.view().v, u});
+  });
+  connect(viewer_area_.horizontalEpi(), &EpiPane::menuRequested, this, [this](int x, QPoint place) {
+    showMenu({session_.cross_hair().y, x}, place);
+  });
+  connect(viewer_area_.verticalEpi(), &EpiPane::menuRequested, this, [this](int y, QPoint place) {
+    showMenu({y, session_.cross_hair().x}, place);
   });
   connect(viewer_area_.verticalEpi(), &EpiPane::positionClicked, this, [this](int y, int v) {
     session_.set_cross_hair({y, session_.cross_hair().x});
@@ -209,7 +221,6 @@ void BrowseController::showScene() {
   grid_->setGrid(light_field ? light_field->grid() : GridShape{});
   markPainted();
   refocus_job_.drop();
-  range_job_.drop();
   match_job_.drop();
   if (!light_field) {
     thumbnail_job_.drop();
@@ -220,7 +231,6 @@ void BrowseController::showScene() {
     return;
   }
   showFocusReach();
-  findRange();
   startThumbnails();
   viewer_area_.canvas()->zoomToFit();
 }
@@ -233,18 +243,6 @@ void BrowseController::showFocusReach() {
                            ? std::ceil(std::clamp(known, 1.0, OverlayBar::kFarthestFocus))
                            : kUnknownReach;
   viewer_area_.overlayBar()->setFocusRange({-reach, reach});
-}
-
-void BrowseController::findRange() {
-  const LightFieldPtr light_field = session_.light_field();
-  if (session_.known_range().length() > 0 || light_field->grid().count() < 2) return;
-  range_job_.start<Interval>(
-      [light_field](const Progress& progress) {
-        return search_range(*light_field, IntervalOrAuto(), progress);
-      },
-      [this, scene = session_.generation()](Interval found) {
-        session_.set_found_range(scene, found);
-      });
 }
 
 void BrowseController::markPainted() {

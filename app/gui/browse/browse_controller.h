@@ -69,8 +69,6 @@ class BrowseController : public QObject {
   void focusAt(PixelIndex pixel);
   /// Focuses at a pixel whose disparity nothing tells.
   void matchAt(PixelIndex pixel);
-  /// Range of the light field from its images, where nothing else is known.
-  void findRange();
 
   Workbench bench_;
   Session& session_;
@@ -84,7 +82,6 @@ class BrowseController : public QObject {
   LatestJob epi_job_;                              // of light fields on disk
   LatestJob refocus_job_;
   LatestJob thumbnail_job_;
-  LatestJob range_job_;
   LatestJob match_job_;
 };
 

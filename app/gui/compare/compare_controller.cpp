@@ -85,6 +85,7 @@ void CompareController::connectWall() {
   // The rest is answered as if it had happened in the canvas.
   connect(wall, &TileWall::crossHairRequested, canvas, &ViewCanvas::crossHairRequested);
   connect(wall, &TileWall::focusRequested, canvas, &ViewCanvas::focusRequested);
+  connect(wall, &TileWall::menuRequested, canvas, &ViewCanvas::menuRequested);
   connect(wall, &TileWall::cursorMoved, canvas, &ViewCanvas::cursorMoved);
   connect(wall, &TileWall::spaceTapped, canvas, &ViewCanvas::spaceTapped);
   connect(wall, &TileWall::focusStepped, canvas, &ViewCanvas::focusStepped);

@@ -45,6 +45,8 @@ void MethodRange::showHints() {
 // A run that has found it made it known (search_range), so that the search costs nothing then.
 bool MethodRange::isWanted() const {
   const LightField& light_field = *bench_.session.light_field();
+  if (light_field.grid().count() < 2) return false;
+  if (bench_.session.known_range().length() == 0) return true;
   if (light_field.info().disparity_range && finds_range(light_field, panel_.request().values)) {
     return true;
   }

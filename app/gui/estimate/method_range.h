@@ -11,8 +11,8 @@ namespace episcope {
 class MethodPanel;
 
 /// Tells the form of the methods which disparity range the files promise and which one is found
-/// from the images. The range is searched in the background once a run has searched it, or once the
-/// form asks to find it; BrowseController searches it where nothing else is known.
+/// from the images. The range is searched in the background where nothing else tells it, once a run
+/// has searched it, or once the form asks to find it; the focus plane uses it as well.
 class MethodRange : public QObject {
   Q_OBJECT
 

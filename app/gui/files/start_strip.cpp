@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/files/start_strip.h"
 
+#include "app/gui/scene/scene_opener.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/load_scene.h"
@@ -15,7 +16,6 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <string>
@@ -33,6 +33,28 @@ bool is_demo(const std::string& input) {
 StartStrip::StartStrip(const Workbench& bench, QMenu* recent)
     : QWidget(&bench.frame), bench_(bench) {
   setObjectName("startStrip");
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(theme::kMargin + 4, 4, theme::kMargin, 4);
+  row->setSpacing(theme::kSpacing);
+  row->addWidget(new QLabel(tr("This is a demo."), this));
+  addButtons(*row, recent);
+  row->addWidget(makeSteps(), 1);
+  auto* close = make_tool_button({"start.close", "close", tr("Do not show these hints")}, this);
+  close->setAutoRaise(true);
+  connect(close, &QToolButton::clicked, this, [this] {
+    is_over_ = true;
+    hide();
+  });
+  row->addWidget(close);
+  hide();
+  bench.frame.addAbove(this);
+  connect(&bench.opener, &SceneOpener::changed, this, &StartStrip::update);
+  bench.session.on_changed([this](Parts parts) {
+    if (parts.has_any(Part::Scene | Part::Scenes)) update();
+  });
+}
+
+QLabel* StartStrip::makeSteps() {
   auto* steps = new QLabel(this);
   steps->setObjectName("start.steps");
   steps->setWordWrap(true);
@@ -41,53 +63,32 @@ StartStrip::StartStrip(const Workbench& bench, QMenu* recent)
       tr("Try it: <b>1</b> drag in the view to look around, "
          "<b>2</b> <a href=\"tab.estimate\">run a method</a>, "
          "<b>3</b> <a href=\"tab.compare\">compare it with the ground truth</a>."));
-  connect(steps, &QLabel::linkActivated, &bench.commands, &Commands::trigger);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(theme::kMargin + 4, 4, theme::kMargin, 6);
-  layout->setSpacing(theme::kSpacing);
-  layout->addWidget(makeButtons(recent));
-  layout->addWidget(steps);
-  hide();
-  bench.frame.addFloating(this);
-  bench.session.on_changed([this](Parts parts) {
-    if (parts.has_any(Part::Scene | Part::Scenes)) update();
-  });
+  connect(steps, &QLabel::linkActivated, &bench_.commands, &Commands::trigger);
+  return steps;
 }
 
-QWidget* StartStrip::makeButtons(QMenu* recent) {
-  auto* buttons = new QWidget(this);
-  auto* row = new QHBoxLayout(buttons);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(theme::kSpacing);
-  row->addWidget(new QLabel(tr("This is a demo."), buttons));
-  auto* open = new QPushButton(tr("Open…"), buttons);
+void StartStrip::addButtons(QHBoxLayout& row, QMenu* recent) {
+  auto* open = new QPushButton(tr("Open…"), this);
   open->setObjectName("start.open");
   connect(open, &QPushButton::clicked, this, [this] { bench_.commands.trigger("file.open"); });
-  auto* again = new QPushButton(tr("Recent"), buttons);
+  auto* again = new QPushButton(tr("Recent"), this);
   again->setObjectName("start.recent");
   again->setMenu(recent);
   const QAction* listed = recent->menuAction();
   const auto follow = [again, listed] { again->setEnabled(listed->isEnabled()); };
   connect(listed, &QAction::changed, again, follow);
   follow();
-  row->addWidget(open);
-  row->addWidget(again);
-  row->addStretch(1);
-  auto* close = make_tool_button({"start.close", "close", tr("Do not show these hints")}, buttons);
-  close->setAutoRaise(true);
-  connect(close, &QToolButton::clicked, this, [this] {
-    is_over_ = true;
-    hide();
-  });
-  row->addWidget(close);
-  return buttons;
+  row.addWidget(open);
+  row.addWidget(again);
 }
 
 void StartStrip::update() {
   const auto scenes = bench_.session.scenes();
   is_over_ |= std::ranges::any_of(
       scenes, [](const OpenScene* each) { return builtin_scene_id(each->input).empty(); });
-  setVisible(!is_over_ && bench_.session.scene() && is_demo(bench_.session.input()));
+  const std::string input =
+      bench_.session.scene() ? bench_.session.input() : bench_.opener.loading().toStdString();
+  setVisible(!is_over_ && is_demo(input));
 }
 
 void StartStrip::paintEvent(QPaintEvent*) {

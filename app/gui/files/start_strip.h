@@ -5,12 +5,15 @@
 
 #include <QWidget>
 
+class QHBoxLayout;
+class QLabel;
 class QMenu;
 
 namespace episcope {
 
-/// What to do first, over the demo: open a light field of one's own, or three steps to try. Gone
-/// for good once a light field that is not built in was opened, or its cross was clicked.
+/// What to do first, above everything else while the demo is opened or shown: open a light field of
+/// one's own, or three steps to try. Gone for good once a light field that is not built in was
+/// opened, or its cross was clicked.
 class StartStrip : public QWidget {
   Q_OBJECT
 
@@ -22,7 +25,8 @@ class StartStrip : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  QWidget* makeButtons(QMenu* recent);
+  QLabel* makeSteps();
+  void addButtons(QHBoxLayout& row, QMenu* recent);
   void update();
 
   Workbench bench_;

@@ -9,11 +9,14 @@
 #include "app/session/project_file.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/labels.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
+
+#include <fmt/format.h>
 
 #include <QButtonGroup>
 #include <QDialog>
@@ -169,7 +172,7 @@ ScenePtr read_as_remembered(const std::string& input, const LoadOptions& options
     automatic.open.on_center_epis = options.open.on_center_epis;
     Scene scene = load_scene(input, automatic, progress);
     scene.convention.warnings.push_back(
-        std::string("The conventions that you set for this file were not used: ") + error.what());
+        fmt::format(finding_text("conventions.unused"), error.what()));
     return std::make_shared<const Scene>(std::move(scene));
   }
 }

@@ -51,6 +51,8 @@ class SceneOpener : public QObject {
   [[nodiscard]] QString reopenable() const;
   /// Whether the last requested input could not be read.
   [[nodiscard]] bool hasFailed() const { return !failed_input_.isEmpty(); }
+  /// Name of the input that is being read; empty if there is none.
+  [[nodiscard]] QString loading() const { return loading_job_ == 0 ? QString() : loading_name_; }
   /// Closes the shown light field and shows another open one.
   void close();
 

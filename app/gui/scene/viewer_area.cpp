@@ -27,7 +27,7 @@ constexpr int kCanvasWidth = 600;
 constexpr int kCanvasHeight = 500;
 constexpr int kEpiWidth = 145;  // and of the legend under it
 constexpr int kEpiHeight = 92;
-constexpr int kEpiShare = 6;  // of the room at most that an EPI takes by itself
+constexpr int kEpiShare = 3;  // of the room at most that an EPI takes by itself
 
 // What an EPI gets of `room` while the view needs `wanted` of it.
 int epi_size(int room, int least, int wanted) {

@@ -247,8 +247,12 @@ void Frame::addUnderTabs(QWidget* widget) {
 
 void Frame::addLine(Line line, QWidget* widget) {
   lines_[line] = widget;
-  const auto place = std::distance(lines_.begin(), lines_.find(line));
-  rows_->insertWidget(1 + static_cast<int>(place), widget);
+  const auto after = std::distance(lines_.find(line), lines_.end()) - 1;
+  rows_->insertWidget(rows_->count() - static_cast<int>(after), widget);
+}
+
+void Frame::addAbove(QWidget* widget) {
+  rows_->insertWidget(0, widget);
 }
 
 void Frame::addFloating(QWidget* widget) {

@@ -63,6 +63,8 @@ class Frame : public QWidget {
   /// Adds a widget below the tabs.
   void addUnderTabs(QWidget* widget);
   void addLine(Line line, QWidget* widget);
+  /// Adds a widget above everything else.
+  void addAbove(QWidget* widget);
   /// Adds a widget that floats over the viewer area, so that nothing moves when it appears.
   void addFloating(QWidget* widget);
 

@@ -5,8 +5,13 @@
 
 #include <QCoreApplication>
 #include <QDir>
+#include <QFile>
+#include <QFileInfo>
 #include <QHBoxLayout>
+#include <QLineEdit>
 #include <QPushButton>
+#include <QRegularExpression>
+#include <QShortcut>
 #include <QStandardPaths>
 #include <QTextBlock>
 #include <QTextBrowser>
@@ -14,11 +19,72 @@
 #include <QUrl>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace episcope {
 namespace {
 
 constexpr QSize kFirstSize(860, 720);
 constexpr const char* kContents = "index.md";
+constexpr const char* kSearch = "search";  // scheme of a page of hits
+constexpr int kHitsOfAPage = 3;
+
+QString text_of(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+}
+
+// Links and emphasis would reach into what is cut out of a paragraph.
+QString plain(const QString& markdown) {
+  QTextDocument document;
+  document.setMarkdown(markdown);
+  return document.toPlainText().simplified();
+}
+
+bool has_all(const QString& text, const QStringList& words) {
+  return std::ranges::all_of(
+      words, [&](const QString& word) { return text.contains(word, Qt::CaseInsensitive); });
+}
+
+// The first paragraphs of a page that have all words, as a list; empty if none has.
+QString hits_in(const QString& path, const QStringList& words) {
+  static const QRegularExpression between("\n\n|\n(?=[-|])");  // also items and rows
+  const QStringList paragraphs = text_of(path).split(between);
+  QString hits;
+  int count = 0;
+  for (const QString& each : paragraphs) {
+    if (count == kHitsOfAPage || !has_all(each, words)) continue;
+    const QString text = plain(each);
+    const auto at = std::max<qsizetype>(text.indexOf(words.front(), 0, Qt::CaseInsensitive), 0);
+    constexpr qsizetype kBefore = 60, kLength = 220;
+    hits +=
+        "- … " + text.mid(std::max<qsizetype>(at - kBefore, 0), kLength).toHtmlEscaped() + " …\n";
+    ++count;
+  }
+  if (hits.isEmpty()) return {};
+  const QString title = plain(paragraphs.front().section('\n', 0, 0));
+  return QString("### [%1](%2)\n\n%3\n").arg(title, QUrl::fromLocalFile(path).toString(), hits);
+}
+
+// A page that lists where the words are.
+QString hits_of(const QString& typed) {
+  const QStringList words = typed.split(' ', Qt::SkipEmptyParts);
+  QString hits;
+  const QFileInfoList pages = QDir(manual_folder()).entryInfoList({"*.md"}, QDir::Files);
+  for (const QFileInfo& page : pages) hits += hits_in(page.filePath(), words);
+  if (hits.isEmpty()) hits = ManualWindow::tr("No paragraph has all of these words.");
+  return "# " + ManualWindow::tr("Search: %1").arg(typed.toHtmlEscaped()) + "\n\n" + hits;
+}
+
+/// Also makes the pages of hits, so that one can go back to them.
+class Pages : public QTextBrowser {
+ public:
+  using QTextBrowser::QTextBrowser;
+  QVariant loadResource(int type, const QUrl& name) override {
+    if (name.scheme() == kSearch) return hits_of(name.path(QUrl::FullyDecoded)).toUtf8();
+    return QTextBrowser::loadResource(type, name);
+  }
+};
 
 }  // namespace
 
@@ -35,7 +101,8 @@ QString manual_folder() {
   return {};
 }
 
-ManualWindow::ManualWindow(QWidget* parent) : QDialog(parent), pages_(new QTextBrowser(this)) {
+ManualWindow::ManualWindow(QWidget* parent)
+    : QDialog(parent), pages_(new Pages(this)), words_(new QLineEdit(this)) {
   setObjectName("manual");
   pages_->setObjectName("manual.pages");
   pages_->setAccessibleName(tr("Page of the manual"));
@@ -50,7 +117,11 @@ ManualWindow::ManualWindow(QWidget* parent) : QDialog(parent), pages_(new QTextB
     button->setAutoDefault(false);
     row->addWidget(button);
   }
-  row->addStretch(1);
+  words_->setObjectName("manual.search");
+  words_->setPlaceholderText(tr("Search the manual"));
+  words_->setAccessibleName(words_->placeholderText());
+  words_->setClearButtonEnabled(true);
+  row->addWidget(words_, 1);
   auto* layout = new QVBoxLayout(this);
   layout->setSpacing(theme::kSpacing);
   layout->addLayout(row);
@@ -58,7 +129,11 @@ ManualWindow::ManualWindow(QWidget* parent) : QDialog(parent), pages_(new QTextB
   connect(contents, &QPushButton::clicked, this, [this] { open(kContents); });
   connect(back, &QPushButton::clicked, pages_, &QTextBrowser::backward);
   connect(pages_, &QTextBrowser::backwardAvailable, back, &QPushButton::setEnabled);
+  connect(words_, &QLineEdit::returnPressed, this, &ManualWindow::search);
+  connect(new QShortcut(QKeySequence::Find, this), &QShortcut::activated, words_,
+          [this] { words_->setFocus(); });
   connect(pages_, &QTextBrowser::sourceChanged, this, &ManualWindow::showTitle);
+  connect(pages_, &QTextBrowser::sourceChanged, this, &ManualWindow::showWord);
   resize(kFirstSize);
 }
 
@@ -78,10 +153,24 @@ void ManualWindow::open(const QString& page) {
   activateWindow();
 }
 
+void ManualWindow::search() {
+  const QString words = words_->text().simplified();
+  if (words.isEmpty()) return;
+  QUrl hits;
+  hits.setScheme(kSearch);
+  hits.setPath(words, QUrl::DecodedMode);
+  pages_->setSource(hits, QTextDocument::MarkdownResource);
+}
+
 // The first heading of the page.
 void ManualWindow::showTitle() {
   const QString heading = pages_->document()->firstBlock().text();
   setWindowTitle(heading.isEmpty() ? tr("Manual") : tr("%1 — Manual").arg(heading));
+}
+
+void ManualWindow::showWord(const QUrl& page) {
+  const QString word = words_->text().simplified().section(' ', 0, 0);
+  if (!word.isEmpty() && page.scheme() != kSearch) pages_->find(word);
 }
 
 }  // namespace episcope

@@ -4,7 +4,9 @@
 #include <QDialog>
 #include <QString>
 
+class QLineEdit;
 class QTextBrowser;
+class QUrl;
 
 namespace episcope {
 
@@ -12,8 +14,9 @@ namespace episcope {
 /// program runs from, else of the system. Empty if there is none.
 [[nodiscard]] QString manual_folder();
 
-/// Shows pages of the manual, which are Markdown, follows their links and goes back. Pages of the
-/// web open in the browser. Does not block.
+/// Shows pages of the manual, which are Markdown, follows their links, goes back, and lists the
+/// paragraphs that have all words of a search. Pages of the web open in the browser. Does not
+/// block.
 class ManualWindow : public QDialog {
   Q_OBJECT
 
@@ -24,9 +27,13 @@ class ManualWindow : public QDialog {
   void open(const QString& page);
 
  private:
+  void search();
   void showTitle();
+  /// Goes to the first word of the search on a page that it found.
+  void showWord(const QUrl& page);
 
   QTextBrowser* pages_;
+  QLineEdit* words_;
 };
 
 }  // namespace episcope

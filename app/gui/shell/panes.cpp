@@ -289,7 +289,8 @@ bool is_control(const QWidget& widget) {
   return qobject_cast<const QAbstractButton*>(&widget) ||
          qobject_cast<const QAbstractItemView*>(&widget) ||
          qobject_cast<const QAbstractSlider*>(&widget) || qobject_cast<const QTabBar*>(&widget) ||
-         qobject_cast<const QComboBox*>(&widget);
+         qobject_cast<const QComboBox*>(&widget) ||
+         qobject_cast<const QScrollArea*>(&widget);  // hears clicks on controls in it
 }
 
 bool is_field(const QWidget& widget) {

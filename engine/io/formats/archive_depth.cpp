@@ -3,6 +3,7 @@
 
 #include "engine/core/camera_grid.h"
 #include "engine/core/error.h"
+
 #include "engine/core/finding.h"
 #include "engine/core/indices.h"
 #include "engine/core/parallel.h"
@@ -611,9 +612,8 @@ void compare_sizes(const Hdf5Input& file, ConventionReport& report) {
   for (std::size_t axis = 0; axis < shape.size(); ++axis) {
     const auto stated = file.number("/", names[axis]);
     if (!stated || *stated == static_cast<double>(shape[axis])) continue;
-    report.warnings.push_back(fmt::format(
-        "The attribute {} says {}, but LF has {} along that axis; the shape of LF is used.",
-        names[axis], whole(*stated), shape[axis]));
+    report.warnings.push_back(
+        fmt::format(finding_text("attribute.unlike"), names[axis], whole(*stated), shape[axis]));
   }
 }
 

@@ -2,6 +2,7 @@
 #include "engine/io/formats/archive_reader.h"
 
 #include "engine/core/error.h"
+
 #include "engine/core/finding.h"
 #include "engine/core/memory.h"
 #include "engine/io/base/hdf5_output.h"
@@ -253,7 +254,8 @@ void tell_faults(const Hdf5Input& file, ConventionReport& report) {
        {"GT_DEPTH", "GT_DEPTH_MASK", "GT_DEPTH_FOREGROUND", "GT_DEPTH_FOREGROUND_MASK",
         "GT_DEPTH_BACKGROUND", "GT_DEPTH_BACKGROUND_MASK", kTrueLabels, "SCRIBBLES", kValid}) {
     const std::string fault = file.fault_of(name);
-    if (!fault.empty()) report.warnings.push_back(fmt::format("{} {}: left out.", name, fault));
+    if (!fault.empty())
+      report.warnings.push_back(fmt::format(finding_text("dataset.left_out"), name, fault));
   }
 }
 
@@ -514,8 +516,8 @@ std::vector<Companion> find_companions(const std::filesystem::path& folder, cons
       found.push_back({known.kind, path, shape_text(shape)});
     } catch (const IoError& error) {
       // An unreadable companion must not prevent the light field from opening.
-      report.warnings.push_back(std::string("The file of ") + companion_name(known.kind) +
-                                " is ignored: " + error.what() + ".");
+      report.warnings.push_back(
+          fmt::format(finding_text("companion.ignored"), companion_name(known.kind), error.what()));
     }
   }
   return found;

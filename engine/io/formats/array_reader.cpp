@@ -2,6 +2,7 @@
 #include "engine/io/formats/array_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/light_field.h"
 #include "engine/core/text.h"
 #include "engine/io/base/array_layout.h"
@@ -93,9 +94,8 @@ void decode_luma_chroma(const std::string& name, LightField::Samples& samples,
         if (stack.channels() != 3 || stack.kind() == LargeKind::File) return;
         const bool is_video = has_video_range(stack);
         decode(stack, is_video);
-        report.warnings.push_back(
-            "By its name " + name + " holds Y, Cb and Cr: they were taken as those of " +
-            (is_video ? "video (16 … 235)" : "the full range") + " and turned into colors.");
+        report.warnings.push_back(fmt::format(finding_text("samples.y_cb_cr"), name,
+                                              is_video ? "video (16 … 235)" : "the full range"));
       },
       samples);
 }
@@ -273,10 +273,8 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   ArraySamples read = read_samples(*array, chosen.layout, progress.part(0.05, 0.65));
   settle_range(read.samples, options.levels, scene.convention);
   if (!read.left_out.empty()) {
-    scene.convention.warnings.push_back(fmt::format(
-        "The fourth channel of {} is left out: it is no weight of pixels, for {}. If it is depth "
-        "or disparity, store it as an array of its own, as disparity or depth.",
-        entry.name, read.left_out));
+    scene.convention.warnings.push_back(
+        fmt::format(finding_text("samples.fourth"), entry.name, read.left_out));
   }
   decode_luma_chroma(entry.name, read.samples, scene.convention);
   progress.step("reading maps");

@@ -2,6 +2,7 @@
 #include "engine/io/formats/benchmark_reader.h"
 
 #include "engine/core/error.h"
+
 #include "engine/core/finding.h"
 #include "engine/core/numbers.h"
 #include "engine/core/text.h"
@@ -23,7 +24,6 @@
 #include <fstream>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <utility>
 
 namespace episcope::io {
@@ -199,10 +199,7 @@ void correct_promise(const DisparityField& truth, std::optional<Interval>& promi
   const Interval reversed{-promised->max, -promised->min};
   if (range.min > range.max || holds(*promised) || !holds(reversed)) return;
   promised = reversed;
-  report.warnings.push_back(
-      fmt::format("disp_min and disp_max of {} have the other sign than the truth, in which larger "
-                  "values are nearer; they were negated.",
-                  kBenchmarkConfig));
+  report.warnings.push_back(fmt::format(finding_text("config.sign"), kBenchmarkConfig));
 }
 
 void tell_values_without_number(const ConfigFile& config, ConventionReport& report) {
@@ -211,7 +208,7 @@ void tell_values_without_number(const ConfigFile& config, ConventionReport& repo
             "disp_min", "disp_max", "focal_length_mm", "sensor_size_mm", "baseline_mm",
             "focus_distance_m"})) {
     report.warnings.push_back(
-        fmt::format("{}: {}, which is not a number; it is not used.", kBenchmarkConfig, value));
+        fmt::format(finding_text("config.no_number"), kBenchmarkConfig, value));
   }
 }
 
@@ -225,10 +222,8 @@ void compare_size(const ConfigFile& config, ViewSize size, ConventionReport& rep
   const auto compare = [&](const char* key, int length) {
     const auto stated = config.number(key);
     if (!stated || *stated == length) return;
-    std::ostringstream text;
-    text << key << " of " << kBenchmarkConfig << " is " << *stated << ", but the views have "
-         << length << " px; the size of the views is used.";
-    report.warnings.push_back(text.str());
+    report.warnings.push_back(
+        fmt::format(finding_text("config.size"), key, kBenchmarkConfig, *stated, length));
   };
   compare("image_resolution_x_px", size.width);
   compare("image_resolution_y_px", size.height);
@@ -240,9 +235,7 @@ void compare_grid(const ConfigFile& config, GridShape grid, ConventionReport& re
   const auto columns = config.number("num_cams_x");
   if (!rows || !columns || (*rows == grid.v && *columns == grid.u)) return;
   report.warnings.push_back(
-      fmt::format("{} promises {}×{} views, but the files are {}×{}; correct num_cams_x and "
-                  "num_cams_y.",
-                  kBenchmarkConfig, *rows, *columns, grid.v, grid.u));
+      fmt::format(finding_text("config.grid"), kBenchmarkConfig, *rows, *columns, grid.v, grid.u));
 }
 
 /// Unknown if the file has none of its keys; if some are missing or wrong, a warning says so.
@@ -263,16 +256,18 @@ CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, ViewSiz
     found += number ? 1 : 0;
   }
   if (found == 0) return {};
-  const std::string left_out =
-      "The camera of " + (folder / kBenchmarkConfig).string() + " is ignored: ";
+  const auto ignore = [&](const std::string& reason) {
+    report.warnings.push_back(
+        fmt::format(finding_text("config.camera"), (folder / kBenchmarkConfig).string(), reason));
+  };
   if (!missing.empty()) {
-    report.warnings.push_back(left_out + missing + " is missing; add it.");
+    ignore(fmt::format(finding_text("config.missing"), missing));
     return {};
   }
   try {
     return camera_grid_from_benchmark(camera);
   } catch (const InvalidInput& error) {
-    report.warnings.push_back(left_out + error.what() + ".");
+    ignore(error.what());
     return {};
   }
 }
@@ -295,8 +290,8 @@ bool arrange_as_seen(const LightField::Samples& samples, ViewFiles& views, Conve
     arranged.files[static_cast<std::size_t>(number)] = views.files[static_cast<std::size_t>(i)];
   }
   views = std::move(arranged);
-  report.warnings.push_back(fmt::format("The views are not {}×{}, row by row, but {}: {}.",
-                                        promised.v, promised.u, layout_text(seen), seen.evidence));
+  report.warnings.push_back(fmt::format(finding_text("views.arranged"), promised.v, promised.u,
+                                        layout_text(seen), seen.evidence));
   return true;
 }
 

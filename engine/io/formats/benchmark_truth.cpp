@@ -2,6 +2,7 @@
 #include "engine/io/formats/benchmark_truth.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/order/order_check.h"
@@ -309,8 +310,8 @@ DisparityField read_stored(const fs::path& folder, const SidecarViews& views,
 void drop_unknown(const LightField::Samples& samples, ViewIndex at, DisparityField& field,
                   ConventionReport& report) {
   for (const float value : possible_unknown_values(field.view(at))) {
-    const std::string text = drop_unknown_value(samples, at, {value, 1}, field);
-    if (!text.empty()) report.warnings.push_back("The disparity" + text);
+    const std::string text = drop_unknown_value("The disparity", samples, at, {value, 1}, field);
+    if (!text.empty()) report.warnings.push_back(text);
   }
 }
 
@@ -331,10 +332,7 @@ void correct_values(const LightField::Samples& samples, DisparityField& field,
   std::transform(field.disparity.data(), field.disparity.data() + field.disparity.size(),
                  field.disparity.data(), std::negate<>());
   report.units += ", negative = nearer";
-  report.units_check = fmt::format(
-      "smaller values hide others in other views (grey error {:.2f}, the hidden ones {:.2f}, {} "
-      "pairs)",
-      side.smaller, side.larger, side.points);
+  report.units_check = fmt::format(finding_text("sign.smaller_hide"), hiding_text(side));
 }
 
 void read_regions(const fs::path& folder, const SidecarViews& views, const SidecarNotes& notes,

@@ -448,8 +448,8 @@ Scene read_light_field(const fs::path& path, const OpenOptions& options, const P
       parts.samples);
   frames.pictures.clear();
   if (frames.orientation != 1) {
-    scene.convention.warnings.push_back(
-        upright_note("The film states that its pictures", frames.orientation));
+    scene.convention.warnings.push_back(fmt::format(
+        finding_text("exif.film"), orientation_text(frames.orientation), frames.orientation));
   }
   settle_range(parts.samples, options.levels, scene.convention);
   std::string reason = fmt::format("{} {}", count, frames.what);

@@ -2,6 +2,7 @@
 #include "engine/io/formats/sequence_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/names/index_fields.h"
@@ -313,8 +314,7 @@ void report_frames(const std::vector<Frame>& frames, const OpenOptions& options,
     const long step = frames[1].number - frames[0].number;
     if (frames[i].number - frames[i - 1].number <= step) continue;
     scene.convention.warnings.push_back(
-        fmt::format("The frame number {} is missing; frames are counted without it.",
-                    frames[i - 1].number + step));
+        fmt::format(finding_text("frames.gap"), frames[i - 1].number + step));
     break;
   }
 }

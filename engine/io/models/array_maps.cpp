@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/array_maps.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/external_result.h"
@@ -130,8 +131,8 @@ bool settle_stored(const LightField::Samples& samples, NamedValues values,
   report.units = fmt::format("disparity of {}: {}{}", values.name, settled.unit.text,
                              sign.is_negated ? ", negative = nearer" : "");
   report.units_check =
-      fmt::format("mean grey error of neighboring views after warping {:.2f}, unwarped {:.2f}",
-                  settled.explanation.error, settled.explanation.unwarped);
+      fmt::format(finding_text("units.warp"), fmt::format("{:.2f}", settled.explanation.error),
+                  fmt::format("{:.2f}", settled.explanation.unwarped));
   if (!sign.evidence.empty()) report.units_check += "; " + sign.evidence;
   return sign.is_known;
 }

@@ -2,6 +2,7 @@
 #include "engine/io/models/choose_layout.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/models/order/list_layout.h"
 
@@ -267,10 +268,8 @@ void check_layout(const ArrayInput& array, IndexOrder order, ChosenLayout& chose
     chosen.reason += fmt::format("; rows and columns of views by parallax ({:.1f} σ)", -score);
   } else {
     chosen.reason += "; parallax does not tell rows from columns of views";
-    chosen.warning = fmt::format(
-        "The views differ too little to tell rows from columns of views; if they are exchanged, "
-        "state the axes as {}.",
-        in_index_order(chosen.layout.crossed().axes, order));
+    chosen.warning = fmt::format(finding_text("views.axes_unclear"),
+                                 in_index_order(chosen.layout.crossed().axes, order));
   }
 }
 

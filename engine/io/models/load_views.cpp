@@ -2,6 +2,7 @@
 #include "engine/io/models/load_views.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/memory.h"
 #include "engine/core/parallel.h"
 #include "engine/core/text.h"
@@ -188,8 +189,8 @@ std::vector<UnusableView> unusable_views(const ViewFiles& views,
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& each = outcomes[i];
     if (each.form == one->form) continue;
-    const std::string why = fmt::format("this view has {}, but {} has {}", each.text,
-                                        usual.filename().string(), one->text);
+    const std::string why =
+        fmt::format(finding_text("views.unlike"), each.text, usual.filename().string(), one->text);
     unusable.push_back({static_cast<int>(i), each.form ? why : each.text, !each.form});
   }
   return unusable;
@@ -396,7 +397,7 @@ AnyImage upright(AnyImage stored, int orientation) {
       [&](const auto& image) -> AnyImage { return upright_image(image, orientation); }, stored);
 }
 
-std::string upright_note(const std::string& who, int orientation) {
+const char* orientation_text(int orientation) {
   constexpr const char* kMeanings[] = {"upright",
                                        "mirrored",
                                        "turned by half",
@@ -405,10 +406,7 @@ std::string upright_note(const std::string& who, int orientation) {
                                        "turned by a quarter to the left",
                                        "turned and mirrored",
                                        "turned by a quarter to the right"};
-  return fmt::format(
-      "{} are stored {} (Exif orientation {}): they are shown upright, with rows and "
-      "columns of pixels to match.",
-      who, kMeanings[orientation - 1], orientation);
+  return kMeanings[orientation - 1];
 }
 
 CommonOrientation common_orientation(const std::vector<fs::path>& files) {
@@ -418,13 +416,11 @@ CommonOrientation common_orientation(const std::vector<fs::path>& files) {
   if (counts.size() == 1) {
     const int value = most->first;
     if (value == 1) return {};
-    return {value, upright_note("All views state that they", value)};
+    return {value, fmt::format(finding_text("exif.all"), orientation_text(value), value)};
   }
   if (counts.empty()) return {};
-  return {1, fmt::format("The views state {} different orientations (Exif), {} of {} orientation "
-                         "{}: all are taken as they are stored; if the camera was turned, turn "
-                         "the pictures before.",
-                         counts.size(), most->second, files.size(), most->first)};
+  return {1, fmt::format(finding_text("exif.different"), counts.size(), most->second, files.size(),
+                         most->first)};
 }
 
 }  // namespace episcope::io

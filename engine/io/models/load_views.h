@@ -87,9 +87,8 @@ void require_view_memory(const std::filesystem::path& path, double bytes);
   return orientation > 4;
 }
 
-/// Says that views were turned upright from this orientation; `who` states it: "All views state
-/// that they".
-[[nodiscard]] std::string upright_note(const std::string& who, int orientation);
+/// How the stored rows of pixels lie, for reports: "turned by half".
+[[nodiscard]] const char* orientation_text(int orientation);
 
 /// Orientation in which to show views: the one that all files state, or 1 if they differ. `note` is
 /// a sentence for the report if samples are not stored so.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/map_padding.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/image.h"
 
 #include <fmt/format.h>
@@ -138,17 +139,15 @@ BareBorder find_bare_border(DisparityField& field, int height, int width) {
     const int border = common_frame(field);
     if (border == 0) return {};
     make_border_invalid(field, border);
-    return {border, fmt::format("A border of {} px has one value only and counts as padding; {}×{} "
-                                "px are used.",
-                                border, wide - 2 * border, high - 2 * border)};
+    return {border,
+            fmt::format(finding_text("map.border"), border, wide - 2 * border, high - 2 * border)};
   }
   const int lacking = height - high;
   const bool fits = lacking > 0 && lacking == width - wide && lacking % 2 == 0 &&
                     lacking / 2 <= widest_border(height, width);
   if (!fits) return {};
   field = framed(field, lacking / 2);
-  return {lacking / 2, fmt::format("The maps of {}×{} px are taken for the middle of {}×{} px.",
-                                   wide, high, width, height)};
+  return {lacking / 2, fmt::format(finding_text("map.middle"), wide, high, width, height)};
 }
 
 std::string remove_padding(DisparityField& field, int height, int width) {
@@ -171,8 +170,7 @@ std::string remove_padding(DisparityField& field, int height, int width) {
   const PaddedPlace place = *std::ranges::find_if(different, fits);
   field.valid = cut(field.valid, place, height, width);
   field.disparity = cut(field.disparity, place, height, width);
-  return fmt::format("The maps of {}×{} px are padded {} with a constant; {}×{} px are used.", wide,
-                     high, place.text, width, height);
+  return fmt::format(finding_text("map.padded"), wide, high, place.text, width, height);
 }
 
 }  // namespace episcope::io

@@ -73,6 +73,20 @@ class FindingTest : public QObject {
     QCOMPARE(read->values.back(), std::string("it is ignored because of dH"));
   }
 
+  void unusableViews_areFollowedByAnotherFinding() {
+    const std::string next =
+        "2_2.png cannot be used: this view has 8×8 px, but 1_1.png has 9×9 px. Nor can 3 other "
+        "views. ";
+
+    const auto first = finding_of("1_2.png cannot be used: it is damaged. " + next);
+    const auto second = finding_of(next);
+
+    QVERIFY(first && second);
+    QCOMPARE(first->values.back(), next);
+    QCOMPARE(finding_of(second->values[1])->code, std::string("views.unlike"));
+    QCOMPARE(finding_of(second->values.back())->code, std::string("views.unusable_others"));
+  }
+
   void otherSentences_areNoFindings() {
     QVERIFY(!finding_of("A sentence that nobody says."));
     QVERIFY(!finding_of(""));

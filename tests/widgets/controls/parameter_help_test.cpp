@@ -43,7 +43,7 @@ class ParameterHelpTest : public QObject {
     description.default_value = max / 50;
     description.max = max;
 
-    QVERIFY(has_parameter_picture(description.key));
+    QVERIFY(!parameter_caption(description.key).isEmpty());
     QVERIFY(drawn(description, max / 50) != drawn(description, max / 20));
   }
 
@@ -52,16 +52,24 @@ class ParameterHelpTest : public QObject {
     description.key = "range";
     description.default_value = IntervalOrAuto();
 
-    QVERIFY(has_parameter_picture("range"));
+    QVERIFY(!parameter_caption("range").isEmpty());
     QVERIFY(drawn(description, IntervalOrAuto(Interval{-1, 1})) !=
             drawn(description, IntervalOrAuto(Interval{-0.5, 3})));
+  }
+
+  void option_isNamedAsOnTheCommandLine() {
+    ParameterDescription description;
+    description.key = "edge_strength";
+    description.default_value = 1.0;
+
+    QVERIFY(parameter_help(description).contains("--edge-strength"));
   }
 
   void parameterWithoutAPicture_drawsNone() {
     ParameterDescription description;
     description.key = "device";
 
-    QVERIFY(!has_parameter_picture(description.key));
+    QVERIFY(parameter_caption(description.key).isEmpty());
     const QImage image = drawn(description, description.default_value);
     QCOMPARE(drawn(description, 7), image);
   }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
+#include <ranges>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -270,8 +271,10 @@ std::string name_in(const ViewFiles& views, const std::filesystem::path& file) {
   return ((is_one_folder ? "" : file.parent_path().filename()) / file.filename()).string();
 }
 
-/// One sentence for all views of which the same is to be said, for a few such reasons.
-std::string unusable_text(const ViewFiles& views, const std::vector<UnusableView>& unusable) {
+/// One sentence for all views of which the same is to be said, for a few such reasons; `text`
+/// follows.
+std::string unusable_text(const ViewFiles& views, const std::vector<UnusableView>& unusable,
+                          std::string text) {
   std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
   for (const UnusableView& each : unusable) {
     auto found =
@@ -279,18 +282,16 @@ std::string unusable_text(const ViewFiles& views, const std::vector<UnusableView
     if (found == reasons.end()) found = reasons.insert(found, {each.why, {}});
     found->second.push_back(name_in(views, views.files[static_cast<std::size_t>(each.place)]));
   }
-  std::string text;
-  std::size_t explained = 0;
-  for (std::size_t i = 0; i < std::min(reasons.size(), kMostNamedReasons); ++i) {
-    const auto& [why, names] = reasons[i];
+  const std::span explained(reasons.data(), std::min(reasons.size(), kMostNamedReasons));
+  std::size_t others = unusable.size();
+  for (const auto& [why, names] : explained) others -= names.size();
+  if (others > 0) text = fmt::format(finding_text("views.unusable_others"), others, text);
+  for (const auto& [why, names] : explained | std::views::reverse) {
     const std::size_t named = std::min(names.size(), kMostNamedReasons);
-    text += joined(std::span(names).first(named), ", ");
-    if (names.size() > named) text += fmt::format(" and {} others", names.size() - named);
-    text += fmt::format(" cannot be used: {}. ", why);
-    explained += names.size();
+    std::string those = joined(std::span(names).first(named), ", ");
+    if (names.size() > named) those += fmt::format(" and {} others", names.size() - named);
+    text = fmt::format(finding_text("views.unusable"), those, why, text);
   }
-  if (unusable.size() > explained)
-    text += fmt::format("Nor can {} other views. ", unusable.size() - explained);
   return text;
 }
 
@@ -306,7 +307,7 @@ std::optional<PartWithout> without_views(const ViewFiles& views,
   const auto part = part_to_open(left);
   if (!part) return std::nullopt;
   PartWithout found{files_of_part(left, *part), *part,
-                    unusable_text(views, unusable) + part_text(left, *part)};
+                    unusable_text(views, unusable, part_text(left, *part))};
   ViewFiles& kept = found.views;
   kept.part = part_of(views.part, *part);
   kept.orientation = views.orientation;

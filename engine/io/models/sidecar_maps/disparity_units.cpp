@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/sidecar_maps/disparity_units.h"
 
+#include "engine/core/finding.h"
 #include "engine/core/numbers.h"
 #include "engine/io/models/order/warp_check.h"
 
@@ -283,16 +284,11 @@ OcclusionOrder find_occlusion_order(const LightField::Samples& samples, ViewInde
 }
 
 std::string hiding_text(const OcclusionOrder& side) {
-  return fmt::format(
-      "hide others in other views (grey error {:.2f}, the hidden ones {:.2f}, {} pairs)",
-      std::min(side.larger, side.smaller), std::max(side.larger, side.smaller), side.points);
+  return fmt::format(finding_text("sign.hiding"), std::min(side.larger, side.smaller),
+                     std::max(side.larger, side.smaller), side.points);
 }
 
 namespace {
-
-constexpr const char* kByOrder =
-    "no depth edges tell near from far: the sign is the one that leaves the views in the order in "
-    "which they are stored";
 
 std::optional<TruthSign> sign_by_views(const LightField::Samples& samples,
                                        const Explanation& explanation) {
@@ -301,7 +297,8 @@ std::optional<TruthSign> sign_by_views(const LightField::Samples& samples,
   if (!views.is_decided) return std::nullopt;
   const bool is_negated = !(views.flip == flip);
   return TruthSign{is_negated, true,
-                   fmt::format("{} values are nearer, by {}", is_negated ? "smaller" : "larger",
+                   fmt::format(fmt::runtime(is_negated ? finding_text("sign.smaller")
+                                                       : finding_text("sign.larger")),
                                views.evidence)};
 }
 
@@ -311,15 +308,16 @@ TruthSign find_truth_sign(const LightField::Samples& samples, const OcclusionOrd
                           const Explanation& explanation) {
   if (side.is_decided()) {
     return {!side.larger_is_nearer(), true,
-            fmt::format("{} values are nearer: they {}",
-                        side.larger_is_nearer() ? "larger" : "smaller", hiding_text(side))};
+            fmt::format(fmt::runtime(side.larger_is_nearer() ? finding_text("sign.larger_hide")
+                                                             : finding_text("sign.smaller_hide")),
+                        hiding_text(side))};
   }
   const GridShape grid = grid_of(samples);
   if (!explanation.is_good() || explanation.is_transposed || grid.count() == 1) return {};
   if (auto sign = sign_by_views(samples, explanation)) return std::move(*sign);
   const bool runs_backwards =
       (grid.u == 1 || explanation.reversed_u) && (grid.v == 1 || explanation.reversed_v);
-  return {runs_backwards, false, runs_backwards ? kByOrder : ""};
+  return {runs_backwards, false, runs_backwards ? std::string(finding_text("sign.by_order")) : ""};
 }
 
 namespace {
@@ -517,8 +515,8 @@ std::vector<float> possible_unknown_values(const DisparityView& map) {
   return values;
 }
 
-std::string drop_unknown_value(const LightField::Samples& samples, ViewIndex at,
-                               const UnknownValue& unknown, DisparityField& field) {
+std::string drop_unknown_value(const std::string& name, const LightField::Samples& samples,
+                               ViewIndex at, const UnknownValue& unknown, DisparityField& field) {
   const DisparityView map = field.view(at);
   const Image<std::uint8_t> pixels = pixels_of(map, unknown.value);
   const auto count = std::count(pixels.begin(), pixels.end(), std::uint8_t{1});
@@ -534,13 +532,11 @@ std::string drop_unknown_value(const LightField::Samples& samples, ViewIndex at,
   const bool helps = unknown.value != 0 && error < kAsUnwarped * there.unwarped();
   if (!(error > kContradicted * elsewhere.best()) || helps) return {};
   mark(field, unknown.value);
-  return fmt::format(
-      " is {:.7g} at {:.3g} % of its pixels, which the views contradict ({}): no disparity is "
-      "known there.",
-      unknown.value, 100 * static_cast<double>(count) / all,
-      std::isfinite(error)
-          ? fmt::format("grey error {:.2f} there, {:.2f} elsewhere", error, elsewhere.best())
-          : "it leads out of the picture");
+  return fmt::format(finding_text("map.unknown_value"), name, unknown.value,
+                     100 * static_cast<double>(count) / all,
+                     std::isfinite(error)
+                         ? fmt::format(finding_text("map.error_there"), error, elsewhere.best())
+                         : std::string(finding_text("map.leads_out")));
 }
 
 namespace {
@@ -596,8 +592,8 @@ SettledUnit infer_units(const LightField::Samples& samples, const std::vector<Ma
   SettledUnit settled = settle_unit(samples, at, values.field.view(at), units);
   for (const float value : possible_unknown_values(values.field.view(at))) {
     const std::string text =
-        drop_unknown_value(samples, at, {value, settled.unit.factor}, values.field);
-    if (!text.empty()) report.warnings.push_back(values.name + text);
+        drop_unknown_value(values.name, samples, at, {value, settled.unit.factor}, values.field);
+    if (!text.empty()) report.warnings.push_back(text);
   }
   return settled;
 }

@@ -136,9 +136,10 @@ struct UnknownValue {
 
 /// Marks pixels of exactly this value as invalid, in all views, if hardly any other value is near
 /// it and the neighbors of view `at` contradict these pixels but agree with the rest. Values other
-/// than 0 must not agree better than without warping. Returns the end of a warning, after the name
-/// of the map, or nothing. Linear in the pixels.
-[[nodiscard]] std::string drop_unknown_value(const LightField::Samples& samples, ViewIndex at,
+/// than 0 must not agree better than without warping. Returns a warning about the map of this name,
+/// or nothing. Linear in the pixels.
+[[nodiscard]] std::string drop_unknown_value(const std::string& name,
+                                             const LightField::Samples& samples, ViewIndex at,
                                              const UnknownValue& unknown, DisparityField& field);
 
 }  // namespace episcope::io

@@ -2,6 +2,7 @@
 #include "engine/io/models/sidecar_maps/find_maps.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/parallel.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
@@ -402,7 +403,7 @@ void SetOutcome::tell(const std::string& kind, const SidecarNotes& notes) const 
   if (!note.empty() && !read.empty()) notes.report.warnings.push_back(note);
   if (failed.empty()) return;
   notes.account.leave_out(failed, kind + " that are damaged or do not fit");
-  notes.report.warnings.push_back(fmt::format("{} of {} {} are left out. {}.", failed.size(),
+  notes.report.warnings.push_back(fmt::format(finding_text("map.damaged"), failed.size(),
                                               read.size() + failed.size(), kind, first_error));
 }
 

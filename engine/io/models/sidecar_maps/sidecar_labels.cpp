@@ -2,6 +2,7 @@
 #include "engine/io/models/sidecar_maps/sidecar_labels.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
@@ -95,8 +96,7 @@ LabelMeaning name_with_pictures(FoundLabels& found, const std::vector<const MapS
 void note_raise(const LabelMeaning& meaning, ConventionReport& report) {
   if (!meaning.raised) return;
   report.raised_labels = true;
-  report.warnings.push_back(
-      "Labels start at 0 in these files: all labels are raised by one, so that 0 means none.");
+  report.warnings.emplace_back(finding_text("labels.raised_files"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text_table.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/array_maps.h"
@@ -90,17 +91,16 @@ std::string grey(double error) {
 
 std::string warp_text(const SettledUnit& settled) {
   const Explanation& found = settled.explanation;
-  std::string text = "mean grey error of neighboring views after warping " + grey(found.error) +
-                     ", unwarped " + grey(found.unwarped);
   if (settled.unit.factor != 1 && settled.first.error != found.error) {
-    text += ", with the values as stored " + grey(settled.first.error);
+    return fmt::format(finding_text("units.warp_stored"), grey(found.error), grey(found.unwarped),
+                       grey(settled.first.error));
   }
-  return text;
+  return fmt::format(finding_text("units.warp"), grey(found.error), grey(found.unwarped));
 }
 
 std::string fit_text(const DepthFit& fit) {
-  return fmt::format("{:.1f} % of the depth map agree within 0.01 px with d = {:.6g}/Z {} {:.6g}",
-                     100 * fit.exact_share, fit.a, fit.b < 0 ? "+" : "−", std::abs(fit.b));
+  return fmt::format(finding_text("units.fit"), 100 * fit.exact_share, fit.a, fit.b < 0 ? "+" : "−",
+                     std::abs(fit.b));
 }
 
 /// Depth beside it tells the sign of disparity where no pixel hides another.
@@ -205,7 +205,7 @@ SidecarDisparity from_disparity(StoredMaps maps, const RankedSets& depths,
   SidecarDisparity found{std::move(maps.field), views.camera, !told.is_known};
   if (fit.is_exact() && sign * fit.a > 0 && !views.camera.is_known()) {
     found.camera = DepthFit{sign * fit.a, sign * fit.b, fit.exact_share, fit.pixels}.camera();
-    append(report.units_check, "the camera follows from disparity and depth");
+    append(report.units_check, std::string(finding_text("units.camera")));
   }
   return found;
 }
@@ -218,10 +218,7 @@ void leave_out_unknown(const std::vector<const MapSet*>& sets, const std::string
     if (set->entries.empty()) continue;
     notes.account.leave_out(set->files(), what);
     if (!is_missed) continue;
-    notes.report.warnings.push_back(fmt::format(
-        "{} is not used ({}): save disparity in px per view step as .npy, .pfm or float "
-        ".tif.",
-        set->pattern, what));
+    notes.report.warnings.push_back(fmt::format(finding_text("map.unused"), set->pattern, what));
   }
 }
 

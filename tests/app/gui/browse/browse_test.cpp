@@ -54,11 +54,18 @@ class BrowseTest : public QObject {
 void BrowseTest::rightClick_opensAMenuForThePixel() {
   WindowFixture f;
   f.openSmall();
-  const auto menu_at = [&f](PixelIndex pixel) {
-    const QPoint at = f.canvas()->positionOf(pixel).toPoint();
-    QContextMenuEvent event(QContextMenuEvent::Mouse, at, f.canvas()->mapToGlobal(at));
-    QCoreApplication::sendEvent(f.canvas(), &event);
+  const auto menu_of = [&f](QWidget* widget, QPoint at) {
+    QContextMenuEvent event(QContextMenuEvent::Mouse, at, widget->mapToGlobal(at));
+    QCoreApplication::sendEvent(widget, &event);
     return f.window.findChild<QMenu*>("view.menu");
+  };
+  const auto menu_at = [&](PixelIndex pixel) {
+    return menu_of(f.canvas(), f.canvas()->positionOf(pixel).toPoint());
+  };
+  const auto close = [&f](QMenu* menu) {
+    QVERIFY(menu);
+    menu->close();
+    QTRY_VERIFY(!f.window.findChild<QMenu*>("view.menu"));
   };
 
   QMenu* menu = menu_at({20, 30});
@@ -72,8 +79,17 @@ void BrowseTest::rightClick_opensAMenuForThePixel() {
   menu->findChild<QAction*>("view.menu.measure")->trigger();
   QCOMPARE(f.window.bench().session.cross_hair(), (PixelIndex{20, 30}));
   QCOMPARE(f.window.bench().frame.shownTab(), QString("measure"));
-  menu->close();
-  QTRY_VERIFY(!f.window.findChild<QMenu*>("view.menu"));
+  close(menu);
+  EpiPane* epi = f.window.bench().viewer_area.horizontalEpi();
+  menu = menu_of(epi, epi->positionOf(40.5, 1).toPoint());
+  QVERIFY(menu);
+  menu->findChild<QAction*>("view.menu.measure")->trigger();
+  QCOMPARE(f.window.bench().session.cross_hair(), (PixelIndex{20, 40}));
+  close(menu);
+  f.trigger("compare.tiles");
+  QTRY_VERIFY(!f.window.bench().viewer_area.activeCanvas()->picture().isNull());
+  close(menu_of(f.window.bench().viewer_area.activeCanvas(), {60, 60}));
+  f.trigger("compare.tiles");
 
   f.trigger("annotate.mode");  // the right button erases there
   QVERIFY(!menu_at({20, 30}));

@@ -22,6 +22,9 @@ class Starting : public WindowFixture {
   QWidget* strip() { return window.findChild<QWidget*>("startStrip"); }
   void start() {
     window.start(kDemo);
+    awaitDemo();
+  }
+  void awaitDemo() {
     QTRY_VERIFY_WITH_TIMEOUT(window.bench().session.scene(), kScenePatience);
     QTRY_VERIFY_WITH_TIMEOUT(!window.bench().session.estimates().empty(), kScenePatience);
   }
@@ -33,17 +36,22 @@ class StartTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void strip_liesOverTheDemoUntilAnOwnLightFieldIsOpened();
+  void strip_standsAboveTheDemo_untilAnOwnLightFieldIsOpened();
   void strip_opensFilesAndRecentInputs();
   void strip_leadsThroughTheSteps();
   void strip_isClosedByItsCross();
 };
 
-void StartTest::strip_liesOverTheDemoUntilAnOwnLightFieldIsOpened() {
+void StartTest::strip_standsAboveTheDemo_untilAnOwnLightFieldIsOpened() {
   Starting f;
   QVERIFY(!f.strip()->isVisible());
-  f.start();
+  f.window.start(kDemo);
+  QVERIFY(f.strip()->isVisible());  // the demo may take a while
+  f.awaitDemo();
   QVERIFY(f.strip()->isVisible());
+  const QWidget& canvas = *f.window.bench().viewer_area.canvas();
+  const QRect view(canvas.mapTo(&f.window, QPoint()), canvas.size());
+  QVERIFY(!f.strip()->geometry().translated(f.strip()->parentWidget()->pos()).intersects(view));
 
   f.openSmall();
 

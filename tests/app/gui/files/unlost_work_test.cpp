@@ -8,9 +8,9 @@
 #include <QDir>
 #include <QFile>
 
+#include <sys/resource.h>
 #include <algorithm>
 #include <csignal>
-#include <sys/resource.h>
 
 // What a project holds and the window cannot show stays in it; what was done counts as work.
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/appearance.h"
+#include "app/gui/shell/manual_window.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
@@ -40,6 +41,8 @@ class CommandsTest : public QObject {
   void fileMenu_opensSavesAndExports();
   void labelFiles_areInTheMenuOfLabels();
   void manual_opensAndFollowsLinks();
+  void manual_isSearched();
+  void helpOnAParameter_givesTheKeysBack();
   void menus_fitASmallScreen();
   void sweep_showsItsKeyInTheMenu();
   void everyCommandWithKeys_isInTheShortcutWindow();
@@ -193,6 +196,39 @@ void CommandsTest::manual_opensAndFollowsLinks() {
   QVERIFY(pages->toHtml().contains("pictures/window.png"));
   f.window.findChild<QPushButton*>("manual.back")->click();
   QVERIFY(pages->toPlainText().startsWith("Episcope"));
+}
+
+void CommandsTest::manual_isSearched() {
+  WindowFixture f;
+  f.trigger("help.manual");
+  auto* pages = f.window.findChild<QTextBrowser*>("manual.pages");
+  auto* words = f.window.findChild<QLineEdit*>("manual.search");
+
+  words->setText("parallax black point");
+  QTest::keyClick(words, Qt::Key_Return);
+  QVERIFY(pages->toPlainText().contains("No paragraph"));
+  words->setText("exposure black");
+  QTest::keyClick(words, Qt::Key_Return);
+
+  QVERIFY2(pages->toHtml().contains("/window.md"), qPrintable(pages->toPlainText()));
+  QVERIFY(!pages->toHtml().contains("/gantry.md"));
+  pages->setSource(QUrl::fromLocalFile(manual_folder() + "/window.md"));  // as a click does
+  QCOMPARE(pages->textCursor().selectedText().toLower(), QString("exposure"));
+  f.window.findChild<QPushButton*>("manual.back")->click();
+  QVERIFY(pages->toPlainText().startsWith("Search: exposure black"));
+}
+
+void CommandsTest::helpOnAParameter_givesTheKeysBack() {
+  WindowFixture f;
+  f.openSmall();
+  f.canvas()->setFocus();
+
+  f.click("range.help");
+  auto* help = f.window.findChild<QWidget*>("parameterHelp");
+  QVERIFY(help && help->isVisible());
+  help->close();
+
+  QCOMPARE(f.window.focusWidget(), f.canvas());
 }
 
 // Those that do not are broken into columns, which cover the window.
