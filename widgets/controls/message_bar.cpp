@@ -148,8 +148,8 @@ void MessageBar::changeEvent(QEvent* event) {
 namespace {
 
 constexpr int kBarSteps = 1000;
-constexpr int kBarHeight = 6;
-constexpr int kRowSpacing = 2;
+constexpr int kBarHeight = 4;
+constexpr int kRowSpacing = 0;
 constexpr int kRowsInSight = 2;
 
 }  // namespace
