@@ -200,20 +200,56 @@
         <translation>Verbinden von Labels</translation>
     </message>
     <message>
-        <source>Close the polygon, or accept the region in doubt</source>
-        <translation>Polygon schließen oder zweifelhafte Region annehmen</translation>
-    </message>
-    <message>
-        <source>Paints the inside of the polygon being drawn; without one, paints the marked region in doubt with the label that it has</source>
-        <translation>Malt das Innere des Polygons, das gezeichnet wird; ohne Polygon die markierte zweifelhafte Region mit dem Label, das sie hat</translation>
-    </message>
-    <message>
         <source>Remove the last corner</source>
         <translation>Letzte Ecke entfernen</translation>
     </message>
     <message>
         <source>Paint</source>
         <translation>Malen</translation>
+    </message>
+    <message>
+        <source>The wand is ready.</source>
+        <translation>Der Zauberstab ist bereit.</translation>
+    </message>
+    <message>
+        <source>The wand gathers the rays of all views …</source>
+        <translation>Der Zauberstab fasst die Strahlen aller Ansichten zusammen …</translation>
+    </message>
+    <message>
+        <source>The wand follows rays by disparity, which is being estimated …</source>
+        <translation>Der Zauberstab folgt Strahlen nach der Disparität, die gerade geschätzt wird …</translation>
+    </message>
+    <message>
+        <source>The wand needs the disparity of all views: run a method in the Estimate tab.</source>
+        <translation>Der Zauberstab braucht die Disparität aller Ansichten: eine Methode im Reiter Schätzen starten.</translation>
+    </message>
+    <message>
+        <source>label number</source>
+        <translation>Nummer des Labels</translation>
+    </message>
+    <message>
+        <source>order of labels</source>
+        <translation>Reihenfolge der Labels</translation>
+    </message>
+    <message>
+        <source>Wand, all views</source>
+        <translation>Zauberstab, alle Ansichten</translation>
+    </message>
+    <message>
+        <source>Fills a region in all views: like colors on one surface; the right button clears it</source>
+        <translation>Füllt ein Gebiet in allen Ansichten: ähnliche Farben auf einer Fläche; die rechte Maustaste leert es</translation>
+    </message>
+    <message>
+        <source>Shift+F</source>
+        <translation>Shift+F</translation>
+    </message>
+    <message>
+        <source>Close the polygon, or accept the region</source>
+        <translation>Polygon schließen oder Gebiet annehmen</translation>
+    </message>
+    <message>
+        <source>Paints the inside of the polygon being drawn; without one, paints the marked region in doubt with the label that it has, else what the fill or the wand shows under the cursor</source>
+        <translation>Malt das Innere des begonnenen Polygons; ohne eines das markierte zweifelhafte Gebiet mit seinem Label, sonst was Füllung oder Zauberstab unter dem Zeiger zeigen</translation>
     </message>
 </context>
 <context>
@@ -348,6 +384,10 @@
     <message>
         <source>Scribbles as images…</source>
         <translation>Striche als Bilder…</translation>
+    </message>
+    <message>
+        <source>%1 cannot be written: choose another place for labels and scribbles.</source>
+        <translation>%1 lässt sich nicht schreiben: einen anderen Ort für Labels und Striche wählen.</translation>
     </message>
 </context>
 <context>
@@ -542,6 +582,14 @@
         <source>Drag along a line of an EPI to measure its disparity; %1 keeps it.</source>
         <translation>Entlang einer Linie eines EPIs ziehen, um deren Disparität zu messen; %1 behält sie.</translation>
     </message>
+    <message>
+        <source>Save picture…</source>
+        <translation>Bild speichern…</translation>
+    </message>
+    <message>
+        <source>Save map…</source>
+        <translation>Karte speichern…</translation>
+    </message>
 </context>
 <context>
     <name>episcope::BrushPanel</name>
@@ -730,6 +778,14 @@
     <message>
         <source>go to the center view (Home)</source>
         <translation>zur mittleren Ansicht gehen (Pos1)</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Fotos</translation>
+    </message>
+    <message>
+        <source>Raw picture</source>
+        <translation>Rohbild</translation>
     </message>
 </context>
 <context>
@@ -2216,20 +2272,12 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Nach dH, focalLength und shift ist die Disparität in keiner endlichen Tiefe null, aber camDistance besagt %1; camDistance wird nicht verwendet; diese Attribute der Datei prüfen.</translation>
     </message>
     <message>
-        <source>Black corners, %1 % of the pixels, do not count.</source>
-        <translation>Schwarze Ecken, %1 % der Pixel, zählen nicht.</translation>
-    </message>
-    <message>
         <source>Black is taken at %3, white at %4</source>
         <translation>Schwarz gilt bei %3, Weiß bei %4</translation>
     </message>
     <message>
         <source>Brightness differs by %1 %</source>
         <translation>Helligkeit verschieden, bis %1 %</translation>
-    </message>
-    <message>
-        <source>Brightness differs by %1 %; methods even it out</source>
-        <translation>Helligkeit verschieden, bis %1 %; Verfahren gleichen sie an</translation>
     </message>
     <message>
         <source>Float samples of the views reach up to %1 with a median of %2: they are taken as linear, and divided by %3 so that 99.9 % lie in 0 … 1.</source>
@@ -2404,10 +2452,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Die Reihenfolge der Ansichten ist „%1“ und nicht „%2“, wie zu erwarten war: %3.</translation>
     </message>
     <message>
-        <source>The order of views is &quot;%1&quot;.</source>
-        <translation>Die Reihenfolge der Ansichten ist „%1“.</translation>
-    </message>
-    <message>
         <source>The order of views was chosen by hand (%1), but the check favors &quot;%2&quot;.</source>
         <translation>Die Reihenfolge der Ansichten wurde von Hand gewählt (%1), die Prüfung spricht aber für „%2“.</translation>
     </message>
@@ -2422,18 +2466,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>The poses of %1 are not used.</source>
         <translation>Die Posen von %1 werden nicht verwendet.</translation>
-    </message>
-    <message>
-        <source>The truth hardly explains the views: warped by it, they differ by %1 grey levels along %2, the other way by %3 and unwarped by %4; check the truth, and dH, focalLength and shift if it was stored as depth.</source>
-        <translation>Die Referenz erklärt die Ansichten kaum: Danach verzerrt unterscheiden sie sich um %1 Graustufen entlang %2, andersherum um %3 und unverzerrt um %4; die Referenz prüfen, und dH, focalLength und shift, falls sie als Tiefe gespeichert war.</translation>
-    </message>
-    <message>
-        <source>The truth was stored with %1, as comparing it with the views shows; it was put right.</source>
-        <translation>Die Referenz war so gespeichert: %1, wie der Vergleich mit den Ansichten zeigt; das wurde behoben.</translation>
-    </message>
-    <message>
-        <source>The values of the truth could not be checked: one disparity for all explains the views as well, or better (where both differ, in %1 squares of the view, the truth is better by %2 standard deviations of chance).</source>
-        <translation>Die Werte der Referenz waren nicht zu prüfen: Eine Disparität für alles erklärt die Ansichten ebenso gut oder besser (wo sich beide unterscheiden, in %1 Quadraten der Ansicht, ist die Referenz um %2 Standardabweichungen des Zufalls besser).</translation>
     </message>
     <message>
         <source>The views are those of %1; pictures in %2 are left out.</source>
@@ -2490,10 +2522,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>cameras stand up to %1 steps off the regular grid, which this method takes for granted; stereo methods can use their positions</source>
         <translation>Kameras stehen bis zu %1 Schritte neben dem regelmäßigen Gitter, das dieses Verfahren voraussetzt; Stereoverfahren können ihre Positionen verwenden</translation>
-    </message>
-    <message>
-        <source>carried to all views from %1 of them</source>
-        <translation>von %1 Ansichten auf alle übertragen</translation>
     </message>
     <message>
         <source>checked against truth, mean grey error after warping: %1</source>
@@ -2666,6 +2694,318 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>“%1” is ignored.</source>
         <translation>„%1“ wird nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>%1 % of the depth map agree within 0.01 px with d = %2/Z %3 %4</source>
+        <translation>%1 % der Tiefenkarte stimmen auf 0.01 px mit d = %2/Z %3 %4 überein</translation>
+    </message>
+    <message>
+        <source>%1 %2: left out.</source>
+        <translation>%1 %2: ausgelassen.</translation>
+    </message>
+    <message>
+        <source>%1 cannot be used.</source>
+        <translation>%1 ist nicht verwendbar.</translation>
+    </message>
+    <message>
+        <source>%1 cannot be used: %2. %3</source>
+        <translation>%1 ist nicht verwendbar: %2. %3</translation>
+    </message>
+    <message>
+        <source>%1 is %2 at %3 % of its pixels, which the views contradict (%4): no disparity is known there.</source>
+        <translation>%1 ist an %3 % der Pixel %2, dem widersprechen die Ansichten (%4): Dort ist keine Disparität bekannt.</translation>
+    </message>
+    <message>
+        <source>%1 is missing; add it</source>
+        <translation>%1 fehlt; hinzufügen</translation>
+    </message>
+    <message>
+        <source>%1 is not used (%2): save disparity in px per view step as .npy, .pfm or float .tif.</source>
+        <translation>%1 wird nicht verwendet (%2): Disparität in px pro Ansichtsschritt als .npy, .pfm oder .tif mit Gleitkommazahlen speichern.</translation>
+    </message>
+    <message>
+        <source>%1 is not used.</source>
+        <translation>%1 wird nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>%1 is unknown at %3 % of the pixels.</source>
+        <translation>%1 ist an %3 % der Pixel unbekannt.</translation>
+    </message>
+    <message>
+        <source>%1 of %2 %3 are left out. %4.</source>
+        <translation>%1 von %2 %3 bleiben aus. %4.</translation>
+    </message>
+    <message>
+        <source>%1 of %2 is %3, but the views have %4 px; the size of the views is used.</source>
+        <translation>%1 von %2 ist %3, die Ansichten haben aber %4 px; die Größe der Ansichten gilt.</translation>
+    </message>
+    <message>
+        <source>%1 of %2 maps are left out.</source>
+        <translation>%1 von %2 Karten bleiben aus.</translation>
+    </message>
+    <message>
+        <source>%1 promises %2×%3 views, but the files are %4×%5; correct num_cams_x and num_cams_y.</source>
+        <translation>%1 verspricht %2×%3 Ansichten, die Dateien sind aber %4×%5; num_cams_x und num_cams_y berichtigen.</translation>
+    </message>
+    <message>
+        <source>%1: %2, which is not a number; it is not used.</source>
+        <translation>%1: %2 ist keine Zahl und wird nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>%2×%3 views are promised, %4×%5 are there.</source>
+        <translation>%2×%3 Ansichten sind versprochen, %4×%5 sind da.</translation>
+    </message>
+    <message>
+        <source>A border of %1 px has one value only and counts as padding; %2×%3 px are used.</source>
+        <translation>Ein Rand von %1 px hat nur einen Wert und gilt als Auffüllung; %2×%3 px werden verwendet.</translation>
+    </message>
+    <message>
+        <source>All views state that they are stored %1 (Exif orientation %2): they are shown upright, with rows and columns of pixels to match.</source>
+        <translation>Alle Ansichten geben an, dass sie anders gespeichert sind (%1, Exif-Orientierung %2): Sie werden aufrecht gezeigt, mit Pixelzeilen und -spalten dazu.</translation>
+    </message>
+    <message>
+        <source>Black corners (%1 %) do not count.</source>
+        <translation>Schwarze Ecken (%1 %) zählen nicht.</translation>
+    </message>
+    <message>
+        <source>By its name %1 holds Y, Cb and Cr: they were taken as those of %2 and turned into colors.</source>
+        <translation>Dem Namen nach enthält %1 Y, Cb und Cr: Sie gelten als die von %2 und wurden in Farben umgerechnet.</translation>
+    </message>
+    <message>
+        <source>Dark picture %1</source>
+        <translation>Dunkelbild %1</translation>
+    </message>
+    <message>
+        <source>Frame %1 is missing.</source>
+        <translation>Bild %1 fehlt.</translation>
+    </message>
+    <message>
+        <source>Labels start at 0 in these files: all labels are raised by one, so that 0 means none.</source>
+        <translation>In diesen Dateien beginnen Labels bei 0: Alle werden um eins erhöht, sodass 0 keines bedeutet.</translation>
+    </message>
+    <message>
+        <source>Lenses are %1 px apart, not %2 px as the camera says.</source>
+        <translation>Linsen liegen %1 px auseinander, nicht %2 px, wie die Kamera angibt.</translation>
+    </message>
+    <message>
+        <source>No white picture: vignetting remains</source>
+        <translation>Kein Weißbild: Vignettierung bleibt</translation>
+    </message>
+    <message>
+        <source>Nor can %1 other views. %2</source>
+        <translation>Ebenso %1 andere Ansichten. %2</translation>
+    </message>
+    <message>
+        <source>Orientations (Exif) differ.</source>
+        <translation>Orientierungen (Exif) unterscheiden sich.</translation>
+    </message>
+    <message>
+        <source>Processed pictures, no light field: %1</source>
+        <translation>Fertige Bilder, kein Lichtfeld: %1</translation>
+    </message>
+    <message>
+        <source>Rows and columns may be exchanged.</source>
+        <translation>Zeilen und Spalten sind vielleicht vertauscht.</translation>
+    </message>
+    <message>
+        <source>The attribute %1 does not fit.</source>
+        <translation>Das Attribut %1 passt nicht.</translation>
+    </message>
+    <message>
+        <source>The attribute %1 says %2, but LF has %3 along that axis; the shape of LF is used.</source>
+        <translation>Das Attribut %1 sagt %2, LF hat auf dieser Achse aber %3; die Form von LF gilt.</translation>
+    </message>
+    <message>
+        <source>The camera is ignored.</source>
+        <translation>Die Kamera wird nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>The camera of %1 is ignored: %2.</source>
+        <translation>Die Kamera von %1 wird nicht verwendet: %2.</translation>
+    </message>
+    <message>
+        <source>The conventions that you set for this file were not used: %1</source>
+        <translation>Die Konventionen, die für diese Datei gesetzt wurden, galten nicht: %1</translation>
+    </message>
+    <message>
+        <source>The file of %1 is ignored.</source>
+        <translation>Die Datei von %1 wird nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>The file of %1 is ignored: %2.</source>
+        <translation>Die Datei von %1 wird nicht verwendet: %2.</translation>
+    </message>
+    <message>
+        <source>The film states that its pictures are stored %1 (Exif orientation %2): they are shown upright, with rows and columns of pixels to match.</source>
+        <translation>Der Film gibt an, dass seine Bilder anders gespeichert sind (%1, Exif-Orientierung %2): Sie werden aufrecht gezeigt, mit Pixelzeilen und -spalten dazu.</translation>
+    </message>
+    <message>
+        <source>The fourth channel is left out.</source>
+        <translation>Der vierte Kanal bleibt aus.</translation>
+    </message>
+    <message>
+        <source>The fourth channel of %1 is left out: it is no weight of pixels, for %2. If it is depth or disparity, store it as an array of its own, as disparity or depth.</source>
+        <translation>Der vierte Kanal von %1 bleibt aus: Er ist kein Gewicht von Pixeln, denn %2. Ist er Tiefe oder Disparität, als eigenes Feld speichern, als disparity oder depth.</translation>
+    </message>
+    <message>
+        <source>The frame number %1 is missing; frames are counted without it.</source>
+        <translation>Bild Nummer %1 fehlt; gezählt wird ohne es.</translation>
+    </message>
+    <message>
+        <source>The ground truth hardly explains the views: warped by it, they differ by %1 grey levels along %2, the other way by %3 and unwarped by %4; check it, and dH, focalLength and shift if it was stored as depth.</source>
+        <translation>Die Referenz erklärt die Ansichten kaum: Nach ihr verzerrt weichen sie entlang %2 um %1 Graustufen ab, andersherum um %3 und unverzerrt um %4; sie prüfen, auch dH, focalLength und shift, falls sie als Tiefe gespeichert war.</translation>
+    </message>
+    <message>
+        <source>The ground truth was stored with %1, as comparing it with the views shows; it was put right.</source>
+        <translation>Die Referenz war gespeichert mit %1, wie der Vergleich mit den Ansichten zeigt; das ist berichtigt.</translation>
+    </message>
+    <message>
+        <source>The image size of %2 is not used.</source>
+        <translation>Die Bildgröße von %2 wird nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>The lenses were found %1 px apart, but according to its pitches of lenses and pixels the camera has them %2 px apart: check the white picture and the optics.</source>
+        <translation>Gefunden wurden Linsen im Abstand von %1 px, nach den Maßen von Linsen und Pixeln hat die Kamera sie im Abstand von %2 px: Weißbild und Optik prüfen.</translation>
+    </message>
+    <message>
+        <source>The maps of %1×%2 px are padded %3 with a constant; %4×%5 px are used.</source>
+        <translation>Die Karten von %1×%2 px sind mit einer Konstante aufgefüllt (%3); %4×%5 px werden verwendet.</translation>
+    </message>
+    <message>
+        <source>The maps of %1×%2 px are taken for the middle of %3×%4 px.</source>
+        <translation>Die Karten von %1×%2 px gelten als Mitte von %3×%4 px.</translation>
+    </message>
+    <message>
+        <source>The pictures of the film were turned upright.</source>
+        <translation>Die Bilder des Films wurden aufgerichtet.</translation>
+    </message>
+    <message>
+        <source>The values of the ground truth could not be checked: one disparity for all explains the views as well, or better (where both differ, in %1 squares of the view, the truth is better by %2 standard deviations of chance).</source>
+        <translation>Die Werte der Referenz ließen sich nicht prüfen: Eine einzige Disparität erklärt die Ansichten ebenso gut oder besser (wo beide sich unterscheiden, in %1 Quadraten der Ansicht, ist die Referenz um %2 Standardabweichungen des Zufalls besser).</translation>
+    </message>
+    <message>
+        <source>The views are %3.</source>
+        <translation>Die Ansichten sind %3.</translation>
+    </message>
+    <message>
+        <source>The views are not %1×%2, row by row, but %3: %4.</source>
+        <translation>Die Ansichten sind nicht %1×%2, Zeile für Zeile, sondern %3: %4.</translation>
+    </message>
+    <message>
+        <source>The views differ too little to tell rows from columns of views; if they are exchanged, state the axes as %1.</source>
+        <translation>Die Ansichten unterscheiden sich zu wenig, um Zeilen von Spalten zu unterscheiden; sind sie vertauscht, die Achsen als %1 angeben.</translation>
+    </message>
+    <message>
+        <source>The views state %1 different orientations (Exif), %2 of %3 orientation %4: all are taken as they are stored; if the camera was turned, turn the pictures before.</source>
+        <translation>Die Ansichten nennen %1 verschiedene Orientierungen (Exif), %2 von %3 die Orientierung %4: Alle gelten, wie sie gespeichert sind; war die Kamera gedreht, die Bilder vorher drehen.</translation>
+    </message>
+    <message>
+        <source>The views were reordered: %1.</source>
+        <translation>Die Ansichten wurden umgeordnet: %1.</translation>
+    </message>
+    <message>
+        <source>The views were turned upright.</source>
+        <translation>Die Ansichten wurden aufgerichtet.</translation>
+    </message>
+    <message>
+        <source>This container of a Lytro camera holds processed pictures, without what the sensor saw: %1. They are no views of a light field; episcope-cli decode writes them as files.</source>
+        <translation>Dieser Container einer Lytro-Kamera enthält fertige Bilder ohne das, was der Sensor sah: %1. Sie sind keine Ansichten eines Lichtfelds; episcope-cli decode schreibt sie als Dateien.</translation>
+    </message>
+    <message>
+        <source>White picture %1</source>
+        <translation>Weißbild %1</translation>
+    </message>
+    <message>
+        <source>Y, Cb, Cr are turned into colors.</source>
+        <translation>Y, Cb, Cr werden in Farben umgerechnet.</translation>
+    </message>
+    <message>
+        <source>Your conventions were not used.</source>
+        <translation>Die gesetzten Konventionen galten nicht.</translation>
+    </message>
+    <message>
+        <source>dark picture %1</source>
+        <translation>Dunkelbild %1</translation>
+    </message>
+    <message>
+        <source>disp_min and disp_max of %1 have the other sign than the truth, in which larger values are nearer; they were negated.</source>
+        <translation>disp_min und disp_max von %1 haben das andere Vorzeichen als die Referenz, in der größere Werte näher sind; sie wurden negiert.</translation>
+    </message>
+    <message>
+        <source>disp_min and disp_max were negated.</source>
+        <translation>disp_min und disp_max wurden negiert.</translation>
+    </message>
+    <message>
+        <source>grey error %1 there, %2 elsewhere</source>
+        <translation>Graufehler %1 dort, %2 anderswo</translation>
+    </message>
+    <message>
+        <source>hide others in other views (grey error %1, the hidden ones %2, %3 pairs)</source>
+        <translation>verdecken andere in anderen Ansichten (Graufehler %1, die verdeckten %2, %3 Paare)</translation>
+    </message>
+    <message>
+        <source>it leads out of the picture</source>
+        <translation>sie führt aus dem Bild hinaus</translation>
+    </message>
+    <message>
+        <source>larger values are nearer, by %1</source>
+        <translation>größere Werte sind näher, nach %1</translation>
+    </message>
+    <message>
+        <source>larger values are nearer: they %1</source>
+        <translation>größere Werte sind näher: sie %1</translation>
+    </message>
+    <message>
+        <source>mean grey error of neighboring views after warping %1, unwarped %2</source>
+        <translation>mittlerer Graufehler benachbarter Ansichten nach dem Verzerren %1, unverzerrt %2</translation>
+    </message>
+    <message>
+        <source>mean grey error of neighboring views after warping %1, unwarped %2, with the values as stored %3</source>
+        <translation>mittlerer Graufehler benachbarter Ansichten nach dem Verzerren %1, unverzerrt %2, mit den Werten wie gespeichert %3</translation>
+    </message>
+    <message>
+        <source>no depth edges tell near from far: the sign is the one that leaves the views in the order in which they are stored</source>
+        <translation>keine Tiefenkanten trennen nah von fern: Es gilt das Vorzeichen, bei dem die Ansichten in der gespeicherten Reihenfolge bleiben</translation>
+    </message>
+    <message>
+        <source>propagated to all views from %1 of them</source>
+        <translation>von %1 Ansichten auf alle übertragen</translation>
+    </message>
+    <message>
+        <source>smaller values are nearer, by %1</source>
+        <translation>kleinere Werte sind näher, nach %1</translation>
+    </message>
+    <message>
+        <source>smaller values are nearer: they %1</source>
+        <translation>kleinere Werte sind näher: sie %1</translation>
+    </message>
+    <message>
+        <source>the camera follows from disparity and depth</source>
+        <translation>die Kamera folgt aus Disparität und Tiefe</translation>
+    </message>
+    <message>
+        <source>this view has %1, but %2 has %3</source>
+        <translation>diese Ansicht hat %1, %2 aber %3</translation>
+    </message>
+    <message>
+        <source>white picture %1</source>
+        <translation>Weißbild %1</translation>
+    </message>
+    <message>
+        <source>white picture %1 (%2) is the nearest of %3 to the raw picture (%4)</source>
+        <translation>Weißbild %1 (%2) ist von %3 das nächste zum Rohbild (%4)</translation>
+    </message>
+    <message>
+        <source>white picture %1 (%2); the raw picture has %3</source>
+        <translation>Weißbild %1 (%2); das Rohbild hat %3</translation>
+    </message>
+    <message>
+        <source>white picture: the one in the file of the raw picture</source>
+        <translation>Weißbild: das in der Datei des Rohbilds</translation>
+    </message>
+    <message>
+        <source>without a white picture the lenses were found in the raw picture itself, and their vignetting remains; give one with --white</source>
+        <translation>ohne Weißbild wurden die Linsen im Rohbild selbst gefunden, ihre Vignettierung bleibt; mit --white eines angeben</translation>
     </message>
 </context>
 <context>
@@ -3231,10 +3571,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Entfernt das aktuelle Label und alles damit Gemalte</translation>
     </message>
     <message>
-        <source>No labels yet. Add one for each kind of thing, then paint a few strokes on the view.</source>
-        <translation>Noch keine Labels. Für jede Art von Objekt eines hinzufügen, dann einige Striche in die Ansicht malen.</translation>
-    </message>
-    <message>
         <source>The light field is still loading.</source>
         <translation>Das Lichtfeld wird noch geladen.</translation>
     </message>
@@ -3301,6 +3637,58 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Merge “%1” into:</source>
         <translation>„%1“ verbinden mit:</translation>
+    </message>
+    <message>
+        <source>Change number…</source>
+        <translation>Nummer ändern…</translation>
+    </message>
+    <message>
+        <source>Gives the current label another number, in everything painted with it</source>
+        <translation>Gibt dem aktuellen Label eine andere Nummer, in allem damit Gemalten</translation>
+    </message>
+    <message>
+        <source>Move label up</source>
+        <translation>Label nach oben</translation>
+    </message>
+    <message>
+        <source>Moves the current label up in the list</source>
+        <translation>Schiebt das aktuelle Label in der Liste nach oben</translation>
+    </message>
+    <message>
+        <source>Alt+Up</source>
+        <translation>Alt+Up</translation>
+    </message>
+    <message>
+        <source>Move label down</source>
+        <translation>Label nach unten</translation>
+    </message>
+    <message>
+        <source>Moves the current label down in the list</source>
+        <translation>Schiebt das aktuelle Label in der Liste nach unten</translation>
+    </message>
+    <message>
+        <source>Alt+Down</source>
+        <translation>Alt+Down</translation>
+    </message>
+    <message>
+        <source>No labels yet. Add one for each kind of object, then paint a few strokes on the view.</source>
+        <translation>Noch keine Labels. Für jede Art von Objekt eines hinzufügen, dann ein paar Striche auf die Ansicht malen.</translation>
+    </message>
+    <message>
+        <source>“%1” is locked: unlock it to change its number.</source>
+        <translation>„%1“ ist gesperrt: entsperren, um die Nummer zu ändern.</translation>
+    </message>
+    <message>
+        <source>Change the number of a label</source>
+        <translation>Nummer eines Labels ändern</translation>
+    </message>
+    <message>
+        <source>Number of “%1”, from 1 to %2:</source>
+        <translation>Nummer von „%1“, von 1 bis %2:</translation>
+    </message>
+    <message>
+        <source>“%1” has the number %2: choose another one, or merge the two.</source>
+        <translation>„%1“ hat die Nummer %2: eine andere wählen oder die beiden zusammenführen.</translation>
     </message>
 </context>
 <context>
@@ -3510,6 +3898,18 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Filter of labels</source>
         <translation>Filter der Labels</translation>
+    </message>
+    <message>
+        <source>Change number…</source>
+        <translation>Nummer ändern…</translation>
+    </message>
+    <message>
+        <source>Move up</source>
+        <translation>Nach oben</translation>
+    </message>
+    <message>
+        <source>Move down</source>
+        <translation>Nach unten</translation>
     </message>
 </context>
 <context>
@@ -3878,6 +4278,18 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>%1 — Manual</source>
         <translation>%1 – Handbuch</translation>
+    </message>
+    <message>
+        <source>No paragraph has all of these words.</source>
+        <translation>Kein Absatz enthält alle diese Wörter.</translation>
+    </message>
+    <message>
+        <source>Search: %1</source>
+        <translation>Suche: %1</translation>
+    </message>
+    <message>
+        <source>Search the manual</source>
+        <translation>Handbuch durchsuchen</translation>
     </message>
 </context>
 <context>
@@ -4814,10 +5226,6 @@ s</translation>
         <translation> · keine solche Karte für diese Ansicht</translation>
     </message>
     <message>
-        <source>right</source>
-        <translation>richtig</translation>
-    </message>
-    <message>
         <source>≤ %1 px</source>
         <translation>≤ %1 px</translation>
     </message>
@@ -4948,6 +5356,38 @@ s</translation>
     <message>
         <source>Default %1</source>
         <translation>Standard %1</translation>
+    </message>
+    <message>
+        <source>An EPI, a row for each view: points move along lines of these slopes.</source>
+        <translation>Ein EPI, eine Zeile je Ansicht: Punkte wandern auf Linien dieser Steigungen.</translation>
+    </message>
+    <message>
+        <source>The weight of each neighbor; a bar is a pixel, or a view.</source>
+        <translation>Das Gewicht jedes Nachbarn; ein Balken ist ein Pixel oder eine Ansicht.</translation>
+    </message>
+    <message>
+        <source>Disparity along a row of pixels: grey as measured, blue as smoothed.</source>
+        <translation>Disparität entlang einer Pixelzeile: grau gemessen, blau geglättet.</translation>
+    </message>
+    <message>
+        <source>How strongly neighbors are smoothed, from equal to unlike colors.</source>
+        <translation>Wie stark Nachbarn geglättet werden, von gleichen zu ungleichen Farben.</translation>
+    </message>
+    <message>
+        <source>The cost of a difference, 0 in the middle: blue grows no more at the cap.</source>
+        <translation>Die Kosten eines Unterschieds, 0 in der Mitte: Blau wächst ab der Grenze nicht mehr.</translation>
+    </message>
+    <message>
+        <source>The weight of an estimate, from no to full confidence.</source>
+        <translation>Das Gewicht einer Schätzung, von keiner bis zu voller Konfidenz.</translation>
+    </message>
+    <message>
+        <source>The disparities that are tested, over the whole range.</source>
+        <translation>Die geprüften Disparitäten, über den ganzen Bereich.</translation>
+    </message>
+    <message>
+        <source>What is left to improve; the iterations end at the dashed line.</source>
+        <translation>Was noch zu verbessern ist; an der gestrichelten Linie enden die Iterationen.</translation>
     </message>
 </context>
 <context>
@@ -5345,6 +5785,204 @@ s</translation>
     </message>
 </context>
 <context>
+    <name>episcope::RawPicturePanel</name>
+    <message>
+        <source>Raw picture</source>
+        <translation>Rohbild</translation>
+    </message>
+    <message>
+        <source>White picture</source>
+        <translation>Weißbild</translation>
+    </message>
+    <message>
+        <source>Find lenses</source>
+        <translation>Linsen finden</translation>
+    </message>
+    <message>
+        <source>Decode…</source>
+        <translation>Dekodieren…</translation>
+    </message>
+    <message>
+        <source>Lens centers</source>
+        <translation>Linsenmitten</translation>
+    </message>
+    <message>
+        <source>Shown picture</source>
+        <translation>Gezeigtes Bild</translation>
+    </message>
+    <message>
+        <source>Marks the center of each lens; enlarge the picture with the wheel</source>
+        <translation>Markiert die Mitte jeder Linse; das Mausrad vergrößert das Bild</translation>
+    </message>
+    <message>
+        <source>Open a raw picture of a plenoptic camera: .lfp, .lfr, .raw, or the picture of a sensor behind microlenses.</source>
+        <translation>Ein Rohbild einer plenoptischen Kamera öffnen: .lfp, .lfr, .raw oder das Bild eines Sensors hinter Mikrolinsen.</translation>
+    </message>
+    <message>
+        <source>What the sensor of a plenoptic camera saw</source>
+        <translation>Was der Sensor einer plenoptischen Kamera sah</translation>
+    </message>
+    <message>
+        <source>An evenly lit white area: it shows the lenses and their shading</source>
+        <translation>Eine gleichmäßig beleuchtete weiße Fläche: Sie zeigt die Linsen und ihre Abschattung</translation>
+    </message>
+    <message>
+        <source>Fits the grid of the lenses again</source>
+        <translation>Passt das Raster der Linsen neu an</translation>
+    </message>
+    <message>
+        <source>Writes the views as a light field and opens it</source>
+        <translation>Schreibt die Ansichten als Lichtfeld und öffnet es</translation>
+    </message>
+    <message>
+        <source>Open a raw picture…</source>
+        <translation>Rohbild öffnen…</translation>
+    </message>
+    <message>
+        <source>Colors of the first pixels</source>
+        <translation>Farben der ersten Pixel</translation>
+    </message>
+    <message>
+        <source>Optics of the camera…</source>
+        <translation>Optik der Kamera…</translation>
+    </message>
+    <message>
+        <source>A computed one to try</source>
+        <translation>Ein berechnetes zum Ausprobieren</translation>
+    </message>
+    <message>
+        <source>White picture or archive of calibration data…</source>
+        <translation>Weißbild oder Archiv mit Kalibrierdaten…</translation>
+    </message>
+    <message>
+        <source>Folder of calibration data…</source>
+        <translation>Ordner mit Kalibrierdaten…</translation>
+    </message>
+    <message>
+        <source>Dark picture…</source>
+        <translation>Dunkelbild…</translation>
+    </message>
+    <message>
+        <source>No raw picture</source>
+        <translation>Kein Rohbild</translation>
+    </message>
+    <message>
+        <source>No white picture</source>
+        <translation>Kein Weißbild</translation>
+    </message>
+    <message>
+        <source>Lenses are not found yet</source>
+        <translation>Linsen noch nicht gefunden</translation>
+    </message>
+    <message>
+        <source>No views yet</source>
+        <translation>Noch keine Ansichten</translation>
+    </message>
+    <message>
+        <source>Gray</source>
+        <translation>Grau</translation>
+    </message>
+    <message>
+        <source>Bayer %1</source>
+        <translation>Bayer %1</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::RawPictures</name>
+    <message>
+        <source>Raw picture</source>
+        <translation>Rohbild</translation>
+    </message>
+    <message>
+        <source>White picture</source>
+        <translation>Weißbild</translation>
+    </message>
+    <message>
+        <source>Dark picture</source>
+        <translation>Dunkelbild</translation>
+    </message>
+    <message>
+        <source>hexagonal</source>
+        <translation>hexagonal</translation>
+    </message>
+    <message>
+        <source>square</source>
+        <translation>quadratisch</translation>
+    </message>
+    <message>
+        <source>Lenses: %1, %2 px, turned by %3°; %4 fit to %5 px, %6 do not</source>
+        <translation>Linsen: %1, %2 px, um %3° gedreht; %4 passen auf %5 px, %6 nicht</translation>
+    </message>
+    <message>
+        <source>%1×%2 views of %3×%4 px</source>
+        <translation>%1×%2 Ansichten von %3×%4 px</translation>
+    </message>
+    <message>
+        <source>Open a raw picture</source>
+        <translation>Rohbild öffnen</translation>
+    </message>
+    <message>
+        <source>Raw pictures (*.lfp *.lfr *.raw *.RAW *.png *.tif *.tiff *.pgm *.bmp);;All files (*)</source>
+        <translation>Rohbilder (*.lfp *.lfr *.raw *.RAW *.png *.tif *.tiff *.pgm *.bmp);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Open a white picture</source>
+        <translation>Weißbild öffnen</translation>
+    </message>
+    <message>
+        <source>Open a dark picture</source>
+        <translation>Dunkelbild öffnen</translation>
+    </message>
+    <message>
+        <source>Open the optics of a camera</source>
+        <translation>Optik einer Kamera öffnen</translation>
+    </message>
+    <message>
+        <source>Folder of calibration data</source>
+        <translation>Ordner mit Kalibrierdaten</translation>
+    </message>
+    <message>
+        <source>All files (*)</source>
+        <translation>Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Reading %1</source>
+        <translation>%1 wird gelesen</translation>
+    </message>
+    <message>
+        <source>Finding the lenses</source>
+        <translation>Linsen werden gesucht</translation>
+    </message>
+    <message>
+        <source>Save the views</source>
+        <translation>Ansichten speichern</translation>
+    </message>
+    <message>
+        <source>Light field (*.h5)</source>
+        <translation>Lichtfeld (*.h5)</translation>
+    </message>
+    <message>
+        <source>Decode the raw picture</source>
+        <translation>Rohbild dekodieren</translation>
+    </message>
+    <message>
+        <source>Save as…</source>
+        <translation>Speichern unter…</translation>
+    </message>
+    <message>
+        <source>Decoding</source>
+        <translation>Wird dekodiert</translation>
+    </message>
+    <message>
+        <source>%1, %2 % valid, %3 hot pixels replaced</source>
+        <translation>%1, %2 % gültig, %3 heiße Pixel ersetzt</translation>
+    </message>
+    <message>
+        <source>%1: %2×%3 px, %4</source>
+        <translation>%1: %2×%3 px, %4</translation>
+    </message>
+</context>
+<context>
     <name>episcope::ReadingQuestion</name>
     <message>
         <source>How is it to be read?</source>
@@ -5361,10 +5999,6 @@ s</translation>
 </context>
 <context>
     <name>episcope::RecoveryController</name>
-    <message>
-        <source>Episcope ended unexpectedly while “%1” was being annotated (%2). Your work can be recovered.</source>
-        <translation>Episcope wurde unerwartet beendet, während „%1“ annotiert wurde (%2). Die Arbeit kann wiederhergestellt werden.</translation>
-    </message>
     <message>
         <source>Recover</source>
         <translation>Wiederherstellen</translation>
@@ -5384,6 +6018,10 @@ s</translation>
     <message>
         <source>This deletes the scribbles on “%1” that were not saved.</source>
         <translation>Das löscht die Striche auf „%1“, die nicht gespeichert wurden.</translation>
+    </message>
+    <message>
+        <source>Episcope ended unexpectedly while “%1” was being annotated (%2). Strokes to recover: %3.</source>
+        <translation>Episcope endete unerwartet, während „%1“ annotiert wurde (%2). Wiederherstellbare Striche: %3.</translation>
     </message>
 </context>
 <context>
@@ -5971,10 +6609,6 @@ s</translation>
         <translation>Ersetzt vor dem ersten Durchgang die Disparität von Strahlen, durch die andere Ansichten hindurchsehen</translation>
     </message>
     <message>
-        <source>Beside jumps, take the median of the surroundings, weighted by likeness of color</source>
-        <translation>Nimmt neben Sprüngen den Median der Umgebung, gewichtet nach Ähnlichkeit der Farbe</translation>
-    </message>
-    <message>
         <source>Between neighboring positions of the gantry, in the unit of the mesh; with 1, depth is in steps</source>
         <translation>Abstand benachbarter Positionen des Kameraportals, in der Einheit des Netzes; mit 1 ist die Tiefe in Schritten</translation>
     </message>
@@ -6291,10 +6925,6 @@ s</translation>
         <translation>Mosaik</translation>
     </message>
     <message>
-        <source>Multi-view stereo over visible views, refined by TGV, carried to all views</source>
-        <translation>Stereo über sichtbare Ansichten, mit TGV verfeinert und in alle Ansichten übertragen</translation>
-    </message>
-    <message>
         <source>Name of the array that holds the light field, in a file with several of them</source>
         <translation>Name des Arrays mit dem Lichtfeld, in einer Datei mit mehreren</translation>
     </message>
@@ -6365,10 +6995,6 @@ s</translation>
     <message>
         <source>Outside two-layer regions the total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges</source>
         <translation>Außerhalb zweischichtiger Gebiete wird die totale Variation mit exp(−β·|Gradient der Ansicht|) gewichtet; 0 lässt Bildkanten außer Acht</translation>
-    </message>
-    <message>
-        <source>Pixels along a side of a lenslet of a mosaic; 0 = detected</source>
-        <translation>Pixel entlang einer Seite eines Linsenbilds des Mosaiks; 0 = ermittelt</translation>
     </message>
     <message>
         <source>Place silhouettes</source>
@@ -7433,6 +8059,22 @@ s</translation>
     <message>
         <source>views side by side, rows from the bottom</source>
         <translation>Ansichten nebeneinander, Zeilen von unten</translation>
+    </message>
+    <message>
+        <source>At depth jumps, take the median of the neighbors, weighted by similarity of color</source>
+        <translation>An Tiefensprüngen den Median der Nachbarn nehmen, gewichtet nach Ähnlichkeit der Farbe</translation>
+    </message>
+    <message>
+        <source>Multi-view stereo over visible views, refined by TGV, propagated to all views</source>
+        <translation>Stereo über sichtbare Ansichten, verfeinert durch TGV, auf alle Ansichten übertragen</translation>
+    </message>
+    <message>
+        <source>Pixels from one lenslet of a mosaic to the next; of a fraction, as 15.38, the picture is resampled to lenslets of whole pixels; 0 = detected</source>
+        <translation>Pixel von einer Linse eines Mosaiks zur nächsten; bei einem Bruch wie 15.38 wird das Bild auf Linsen ganzer Pixel umgetastet; 0 = erkannt</translation>
+    </message>
+    <message>
+        <source>processed container of a Lytro camera</source>
+        <translation>Container fertiger Bilder einer Lytro-Kamera</translation>
     </message>
 </context>
 <context>

@@ -153,7 +153,8 @@ void RawPicturePanel::makeRawMenu(const QStringList& mosaics) {
           &RawPicturePanel::openRequested);
   mosaic_ = menu->addMenu(tr("Colors of the first pixels"));
   for (const QString& name : mosaics) {
-    connect(mosaic_->addAction(name), &QAction::triggered, this,
+    const QString text = name == "gray" ? tr("Gray") : tr("Bayer %1").arg(name.toUpper());
+    connect(mosaic_->addAction(text), &QAction::triggered, this,
             [this, name] { emit mosaicChosen(name); });
   }
   optics_ = menu->addAction(tr("Optics of the camera…"));

@@ -20,6 +20,7 @@
 #include "engine/core/text.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
+#include "engine/io/models/labels/label_import.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
 
@@ -31,9 +32,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -231,6 +235,51 @@ FileInfo describe_labels(const std::string& file) {
   return info;
 }
 
+constexpr const char* kScribbles = "SCRIBBLES";
+
+/// Ids in a map, ascending. Neighbors mostly have one label, which is looked up once.
+std::set<std::int32_t> ids_in(const io::Hdf5Input& labels, const io::Hdf5Dataset& map) {
+  std::set<std::int32_t> ids;
+  io::Hdf5Block line{io::Hdf5Shape(map.shape.size(), 0), map.shape};
+  line.count[0] = 1;
+  const std::size_t size =
+      std::accumulate(map.shape.begin() + 1, map.shape.end(), std::size_t{1}, std::multiplies<>());
+  std::vector<std::int32_t> values(size);
+  for (line.start[0] = 0; line.start[0] < map.shape[0]; ++line.start[0]) {
+    labels.read(map.name, line, values.data());
+    std::int32_t last = values.front() - 1;
+    for (const std::int32_t id : values) {
+      if (id != std::exchange(last, id)) ids.insert(id);
+    }
+  }
+  return ids;
+}
+
+/// Whether a file has labels of the archive, but no light field.
+bool is_label_archive(const fs::path& path) {
+  if (!io::has_hdf5_signature(path) || !io::holds_labels_only(path)) return false;
+  const io::Hdf5Input file(path);
+  return file.has_numbers(io::kTrueLabels) || file.has_numbers(kScribbles);
+}
+
+FileInfo describe_label_archive(const std::string& file) {
+  const io::Hdf5Input labels(file);
+  FileInfo info{{}, {{"input", file}, {"kind", "labels"}, {"maps", Json::array()}}};
+  for (const char* name : {io::kTrueLabels, kScribbles}) {
+    if (!labels.has_numbers(name)) continue;
+    const io::Hdf5Dataset map = labels.dataset(name);
+    const std::set<std::int32_t> ids = ids_in(labels, map);
+    info.json["maps"].push_back(Json::object({{"name", name}, {"shape", map.shape}, {"ids", ids}}));
+    const auto text = [](auto number) { return std::to_string(number); };
+    info.lines.emplace_back(
+        name == std::string(kScribbles) ? "scribbles" : "labels",
+        fmt::format("{}: {}, ids {}", name, joined(map.shape, "×", text), joined(ids, ", ", text)));
+  }
+  info.json["date"] = time_text(written_at(file));
+  info.lines.emplace_back("date", time_text(written_at(file)));
+  return info;
+}
+
 bool is_there(const std::string& input) {
   std::error_code ignored;
   return !builtin_scene_id(input).empty() || fs::exists(input, ignored);
@@ -341,12 +390,13 @@ bool is_pose(const fs::path& path) {
   return json.is_object() && json.contains("rotation") && json.contains("translation");
 }
 
-/// Describes a result, labels, a project of the window, a camera or a pose. Nothing for what else
-/// there is, such as light fields. Throws IoError for a damaged file.
+/// Describes a result, labels, also those of the archive, a project of the window, a camera or a
+/// pose. Nothing for what else there is, such as light fields. Throws IoError for a damaged file.
 std::optional<FileInfo> describe_file(const std::string& input, Reads reads) {
   std::error_code ignored;
   if (!builtin_scene_id(input).empty() || !fs::is_regular_file(input, ignored)) return {};
   if (io::is_segmentation_file(input)) return describe_labels(input);
+  if (reads == Reads::AsItIs && is_label_archive(input)) return describe_label_archive(input);
   if (names_project(input)) return describe_project(input);
   const std::string suffix = suffix_of(input);
   if (suffix == ".yml" || suffix == ".yaml") return describe_camera(input);

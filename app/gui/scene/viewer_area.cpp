@@ -191,7 +191,13 @@ void ViewerArea::fitPlaces() {
   vertical_place_->setVisible(has_vertical && center_->currentWidget() == canvas_);
   horizontal_place_->setVisible(horizontal_place_->isAncestorOf(horizontal_epi_));
   QSplitter* legend_place = has_vertical ? lower_ : rows_;
-  if (legend_->parentWidget() != legend_place) legend_place->addWidget(legend_);
+  if (legend_->parentWidget() != legend_place) {
+    const int epi_height = rows_->sizes()[1], legend_height = legend_->sizeHint().height();
+    legend_place->addWidget(legend_);
+    if (!has_vertical) {
+      rows_->setSizes({rows_->height() - epi_height - legend_height, epi_height, legend_height});
+    }
+  }
   lower_->setVisible(has_vertical || !horizontal_place_->isHidden());
 }
 

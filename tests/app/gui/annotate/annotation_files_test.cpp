@@ -111,7 +111,7 @@ void AnnotationFilesTest::folderThatIsTyped_isMade() {
   dialog->findChild<QLineEdit*>("fileNameEdit")->setText("new pictures");
   QTest::keyClick(dialog->findChild<QLineEdit*>("fileNameEdit"), Qt::Key_Return);
 
-  QTRY_COMPARE(QDir(f.path("new pictures")).entryList({"scribbles_*.png"}).size(), 1);
+  QTRY_VERIFY(QFile::exists(f.path("new pictures/scribbles_04_04.png")));
 }
 
 void AnnotationFilesTest::strokesOfTwoViews_takeLittleRoom() {

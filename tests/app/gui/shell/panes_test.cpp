@@ -196,6 +196,7 @@ void PanesTest::layout_isRememberedAndReset() {
   const int dragged = f.window.bench().viewer_area.horizontalEpi()->height();
   QVERIFY(dragged > first + 100);
   f.trigger("panes.epi.vertical");
+  QVERIFY(f.window.bench().viewer_area.canvas()->height() > 250);  // the legend below takes little
   f.window.bench().frame.showTab("cloud");
   f.trigger("panes.tab");
   f.key(Qt::Key_F11, Qt::ShiftModifier);
