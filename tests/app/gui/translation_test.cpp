@@ -33,9 +33,10 @@ QString unwrapped(QString text) {
   static const QRegularExpression wrapped("⟦[^⟦⟧]*(⟧|$)");
   while (text.contains(wrapped)) text.remove(wrapped);
   static const QRegularExpression tags("<[^>]*>|--[a-z_-]+");
-  // Methods, paths, the name of the light field, the program, languages.
+  // Methods, arrays of colors, paths, the name of the light field, the program, languages.
   static const QRegularExpression names(
-      "\\b(EPI|ST|PLANE)_[A-Z_]+\\b|\\b(KZ02|NET)\\b|(/[\\w.-]+)+|\\bedge\\b|Episcope|Deutsch|English");
+      "\\b(EPI|ST|PLANE)_[A-Z_]+\\b|\\b(KZ02|NET|RGGB|GRBG|GBRG|BGGR)\\b|"
+      "(/[\\w.-]+)+|\\bedge\\b|Episcope|Deutsch|English");
   static const QRegularExpression keys(
       "\\b(Ctrl|Shift|Alt|Return|Enter|Backspace|Delete|Del|Esc|Space|Home|PgUp|PgDown|Up|Down|"
       "Left|Right|"
