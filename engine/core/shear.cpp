@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <type_traits>
 #include <utility>
 
 namespace episcope {
@@ -39,36 +38,15 @@ ViewOffset offset_of(ViewIndex view, ViewIndex center, double focus_px) {
   return {Offset(-focus_px * (view.v - center.v)), Offset(-focus_px * (view.u - center.u))};
 }
 
-/// Weights of the neighbors −1, 0, 1, 2 (Keys 1981, a = −1/2).
-struct Weights {
-  float w[kTaps];
-
-  explicit Weights(float t)
-      : w{((-0.5F * t + 1) * t - 0.5F) * t, (1.5F * t - 2.5F) * t * t + 1,
-          ((-1.5F * t + 2) * t + 0.5F) * t, (0.5F * t - 0.5F) * t * t} {}
-};
-
-template <class T>
-T stored(float value) {
-  if constexpr (std::is_integral_v<T>) {
-    constexpr auto largest = static_cast<float>(std::numeric_limits<T>::max());
-    const float above = std::clamp(value, 0.0F, largest) + 0.5F;
-    return static_cast<T>(above);
-  } else {
-    return value;
-  }
-}
-
 /// The four rows around a row, interpolated, with the border repeated where columns leave the
 /// image: `line` has width + 3 pixels and begins at column `whole` − 1.
 template <class T>
 void gather_line(ImageView<const T> in, int y, const ViewOffset& offset, std::vector<float>& line) {
-  const Weights weights(offset.y.fraction);
   const T* rows[kTaps];
   for (int k = 0; k < kTaps; ++k) {
     rows[k] = in.row(std::clamp(y + offset.y.whole + k - 1, 0, in.height - 1));
   }
-  const auto& w = weights.w;
+  const auto w = cubic_weights(offset.y.fraction);
   const auto value = [&](int i) {
     return w[0] * rows[0][i] + w[1] * rows[1][i] + w[2] * rows[2][i] + w[3] * rows[3][i];
   };
@@ -89,14 +67,14 @@ template <class T>
 void shear_view(ImageView<const T> in, const ViewOffset& offset, ImageView<T> out) {
   const std::ptrdiff_t channels = in.channels;
   std::vector<float> line(static_cast<std::size_t>(in.width + kTaps - 1) * channels);
-  const auto& w = Weights(offset.x.fraction).w;
+  const auto w = cubic_weights(offset.x.fraction);
   for (int y = 0; y < in.height; ++y) {
     gather_line(in, y, offset, line);
     T* target = out.row(y);
     for (int i = 0; i < in.width * channels; ++i) {
       const float* at = line.data() + i;
-      target[i] = stored<T>(w[0] * at[0] + w[1] * at[channels] + w[2] * at[2 * channels] +
-                            w[3] * at[3 * channels]);
+      target[i] = interpolated_sample<T>(w[0] * at[0] + w[1] * at[channels] +
+                                         w[2] * at[2 * channels] + w[3] * at[3 * channels]);
     }
   }
 }

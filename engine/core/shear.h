@@ -7,7 +7,31 @@
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <type_traits>
+
 namespace episcope {
+
+/// Weights of the samples −1, 0, 1 and 2 for a place `t` in [0, 1) after sample 0 (Keys 1981,
+/// a = −1/2).
+[[nodiscard]] constexpr std::array<float, 4> cubic_weights(float t) {
+  return {((-0.5F * t + 1) * t - 0.5F) * t, (1.5F * t - 2.5F) * t * t + 1,
+          ((-1.5F * t + 2) * t + 0.5F) * t, (0.5F * t - 0.5F) * t * t};
+}
+
+/// An interpolated value as a sample: integers are clamped to their range, from 0 on, and rounded.
+template <class T>
+[[nodiscard]] T interpolated_sample(float value) {
+  if constexpr (std::is_integral_v<T>) {
+    constexpr auto largest = static_cast<float>(std::numeric_limits<T>::max());
+    const float above = std::clamp(value, 0.0F, largest) + 0.5F;
+    return static_cast<T>(above);
+  } else {
+    return value;
+  }
+}
 
 /// Bakes in a focus plane: disparity d becomes d − focus_px, so that points of disparity `focus_px`
 /// get 0. View (u, v) is sampled at (x − focus_px·(u − u_c), y − focus_px·(v − v_c)): the center

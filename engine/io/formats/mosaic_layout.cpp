@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/image.h"
 #include "engine/core/parallel.h"
+#include "engine/core/shear.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_header.h"
@@ -15,8 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <type_traits>
 #include <vector>
 
 namespace episcope::io {
@@ -310,7 +309,7 @@ MosaicLayout find_mosaic_layout(const AnyImage& picture, const fs::path& path,
 
 namespace {
 
-/// Four samples around a place between samples, and their weights (Keys 1981, a = −1/2).
+/// Four samples around a place between samples, and their weights.
 struct Taps {
   std::array<int, 4> at;
   std::array<float, 4> weights;
@@ -327,20 +326,9 @@ std::vector<Taps> taps_along(int length, double pitch_px) {
     const int first = static_cast<int>(std::floor(place)) - 1;
     const auto t = static_cast<float>(place - std::floor(place));
     for (int k = 0; k < 4; ++k) taps[i].at[k] = std::clamp(first + k, 0, length - 1);
-    taps[i].weights = {t * (-0.5F + t * (1 - 0.5F * t)), 1 + t * t * (1.5F * t - 2.5F),
-                       t * (0.5F + t * (2 - 1.5F * t)), t * t * (0.5F * t - 0.5F)};
+    taps[i].weights = cubic_weights(t);
   }
   return taps;
-}
-
-template <class T>
-T sample_of(float value) {
-  if constexpr (std::is_floating_point_v<T>) {
-    return value;
-  } else {
-    return static_cast<T>(
-        std::clamp(value + 0.5F, 0.F, static_cast<float>(std::numeric_limits<T>::max())));
-  }
 }
 
 template <class T>
@@ -362,7 +350,7 @@ Image<T> resampled(const Image<T>& from, const std::vector<Taps>& along_y,
       for (int c = 0; c < channels; ++c) {
         float sum = 0;
         for (int k = 0; k < 4; ++k) sum += columns.weights[k] * line[columns.at[k] * channels + c];
-        *out++ = sample_of<T>(sum);
+        *out++ = interpolated_sample<T>(sum);
       }
     }
   });
