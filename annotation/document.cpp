@@ -17,17 +17,8 @@ bool fits(const LabelRun& run, const ScribbleLayer& layer) {
 }
 
 PixelRegion pixels_of(ImageView<const std::uint8_t> image, std::uint8_t label) {
-  PixelRegion region;
-  for (int y = 0; y < image.height; ++y) {
-    const std::uint8_t* row = image.row(y);
-    for (int x = 0; x < image.width; ++x) {
-      if (row[x] != label) continue;
-      const int begin = x;
-      while (x < image.width && row[x] == label) ++x;
-      region.push_back({y, begin, x});
-    }
-  }
-  return region;
+  return region_where(image.height, image.width,
+                      [&](int y, int x) { return image.at(y, x) == label; });
 }
 
 }  // namespace

@@ -65,6 +65,21 @@ struct PixelSpan {
 /// A set of pixels of one view.
 using PixelRegion = std::vector<PixelSpan>;
 
+/// The pixels (y, x) of a view for which `is_in(y, x)` is true, row by row.
+template <class IsIn>
+[[nodiscard]] PixelRegion region_where(int height, int width, const IsIn& is_in) {
+  PixelRegion region;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (!is_in(y, x)) continue;
+      const int begin = x;
+      while (x < width && is_in(y, x)) ++x;
+      region.push_back({y, begin, x});
+    }
+  }
+  return region;
+}
+
 /// The labels that a user paints with, in the order of their list: ids 1 … 255. Removing a label
 /// does not renumber the others, and its id is reused only after all others have been used.
 class LabelSet {

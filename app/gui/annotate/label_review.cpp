@@ -83,15 +83,10 @@ void LabelReviewController::addCommands() {
 namespace {
 
 PixelRegion region_of(const Blob& blob) {
-  PixelRegion region;
-  for (int y = 0; y < blob.mask.height(); ++y) {
-    const std::uint8_t* const row = blob.mask.row(y);
-    for (int x = 0; x < blob.mask.width();) {
-      const int begin = x;
-      while (x < blob.mask.width() && row[x] == row[begin]) ++x;
-      if (row[begin] == 0) continue;
-      region.push_back({blob.bounds.y0 + y, blob.bounds.x0 + begin, blob.bounds.x0 + x});
-    }
+  PixelRegion region = region_where(blob.mask.height(), blob.mask.width(),
+                                    [&](int y, int x) { return blob.mask.at(y, x) != 0; });
+  for (PixelSpan& span : region) {
+    span = {blob.bounds.y0 + span.y, blob.bounds.x0 + span.x0, blob.bounds.x0 + span.x1};
   }
   return region;
 }

@@ -50,22 +50,12 @@ std::vector<std::uint8_t> Wand::select(ViewIndex view, PixelIndex seed, float to
 }
 
 PixelRegion Wand::region(const std::vector<std::uint8_t>& selected, ViewIndex view) const {
-  PixelRegion region;
-  if (selected.empty()) return region;
+  if (selected.empty()) return {};
   const ImageView<const std::uint16_t> ids = superpixels_->ids().view(view);
-  const auto is_selected = [&selected](std::uint16_t id) {
+  return region_where(ids.height, ids.width, [&](int y, int x) {
+    const std::uint16_t id = ids.at(y, x);
     return id != RaySuperpixels::kNone && selected[id] != 0;
-  };
-  for (int y = 0; y < ids.height; ++y) {
-    const std::uint16_t* const row = ids.row(y);
-    for (int x = 0; x < ids.width; ++x) {
-      if (!is_selected(row[x])) continue;
-      const int begin = x;
-      while (x < ids.width && is_selected(row[x])) ++x;
-      region.push_back({y, begin, x});
-    }
-  }
-  return region;
+  });
 }
 
 std::vector<ViewRegion> Wand::regions(const std::vector<std::uint8_t>& selected) const {
