@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/label_review.h"
 
+#include "app/session/scene_summary.h"
 #include "engine/core/text.h"
 
 #include <fmt/format.h>
@@ -9,8 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
-#include <span>
 #include <utility>
 
 namespace episcope {
@@ -47,19 +46,6 @@ LabelingScores matched(LabelingScores scores, const std::vector<LabelInfo>& give
   return scores;
 }
 
-namespace {
-
-// Neighbors mostly have one label, which is looked up once.
-void add_ids(std::span<const std::int32_t> labels, std::set<std::int32_t>& ids) {
-  std::int32_t last = 0;
-  for (const std::int32_t id : labels) {
-    if (id == std::exchange(last, id) || id <= 0) continue;
-    ids.insert(id);
-  }
-}
-
-}  // namespace
-
 std::string other_numbers_text(const LabelingScores& scores) {
   const auto share_of = [](const LabelingScores& of) {
     return of.all_views.all.judged() > 0 ? of.all_views.all.share() : of.view.all.share();
@@ -78,12 +64,12 @@ std::string other_numbers_text(const LabelingScores& scores) {
 
 std::string unknown_labels_text(const Scribbles& scribbles, const ViewStack<std::int32_t>& truth) {
   if (truth.empty()) return {};
-  std::set<std::int32_t> known, unknown;
-  add_ids({truth.data(), truth.size()}, known);
+  std::vector<int> known, unknown;
+  collect_ids({truth.data(), truth.size()}, known);
   for (const ViewScribbles& one : scribbles.views) {
-    add_ids({one.labels.data(), one.labels.size()}, unknown);
+    collect_ids({one.labels.data(), one.labels.size()}, unknown);
   }
-  std::erase_if(unknown, [&known](std::int32_t id) { return known.contains(id); });
+  std::erase_if(unknown, [&known](int id) { return std::ranges::binary_search(known, id); });
   if (unknown.empty()) return {};
   const auto text = [](std::int32_t id) { return std::to_string(id); };
   return "GT_LABELS do not have " + std::string(unknown.size() == 1 ? "label " : "labels ") +

@@ -53,21 +53,20 @@ SceneSummary::Truth summarize_truth(const DisparityField& field, const LightFiel
           center.interval(), all.interval()};
 }
 
-/// Adds label ids above 0 to `ids`; returns how many samples carry one.
-std::size_t collect_ids(const std::int32_t* labels, std::size_t count, std::vector<int>& ids) {
+}  // namespace
+
+std::size_t collect_ids(std::span<const std::int32_t> labels, std::vector<int>& ids) {
   std::set<int> found(ids.begin(), ids.end());
   std::size_t painted = 0;
   int last = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (labels[i] <= 0) continue;
+  for (const std::int32_t label : labels) {
+    if (label <= 0) continue;
     ++painted;
-    if (labels[i] != last) found.insert(last = labels[i]);
+    if (label != last) found.insert(last = label);
   }
   ids.assign(found.begin(), found.end());
   return painted;
 }
-
-}  // namespace
 
 const char* sample_type_name(SampleType type) {
   switch (type) {
@@ -89,12 +88,12 @@ SceneSummary summarize(const Scene& scene) {
   summary.has_layers = truth.has_layers();
   if (!truth.labels.empty()) {
     summary.label_views = covered_views(truth.labels, *scene.light_field);
-    collect_ids(truth.labels.data(), truth.labels.size(), summary.label_ids);
+    collect_ids({truth.labels.data(), truth.labels.size()}, summary.label_ids);
   }
   std::size_t painted = 0;
   std::size_t pixels = 0;
   for (const auto& [view, labels] : scene.scribbles.views) {
-    painted += collect_ids(labels.data(), labels.size(), summary.scribble_ids);
+    painted += collect_ids({labels.data(), labels.size()}, summary.scribble_ids);
     pixels += labels.size();
     summary.painted_views += summary.painted_views.empty() ? "" : " ";
     summary.painted_views += view_text(view);

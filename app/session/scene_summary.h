@@ -4,7 +4,10 @@
 #include "engine/core/estimate.h"
 #include "engine/core/scene.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,6 +59,10 @@ struct SceneSummary {
 /// The range that pictures of disparity span: what is known of the scene, else the display range of
 /// an estimate, else −1 … 1 px. Each may be {0, 0}.
 [[nodiscard]] Interval shown_range(Interval known, Interval of_estimate);
+
+/// Adds the ids of labels, those above 0, to `ids`, which stays ascending. Returns how many samples
+/// carry one. Linear in samples: neighbors mostly have one label, which is looked up once.
+std::size_t collect_ids(std::span<const std::int32_t> labels, std::vector<int>& ids);
 
 /// Disparities that the valid pixels of one view lie in; {0, 0} if none is valid. Linear in pixels.
 [[nodiscard]] Interval extent(const DisparityView& view);

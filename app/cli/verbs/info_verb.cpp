@@ -37,7 +37,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,12 +98,13 @@ struct MadeBy {
 
 void add_made_by(const MadeBy& made, const std::string& file, FileInfo& info) {
   Json& json = info.json;
+  const bool is_there = !existing_source(made.source, file).empty();
   json["parameters"] = io::parameters_json(made.parameters);
   if (made.seconds > 0) json["seconds"] = made.seconds;
   if (!made.version.empty()) json["version"] = made.version;
   if (!made.source.empty()) {
     json["source"] = made.source;
-    json["source_exists"] = !existing_source(made.source, file).empty();
+    json["source_exists"] = is_there;
   }
   if (!made.reading.reader.empty()) {
     json["reader"] = made.reading.reader;
@@ -115,7 +115,6 @@ void add_made_by(const MadeBy& made, const std::string& file, FileInfo& info) {
                             return each.first + " " + to_text(each.second);
                           }));
   if (made.seconds > 0) info.lines.emplace_back("seconds", fmt::format("{:.4g}", made.seconds));
-  const bool is_there = !existing_source(made.source, file).empty();
   const std::string gone = made.source.empty() || is_there ? "" : ", which is not there";
   info.lines.emplace_back("source",
                           made.source + reading_options_text(made.reading.options) + gone);
@@ -237,9 +236,9 @@ FileInfo describe_labels(const std::string& file) {
 
 constexpr const char* kScribbles = "SCRIBBLES";
 
-/// Ids in a map, ascending. Neighbors mostly have one label, which is looked up once.
-std::set<std::int32_t> ids_in(const io::Hdf5Input& labels, const io::Hdf5Dataset& map) {
-  std::set<std::int32_t> ids;
+/// Ids of labels in a map, ascending.
+std::vector<int> ids_in(const io::Hdf5Input& labels, const io::Hdf5Dataset& map) {
+  std::vector<int> ids;
   io::Hdf5Block line{io::Hdf5Shape(map.shape.size(), 0), map.shape};
   line.count[0] = 1;
   const std::size_t size =
@@ -247,10 +246,7 @@ std::set<std::int32_t> ids_in(const io::Hdf5Input& labels, const io::Hdf5Dataset
   std::vector<std::int32_t> values(size);
   for (line.start[0] = 0; line.start[0] < map.shape[0]; ++line.start[0]) {
     labels.read(map.name, line, values.data());
-    std::int32_t last = values.front() - 1;
-    for (const std::int32_t id : values) {
-      if (id != std::exchange(last, id)) ids.insert(id);
-    }
+    collect_ids(values, ids);
   }
   return ids;
 }
@@ -268,7 +264,7 @@ FileInfo describe_label_archive(const std::string& file) {
   for (const char* name : {io::kTrueLabels, kScribbles}) {
     if (!labels.has_numbers(name)) continue;
     const io::Hdf5Dataset map = labels.dataset(name);
-    const std::set<std::int32_t> ids = ids_in(labels, map);
+    const std::vector<int> ids = ids_in(labels, map);
     info.json["maps"].push_back(Json::object({{"name", name}, {"shape", map.shape}, {"ids", ids}}));
     const auto text = [](auto number) { return std::to_string(number); };
     info.lines.emplace_back(
