@@ -38,6 +38,7 @@ def arguments():
     p.add_argument('--out', help='where the checkpoint is written (default: where it was read)')
     p.add_argument('--warm', help='released weights (net.npz) to start from where there is no checkpoint')
     p.add_argument('--still', action='store_true', help='hold BatchNorm still')
+    p.add_argument('--size', type=int, default=96, help='rows and columns of a scene; larger ones are fewer a batch')
     p.add_argument('--times', type=float, default=1., help='scenes a batch, relative to SHAPES')
     p.add_argument('--averaged', action='store_true', help='start from the averaged weights')
     p.add_argument('--rate', type=float, default=1.5e-3)
@@ -162,7 +163,7 @@ class Trainer:
         net = self.net
         # Each batch is used twice, the second time turned.
         if self.kept is None:
-            self.kept = self.gen.batch(B)
+            self.kept = self.gen.batch(B, self.a.size)
             packed, d, off, few, many = self.kept
         else:
             packed, d, off, few, many = generator.turned(*self.kept)
@@ -233,7 +234,7 @@ class Trainer:
         it = self.done['iteration']
         if self.kept is None:
             self.shape = SHAPES[int(np.random.choice(3, p=(.35, .45, .2)))]
-        D, B = self.shape[0], round(self.shape[1] * self.a.times)
+        D, B = self.shape[0], round(self.shape[1] * self.a.times * (96 / self.a.size) ** 2)
         train_volume = it % 4 in ((0, 1, 2, 3), (0, 3), (0,))[self.a.volume_every - 1]
         out = self.losses(B, D, train_volume)
         loss = out['select'] + 4 * out['mean'] + out['refine1'] + out['refine2'] + .3 * out['certain']
