@@ -242,7 +242,7 @@ std::string plan_to_json(const BenchmarkPlan& plan, const BenchmarkOptions& opti
   for (const PlannedRun& planned : planned_runs(options)) json["runs"].push_back(run_json(planned));
   json["tasks"] = Json::array();
   for (const PlanTask& task : plan.tasks) json["tasks"].push_back(task_json(task));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return io::json_text(json, 1) + "\n";
 }
 
 fs::path task_log(const fs::path& folder, std::size_t number) {

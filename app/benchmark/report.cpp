@@ -152,7 +152,7 @@ std::string report_to_json(const BenchmarkReport& report) {
   }
   json["failures"] = report.failures();
   // Names of files may be any bytes: those that are not UTF-8 become the replacement character.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return io::json_text(json, 2) + "\n";
 }
 
 namespace {
@@ -169,7 +169,7 @@ std::string plain(const std::string& name) {
 }
 
 PublishedFigures read_figures() {
-  const Json json = Json::parse(kPublishedData);
+  const Json json = io::parse_json<Json>(kPublishedData);
   PublishedFigures figures{json.at("algorithms"), {}, json.at("averages"), {}};
   for (const Json& line : json.at("figure_7")) {
     figures.scenes.push_back({line.at("scene"), line.value("also", ""), line.at("mse_100")});

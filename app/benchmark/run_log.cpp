@@ -119,12 +119,12 @@ std::string record_to_json(const BenchmarkRecord& record) {
   json["failed"] = result.has_failed;
   json["notes"] = result.notes;
   json["files"] = record.files;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return io::json_text(json);
 }
 
 std::optional<BenchmarkRecord> record_from_json(const std::string& line) {
   try {
-    return read_record(Json::parse(line));
+    return read_record(io::parse_json<Json>(line));
   } catch (const Json::exception&) {
     return std::nullopt;
   } catch (const InvalidInput&) {

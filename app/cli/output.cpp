@@ -9,6 +9,7 @@
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
+#include "engine/io/base/json.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/scribble_file.h"
 
@@ -69,7 +70,7 @@ std::string time_text(std::int64_t seconds) {
 
 void print_json(const Json& json) {
   // Names of files may be any bytes: those that are not UTF-8 become the replacement character.
-  std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  std::cout << io::json_text(json, 2) << '\n';
 }
 
 void print_answer(Json answer, const std::vector<std::string>& notes,

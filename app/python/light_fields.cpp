@@ -10,6 +10,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/text.h"
 #include "engine/io/base/array_input.h"
+#include "engine/io/base/json.h"
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/models/array_file.h"
 #include "engine/io/models/open_options.h"
@@ -517,8 +518,7 @@ ParameterSet parameters_from(const py::kwargs& given,
 }
 
 py::object object_from(const nlohmann::ordered_json& json) {
-  const std::string text =
-      json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  const std::string text = io::json_text(json);
   return py::module_::import("json").attr("loads")(text);
 }
 

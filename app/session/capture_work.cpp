@@ -216,7 +216,7 @@ std::string capture_to_json(const CaptureWork& work, const fs::path& project) {
     json["objects"].push_back(object_json(each, project));
   }
   json["current"] = work.current;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return io::json_text(json);
 }
 
 CaptureWork capture_from_json(const std::string& text, const fs::path& project) {

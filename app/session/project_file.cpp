@@ -182,7 +182,7 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
     json["results"].push_back(result_json(each, project));
   }
   const CaptureWork& capture = scene.place.capture;
-  if (!capture.empty()) json["capture"] = Json::parse(capture_to_json(capture, project));
+  if (!capture.empty()) json["capture"] = io::parse_json<Json>(capture_to_json(capture, project));
   const JudgedPart& judged = scene.place.judged;
   if (judged != JudgedPart{}) json["judged"] = judged_json(judged, project);
   if (!scene.strokes.empty()) json["strokes"] = source_text(scene.strokes.string(), project);
@@ -232,7 +232,7 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
   scene.place = place_of(json.at("place"));
   for (const Json& each : json.at("results")) scene.results.push_back(result_of(each, project));
   if (json.contains("capture")) {
-    scene.place.capture = capture_from_json(json.at("capture").dump(), project);
+    scene.place.capture = capture_from_json(io::json_text(json.at("capture")), project);
   }
   if (json.contains("judged")) scene.place.judged = judged_of(json.at("judged"), project);
   if (json.contains("strokes")) scene.strokes = absolute_path(json.at("strokes"), project);
@@ -421,7 +421,7 @@ void write_project(const fs::path& path, const Project& project) {
   }
   if (!project.sweeps.empty()) json["sweeps"] = sweeps_json(project);
   // Names of other systems may be no UTF-8.
-  const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+  const std::string text = io::json_text(json, 1) + '\n';
   io::write_atomically(path, text);
 }
 

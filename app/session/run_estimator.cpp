@@ -82,7 +82,7 @@ std::string identity_of(const Estimator& estimator, const BlockwiseRun& run,
       {"range", {run.provenance.range.min, run.provenance.range.max}},
       {"samples", hash_digits(source_hash)},
       {"maps", {maps.first.v, maps.first.u, maps.grid.v, maps.grid.u, maps.height, maps.width}}};
-  return identity.dump();
+  return io::json_text(identity);
 }
 
 class DraftStore : public BlockStore {

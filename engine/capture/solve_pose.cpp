@@ -459,7 +459,7 @@ std::string pose_json(const PoseStory& story, const std::filesystem::path& path)
     json["pinhole"] = {pinhole.focal_px, pinhole.center_x, pinhole.center_y};
   }
   json["pairs"] = pairs_json(story);
-  return json.dump(2) + "\n";
+  return io::json_text(json, 2) + "\n";
 }
 
 void write_pose(const std::filesystem::path& path, const PoseStory& story) {

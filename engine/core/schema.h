@@ -4,11 +4,9 @@
 #include "engine/core/error.h"
 #include "engine/core/parameter.h"
 
-#include <algorithm>
 #include <cassert>
 #include <concepts>
 #include <cstddef>
-#include <functional>
 #include <initializer_list>
 #include <string>
 #include <type_traits>
@@ -67,12 +65,8 @@ template <NamedEnum E>
   throw InvalidInput(no_such_name("value", name, all_names<E>()));
 }
 
-/// The single description of a parameter struct `P`: keys, labels, help, units, domains; defaults
-/// come from a value-initialized `P`. The form in the window, the options of the command line,
-/// JSON and validation are all derived from it. A struct may be composed of others that have
-/// schemas of their own (`part`). Keys must be distinct.
-template <class P>
-class Schema {
+/// What the schemas of all structs share: descriptions, and where the values lie in the struct.
+class AnySchema {
  public:
   struct Text {
     const char* label;
@@ -84,115 +78,6 @@ class Schema {
     double max;
     bool logarithmic = false;
   };
-
-  Schema& real(const char* key, double P::*member, Text text, Domain domain) {
-    return add(key, member, text, domain);
-  }
-  Schema& integer(const char* key, int P::*member, Text text, Domain domain) {
-    return add(key, member, text, domain);
-  }
-  Schema& flag(const char* key, bool P::*member, Text text) {
-    return add(key, member, text, {0, 1});
-  }
-  /// A flag that is off by default and that a command line sets by its bare name: `--key`.
-  Schema& toggle(const char* key, bool P::*member, Text text) {
-    flag(key, member, text);
-    descriptions_.back().is_toggle = true;
-    return *this;
-  }
-  /// One of the values of an enumeration; outside the struct it goes by its name.
-  template <NamedEnum E>
-  Schema& choice(const char* key, E P::*member, Text text) {
-    add_as(
-        key, text, {0, 0}, [member](const P& p) { return ParameterValue(name_of(p.*member)); },
-        [member](P& p, const ParameterValue& value) {
-          p.*member = value_named<E>(std::get<std::string>(value));
-        });
-    for (const Named<E>& each : names_of(E{})) {
-      descriptions_.back().choices.emplace_back(each.name);
-      descriptions_.back().choice_labels.emplace_back(each.label);
-    }
-    return *this;
-  }
-  /// Any text.
-  Schema& text(const char* key, std::string P::*member, Text text) {
-    return add(key, member, text, {0, 0});
-  }
-  Schema& interval(const char* key, IntervalOrAuto P::*member, Text text, Domain domain) {
-    return add(key, member, text, domain);
-  }
-  Schema& view(const char* key, ViewOrAuto P::*member, Text text) {
-    return add(key, member, text, {0, 0});
-  }
-
-  /// All parameters of a member that is a parameter struct of its own, as `schema` describes them.
-  /// Defaults come from the member in a value-initialised `P`. Presets stay; searched values are
-  /// dropped.
-  template <class Part>
-  Schema& part(Part P::*member, const Schema<Part>& schema) {
-    for (std::size_t i = 0; i < schema.descriptions_.size(); ++i) {
-      ParameterDescription description = schema.descriptions_[i];
-      description.default_value = schema.read_[i](P{}.*member);
-      description.searched.clear();
-      for (Preset& preset : description.presets) preset.searched.clear();
-      descriptions_.push_back(std::move(description));
-      read_.push_back([member, read = schema.read_[i]](const P& p) { return read(p.*member); });
-      write_.push_back([member, write = schema.write_[i]](P& p, const ParameterValue& value) {
-        write(p.*member, value);
-      });
-    }
-    return *this;
-  }
-
-  /// Moves a parameter before all others.
-  Schema& begin_with(const char* key) {
-    const auto index = static_cast<std::ptrdiff_t>(index_of(key));
-    const auto move_first = [index](auto& list) {
-      std::rotate(list.begin(), list.begin() + index, list.begin() + index + 1);
-    };
-    move_first(descriptions_);
-    move_first(read_);
-    move_first(write_);
-    return *this;
-  }
-
-  /// With `choice` for the parameter `key`, other parameters have these defaults; whatever is given
-  /// beside it still wins. Values of a whole join those of its parts. Throws InvalidInput for an
-  /// unknown key or a value that a parameter does not take.
-  Schema& preset(const char* key, const char* choice, const ParameterSet& values) {
-    Preset& changed = preset_of(key, choice);
-    for (const auto& given : values) {
-      check_parameter(descriptions_[index_of(given.first)], given.second);
-      std::erase_if(changed.values, [&](const auto& known) { return known.first == given.first; });
-      changed.values.push_back(given);
-    }
-    return *this;
-  }
-  /// Values that a search tries for a number that the preset sets; without them it is not searched.
-  Schema& preset_search(const char* key, const char* choice, const char* searched,
-                        std::initializer_list<double> values) {
-    std::vector<ParameterValue> typed;
-    for (const double value : values) {
-      typed.push_back(like_default(searched, value));
-      check_parameter(descriptions_[index_of(searched)], typed.back());
-    }
-    preset_of(key, choice).searched.emplace_back(searched, std::move(typed));
-    return *this;
-  }
-
-  /// Sets the values that a parameter search tries for a number or flag (0, 1), replacing any set
-  /// before; the grid of a method is the product over its parameters. Throws InvalidInput for an
-  /// unknown key or a value outside the domain.
-  Schema& search(const char* key, std::initializer_list<double> values) {
-    ParameterDescription& description = descriptions_[index_of(key)];
-    std::vector<ParameterValue> typed;
-    for (const double value : values) {
-      typed.push_back(like_default(key, value));
-      check_parameter(description, typed.back());
-    }
-    description.searched = std::move(typed);
-    return *this;
-  }
 
   [[nodiscard]] const std::vector<ParameterDescription>& descriptions() const& {
     return descriptions_;
@@ -206,94 +91,155 @@ class Schema {
     return descriptions_[index_of(key)];
   }
 
+ protected:
+  /// A member of the struct: its place, in bytes from the beginning, and how it is read and
+  /// written.
+  struct Field {
+    std::size_t place;
+    ParameterValue (*read)(const void* member);
+    void (*write)(void* member, const ParameterValue& value);
+  };
+
+  void add(const char* key, Text text, Domain domain, Field field, const void* defaults);
+  void add_part(const AnySchema& part, std::size_t place, const void* defaults);
+  void add_choice_names(const char* name, const char* label);
+  void move_first(const char* key);
+  void set_preset(const char* key, const char* choice, const ParameterSet& values);
+  void set_preset_search(const char* key, const char* choice, const char* searched,
+                         std::initializer_list<double> values);
+  void set_search(const char* key, std::initializer_list<double> values);
+  void write(const ParameterSet& values, void* parameters) const;
+  [[nodiscard]] ParameterSet read(const void* parameters) const;
+  [[nodiscard]] ParameterSet read_changed(const void* parameters) const;
+
+  std::vector<ParameterDescription> descriptions_;
+
+ private:
+  [[nodiscard]] std::size_t index_of(const std::string& key) const;
+  [[nodiscard]] std::vector<ParameterValue> like_default(
+      const char* key, std::initializer_list<double> values) const;
+  [[nodiscard]] Preset& preset_of(const char* key, const char* choice);
+
+  std::vector<Field> fields_;
+};
+
+/// The single description of a parameter struct `P`: keys, labels, help, units, domains; defaults
+/// come from a value-initialized `P`. The form in the window, the options of the command line,
+/// JSON and validation are all derived from it. A struct may be composed of others that have
+/// schemas of their own (`part`). Keys must be distinct.
+template <class P>
+class Schema : public AnySchema {
+ public:
+  Schema& real(const char* key, double P::*member, Text text, Domain domain) {
+    return add_value(key, member, text, domain);
+  }
+  Schema& integer(const char* key, int P::*member, Text text, Domain domain) {
+    return add_value(key, member, text, domain);
+  }
+  Schema& flag(const char* key, bool P::*member, Text text) {
+    return add_value(key, member, text, {0, 1});
+  }
+  /// A flag that is off by default and that a command line sets by its bare name: `--key`.
+  Schema& toggle(const char* key, bool P::*member, Text text) {
+    flag(key, member, text);
+    descriptions_.back().is_toggle = true;
+    return *this;
+  }
+  /// One of the values of an enumeration; outside the struct it goes by its name.
+  template <NamedEnum E>
+  Schema& choice(const char* key, E P::*member, Text text) {
+    const auto read = [](const void* from) {
+      return ParameterValue(name_of(*static_cast<const E*>(from)));
+    };
+    const auto write = [](void* to, const ParameterValue& value) {
+      *static_cast<E*>(to) = value_named<E>(std::get<std::string>(value));
+    };
+    add(key, text, {0, 0}, {place_of(member), read, write}, &defaults());
+    for (const Named<E>& each : names_of(E{})) add_choice_names(each.name, each.label);
+    return *this;
+  }
+  /// Any text.
+  Schema& text(const char* key, std::string P::*member, Text text) {
+    return add_value(key, member, text, {0, 0});
+  }
+  Schema& interval(const char* key, IntervalOrAuto P::*member, Text text, Domain domain) {
+    return add_value(key, member, text, domain);
+  }
+  Schema& view(const char* key, ViewOrAuto P::*member, Text text) {
+    return add_value(key, member, text, {0, 0});
+  }
+
+  /// All parameters of a member that is a parameter struct of its own, as `schema` describes them.
+  /// Defaults come from the member in a value-initialized `P`. Presets stay; searched values are
+  /// dropped.
+  template <class Part>
+  Schema& part(Part P::*member, const Schema<Part>& schema) {
+    add_part(schema, place_of(member), &(defaults().*member));
+    return *this;
+  }
+
+  /// Moves a parameter before all others.
+  Schema& begin_with(const char* key) {
+    move_first(key);
+    return *this;
+  }
+
+  /// With `choice` for the parameter `key`, other parameters have these defaults; whatever is given
+  /// beside it still wins. Values of a whole join those of its parts. Throws InvalidInput for an
+  /// unknown key or a value that a parameter does not take.
+  Schema& preset(const char* key, const char* choice, const ParameterSet& values) {
+    set_preset(key, choice, values);
+    return *this;
+  }
+  /// Values that a search tries for a number that the preset sets; without them it is not searched.
+  Schema& preset_search(const char* key, const char* choice, const char* searched,
+                        std::initializer_list<double> values) {
+    set_preset_search(key, choice, searched, values);
+    return *this;
+  }
+  /// Sets the values that a parameter search tries for a number or flag (0, 1), replacing any set
+  /// before; the grid of a method is the product over its parameters. Throws InvalidInput for an
+  /// unknown key or a value outside the domain.
+  Schema& search(const char* key, std::initializer_list<double> values) {
+    set_search(key, values);
+    return *this;
+  }
+
   /// Defaults, overridden by the presets that are chosen, and both by `values`. Throws InvalidInput
   /// for an unknown key (naming the nearest), a wrong type or a value outside its domain.
   [[nodiscard]] P parse(const ParameterSet& values) const {
     P parameters{};
-    for (const ParameterSet& set : {preset_values(descriptions_, values), values}) {
-      for (const auto& [key, value] : set) {
-        const std::size_t index = index_of(key);
-        check_parameter(descriptions_[index], value);
-        write_[index](parameters, value);
-      }
-    }
+    write(values, &parameters);
     return parameters;
   }
-
   /// Every parameter with its value, in the order of the schema.
-  [[nodiscard]] ParameterSet values(const P& parameters) const {
-    ParameterSet set;
-    for (std::size_t i = 0; i < descriptions_.size(); ++i) {
-      set.emplace_back(descriptions_[i].key, read_[i](parameters));
-    }
-    return set;
-  }
-
+  [[nodiscard]] ParameterSet values(const P& parameters) const { return read(&parameters); }
   /// Those that are not the defaults.
   [[nodiscard]] ParameterSet changed_values(const P& parameters) const {
-    ParameterSet set = values(parameters);
-    std::erase_if(set, [this](const auto& each) {
-      return each.second == description(each.first).default_value;
-    });
-    return set;
+    return read_changed(&parameters);
   }
 
  private:
-  template <class>
-  friend class Schema;
-
-  using Read = std::function<ParameterValue(const P&)>;
-  using Write = std::function<void(P&, const ParameterValue&)>;
+  static const P& defaults() {
+    static const P the_defaults{};
+    return the_defaults;
+  }
 
   template <class T>
-  Schema& add(const char* key, T P::*member, Text text, Domain domain) {
-    return add_as(
-        key, text, domain, [member](const P& p) { return ParameterValue(p.*member); },
-        [member](P& p, const ParameterValue& value) { p.*member = std::get<T>(value); });
+  static std::size_t place_of(T P::*member) {
+    const auto address = [](const auto& of) { return reinterpret_cast<const std::byte*>(&of); };
+    return static_cast<std::size_t>(address(defaults().*member) - address(defaults()));
   }
 
-  Schema& add_as(const char* key, Text text, Domain domain, Read read, Write write) {
-    descriptions_.push_back({.key = key,
-                             .label = text.label,
-                             .help = text.help,
-                             .unit = text.unit,
-                             .default_value = read(P{}),
-                             .min = domain.min,
-                             .max = domain.max,
-                             .logarithmic = domain.logarithmic});
-    read_.push_back(std::move(read));
-    write_.push_back(std::move(write));
+  template <class T>
+  Schema& add_value(const char* key, T P::*member, Text text, Domain domain) {
+    const auto read = [](const void* from) { return ParameterValue(*static_cast<const T*>(from)); };
+    const auto write = [](void* to, const ParameterValue& value) {
+      *static_cast<T*>(to) = std::get<T>(value);
+    };
+    add(key, text, domain, {place_of(member), read, write}, &defaults());
     return *this;
   }
-
-  [[nodiscard]] ParameterValue like_default(const char* key, double value) const {
-    const ParameterValue& like = descriptions_[index_of(key)].default_value;
-    if (std::holds_alternative<bool>(like)) return value != 0;
-    if (std::holds_alternative<int>(like)) return static_cast<int>(value);
-    return value;
-  }
-
-  Preset& preset_of(const char* key, const char* choice) {
-    ParameterDescription& description = descriptions_[index_of(key)];
-    check_parameter(description, std::string(choice));
-    for (Preset& preset : description.presets) {
-      if (preset.choice == choice) return preset;
-    }
-    return description.presets.emplace_back(Preset{choice, {}});
-  }
-
-  [[nodiscard]] std::size_t index_of(const std::string& key) const {
-    std::vector<std::string> keys;
-    for (std::size_t i = 0; i < descriptions_.size(); ++i) {
-      if (descriptions_[i].key == key) return i;
-      keys.push_back(descriptions_[i].key);
-    }
-    throw InvalidInput(no_such_name("parameter", key, keys));
-  }
-
-  std::vector<ParameterDescription> descriptions_;
-  std::vector<Read> read_;
-  std::vector<Write> write_;
 };
 
 }  // namespace episcope

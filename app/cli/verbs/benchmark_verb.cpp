@@ -515,7 +515,7 @@ std::vector<std::string> written_tables(const std::string& folder) {
 
 void print_report(const BenchmarkRequest& request, const BenchmarkReport& report, const Job& job) {
   if (request.is_json) {
-    return print_answer(Json::parse(report_to_json(report)), job.notes(),
+    return print_answer(io::parse_json<Json>(report_to_json(report)), job.notes(),
                         written_tables(request.output));
   }
   for (const TitledTable& titled : report_tables(report)) {

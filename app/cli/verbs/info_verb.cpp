@@ -382,7 +382,7 @@ FileInfo describe_pose(const std::string& file) {
 bool is_pose(const fs::path& path) {
   if (suffix_of(path) != ".json") return false;
   std::ifstream in(path);
-  const Json json = Json::parse(in, nullptr, false);
+  const auto json = io::json_or_null<Json>(std::string(std::istreambuf_iterator<char>(in), {}));
   return json.is_object() && json.contains("rotation") && json.contains("translation");
 }
 

@@ -5,6 +5,7 @@
 #include "app/cli/verbs/verbs.h"
 #include "app/session/command_line.h"
 #include "engine/disparity/registry.h"
+#include "engine/io/base/json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,7 +22,7 @@ std::string weights_text(const std::string& name) {
   const Json json = weights_json(name);
   if (json.contains("problem")) return json["problem"].get<std::string>();
   const auto text_of = [&](const char* key) {
-    return json[key].is_string() ? json[key].get<std::string>() : json[key].dump();
+    return json[key].is_string() ? json[key].get<std::string>() : io::json_text(json[key]);
   };
   return "version " + text_of("version") + " of " + text_of("date") + ", SHA-256 " +
          text_of("sha256") + ", " + text_of("file");

@@ -425,7 +425,7 @@ std::string f01_metadata(const RawPicture& raw) {
   json["image"]["color"] = {{"ccmRgbToSrgbArray", raw.colors.to_srgb},
                             {"gamma", raw.colors.gamma},
                             {"whiteBalanceGain", gains(raw.colors)}};
-  return json.dump(2);
+  return io::json_text(json, 2);
 }
 
 std::string illum_metadata(const RawPicture& raw) {
@@ -437,7 +437,7 @@ std::string illum_metadata(const RawPicture& raw) {
   image["mosaic"] = {{"tile", "r,gr:gb,b"}, {"upperLeftPixel", "gr"}};
   image["color"] = {{"ccm", raw.colors.to_srgb}, {"gamma", raw.colors.gamma}};
   json["algorithms"]["awb"]["computed"]["gain"] = gains(raw.colors);
-  return json.dump(2);
+  return io::json_text(json, 2);
 }
 
 }  // namespace episcope::capture

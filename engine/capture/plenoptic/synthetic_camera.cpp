@@ -5,6 +5,7 @@
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/base/json.h"
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -274,12 +275,12 @@ LfpContainer container_of(const std::vector<std::uint8_t>& samples, const std::s
   container.sections.push_back({true, {}, {}});
   add("metadataRef", text_bytes(metadata));
   const nlohmann::ordered_json hidden{{"camera", {{"serialNumber", serial}}}};
-  add("privateMetadataRef", text_bytes(hidden.dump(2)));
+  add("privateMetadataRef", text_bytes(io::json_text(hidden, 2)));
   add("imageRef", samples);
   if (!white.empty()) add("modulationDataRef", white);
   nlohmann::ordered_json table;
   table["frames"] = {{{"frame", frame}}};
-  container.sections.front().data = text_bytes(table.dump(2));
+  container.sections.front().data = text_bytes(io::json_text(table, 2));
   return container;
 }
 

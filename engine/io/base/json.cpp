@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/base/json.h"
 
+#include "engine/io/base/files.h"
+
 #include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
 
 namespace episcope::io {
 namespace {
@@ -37,7 +42,7 @@ ParameterValue from_json(const OrderedJson& value) {
   if (is_pair && value[0].is_number() && value[1].is_number()) {
     return IntervalOrAuto(Interval{value[0].get<double>(), value[1].get<double>()});
   }
-  return value.dump();
+  return json_text(value);
 }
 
 /// Earlier versions spelled the options for brightness with an s.
@@ -46,18 +51,52 @@ std::string present_key(std::string key) {
   return key;
 }
 
-/// Null for what is no JSON.
-OrderedJson parsed(const std::string& text) {
+}  // namespace
+
+template <class Json>
+Json parse_json(std::string_view text) {
+  return Json::parse(text, [](int depth, typename Json::parse_event_t, Json&) {
+    if (depth <= kDeepestJson) return true;
+    throw InvalidInput("lists are nested more than " + std::to_string(kDeepestJson) +
+                       " levels deep");
+  });
+}
+
+template <class Json>
+Json json_or_null(std::string_view text) {
   try {
-    return parse_json<OrderedJson>(text);
-  } catch (const OrderedJson::exception&) {
+    return parse_json<Json>(text);
+  } catch (const typename Json::exception&) {
     return {};
   } catch (const InvalidInput&) {
     return {};
   }
 }
 
-}  // namespace
+template <class Json>
+Json read_json(const std::filesystem::path& path) {
+  require_readable_file(path);
+  if (std::filesystem::file_size(path) > kLargestJson) {
+    throw IoError(path, "this file has more than " + std::to_string(kLargestJson >> 20) +
+                            " MiB, which is too much for what it should hold; choose another");
+  }
+  std::ifstream file(path, std::ios::binary);
+  return parse_json<Json>(std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+template <class Json>
+std::string json_text(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+template nlohmann::json parse_json(std::string_view);
+template OrderedJson parse_json(std::string_view);
+template nlohmann::json json_or_null(std::string_view);
+template OrderedJson json_or_null(std::string_view);
+template nlohmann::json read_json(const std::filesystem::path&);
+template OrderedJson read_json(const std::filesystem::path&);
+template std::string json_text(const nlohmann::json&, int);
+template std::string json_text(const OrderedJson&, int);
 
 OrderedJson parameters_json(const ParameterSet& parameters) {
   OrderedJson object = OrderedJson::object();
@@ -66,7 +105,7 @@ OrderedJson parameters_json(const ParameterSet& parameters) {
 }
 
 std::string parameters_to_json(const ParameterSet& parameters) {
-  return parameters_json(parameters).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  return json_text(parameters_json(parameters));
 }
 
 ParameterSet parameters_from(const OrderedJson& object) {
@@ -79,7 +118,7 @@ ParameterSet parameters_from(const OrderedJson& object) {
 }
 
 ParameterSet parameters_from_json(const std::string& json) {
-  return parameters_from(parsed(json));
+  return parameters_from(json_or_null<OrderedJson>(json));
 }
 
 }  // namespace episcope::io

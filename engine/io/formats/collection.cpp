@@ -342,7 +342,7 @@ void CollectionCache::save() const {
     if (is_utf8(folder) && is_utf8(each)) folders[folder] = std::move(each);
   }
   const Json json{{"program", key_of_program()}, {"folders", std::move(folders)}};
-  const std::string text = json.dump();
+  const std::string text = json_text(json);
   std::error_code error;
   fs::create_directories(file_.parent_path(), error);
   if (error || text.size() > kLargestJson) return;

@@ -132,7 +132,7 @@ void ResultDraft::continue_with(const std::vector<LogRecord>& records) {
 std::string ResultDraft::rest_text() const {
   Json json{{"bytes", file_.byte_size()}, {"rest", Json::array()}};
   for (const FileExtent& gap : file_.rest()) json["rest"].push_back({gap.offset, gap.bytes});
-  return json.dump();
+  return json_text(json);
 }
 
 void ResultDraft::restore(const std::string& rest) const {
@@ -145,7 +145,7 @@ void ResultDraft::restore(const std::string& rest) const {
 }
 
 void ResultDraft::note(const BlockProgress& after) {
-  log_->append(to_json(after).dump());
+  log_->append(json_text(to_json(after)));
   progress_ = after;
 }
 
@@ -158,7 +158,7 @@ void ResultDraft::write(const MapBlock& block, const BlockMaps& maps, const Bloc
     Json json = to_json(after);
     json["aside"] = to_json(block);
     json["valid"] = !maps.field.valid.empty();
-    log_->append(json.dump());
+    log_->append(json_text(json));
   }
   file_.write(block, maps);
   note(after);

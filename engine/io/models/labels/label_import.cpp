@@ -5,6 +5,7 @@
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/json.h"
 #include "engine/io/base/label_pages.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/models/array_maps.h"
@@ -210,7 +211,7 @@ std::string vigra_axes(const Hdf5Input& file, const std::string& dataset) {
   const auto text = file.text(dataset, "axistags");
   if (!text) return {};
   std::string axes;
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  const auto json = json_or_null<nlohmann::json>(*text);
   if (!json.is_object() || !json.contains("axes")) return {};
   for (const auto& axis : json["axes"]) {
     const std::string key = axis.is_object() ? axis.value("key", "") : "";

@@ -184,7 +184,7 @@ bool draw_segmentation(const Json& segmentation, Image<std::int32_t>& map, std::
 
 /// Id of a picture or a category, which other programs write as number or text.
 std::string key_of(const Json& id) {
-  return id.is_string() ? id.get<std::string>() : id.dump();
+  return id.is_string() ? id.get<std::string>() : json_text(id);
 }
 
 std::vector<LabelInfo> categories_of(const Json& json) {
@@ -281,7 +281,7 @@ std::string name_of(std::int32_t id, const std::vector<LabelInfo>& infos) {
 }
 
 std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 }  // namespace
