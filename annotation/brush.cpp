@@ -73,23 +73,6 @@ PixelRegion connected_region(int height, int width, PixelIndex seed, const OpenR
   return region;
 }
 
-}  // namespace
-
-PixelRegion region_of_segment(ImageView<const std::int32_t> segmentation, PixelIndex seed) {
-  const bool is_inside =
-      seed.y >= 0 && seed.y < segmentation.height && seed.x >= 0 && seed.x < segmentation.width;
-  if (!is_inside) return {};
-  const std::int32_t label = segmentation.at(seed.y, seed.x);
-  return connected_region(segmentation.height, segmentation.width, seed,
-                          [&](int y, std::uint8_t* row) {
-                            const std::int32_t* labels = segmentation.row(y);
-                            std::transform(labels, labels + segmentation.width, row,
-                                           [label](std::int32_t each) { return each == label; });
-                          });
-}
-
-namespace {
-
 /// Crossings are taken a little too wide against rounding; the exact condition then decides.
 constexpr double kSlack = 1e-6;
 
@@ -196,6 +179,19 @@ void require_sound(const BrushPath& path) {
 }
 
 }  // namespace
+
+PixelRegion region_of_segment(ImageView<const std::int32_t> segmentation, PixelIndex seed) {
+  const bool is_inside =
+      seed.y >= 0 && seed.y < segmentation.height && seed.x >= 0 && seed.x < segmentation.width;
+  if (!is_inside) return {};
+  const std::int32_t label = segmentation.at(seed.y, seed.x);
+  return connected_region(segmentation.height, segmentation.width, seed,
+                          [&](int y, std::uint8_t* row) {
+                            const std::int32_t* labels = segmentation.row(y);
+                            std::transform(labels, labels + segmentation.width, row,
+                                           [label](std::int32_t each) { return each == label; });
+                          });
+}
 
 PixelRegion covered_pixels(const BrushPath& path, int height, int width) {
   require_sound(path);

@@ -191,7 +191,7 @@ class UsageError : public Error {
 [[nodiscard]] UsageError unknown_name(const std::string& kind, const std::string& name,
                                       const std::vector<std::string>& names);
 
-/// Columns that help has: those of the terminal that standard output is, else of the environment
+/// Columns of help: the width of the terminal on standard output, else of the environment
 /// (COLUMNS), else 80; between 40 and 100.
 [[nodiscard]] int help_columns();
 

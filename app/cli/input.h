@@ -81,7 +81,7 @@ struct NamedReading {
 /// The view itself. Throws InvalidInput if the light field has no such view.
 [[nodiscard]] ViewIndex view_of(const LightField& light_field, ViewIndex view);
 
-/// The view in the middle of those of a stack, or its only one.
+/// The middle view of a stack, or its only one.
 template <class T>
 [[nodiscard]] ViewIndex middle_of(const ViewStack<T>& stack) {
   const ViewIndex middle = stack.grid().center();

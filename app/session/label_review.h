@@ -37,7 +37,7 @@ struct LabelingScores {
                                             const DisparityField* disparity,
                                             const Progress& progress);
 
-/// Scores of labels whose numbers may be others than those of the truth (match_labels).
+/// Scores of labels whose numbers may differ from the true ones (match_labels).
 [[nodiscard]] LabelingScores matched(LabelingScores scores, const std::vector<LabelInfo>& given,
                                      const std::vector<LabelInfo>& truth);
 

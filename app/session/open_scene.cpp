@@ -84,6 +84,17 @@ std::string judged_text(const JudgedPart& judged) {
                      r.y1, r.x1, judged.mask, judged.region);
 }
 
+// As RFC 4180: quotes around a text that needs them.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char each : text) {
+    if (each == '"') quoted += '"';
+    quoted += each;
+  }
+  return quoted + '"';
+}
+
 }  // namespace
 
 bool has_work(const ScenePlace& place) {
@@ -98,21 +109,6 @@ std::string work_text(const ScenePlace& place) {
                      fmt::join(locked, ","), place.tone.black, place.tone.exposure,
                      place.tone.gamma);
 }
-
-namespace {
-
-// As RFC 4180: quotes around a text that needs them.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char each : text) {
-    if (each == '"') quoted += '"';
-    quoted += each;
-  }
-  return quoted + '"';
-}
-
-}  // namespace
 
 const EpiMeasurement* current_of(const Measurements& measurements) {
   const auto count = static_cast<int>(measurements.list.size());

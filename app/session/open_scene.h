@@ -128,7 +128,7 @@ struct OpenScene {
   /// none.
   std::filesystem::path unread_strokes{};
   TrueLabelsPtr true_labels;
-  std::vector<LabelInfo> true_label_infos{};  ///< Names of them, as far as files tell.
+  std::vector<LabelInfo> true_label_infos{};  ///< Names, where files have them.
   KeptLabels labels;
   std::shared_ptr<const DisparityField> label_disparity{};  ///< Estimated for labels alone.
   ScenePlace place;

@@ -80,20 +80,6 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-}  // namespace
-
-std::string file_name_of(std::string name) {
-  if (!is_utf8(name)) std::ranges::replace_if(name, std::not_fn(is_ascii), '_');
-  std::ranges::replace_if(
-      name, [](char each) { return kRefused.find(each) != std::string_view::npos; }, '_');
-  if (name.size() <= kLongest) return name;
-  std::size_t length = kLongest;
-  while (continues_character(name[length])) --length;
-  return name.substr(0, length);
-}
-
-namespace {
-
 std::filesystem::path user_folder(const char* variable, const char* below_home) {
   const char* named = std::getenv(variable);
   // The specification has relative paths ignored.
@@ -117,6 +103,16 @@ bool can_be_written(std::filesystem::path folder) {
 }
 
 }  // namespace
+
+std::string file_name_of(std::string name) {
+  if (!is_utf8(name)) std::ranges::replace_if(name, std::not_fn(is_ascii), '_');
+  std::ranges::replace_if(
+      name, [](char each) { return kRefused.find(each) != std::string_view::npos; }, '_');
+  if (name.size() <= kLongest) return name;
+  std::size_t length = kLongest;
+  while (continues_character(name[length])) --length;
+  return name.substr(0, length);
+}
 
 std::filesystem::path default_cache_folder() {
   return user_folder("XDG_CACHE_HOME", ".cache");

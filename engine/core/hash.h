@@ -15,7 +15,7 @@ class Fnv1a {
   void add(std::string_view bytes) {
     for (const char byte : bytes) add_word(static_cast<unsigned char>(byte));
   }
-  /// Adds a whole word in one step: faster, but the value differs from that of its bytes.
+  /// Adds a whole word in one step: faster, but the value differs from adding its bytes.
   void add_word(std::uint64_t word) { value_ = (value_ ^ word) * 1099511628211ULL; }
 
   [[nodiscard]] std::uint64_t value() const { return value_; }

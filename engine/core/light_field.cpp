@@ -194,22 +194,6 @@ void gradient_norms(const float* here, const float* below, int width, int channe
   }
 }
 
-}  // namespace
-
-void gradient_magnitude(const LightField& light_field, ViewIndex view, ImageView<float> out) {
-  const LightField& lf = light_field;
-  std::vector<float> here(static_cast<std::size_t>(lf.width()) * lf.channels());
-  std::vector<float> below(here.size());
-  lf.read_row(view, 0, 0, lf.width(), here.data());
-  for (int y = 0; y < lf.height(); ++y) {
-    lf.read_row(view, std::min(y + 1, lf.height() - 1), 0, lf.width(), below.data());
-    gradient_norms(here.data(), below.data(), lf.width(), lf.channels(), out.row(y));
-    here.swap(below);
-  }
-}
-
-namespace {
-
 void require_inside(const LightField& light_field, ViewIndex view, int line, int count,
                     const char* axis) {
   if (!light_field.grid().contains(view) || line < 0 || line >= count) {
@@ -253,6 +237,18 @@ Image<float> gather(int rows, int width, int channels, int fixed_row, double foc
 }
 
 }  // namespace
+
+void gradient_magnitude(const LightField& light_field, ViewIndex view, ImageView<float> out) {
+  const LightField& lf = light_field;
+  std::vector<float> here(static_cast<std::size_t>(lf.width()) * lf.channels());
+  std::vector<float> below(here.size());
+  lf.read_row(view, 0, 0, lf.width(), here.data());
+  for (int y = 0; y < lf.height(); ++y) {
+    lf.read_row(view, std::min(y + 1, lf.height() - 1), 0, lf.width(), below.data());
+    gradient_norms(here.data(), below.data(), lf.width(), lf.channels(), out.row(y));
+    here.swap(below);
+  }
+}
 
 Image<float> horizontal_epi(const LightField& lf, ViewIndex view, int y, double focus_px) {
   require_inside(lf, view, y, lf.height(), "row");

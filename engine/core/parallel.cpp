@@ -53,6 +53,11 @@ class Loop final : public LoopItems {
   std::mutex failure_mutex_{};
 };
 
+// Of the calling thread, where threads have priorities of their own (Linux), else of the program.
+int priority() {
+  return getpriority(PRIO_PROCESS, 0);
+}
+
 }  // namespace
 
 void run_loop(int count, const Progress& progress,
@@ -67,15 +72,6 @@ void run_loop(int count, const Progress& progress,
   loop.rethrow_failure();
   progress.check();
 }
-
-namespace {
-
-// Of the calling thread, where threads have priorities of their own (Linux), else of the program.
-int priority() {
-  return getpriority(PRIO_PROCESS, 0);
-}
-
-}  // namespace
 
 class KeptThreads::Thread {
  public:
@@ -174,21 +170,6 @@ class Idle {
   std::size_t most_ = std::thread::hardware_concurrency();
 };
 
-}  // namespace
-
-KeptThreads::KeptThreads(int count, const std::function<void()>& work) {
-  threads_.reserve(count);
-  for (int i = 0; i < count; ++i) threads_.push_back(Idle::threads().take());
-  for (const auto& thread : threads_) thread->begin(work);
-}
-
-KeptThreads::~KeptThreads() {
-  for (auto& thread : threads_) thread->finish();
-  for (auto& thread : threads_) Idle::threads().keep(std::move(thread));
-}
-
-namespace {
-
 constexpr int kNice = 10;
 // The shortest that can be asked for.
 constexpr std::uint64_t kShortTurn_ns = 100'000;
@@ -215,6 +196,17 @@ void set_turns(int nice, std::uint64_t turn_ns) {
 }
 
 }  // namespace
+
+KeptThreads::KeptThreads(int count, const std::function<void()>& work) {
+  threads_.reserve(count);
+  for (int i = 0; i < count; ++i) threads_.push_back(Idle::threads().take());
+  for (const auto& thread : threads_) thread->begin(work);
+}
+
+KeptThreads::~KeptThreads() {
+  for (auto& thread : threads_) thread->finish();
+  for (auto& thread : threads_) Idle::threads().keep(std::move(thread));
+}
 
 void lower_thread_priority() {
   set_turns(kNice, 0);

@@ -22,18 +22,6 @@ Pinhole pinhole_of(const CameraGrid& camera, int height, int width) {
   return {focal_px, (width - 1) / 2.0, (height - 1) / 2.0};
 }
 
-}  // namespace
-
-BackProjection::BackProjection(const CameraGrid& camera, int height, int width, double z_per_px)
-    : camera_(camera), is_metric_(camera.is_known()), z_per_px_(z_per_px) {
-  const Pinhole pinhole = pinhole_of(camera, height, width);
-  focal_px_ = pinhole.focal_px;
-  center_x_ = pinhole.center_x;
-  center_y_ = pinhole.center_y;
-}
-
-namespace {
-
 /// Without a camera, one px of disparity is drawn as this part of the larger image side.
 constexpr double kDisparityReach = 0.05;
 
@@ -48,6 +36,14 @@ void check(const ImageView<const float>& map, const ImageView<const std::uint8_t
 }
 
 }  // namespace
+
+BackProjection::BackProjection(const CameraGrid& camera, int height, int width, double z_per_px)
+    : camera_(camera), is_metric_(camera.is_known()), z_per_px_(z_per_px) {
+  const Pinhole pinhole = pinhole_of(camera, height, width);
+  focal_px_ = pinhole.focal_px;
+  center_x_ = pinhole.center_x;
+  center_y_ = pinhole.center_y;
+}
 
 std::array<double, 6> robust_bounds(const PointCloud& cloud) {
   constexpr std::size_t kSamples = 20'000;

@@ -440,22 +440,6 @@ std::optional<EvenLightField> make_even(const LightField& lf, const Progress& pr
                         fmt::format(finding_text("run.evened"), 100 * difference)};
 }
 
-}  // namespace
-
-std::shared_ptr<const EvenLightField> EvenViews::of(const LightField& lf,
-                                                    const Progress& progress) {
-  const std::lock_guard lock(lock_);
-  if (measured_ == lf.identity()) return even_;
-  std::optional<EvenLightField> made = make_even(lf, progress);
-  even_ = made ? std::make_shared<const EvenLightField>(*std::move(made)) : nullptr;
-  const bool is_in_memory = even_ && !even_->light_field.is_on_disk();
-  bytes_ = is_in_memory ? even_->light_field.byte_size() : 0;
-  measured_ = lf.identity();
-  return even_;
-}
-
-namespace {
-
 constexpr double kNotableGain = 0.02;
 constexpr double kWorthwhileGain = 0.005;
 constexpr double kWorthwhileFallOff = 0.1;
@@ -470,6 +454,18 @@ double spread_of_gains(const PhotometricCorrection& correction) {
 }
 
 }  // namespace
+
+std::shared_ptr<const EvenLightField> EvenViews::of(const LightField& lf,
+                                                    const Progress& progress) {
+  const std::lock_guard lock(lock_);
+  if (measured_ == lf.identity()) return even_;
+  std::optional<EvenLightField> made = make_even(lf, progress);
+  even_ = made ? std::make_shared<const EvenLightField>(*std::move(made)) : nullptr;
+  const bool is_in_memory = even_ && !even_->light_field.is_on_disk();
+  bytes_ = is_in_memory ? even_->light_field.byte_size() : 0;
+  measured_ = lf.identity();
+  return even_;
+}
 
 ViewIndex PhotometricCorrection::most_different() const {
   ViewIndex worst = grid.center();

@@ -152,7 +152,7 @@ void download_bytes(void* host, const void* device, std::size_t bytes, const Dev
 void download_bytes(std::initializer_list<void*> hosts, const void* device, std::size_t bytes,
                     const DeviceStream& stream, const Progress& progress);
 
-/// An array like that of the host, of `size` elements.
+/// A copy of the array of the host, of `size` elements.
 template <class T>
 [[nodiscard]] DeviceArray<T> upload(const T* host, std::size_t size, const DeviceStream& stream,
                                     const Progress& progress) {

@@ -141,8 +141,6 @@ __global__ void find_medians(MapSize size, const float* map, int apart, float* m
   medians[pixel.at] = median;
 }
 
-// Selection.
-
 struct Selection {
   MapSize size;
   const float* hypotheses;  // kNetHypotheses maps.
@@ -245,8 +243,6 @@ __global__ void decide(Decision work) {
   work.second_probability[pixel.at] = has_other ? fminf(score[other], 1) : 0;
   work.to_mean[pixel.at] = mean - mode;
 }
-
-// Refinement.
 
 struct Refinement {
   MapSize size;

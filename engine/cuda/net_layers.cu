@@ -126,7 +126,6 @@ __device__ void load_weights(const float* from, float (&weights)[kOut]) {
   }
 }
 
-// Adds the products of a chunk.
 template <class B>
 __device__ void add_products(const float* inputs, const float* weights,
                              float (&sums)[B::kOut][kRun]) {

@@ -61,7 +61,6 @@ struct ViewRays {
   }
 };
 
-// The memory behind ViewRays.
 class ViewRaysMemory {
  public:
   // Uploads everything. The stream must outlive it. Throws DeviceFailure, Cancelled.

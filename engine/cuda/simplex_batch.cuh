@@ -19,7 +19,7 @@ void begin_from_cheapest(const SimplexFields& fields, const DeviceStream& stream
 /// u and duals from those at half the size, as `begin_from`.
 void begin_from_coarse(const SimplexFields& coarse, const SimplexFields& fine,
                        const DeviceStream& stream);
-/// u and duals of `from`, each pixel those of the place y'·width + x' named for it, `[problem][y]
+/// u and duals of `from`, each pixel from the place y'·width + x' named for it, `[problem][y]
 /// [x]`, −1 for its own; as `begin_from_moved`.
 void begin_from_moved(const SimplexFields& from, const std::int32_t* places,
                       const SimplexFields& to, const DeviceStream& stream);
@@ -30,7 +30,7 @@ class SimplexRaceMemory {
   SimplexRaceMemory() = default;
   SimplexRaceMemory(const SimplexFields& fields, const DeviceStream& stream);
   [[nodiscard]] const SimplexRace& race() const { return race_; }
-  /// Chooses layers less than `behind` dearer than the cheapest, and those of `labels`, and clears
+  /// Chooses layers less than `behind` dearer than the cheapest, and layers of `labels`; clears
   /// u and the duals of the others, and all that is `ahead`. Throws DeviceFailure.
   void choose(const SimplexFields& fields, const std::int32_t* labels, float behind,
               const DeviceStream& stream);

@@ -112,7 +112,7 @@ struct TvL2Tail {
 /// Solves the levels of the tail, coarse to fine; z of the first is projected at the end.
 void climb_tail(const DeviceStream& stream, const TvL2Tail& tail, int iterations,
                 int penalty_every);
-/// Penalties and diagonals of the tail, from those of the level before, for a solution of `stage`.
+/// Penalties and diagonals of the tail, from the level before, for a solution of `stage`.
 void renew_tail(const DeviceStream& stream, const TvL2Tail& tail, int stage);
 /// The multigrid correction u of the tail's first level, from its b.
 void correct_tail(const DeviceStream& stream, const TvL2Tail& tail, int stage);

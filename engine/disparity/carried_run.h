@@ -36,7 +36,7 @@ class CarriedMethod {
   [[nodiscard]] virtual std::vector<double> facts() const { return {}; }
   virtual void restore(const std::vector<double>& /*facts*/, const Progress& /*progress*/) {}
 
-  /// Work of another view in that of the first.
+  /// Share of another view in the work of the first.
   [[nodiscard]] virtual double share_of_next() const { return 1; }
   /// Bytes that the estimate of a view takes beside large arrays (memory.h).
   [[nodiscard]] virtual double bytes_of_view() const = 0;

@@ -31,24 +31,6 @@ void ignore_invalid(ImageView<const std::uint8_t> valid, Image<float>& weights) 
   }
 }
 
-}  // namespace
-
-Image<float> smoothness_weights(const LightField& lf, ViewIndex view, double beta,
-                                double noise_variance) {
-  Image<float> weights(lf.height(), lf.width(), 1, 1.0F);
-  if (beta == 0) return weights;
-  gradient_magnitude(lf, view, weights.view());
-  const auto strength = static_cast<float>(-beta * std::sqrt(channel_weight(lf.channels())));
-  const auto of_noise = static_cast<float>(4 * lf.channels() * noise_variance);
-  for (float& weight : weights) {
-    weight = std::exp(strength * std::sqrt(std::max(0.0F, weight * weight - of_noise)));
-  }
-  if (!lf.valid().empty()) ignore_invalid(lf.valid_of(view), weights);
-  return weights;
-}
-
-namespace {
-
 // r^power. Integer powers are multiplied out, which is vectorized; std::pow is slow.
 void raise_row(const float* r, double power, int width, float* raised) {
   const int whole = static_cast<int>(power);
@@ -74,7 +56,6 @@ void raise_steady(ImageView<const float> map, float noise, Image<float>& weights
   }
 }
 
-// `denoise` on the device.
 double denoise_on_device(const LightField& lf, const DenoiseParameters& parameters,
                          float min_weight, float map_noise, Estimate& estimate,
                          const Progress& progress) {
@@ -85,6 +66,20 @@ double denoise_on_device(const LightField& lf, const DenoiseParameters& paramete
 }
 
 }  // namespace
+
+Image<float> smoothness_weights(const LightField& lf, ViewIndex view, double beta,
+                                double noise_variance) {
+  Image<float> weights(lf.height(), lf.width(), 1, 1.0F);
+  if (beta == 0) return weights;
+  gradient_magnitude(lf, view, weights.view());
+  const auto strength = static_cast<float>(-beta * std::sqrt(channel_weight(lf.channels())));
+  const auto of_noise = static_cast<float>(4 * lf.channels() * noise_variance);
+  for (float& weight : weights) {
+    weight = std::exp(strength * std::sqrt(std::max(0.0F, weight * weight - of_noise)));
+  }
+  if (!lf.valid().empty()) ignore_invalid(lf.valid_of(view), weights);
+  return weights;
+}
 
 Schema<StopParameters> stop_schema() {
   return Schema<StopParameters>()

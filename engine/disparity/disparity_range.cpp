@@ -18,7 +18,6 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <utility>
 
 namespace episcope {
 namespace {

@@ -344,23 +344,6 @@ cuda::DoublePass device_pass(const LightField& lf, const TensorScales& scales,
   return pass;
 }
 
-}  // namespace
-
-DevicePasses device_passes(const LightField& lf, const TensorScales& scales,
-                           const DoubleSearch& search) {
-  DevicePasses made;
-  for (const bool is_horizontal : {true, false}) {
-    const int views = is_horizontal ? lf.grid().u : lf.grid().v;
-    if (views < DoubleOrientation::kMinViews) continue;
-    made.passes.push_back(device_pass(lf, scales, search, is_horizontal));
-  }
-  made.shears = {double_steps(search), kDoubleShearReach, static_cast<float>(search.accepted.min),
-                 static_cast<float>(search.accepted.max), static_cast<float>(search.min_distance)};
-  return made;
-}
-
-namespace {
-
 struct Run {
   int count;
   const float* near;
@@ -459,6 +442,19 @@ void clear_layers(DoubleLayers& layers, const Progress& progress) {
 }
 
 }  // namespace
+
+DevicePasses device_passes(const LightField& lf, const TensorScales& scales,
+                           const DoubleSearch& search) {
+  DevicePasses made;
+  for (const bool is_horizontal : {true, false}) {
+    const int views = is_horizontal ? lf.grid().u : lf.grid().v;
+    if (views < DoubleOrientation::kMinViews) continue;
+    made.passes.push_back(device_pass(lf, scales, search, is_horizontal));
+  }
+  made.shears = {double_steps(search), kDoubleShearReach, static_cast<float>(search.accepted.min),
+                 static_cast<float>(search.accepted.max), static_cast<float>(search.min_distance)};
+  return made;
+}
 
 void require_double_grid(const LightField& lf) {
   if (std::max(lf.grid().u, lf.grid().v) >= DoubleOrientation::kMinViews) return;

@@ -167,7 +167,6 @@ constexpr float kOrderingViolation = -0.05F;
 // neighbors entirely.
 constexpr float kOrderingLeastWeight = 0.001F;
 
-// From a view to its neighbors in the grid.
 constexpr std::array<ViewIndex, 4> kNeighborWays = {{{0, 1}, {0, -1}, {1, 0}, {-1, 0}}};
 [[nodiscard]] inline ViewIndex neighbor(ViewIndex view, ViewIndex way) {
   return {view.v + way.v, view.u + way.u};
@@ -360,7 +359,6 @@ void name_sweep(int sweeps, int half, double gap, const Progress& progress) {
                             half > 0 ? fmt::format(", gap {:.1e}", gap) : ""));
 }
 
-// Keeps the view in the middle.
 void keep_center(Estimate& estimate, ViewIndex center) {
   const auto cut = [&](ViewStack<float>& stack) {
     ViewStack<float> one({1, 1}, stack.height(), stack.width(), 1, center);

@@ -17,7 +17,6 @@ namespace {
 // No pixel gets weight 0 when it is placed between labels.
 constexpr float kLabelMinWeight = 0.01F;
 
-// One direction's disparities and weights of the view.
 struct WeightedDirection {
   Image<float> disparity, weight;
 

@@ -120,24 +120,6 @@ void cast_row(ImageView<const float> disparity, int y, ViewIndex step, ImageView
   }
 }
 
-}  // namespace
-
-ViewStack<float> surfaces_in_views(ImageView<const float> disparity, ViewIndex reference,
-                                   GridShape grid, const Progress& progress) {
-  ViewStack<float> surfaces(grid, disparity.height, disparity.width);
-  parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view = grid.view_at(i);
-    const ImageView<float> out = surfaces.view(view);
-    std::fill_n(out.data, out.size(), kNothingNear);
-    for (int y = 0; y < disparity.height; ++y) {
-      cast_row(disparity, y, {view.v - reference.v, view.u - reference.u}, out);
-    }
-  });
-  return surfaces;
-}
-
-namespace {
-
 // A tile's costs of all labels (256 KiB) and the samples of one view stay in the L2 cache.
 constexpr int kTileColumns = 128;
 constexpr int kTileRows = 8;
@@ -167,6 +149,20 @@ void divide(const float* sums, const float* counts, const float* worst, std::spa
 }
 
 }  // namespace
+
+ViewStack<float> surfaces_in_views(ImageView<const float> disparity, ViewIndex reference,
+                                   GridShape grid, const Progress& progress) {
+  ViewStack<float> surfaces(grid, disparity.height, disparity.width);
+  parallel_for(grid.count(), progress, [&](int i) {
+    const ViewIndex view = grid.view_at(i);
+    const ImageView<float> out = surfaces.view(view);
+    std::fill_n(out.data, out.size(), kNothingNear);
+    for (int y = 0; y < disparity.height; ++y) {
+      cast_row(disparity, y, {view.v - reference.v, view.u - reference.u}, out);
+    }
+  });
+  return surfaces;
+}
 
 Names<Interpolation> names_of(Interpolation) {
   return {{Interpolation::Cubic, "cubic"}, {Interpolation::Bilinear, "bilinear"}};

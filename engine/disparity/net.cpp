@@ -308,7 +308,6 @@ float kernel_of(float distance) {
   return std::exp(-(distance / kNetSame) * (distance / kNetSame));
 }
 
-// Decides for one pixel by the logits of its hypotheses.
 void decide(const float* logits, const std::array<float, kNetHypotheses>& h, Selected& selected,
             int y, int x) {
   std::array<float, kNetHypotheses> weight, score{};

@@ -62,7 +62,6 @@ struct ColorRow {
 // across the middle one; the pixel itself stands for a neighbor that is invalid.
 class ThreeRows {
  public:
-  // Around row y.
   ThreeRows(const LightField& light_field, ViewIndex view, int y)
       : light_field_(light_field), view_(view), y_(y) {
     for (int i = 0; i < 3; ++i) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <limits>
 
 namespace episcope {
 

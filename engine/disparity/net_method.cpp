@@ -19,7 +19,6 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <utility>
 #include <vector>
 
 namespace episcope {

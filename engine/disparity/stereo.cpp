@@ -295,25 +295,6 @@ void label_on_device(const LightField& lf, const StereoCosts& stereo,
                                           *costs, progress.part(0.99, 1));
 }
 
-}  // namespace
-
-Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
-                                const StereoGlobalParameters& parameters, const Progress& progress,
-                                Device device) {
-  const StereoCosts stereo =
-      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.05), device);
-  progress.step("matching costs");
-  Estimate estimate;
-  estimate.range = stereo.range;
-  estimate.notes = cost_notes(stereo);
-  const auto label = stereo.matcher ? label_on_device : label_stereo;
-  label(lf, stereo, parameters.labeling, estimate, progress.part(0.05, 1));
-  fill_islands(parameters.islands, progress.part(1, 1), estimate.field.disparity.view(stereo.view));
-  return estimate;
-}
-
-namespace {
-
 // A function of `views` in the form that make_estimator takes.
 template <class P, class F>
 auto with_views(MatchedViews views, F function) {
@@ -342,6 +323,21 @@ EstimatorInfo stereo_info(MatchedViews views, char kind, std::string summary,
 }
 
 }  // namespace
+
+Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
+                                const StereoGlobalParameters& parameters, const Progress& progress,
+                                Device device) {
+  const StereoCosts stereo =
+      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.05), device);
+  progress.step("matching costs");
+  Estimate estimate;
+  estimate.range = stereo.range;
+  estimate.notes = cost_notes(stereo);
+  const auto label = stereo.matcher ? label_on_device : label_stereo;
+  label(lf, stereo, parameters.labeling, estimate, progress.part(0.05, 1));
+  fill_islands(parameters.islands, progress.part(1, 1), estimate.field.disparity.view(stereo.view));
+  return estimate;
+}
 
 Estimator stereo_local_estimator(MatchedViews views) {
   using P = StereoLocalParameters;

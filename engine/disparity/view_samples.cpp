@@ -200,19 +200,6 @@ void make_relative(const LightField& lf, ViewIndex view, int radius, ImageView<s
   }
 }
 
-}  // namespace
-
-LightField relative_samples(const LightField& lf, int radius, const Progress& progress) {
-  ViewStack<std::uint16_t> samples(lf.grid(), lf.height(), lf.width(), lf.channels());
-  parallel_for(lf.grid().count(), progress, [&](int i) {
-    const ViewIndex view = lf.grid().view_at(i);
-    make_relative(lf, view, radius, samples.view(view));
-  });
-  return {std::move(samples), lf.info(), lf.valid().clone()};
-}
-
-namespace {
-
 constexpr std::array<PixelIndex, 4> kWays = {{{0, 1}, {1, 0}, {1, 1}, {1, -1}}};
 
 using ViewChannels = std::vector<Image<float>>;
@@ -276,6 +263,15 @@ Image<float> variance_of(const ViewChannels& planes, const Progress& progress) {
 }
 
 }  // namespace
+
+LightField relative_samples(const LightField& lf, int radius, const Progress& progress) {
+  ViewStack<std::uint16_t> samples(lf.grid(), lf.height(), lf.width(), lf.channels());
+  parallel_for(lf.grid().count(), progress, [&](int i) {
+    const ViewIndex view = lf.grid().view_at(i);
+    make_relative(lf, view, radius, samples.view(view));
+  });
+  return {std::move(samples), lf.info(), lf.valid().clone()};
+}
 
 Image<float> local_noise_variance(const LightField& lf, ViewIndex view, const Progress& progress) {
   return variance_of(read_view(lf, view), progress);

@@ -227,7 +227,6 @@ namespace {
 // How far around the best label costs are looked at.
 constexpr double kUnitReach = 0.5;  // px
 
-// The mean cost around the best label, of one pixel.
 double mean_around(VolumeView<const float> costs, int y, int x, int best, int reach) {
   const int first = std::max(0, best - reach);
   const int last = std::min(costs.layers - 1, best + reach);

@@ -393,20 +393,6 @@ Image<float> mean_of_views(const ViewStack<T>& stack, const std::vector<Shift>& 
   return mean;
 }
 
-}  // namespace
-
-Image<float> refocus(const LightField& light_field, ViewIndex view, double focus_px) {
-  if (!light_field.grid().contains(view)) {
-    throw InvalidInput(fmt::format("view {},{} lies outside the grid of {}×{} views", view.v,
-                                   view.u, light_field.grid().v, light_field.grid().u));
-  }
-  const auto shifts = shifts_of(light_field, view, focus_px);
-  return std::visit([&](const auto& stack) { return mean_of_views(stack, shifts); },
-                    light_field.samples());
-}
-
-namespace {
-
 using Picture = Image<std::uint8_t>;
 
 /// Mean of the samples of `source` in rows [y0, y1) and columns [x0, x1).
@@ -425,6 +411,16 @@ int begin_of(int i, int from, int to) {
 }
 
 }  // namespace
+
+Image<float> refocus(const LightField& light_field, ViewIndex view, double focus_px) {
+  if (!light_field.grid().contains(view)) {
+    throw InvalidInput(fmt::format("view {},{} lies outside the grid of {}×{} views", view.v,
+                                   view.u, light_field.grid().v, light_field.grid().u));
+  }
+  const auto shifts = shifts_of(light_field, view, focus_px);
+  return std::visit([&](const auto& stack) { return mean_of_views(stack, shifts); },
+                    light_field.samples());
+}
 
 Picture fitted(const Picture& picture, int longest_px) {
   const int longer = std::max(picture.height(), picture.width());

@@ -414,25 +414,6 @@ void add_solids(StillLife& scene) {
   scene.occluder({can.x, 0.7, can.z}, 0.42, kCan);
 }
 
-}  // namespace
-
-Model demo_scene(const Stage& stage) {
-  StillLife scene(stage, kPitch, kFrontDisparity);
-  add_room(scene);
-  add_vase(scene);
-  add_balls(scene);
-  add_solids(scene);
-
-  Lighting lighting;
-  set_color(lighting.sky, {0.60F, 0.63F, 0.68F});
-  set_color(lighting.ground, {0.30F, 0.26F, 0.24F});
-  set_color(lighting.key, {0.72F, 0.66F, 0.56F});
-  scene.light(lighting, {-0.75, 1.1, -0.65});
-  return scene.model();
-}
-
-namespace {
-
 // A run of one label along a row or a column.
 struct Run {
   int line = 0;
@@ -480,6 +461,21 @@ void stroke(const Run& run, int thickness, const Paint& paint) {
 }
 
 }  // namespace
+
+Model demo_scene(const Stage& stage) {
+  StillLife scene(stage, kPitch, kFrontDisparity);
+  add_room(scene);
+  add_vase(scene);
+  add_balls(scene);
+  add_solids(scene);
+
+  Lighting lighting;
+  set_color(lighting.sky, {0.60F, 0.63F, 0.68F});
+  set_color(lighting.ground, {0.30F, 0.26F, 0.24F});
+  set_color(lighting.key, {0.72F, 0.66F, 0.56F});
+  scene.light(lighting, {-0.75, 1.1, -0.65});
+  return scene.model();
+}
 
 Image<std::int32_t> scribble(ImageView<const std::int32_t> labels) {
   Image<std::int32_t> painted(labels.height, labels.width);

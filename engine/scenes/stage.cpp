@@ -51,8 +51,8 @@ int Model::add(const Texture& texture) {
 }
 
 ModelView Model::view() const {
-  return {primitives.data(), static_cast<int>(primitives.size()), textures.data(),
-          occluders.data(),  static_cast<int>(occluders.size()),  lighting};
+  return {primitives.data(), textures.data(), occluders.data(), static_cast<int>(occluders.size()),
+          lighting};
 }
 
 Texture noise_texture(double pixel_units, unsigned seed, const std::array<float, 3>& color,

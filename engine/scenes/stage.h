@@ -85,7 +85,6 @@ struct Lighting {
 /// Borrowed scene.
 struct ModelView {
   const Primitive* primitives = nullptr;
-  int primitive_count = 0;
   const Texture* textures = nullptr;
   const Occluder* occluders = nullptr;
   int occluder_count = 0;

@@ -8,7 +8,6 @@
 namespace episcope::scenes {
 namespace {
 
-// The label of the wall, in all scenes.
 constexpr int kWallLabel = 1;
 
 /// The pixels for which `is_inside(y, x)` holds.
@@ -40,7 +39,6 @@ Texture strong_texture(Draw draw, double pixel_units) {
   return texture;
 }
 
-// Disparity of a plane at a pixel of the center view.
 double disparity_at(const Stage& stage, const DisparityPlane& plane, double x, double y) {
   return plane.center + plane.per_x * (x - (stage.width - 1) / 2.0) +
          plane.per_y * (y - (stage.height - 1) / 2.0);

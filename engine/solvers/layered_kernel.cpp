@@ -24,7 +24,6 @@ inline LayerList all_layers(const LayeredShape& shape) {
   return {kAllLayers.layers, shape.steps};
 }
 
-// The layers of the block that begins at column `begin`.
 inline LayerBlock block_of(const LayeredShape& shape, const PairDuals& row, int begin) {
   if (row.blocks != nullptr) return row.blocks[begin / kColumns];
   return {all_layers(shape), all_layers(shape), {}};

@@ -84,7 +84,7 @@ class ElidedLabel;
 [[nodiscard]] QString time_left_text(double fraction, double seconds);
 
 /// Running and waiting jobs, one row each: bar, stage, time left, cancel button, and a button to
-/// end early for jobs that can. Shows a quiet line without jobs. The height is that of two rows;
+/// end early for jobs that can. Shows a quiet line without jobs. It is two rows high;
 /// more rows scroll.
 class JobPanel : public QWidget {
   Q_OBJECT

@@ -147,7 +147,6 @@ std::string section(const std::string& title) {
   return ".SH " + title + "\n";
 }
 
-/// Lines as they are typed.
 std::string typed_lines(const std::string& lines) {
   return ".nf\n" + troff(lines) + (lines.ends_with('\n') ? "" : "\n") + ".fi\n";
 }
@@ -162,7 +161,6 @@ std::string option_entry(const OptionPage& option) {
   return entry(fmt::format("{} {}", names, italic(option.value)), option.help);
 }
 
-/// Options below their headings.
 std::string option_entries(const std::vector<OptionPage>& options, std::string heading) {
   std::string text;
   for (const OptionPage& option : options) {
@@ -202,7 +200,6 @@ std::string synopsis(const VerbPage& verb) {
   return text + "\n";
 }
 
-/// Page of one verb, `episcope-cli-estimate`.
 std::string verb_man_page(const VerbPage& verb) {
   std::string text = head("episcope-cli-" + verb.name, verb.summary) + synopsis(verb);
   text += section("DESCRIPTION") + typed_lines(verb.description);
@@ -213,7 +210,6 @@ std::string verb_man_page(const VerbPage& verb) {
   return text + section("SEE ALSO") + ".BR episcope\\-cli (1)\n";
 }
 
-/// The page of the manual of `episcope-cli`, in troff.
 std::string program_man_page(const std::vector<VerbPage>& verbs) {
   std::string text = head("episcope-cli", "disparity and labels of 4D light fields") +
                      section("SYNOPSIS") + bold("episcope-cli") + " " + italic("VERB") + " ...\n" +

@@ -229,7 +229,6 @@ Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
   return scene;
 }
 
-/// A truth with other labels.
 GroundTruthPtr with_labels(const GroundTruth& truth, ViewStack<std::int32_t> labels) {
   auto changed = std::make_shared<GroundTruth>();
   changed->field = truth.field.clone();
@@ -495,7 +494,6 @@ void convert_collection(ConvertRequest request, Job& job) {
   failures.require_none(scenes.size());
 }
 
-/// The file of an INPUT that is repacked.
 std::filesystem::path repacked_file(const std::string& input) {
   std::error_code error;
   const std::filesystem::path path(input);

@@ -297,7 +297,6 @@ GroundTruth truth_of(const GroundTruthRequest& request, Scene& scene, const Prog
   return capture::visible_depth(placed, grid, request.depth, progress.part(0.1, 1));
 }
 
-/// The light field with the step that was given.
 LightFieldPtr with_step(const LightFieldPtr& field, double step) {
   LightFieldInfo info = field->info();
   info.camera.baseline = step;

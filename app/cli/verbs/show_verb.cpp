@@ -45,7 +45,6 @@ using render::MovieKind;
 using render::Quantity;
 using render::Subject;
 
-/// Kind of the subject of `show`.
 enum class ShownKind { LightField, Result, Labels };
 
 /// The map that `show` is asked for.
@@ -557,7 +556,6 @@ struct Drawn {
   Json json;
 };
 
-/// What the colors of a map mean.
 void tell_colors(const ShowRequest& request, const LoadedMap& loaded, Drawn& drawn) {
   const Quantity quantity = loaded.source.quantity;
   if (request.what.is_epi || !render::info_of(quantity).has_scale()) return;

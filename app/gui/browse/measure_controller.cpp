@@ -74,36 +74,17 @@ void MeasureController::addCommand(const Row& row) {
 void MeasureController::addCommands() {
   addCommand({"measure.keep", tr("Keep the measured line"),
               tr("Keeps the disparity of the line drawn in an EPI in the list of the Measure tab"),
-              tr("Ctrl+K"), "add", &MeasureController::keep});
-  addCommand({"measure.rename",
-              tr("Rename the chosen measurement"),
-              tr("Renames the chosen measured line"),
-              {},
-              "rename",
-              &MeasureController::nameCurrent});
-  addCommand({"measure.remove",
-              tr("Remove the chosen measurement"),
-              tr("Removes the chosen measured line"),
-              {},
-              "trash",
-              &MeasureController::removeCurrent});
-  addCommand({"measure.copy",
-              tr("Copy measurements as CSV"),
-              tr("Copies all measured lines as a table"),
-              {},
-              "copy",
-              &MeasureController::copy});
-  addCommand({"measure.save",
-              tr("Measurements…"),
-              tr("Saves all measured lines as a table (CSV)"),
-              {},
-              "export",
-              &MeasureController::save});
-  addCommand({"measure.focus",
-              tr("Focus on the chosen measurement"),
-              tr("Moves the focus plane to the measured disparity"),
-              {},
-              "",
+              "add", &MeasureController::keep, tr("Ctrl+K")});
+  addCommand({"measure.rename", tr("Rename the chosen measurement"),
+              tr("Renames the chosen measured line"), "rename", &MeasureController::nameCurrent});
+  addCommand({"measure.remove", tr("Remove the chosen measurement"),
+              tr("Removes the chosen measured line"), "trash", &MeasureController::removeCurrent});
+  addCommand({"measure.copy", tr("Copy measurements as CSV"),
+              tr("Copies all measured lines as a table"), "copy", &MeasureController::copy});
+  addCommand({"measure.save", tr("Measurements…"), tr("Saves all measured lines as a table (CSV)"),
+              "export", &MeasureController::save});
+  addCommand({"measure.focus", tr("Focus on the chosen measurement"),
+              tr("Moves the focus plane to the measured disparity"), "",
               &MeasureController::focusOnCurrent});
   for (const char* id :
        {"measure.keep", "measure.rename", "measure.remove", "measure.copy", "measure.save"}) {

@@ -30,9 +30,9 @@ class MeasureController : public QObject {
     const char* id;
     QString text;
     QString tip;
-    QKeySequence key;
     const char* icon;
     void (MeasureController::*run)();
+    QKeySequence key = {};
   };
   void addCommands();
   void addCommand(const Row& row);

@@ -264,108 +264,79 @@ struct MetricName {
   int decimals = 2;
 };
 
-// Metrics in the order of tables.
-constexpr MetricName kNames[] = {
-    {"mse_100", QT_TRANSLATE_NOOP("episcope::MetricTable", "MSE×100"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Mean squared error ×100, px²"), 3},
-    {"badpix_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "bad .07"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Pixels off by more than 0.07 px, in %")},
-    {"badpix_0030", QT_TRANSLATE_NOOP("episcope::MetricTable", "bad .03"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Pixels off by more than 0.03 px, in %")},
-    {"badpix_0010", QT_TRANSLATE_NOOP("episcope::MetricTable", "bad .01"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Pixels off by more than 0.01 px, in %")},
-    {"q_25_100", QT_TRANSLATE_NOOP("episcope::MetricTable", "Q25"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Error ×100 below which the best quarter of the pixels lies, px"),
-     3},
-    {"density", QT_TRANSLATE_NOOP("episcope::MetricTable", "dense"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Pixels with a value, in %"), 1},
-    {"shown", QT_TRANSLATE_NOOP("episcope::MetricTable", "shown"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels with ground truth that the light field shows, in %"),
-     1},
-    {"mse_100_inset15", QT_TRANSLATE_NOOP("episcope::MetricTable", "MSE inner"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Mean squared error ×100 without a border of 15 px, px²"),
-     3},
-    {"discontinuities_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "edges"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels at depth edges off by more than 0.07 px, in %")},
-    {"bumpiness_planes_100_0050", QT_TRANSLATE_NOOP("episcope::MetricTable", "bumps pl."),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Bumpiness of planes ×100"), 3},
-    {"bumpiness_contin_surfaces_100_0050", QT_TRANSLATE_NOOP("episcope::MetricTable", "bumps sm."),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Bumpiness of smooth surfaces ×100"), 3},
-    {"mae_planes", QT_TRANSLATE_NOOP("episcope::MetricTable", "angle pl."),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Median angular error of normals on planes, °")},
-    {"mae_contin_surfaces", QT_TRANSLATE_NOOP("episcope::MetricTable", "angle sm."),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Median angular error of normals on smooth surfaces, °")},
-    {"fine_fattening_0150", QT_TRANSLATE_NOOP("episcope::MetricTable", "fattened"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels around fine structures that are more than 0.15 px too near, in %")},
-    {"fine_thinning_0150", QT_TRANSLATE_NOOP("episcope::MetricTable", "thinned"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels of fine structures that are more than 0.15 px too far, in %")},
-    {"backgammon_fattening_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "fattening"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels beside the foreground that are closer to it than to their "
-                       "background, in %")},
-    {"backgammon_thinning_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "thinning"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels of the foreground that are closer to the background than to it, "
-                       "in %")},
-    {"missed_dots_50_0400", QT_TRANSLATE_NOOP("episcope::MetricTable", "missed dots"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Dots with at least half of their pixels off by more than 0.4 px, in %")},
-    {"background_mse_100", QT_TRANSLATE_NOOP("episcope::MetricTable", "MSE backgr."),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Mean squared error ×100 of the background between dots, px²"),
-     3},
-    {"low_texture_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "low texture"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels without much texture off by more than 0.07 px, in %")},
-    {"dark_stripes_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "dark str."),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels of dark stripes, of high contrast, off by more than 0.07 px, in %")},
-    {"bright_stripes_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "bright str."),
-     QT_TRANSLATE_NOOP(
-         "episcope::MetricTable",
-         "Pixels of bright stripes, of low contrast, off by more than 0.07 px, in %")},
-    {"bumpiness_slanted_100_0050", QT_TRANSLATE_NOOP("episcope::MetricTable", "bumps sl."),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Bumpiness of slanted surfaces ×100"), 3},
-    {"bumpiness_parallel_100_0050", QT_TRANSLATE_NOOP("episcope::MetricTable", "bumps par."),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Bumpiness of surfaces parallel to the image ×100"),
-     3},
-    {"runtime_log", QT_TRANSLATE_NOOP("episcope::MetricTable", "log time"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Decadic logarithm of the seconds taken")},
-    {"layers_right", QT_TRANSLATE_NOOP("episcope::MetricTable", "layers"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels with the correct number of layers, one or two, in %"),
-     1}};
-
-struct MetricTableText {
-  Q_DECLARE_TR_FUNCTIONS(episcope::MetricTable)
-};
-
 // Meaning of a key's suffix; a key may have several.
 struct PartName {
   const char* suffix;
   const char* label;
   const char* help;
 };
-constexpr PartName kParts[] = {
-    {"_foreground", QT_TRANSLATE_NOOP("episcope::MetricTable", "front"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Of the surface in front")},
-    {"_background", QT_TRANSLATE_NOOP("episcope::MetricTable", "behind"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Of the background seen through it")},
-    {"_present", QT_TRANSLATE_NOOP("episcope::MetricTable", "present"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Of the pixels that have a value; else missing values count as the farthest "
-                       "true disparity")},
-    {kLowResSuffix, QT_TRANSLATE_NOOP("episcope::MetricTable", "low res."),
-     QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "In the resolution of the views: the official score needs the truth of ten "
-                       "times the resolution")}};
+
+struct MetricTableText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::MetricTable)
+
+ public:
+  // Metrics in the order of tables.
+  static constexpr MetricName kNames[] = {
+      {"mse_100", QT_TR_NOOP("MSE×100"), QT_TR_NOOP("Mean squared error ×100, px²"), 3},
+      {"badpix_0070", QT_TR_NOOP("bad .07"), QT_TR_NOOP("Pixels off by more than 0.07 px, in %")},
+      {"badpix_0030", QT_TR_NOOP("bad .03"), QT_TR_NOOP("Pixels off by more than 0.03 px, in %")},
+      {"badpix_0010", QT_TR_NOOP("bad .01"), QT_TR_NOOP("Pixels off by more than 0.01 px, in %")},
+      {"q_25_100", QT_TR_NOOP("Q25"),
+       QT_TR_NOOP("Error ×100 below which the best quarter of the pixels lies, px"), 3},
+      {"density", QT_TR_NOOP("dense"), QT_TR_NOOP("Pixels with a value, in %"), 1},
+      {"shown", QT_TR_NOOP("shown"),
+       QT_TR_NOOP("Pixels with ground truth that the light field shows, in %"), 1},
+      {"mse_100_inset15", QT_TR_NOOP("MSE inner"),
+       QT_TR_NOOP("Mean squared error ×100 without a border of 15 px, px²"), 3},
+      {"discontinuities_0070", QT_TR_NOOP("edges"),
+       QT_TR_NOOP("Pixels at depth edges off by more than 0.07 px, in %")},
+      {"bumpiness_planes_100_0050", QT_TR_NOOP("bumps pl."), QT_TR_NOOP("Bumpiness of planes ×100"),
+       3},
+      {"bumpiness_contin_surfaces_100_0050", QT_TR_NOOP("bumps sm."),
+       QT_TR_NOOP("Bumpiness of smooth surfaces ×100"), 3},
+      {"mae_planes", QT_TR_NOOP("angle pl."),
+       QT_TR_NOOP("Median angular error of normals on planes, °")},
+      {"mae_contin_surfaces", QT_TR_NOOP("angle sm."),
+       QT_TR_NOOP("Median angular error of normals on smooth surfaces, °")},
+      {"fine_fattening_0150", QT_TR_NOOP("fattened"),
+       QT_TR_NOOP("Pixels around fine structures that are more than 0.15 px too near, in %")},
+      {"fine_thinning_0150", QT_TR_NOOP("thinned"),
+       QT_TR_NOOP("Pixels of fine structures that are more than 0.15 px too far, in %")},
+      {"backgammon_fattening_0070", QT_TR_NOOP("fattening"),
+       QT_TR_NOOP("Pixels beside the foreground that are closer to it than to their "
+                  "background, in %")},
+      {"backgammon_thinning_0070", QT_TR_NOOP("thinning"),
+       QT_TR_NOOP("Pixels of the foreground that are closer to the background than to it, "
+                  "in %")},
+      {"missed_dots_50_0400", QT_TR_NOOP("missed dots"),
+       QT_TR_NOOP("Dots with at least half of their pixels off by more than 0.4 px, in %")},
+      {"background_mse_100", QT_TR_NOOP("MSE backgr."),
+       QT_TR_NOOP("Mean squared error ×100 of the background between dots, px²"), 3},
+      {"low_texture_0070", QT_TR_NOOP("low texture"),
+       QT_TR_NOOP("Pixels without much texture off by more than 0.07 px, in %")},
+      {"dark_stripes_0070", QT_TR_NOOP("dark str."),
+       QT_TR_NOOP("Pixels of dark stripes, of high contrast, off by more than 0.07 px, in %")},
+      {"bright_stripes_0070", QT_TR_NOOP("bright str."),
+       QT_TR_NOOP("Pixels of bright stripes, of low contrast, off by more than 0.07 px, in %")},
+      {"bumpiness_slanted_100_0050", QT_TR_NOOP("bumps sl."),
+       QT_TR_NOOP("Bumpiness of slanted surfaces ×100"), 3},
+      {"bumpiness_parallel_100_0050", QT_TR_NOOP("bumps par."),
+       QT_TR_NOOP("Bumpiness of surfaces parallel to the image ×100"), 3},
+      {"runtime_log", QT_TR_NOOP("log time"), QT_TR_NOOP("Decadic logarithm of the seconds taken")},
+      {"layers_right", QT_TR_NOOP("layers"),
+       QT_TR_NOOP("Pixels with the correct number of layers, one or two, in %"), 1}};
+  static constexpr PartName kParts[] = {
+      {"_foreground", QT_TR_NOOP("front"), QT_TR_NOOP("Of the surface in front")},
+      {"_background", QT_TR_NOOP("behind"), QT_TR_NOOP("Of the background seen through it")},
+      {"_present", QT_TR_NOOP("present"),
+       QT_TR_NOOP("Of the pixels that have a value; else missing values count as the farthest "
+                  "true disparity")},
+      {kLowResSuffix, QT_TR_NOOP("low res."),
+       QT_TR_NOOP("In the resolution of the views: the official score needs the truth of ten "
+                  "times the resolution")}};
+};
+constexpr auto& kNames = MetricTableText::kNames;
+constexpr auto& kParts = MetricTableText::kParts;
 
 // A key without its suffixes, and the indices of their meanings, the first suffix first.
 struct KeyParts {

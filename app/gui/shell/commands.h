@@ -126,7 +126,7 @@ struct Command {
 struct PaletteTarget {
   QString title;
   QString tip;
-  QString words{};  ///< That it is found by, besides those of title and tip.
+  QString words{};  ///< Finds it, as the words of title and tip do.
   std::function<void()> run;
 };
 

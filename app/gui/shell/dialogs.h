@@ -47,7 +47,7 @@ void ask_for_folder(QWidget* window, const FileQuestion& question, Answer answer
 /// can be made: beside the light field in front, where a file was saved last, at home.
 void ask_where_to_save(const Workbench& bench, const FileQuestion& question, Answer answer);
 
-/// A name to propose: that of the light field in front, then `name`: "still_life_metrics.csv".
+/// A name to propose: the name of the light field in front, then `name`: "still_life_metrics.csv".
 [[nodiscard]] QString named_after_front(const Workbench& bench, const QString& name);
 
 /// Asks whether to replace what `text` names, and calls `go_on` on Yes.

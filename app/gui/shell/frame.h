@@ -28,7 +28,7 @@ struct Tab {
   QString id;  ///< "compare"; its command is "tab.compare".
   QString title;
   QString task{};  ///< Id of the tab, added before, that it is a page of; empty = a tab of its own.
-  QString page{};  ///< Of a tab: title of its own page beside those of others; empty = no pages.
+  QString page{};  ///< Of a tab: title of its own page beside other pages; empty = no pages.
   QString command_text;  ///< "Compare tab"
   QString command_tip;
   QString icon{};

@@ -12,7 +12,7 @@ inline constexpr int kNetPixelRows = 5;
 
 /// Most disparities whose evidence is computed at once.
 inline constexpr int kNetAtOnce = 8;
-/// So many numbers behind those of a view may be read.
+/// Numbers that may be read behind the end of a view.
 inline constexpr int kNetReadBehind = 16;
 
 /// A view beside the reference for one row: pixel (x, y) of disparity d is at

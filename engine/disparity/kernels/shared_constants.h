@@ -83,7 +83,7 @@ inline constexpr float kLeastMisfit = 0.03F;
 inline constexpr float kNoiseFit = 0.3F;
 inline constexpr float kOneLayerWeight = 0.02F;
 
-/// Noise around a pixel (local_noise_variance): the variance of a − 2b + c in that of a sample.
+/// Noise around a pixel (local_noise_variance): variance of a − 2b + c per variance of a sample.
 inline constexpr int kNoiseRadius = 2;
 inline constexpr float kSecondDifference = 6;
 /// What is steady counts up to so much more in `denoise`, fully from this weight on.

@@ -272,7 +272,6 @@ Window source_window(const TensorBlock& block, const TensorFilters& filters, con
   return window;
 }
 
-// Products of all rows in a chunk.
 struct ChunkProducts {
   alignas(64) float values[kMaxTensorViews][3][kProductPitch];
 };

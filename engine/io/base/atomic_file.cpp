@@ -72,16 +72,6 @@ bool is_abandoned(std::string_view rest) {
   return none == std::errc() && behind != end && *behind == '-' && number != own_number();
 }
 
-}  // namespace
-
-std::string temporary_name(const fs::path& target) {
-  static std::atomic<unsigned> next{0};
-  return fmt::format("{}{}-{:08x}-{}{}", beginning(target), ::getpid(), own_number(), next++,
-                     kSuffix);
-}
-
-namespace {
-
 /// Removes temporary files beside `target` that killed programs of this machine have left; failures
 /// are ignored. Linear in the number of files of its folder.
 void remove_abandoned(const fs::path& target) {
@@ -96,14 +86,6 @@ void remove_abandoned(const fs::path& target) {
     fs::remove_all(entry->path(), ignored);
   }
 }
-
-}  // namespace
-
-fs::path folder_of(const fs::path& target) {
-  return target.has_parent_path() ? target.parent_path() : fs::path(".");
-}
-
-namespace {
 
 fs::path resolve_link(const fs::path& named) {
   std::error_code error;
@@ -132,6 +114,16 @@ void require_space(const fs::path& target, const fs::path& folder, std::uintmax_
 }
 
 }  // namespace
+
+std::string temporary_name(const fs::path& target) {
+  static std::atomic<unsigned> next{0};
+  return fmt::format("{}{}-{:08x}-{}{}", beginning(target), ::getpid(), own_number(), next++,
+                     kSuffix);
+}
+
+fs::path folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
 
 AtomicFile::AtomicFile(const fs::path& target, std::uintmax_t bytes)
     : named_(target), target_(resolve_link(target)) {
@@ -241,17 +233,6 @@ constexpr std::array<std::uint32_t, 256> checksum_table() {
   return table;
 }
 
-}  // namespace
-
-std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
-  static constexpr std::array<std::uint32_t, 256> table = checksum_table();
-  std::uint32_t value = 0xFFFFFFFFU;
-  for (const std::uint8_t byte : bytes) value = table[(value ^ byte) & 0xFFU] ^ (value >> 8);
-  return ~value;
-}
-
-namespace {
-
 using LogBytes = std::span<const std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kSignature{'E', 'P', 'I', 'L', 'O', 'G', '1', '\n'};
@@ -341,6 +322,13 @@ IoError not_a_log(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
+  static constexpr std::array<std::uint32_t, 256> table = checksum_table();
+  std::uint32_t value = 0xFFFFFFFFU;
+  for (const std::uint8_t byte : bytes) value = table[(value ^ byte) & 0xFFU] ^ (value >> 8);
+  return ~value;
+}
 
 /// Flushes an open file to the disk soon after each write, on a thread of its own, so that the
 /// writer never waits for a disk. The file must outlive it.

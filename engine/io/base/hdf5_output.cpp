@@ -16,7 +16,6 @@
 namespace episcope::io {
 namespace {
 
-/// Those of `names` that are not in `without`.
 std::vector<std::string> left_of(std::vector<std::string> names,
                                  const std::vector<std::string>& without) {
   std::erase_if(names, [&](const std::string& name) {
@@ -41,24 +40,6 @@ bool copy_attribute(hid_t from_object, hid_t to_object, const std::string& name)
   return outcome >= 0;
 }
 
-}  // namespace
-
-void Hdf5Output::copy_all(const Hdf5Input& from, const std::vector<std::string>& without) {
-  const Hdf5Lock session;
-  const Hdf5Handle root(H5Gopen2(from.file_, "/", H5P_DEFAULT), H5Gclose);
-  std::vector<std::string> links, attributes;
-  require(list_links(root, links));
-  for (const std::string& name : left_of(std::move(links), without)) {
-    require(H5Ocopy(root, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0);
-  }
-  require(list_attributes(root, attributes));
-  for (const std::string& name : left_of(std::move(attributes), without)) {
-    require(copy_attribute(root, file_, name));
-  }
-}
-
-namespace {
-
 // How an object of class `type` is created, to be closed: without its time, so that the same
 // content is the same bytes.
 hid_t creation_of(hid_t type) {
@@ -76,6 +57,20 @@ hid_t access_of(Hdf5WriteLog& log) {
 }
 
 }  // namespace
+
+void Hdf5Output::copy_all(const Hdf5Input& from, const std::vector<std::string>& without) {
+  const Hdf5Lock session;
+  const Hdf5Handle root(H5Gopen2(from.file_, "/", H5P_DEFAULT), H5Gclose);
+  std::vector<std::string> links, attributes;
+  require(list_links(root, links));
+  for (const std::string& name : left_of(std::move(links), without)) {
+    require(H5Ocopy(root, name.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0);
+  }
+  require(list_attributes(root, attributes));
+  for (const std::string& name : left_of(std::move(attributes), without)) {
+    require(copy_attribute(root, file_, name));
+  }
+}
 
 Hdf5Output::Hdf5Output(const AtomicFile& file, std::size_t user_bytes) : path_(file.target()) {
   const Hdf5Lock session;

@@ -42,7 +42,7 @@ class Hdf5Output {
   /// Copies every object and attribute of the root group as stored, except those in `without`.
   void copy_all(const Hdf5Input& from, const std::vector<std::string>& without);
   void add_group(const std::string& name);
-  /// How datasets that are added from now on are stored; those of less than two axes are plain.
+  /// Sets how datasets added later are stored; datasets of less than two axes are plain.
   void set_storage(Hdf5Storage storage) { storage_ = storage; }
   /// Adds a dataset with its attributes `axes` ("v,u,y,x") and `units`. T as in `Hdf5Input::read`.
   template <class T>

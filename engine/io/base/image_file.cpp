@@ -165,19 +165,6 @@ AnyImage image_of(const fs::path& path, const cv::Mat& decoded) {
                 "one of these formats");
 }
 
-}  // namespace
-
-AnyImage decode_image(const fs::path& path, PicturePart part) {
-  require_readable_file(path);
-  if (has_png_signature(path)) return decode_png(path);
-  require_plausible_picture(path);
-  if (has_radiance_signature(path)) return decode_radiance(path);
-  require_whole_jpeg(path);
-  return image_of(path, read_mat(path, part).pixels);
-}
-
-namespace {
-
 /// 1 where the last of 2 or 4 channels is not 0; empty if there is no such channel.
 template <class T>
 Image<std::uint8_t> opaque_in(const cv::Mat& pixels) {
@@ -213,6 +200,15 @@ Image<std::uint8_t> seen_in(const DecodedMat& decoded) {
 }
 
 }  // namespace
+
+AnyImage decode_image(const fs::path& path, PicturePart part) {
+  require_readable_file(path);
+  if (has_png_signature(path)) return decode_png(path);
+  require_plausible_picture(path);
+  if (has_radiance_signature(path)) return decode_radiance(path);
+  require_whole_jpeg(path);
+  return image_of(path, read_mat(path, part).pixels);
+}
 
 std::vector<SeenImage> decode_pages(const fs::path& path, int count) {
   require_readable_file(path);
@@ -441,20 +437,6 @@ SeenImage decode_png_seen(const fs::path& path) {
                        : without_alpha(std::get<Image<std::uint16_t>>(all));
 }
 
-}  // namespace
-
-SeenImage decode_seen(const fs::path& path) {
-  require_readable_file(path);
-  if (has_png_signature(path)) return decode_png_seen(path);
-  require_plausible_picture(path);
-  if (has_radiance_signature(path)) return {decode_radiance(path)};
-  require_whole_jpeg(path);
-  const DecodedMat decoded = read_mat(path, PicturePart::Colors);
-  return {image_of(path, decoded.pixels), seen_in(decoded)};
-}
-
-namespace {
-
 /// Splits decoded pixels: 1 or 2 channels are numbers, 3 or 4 colors; the last of 2 or 4 is alpha.
 template <class T>
 LabelPicture split(const Image<T>& pixels) {
@@ -524,6 +506,16 @@ LabelPicture split_mat(const cv::Mat& decoded) {
 
 }  // namespace
 
+SeenImage decode_seen(const fs::path& path) {
+  require_readable_file(path);
+  if (has_png_signature(path)) return decode_png_seen(path);
+  require_plausible_picture(path);
+  if (has_radiance_signature(path)) return {decode_radiance(path)};
+  require_whole_jpeg(path);
+  const DecodedMat decoded = read_mat(path, PicturePart::Colors);
+  return {image_of(path, decoded.pixels), seen_in(decoded)};
+}
+
 LabelPicture decode_label_picture(const fs::path& path) {
   require_readable_file(path);
   if (has_png_signature(path)) return decode_png_labels(path);
@@ -575,10 +567,6 @@ void require_channels(ImageView<const T> image, bool is_allowed, const char* exp
         fmt::format("the picture has {} channels, but {} are expected", image.channels, expected));
   }
 }
-
-}  // namespace
-
-namespace {
 
 std::vector<std::uint8_t> png_of(const fs::path& path, ImageView<const std::uint8_t> image) {
   require_channels(image, image.channels == 1 || image.channels == 3 || image.channels == 4,

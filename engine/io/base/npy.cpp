@@ -91,14 +91,6 @@ void parse_type(const std::filesystem::path& path, std::string_view text, NpyHea
   throw refused("elements of the type " + code.substr(0, 20));
 }
 
-}  // namespace
-
-bool has_npy_magic(std::string_view begin) {
-  return begin.substr(0, kMagic.size()) == kMagic;
-}
-
-namespace {
-
 /// Parses the header at the front of a file, which `begin` holds. Nothing in it is evaluated:
 /// objects, records and text are refused. Throws IoError that names `path`.
 NpyHeader parse_npy_header(const std::filesystem::path& path, std::string_view begin) {
@@ -139,6 +131,10 @@ NpyHeader parse_npy_header(const std::filesystem::path& path, std::string_view b
 }
 
 }  // namespace
+
+bool has_npy_magic(std::string_view begin) {
+  return begin.substr(0, kMagic.size()) == kMagic;
+}
 
 std::string npy_header(const ArrayShape& shape, NumberType type) {
   std::string code;

@@ -30,22 +30,6 @@ int bits_of(int white) {
   return static_cast<int>(std::bit_width(static_cast<unsigned>(white)));
 }
 
-}  // namespace
-
-Interval parse_levels(const std::string& text) {
-  const std::size_t comma = text.find(',');
-  if (comma != std::string::npos) {
-    const auto black = parse_number(text.substr(0, comma));
-    const auto white = parse_number(text.substr(comma + 1));
-    if (black && white && *black < *white) return {*black, *white};
-  }
-  throw InvalidInput("'" + text.substr(0, 40) +
-                     "' are no levels of samples; give the values of black and white as stored, as "
-                     "in 0,1023 or -1,1");
-}
-
-namespace {
-
 template <class T>
 void apply(ViewStack<T>& stack, const Interval& levels) {
   const double scale = 1 / levels.length();
@@ -104,6 +88,18 @@ void settle_words(LightField::Samples& samples, ConventionReport& report) {
 }
 
 }  // namespace
+
+Interval parse_levels(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma != std::string::npos) {
+    const auto black = parse_number(text.substr(0, comma));
+    const auto white = parse_number(text.substr(comma + 1));
+    if (black && white && *black < *white) return {*black, *white};
+  }
+  throw InvalidInput("'" + text.substr(0, 40) +
+                     "' are no levels of samples; give the values of black and white as stored, as "
+                     "in 0,1023 or -1,1");
+}
 
 int full_scale(double largest) {
   constexpr int k10Bits = 1023;

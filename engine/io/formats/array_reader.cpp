@@ -498,23 +498,6 @@ Scene read_hdf5_array(const fs::path& path, const OpenOptions& options, const Pr
                           archive_depth(*input, options));
 }
 
-SceneProbe probe_hdf5_array(const fs::path& path, const OpenOptions& options) {
-  return probe_arrays(Hdf5Arrays(std::make_shared<const Hdf5Input>(path)), options);
-}
-
-}  // namespace
-
-Reader hdf5_array_reader() {
-  return {.id = kHdf5Reader,
-          .name = "an array of an HDF5 file",
-          .options = array_options(),
-          .find = find_hdf5_array,
-          .read = read_hdf5_array,
-          .probe = probe_hdf5_array};
-}
-
-namespace {
-
 constexpr const char* kMatlabReader = "matlab";
 
 bool has_mat_name(const fs::path& path) {
@@ -527,23 +510,32 @@ fs::path find_matlab(const fs::path& path, const OpenOptions&) {
   return has_hdf5_signature(path) && is_matlab_hdf5(Hdf5Input(path)) ? path : fs::path();
 }
 
-Scene read_matlab(const fs::path& path, const OpenOptions& options, const Progress& progress) {
-  return read_array_scene(*open_matlab_file(path), kMatlabReader, options, progress);
-}
-
-SceneProbe probe_matlab(const fs::path& path, const OpenOptions& options) {
-  return probe_arrays(*open_matlab_file(path), options);
-}
-
 }  // namespace
+
+Reader hdf5_array_reader() {
+  return {.id = kHdf5Reader,
+          .name = "an array of an HDF5 file",
+          .options = array_options(),
+          .find = find_hdf5_array,
+          .read = read_hdf5_array,
+          .probe = [](const fs::path& path, const OpenOptions& options) {
+            return probe_arrays(Hdf5Arrays(std::make_shared<const Hdf5Input>(path)), options);
+          }};
+}
 
 Reader matlab_reader() {
   return {.id = kMatlabReader,
           .name = "a MATLAB file",
           .options = array_options(),
           .find = find_matlab,
-          .read = read_matlab,
-          .probe = probe_matlab};
+          .read =
+              [](const fs::path& path, const OpenOptions& options, const Progress& progress) {
+                return read_array_scene(*open_matlab_file(path), kMatlabReader, options, progress);
+              },
+          .probe =
+              [](const fs::path& path, const OpenOptions& options) {
+                return probe_arrays(*open_matlab_file(path), options);
+              }};
 }
 
 namespace {
@@ -570,14 +562,6 @@ fs::path find_numpy(const fs::path& path, const OpenOptions&) {
   return is_numpy_file(path) ? path : fs::path();
 }
 
-Scene read_numpy(const fs::path& path, const OpenOptions& options, const Progress& progress) {
-  return read_array_scene(NumpyFile(path), kNumpyReader, options, progress);
-}
-
-SceneProbe probe_numpy(const fs::path& path, const OpenOptions& options) {
-  return probe_arrays(NumpyFile(path), options);
-}
-
 }  // namespace
 
 Scene read_arrays(const ArrayFile& file, const OpenOptions& options, const Progress& progress) {
@@ -585,12 +569,17 @@ Scene read_arrays(const ArrayFile& file, const OpenOptions& options, const Progr
 }
 
 Reader numpy_reader() {
-  return {.id = kNumpyReader,
-          .name = "a NumPy array",
-          .options = array_options(),
-          .find = find_numpy,
-          .read = read_numpy,
-          .probe = probe_numpy};
+  return {
+      .id = kNumpyReader,
+      .name = "a NumPy array",
+      .options = array_options(),
+      .find = find_numpy,
+      .read =
+          [](const fs::path& path, const OpenOptions& options, const Progress& progress) {
+            return read_arrays(NumpyFile(path), options, progress);
+          },
+      .probe = [](const fs::path& path,
+                  const OpenOptions& options) { return probe_arrays(NumpyFile(path), options); }};
 }
 
 }  // namespace episcope::io

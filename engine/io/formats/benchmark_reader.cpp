@@ -408,19 +408,6 @@ fs::path find_benchmark(const fs::path& path, const OpenOptions& options) {
 
 constexpr const char* kBenchmarkOptions[] = {"flip", "crop", "grid", "levels"};
 
-}  // namespace
-
-Reader benchmark_reader() {
-  return {.id = "benchmark2016",
-          .name = "a scene of the 2016 benchmark",
-          .options = kBenchmarkOptions,
-          .find = find_benchmark,
-          .read = read_benchmark,
-          .probe = probe_benchmark};
-}
-
-namespace {
-
 std::string trimmed(const std::string& text) {
   const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
   const auto begin = std::find_if_not(text.begin(), text.end(), is_space);
@@ -448,6 +435,15 @@ std::string with_point(std::string value) {
 }
 
 }  // namespace
+
+Reader benchmark_reader() {
+  return {.id = "benchmark2016",
+          .name = "a scene of the 2016 benchmark",
+          .options = kBenchmarkOptions,
+          .find = find_benchmark,
+          .read = read_benchmark,
+          .probe = probe_benchmark};
+}
 
 ConfigFile::ConfigFile(const std::filesystem::path& path) {
   require_readable_file(path);

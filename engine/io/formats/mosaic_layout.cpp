@@ -529,16 +529,6 @@ void scatter(const T* from, int channels, int step, int count, T* to) {
   }
 }
 
-}  // namespace
-
-ViewIndex MosaicLayout::tile_of(ViewIndex view) const {
-  if (kind == Mosaic::Quilt) return quilt_tile(tiles, view.u);
-  return kind == Mosaic::ViewsUp ? ViewIndex{tiles.v - 1 - view.v, view.u} : view;
-}
-
-namespace {
-
-/// Row `y` of view `view`.
 template <class T>
 void copy_row(const Image<T>& picture, const MosaicLayout& layout, ViewIndex view, int y, T* to) {
   const int channels = picture.channels();
@@ -554,6 +544,11 @@ void copy_row(const Image<T>& picture, const MosaicLayout& layout, ViewIndex vie
 }
 
 }  // namespace
+
+ViewIndex MosaicLayout::tile_of(ViewIndex view) const {
+  if (kind == Mosaic::Quilt) return quilt_tile(tiles, view.u);
+  return kind == Mosaic::ViewsUp ? ViewIndex{tiles.v - 1 - view.v, view.u} : view;
+}
 
 AnyImage mosaic_view(const AnyImage& picture, const MosaicLayout& layout, ViewIndex view) {
   return std::visit(

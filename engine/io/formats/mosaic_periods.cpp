@@ -190,14 +190,6 @@ double edge_ratio(const Image<float>& lines, int tiles) {
   return edges / (tiles - 1) / (all / (lines.width() - 1));
 }
 
-}  // namespace
-
-bool TileCount::is_certain() const {
-  return count > 1 && correlation >= kCorrelation && edge >= kEdge;
-}
-
-namespace {
-
 /// Of tiles of `width` px and their neighbors, at the best of the shifts.
 double tile_correlation(const Image<float>& changes, int width) {
   double best = 0;
@@ -208,6 +200,10 @@ double tile_correlation(const Image<float>& changes, int width) {
 }
 
 }  // namespace
+
+bool TileCount::is_certain() const {
+  return count > 1 && correlation >= kCorrelation && edge >= kEdge;
+}
 
 TileCount tiles_of_count(const Image<float>& lines, int count) {
   const int width = count > 1 ? lines.width() / count : 0;

@@ -105,17 +105,6 @@ NumberedFrames frames_among(const std::vector<fs::path>& paths, Others others) {
   return found;
 }
 
-}  // namespace
-
-NumberedFrames numbered_frames(const fs::path& folder) {
-  const std::vector<fs::path> folders = listed(folder, true);
-  if (!folders.empty()) return frames_among(folders, Others::Refused);
-  return frames_among(listed(folder, false), Others::LeftOut);
-}
-
-namespace {
-
-/// Finds numbered images of `folder`, as `numbered_frames` does.
 NumberedFrames numbered_images(const fs::path& folder) {
   return frames_among(list_images(folder), Others::LeftOut);
 }
@@ -378,6 +367,12 @@ std::span<const char* const> all_options() {
 }
 
 }  // namespace
+
+NumberedFrames numbered_frames(const fs::path& folder) {
+  const std::vector<fs::path> folders = listed(folder, true);
+  if (!folders.empty()) return frames_among(folders, Others::Refused);
+  return frames_among(listed(folder, false), Others::LeftOut);
+}
 
 fs::path frame_path(const LightFieldInfo& info) {
   if (info.reading.reader != kSequenceReader || !fs::is_directory(info.source)) return {};

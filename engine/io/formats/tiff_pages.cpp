@@ -122,23 +122,6 @@ std::optional<StatedPages> pages_of(PageAxes axes, std::string program, int page
   return stated;
 }
 
-}  // namespace
-
-std::optional<StatedPages> stated_pages(const std::string& description, int pages) {
-  if (description.starts_with("ImageJ=")) {
-    return pages_of(axes_of_imagej(description), "ImageJ", pages);
-  }
-  if (description.find("<OME") != std::string::npos) {
-    return pages_of(axes_of_ome(description), "OME-TIFF", pages);
-  }
-  if (description.starts_with('{')) {
-    return pages_of(axes_of_tifffile(description, pages), "tifffile", pages);
-  }
-  return std::nullopt;
-}
-
-namespace {
-
 /// Samples that follow each other without directories.
 struct RawPages {
   int count = 0;
@@ -195,6 +178,19 @@ Image<T> raw_page(TiffFile& file, const RawPages& pages, std::uint64_t place) {
 }
 
 }  // namespace
+
+std::optional<StatedPages> stated_pages(const std::string& description, int pages) {
+  if (description.starts_with("ImageJ=")) {
+    return pages_of(axes_of_imagej(description), "ImageJ", pages);
+  }
+  if (description.find("<OME") != std::string::npos) {
+    return pages_of(axes_of_ome(description), "OME-TIFF", pages);
+  }
+  if (description.starts_with('{')) {
+    return pages_of(axes_of_tifffile(description, pages), "tifffile", pages);
+  }
+  return std::nullopt;
+}
 
 std::vector<AnyImage> read_imagej_pages(const std::filesystem::path& path) {
   std::vector<AnyImage> read;

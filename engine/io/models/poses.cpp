@@ -448,7 +448,6 @@ bool has_named_poses(const fs::path& folder) {
   });
 }
 
-/// Adds the folders of images inside a folder and inside these.
 void add_folders_inside(const fs::path& folder, int depth, std::vector<fs::path>& all) {
   for (const fs::path& inside : list_folders(folder)) {
     if (count_images(inside) > 0) all.push_back(inside);

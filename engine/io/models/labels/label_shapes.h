@@ -30,7 +30,7 @@ void draw_line(Image<std::int32_t>& map, const Polygon& corners, double radius_p
 struct LabelRegion {
   std::int32_t label = 0;
   Polygon outline;         ///< Along sides of pixels: `fill_polygon` gives exactly its pixels, and
-  bool has_holes = false;  ///< those of its holes.
+  bool has_holes = false;  ///< the pixels of its holes.
   PixelRect box;           ///< That holds it.
   std::vector<PixelIndex> pixels;
 };

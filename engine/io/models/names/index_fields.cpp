@@ -567,7 +567,6 @@ WordOrder order_of_words(const std::string& first, const std::string& second) {
   return WordOrder::Unknown;
 }
 
-/// Whether a word of `text` begins as one of `beginnings`.
 template <std::size_t N>
 bool has_word(const std::string& text, const std::array<const char*, N>& beginnings) {
   for (std::size_t at = 0; at < text.size(); ++at) {

@@ -130,7 +130,6 @@ std::string detected_pattern(const fs::path& folder, const std::vector<fs::path>
   }
 }
 
-/// Where views are, by path.
 std::map<fs::path, ViewIndex> places_of(const ViewFiles& views) {
   std::map<fs::path, ViewIndex> places;
   for (int i = 0; i < views.grid.count(); ++i) {

@@ -166,7 +166,6 @@ PlacedViews place_on_grid(const fs::path& folder, const ViewNames& names) {
   return placed;
 }
 
-/// Of a list with gaps.
 ListGaps gaps_of(const ViewNames& names, const NumberRun& run) {
   ListGaps gaps{.length = static_cast<int>(run.length())};
   std::vector<std::string> first;

@@ -146,7 +146,6 @@ AxisErrors axis_errors(const LightField::Samples& samples, ViewIndex at, bool is
   return errors;
 }
 
-/// Sums of the channels of a row.
 template <class T>
 void add_channels(const T* samples, int width, int channels, float* sums) {
   for (int x = 0; x < width; ++x) {

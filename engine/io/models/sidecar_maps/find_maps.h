@@ -66,7 +66,7 @@ struct SidecarViews {
   const ViewFiles& files;
   std::filesystem::path folder;  ///< Of the views.
   const LightField::Samples& samples;
-  CameraGrid camera;  ///< As far as it is known.
+  CameraGrid camera;  ///< Known fields only.
   MapViews map_views = MapViews::All;
   bool needs_truth = true;
   bool is_shift_unknown = false;  ///< Views may be shifted against what `camera` says.

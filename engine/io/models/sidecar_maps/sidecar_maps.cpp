@@ -36,26 +36,6 @@ std::optional<double> number_after(const std::string& text, std::string_view nam
   return parse_number(text.substr(begin, end == std::string::npos ? end : end - begin));
 }
 
-}  // namespace
-
-std::optional<MapUnit> stated_unit(const fs::path& folder, FileUsage& account) {
-  const fs::path path = folder / kBaselineFile;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::string text(kLongestParameters, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  const std::optional<double> baseline = number_after(text, "base_x");
-  if (!baseline || *baseline <= 0) return std::nullopt;
-  account.use(path, "parameter files");
-  return MapUnit{*baseline, fmt::format("px for a baseline of 1; that of neighboring views is {} "
-                                        "({})",
-                                        *baseline, kBaselineFile)};
-}
-
-namespace {
-
-/// Maps as stored, and where from.
 struct StoredMaps {
   DisparityField field;
   const MapSet* set = nullptr;
@@ -377,6 +357,21 @@ void set_aside(std::vector<MapSet>& sets, const SidecarNotes& notes) {
 }
 
 }  // namespace
+
+std::optional<MapUnit> stated_unit(const fs::path& folder, FileUsage& account) {
+  const fs::path path = folder / kBaselineFile;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return std::nullopt;
+  std::string text(kLongestParameters, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  const std::optional<double> baseline = number_after(text, "base_x");
+  if (!baseline || *baseline <= 0) return std::nullopt;
+  account.use(path, "parameter files");
+  return MapUnit{*baseline, fmt::format("px for a baseline of 1; that of neighboring views is {} "
+                                        "({})",
+                                        *baseline, kBaselineFile)};
+}
 
 SidecarMaps read_sidecar_maps(const SidecarViews& views, const SidecarNotes& notes,
                               const Progress& progress) {
