@@ -21,6 +21,11 @@
 #include <utility>
 
 namespace episcope {
+namespace {
+
+constexpr int kStateLines = 3;  // of a state, before it is folded
+
+}  // namespace
 
 /// A canvas that marks the centers of lenses where they stand apart on the screen.
 class RawCanvas : public ViewCanvas {
@@ -76,10 +81,10 @@ class RawCanvas : public ViewCanvas {
 
 RawPicturePanel::RawPicturePanel(const QStringList& mosaics, QWidget* parent)
     : QWidget(parent),
-      raw_(new ElidedLabel(this)),
-      white_(new ElidedLabel(this)),
-      lenses_(new ElidedLabel(this)),
-      views_(new ElidedLabel(this)),
+      raw_(new FoldedLabel(this, kStateLines)),
+      white_(new FoldedLabel(this, kStateLines)),
+      lenses_(new FoldedLabel(this, kStateLines)),
+      views_(new FoldedLabel(this, kStateLines)),
       raw_button_(new QPushButton(tr("Raw picture"), this)),
       white_button_(new QPushButton(tr("White picture"), this)),
       find_(new QPushButton(tr("Find lenses"), this)),
@@ -122,7 +127,7 @@ RawPicturePanel::RawPicturePanel(const QStringList& mosaics, QWidget* parent)
 
 QGridLayout* RawPicturePanel::makeSteps() {
   struct Step {
-    ElidedLabel* state;
+    FoldedLabel* state;
     QPushButton* button;
     const char* name;
     QString tip;

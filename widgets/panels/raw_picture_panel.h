@@ -18,7 +18,7 @@ class QPushButton;
 
 namespace episcope {
 
-class ElidedLabel;
+class FoldedLabel;
 class RawCanvas;
 
 /// The steps from a raw picture of a plenoptic camera to a light field: each has a line of what was
@@ -59,10 +59,10 @@ class RawPicturePanel : public QWidget {
   void makeWhiteMenu();
   void showPicture(int index);
 
-  ElidedLabel* raw_;
-  ElidedLabel* white_;
-  ElidedLabel* lenses_;
-  ElidedLabel* views_;
+  FoldedLabel* raw_;
+  FoldedLabel* white_;
+  FoldedLabel* lenses_;
+  FoldedLabel* views_;
   QPushButton* raw_button_;
   QPushButton* white_button_;
   QPushButton* find_;

@@ -7,8 +7,6 @@
 #include "engine/core/parallel.h"
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,12 +15,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <numbers>
+#include <utility>
 
 namespace episcope::capture {
 namespace {
 
-constexpr float kDarkest = 0.3F;  // of the center of a lens; below, a sample is invalid
-constexpr double kUnit = 32768;   // of devignetted samples: what 1 is stored as
+constexpr float kDarkest = 0.3F;      // of the center of a lens; below, a sample is invalid
+constexpr double kLeastShare = 0.02;  // of the light; what is darker is not made brighter
+constexpr float kHotMargin = 0.06F;   // of the sensor's range; hot pixels exceed it
+constexpr float kOtherLens = 1e-3F;  // weight of pixels below another lens: only if there is no own
 constexpr double kMostViews = 15;
 constexpr double kBrightLenses = 0.995;  // quantile of lenses that makes 1
 
@@ -101,128 +102,67 @@ Levels center_levels(const RawPicture& white, const Light& light, const LensGrid
   return levels;
 }
 
-/// What the sensor saw, without vignetting, and where anything was seen.
+/// What the sensor saw, vignetting removed, and the share of the light that this leaves.
 struct Devignetted {
-  Image<std::uint16_t> light;   ///< kUnit = saturation.
-  Image<std::uint8_t> is_seen;  ///< Empty without a white picture.
+  Image<float> light;  ///< 1 = saturation.
+  Image<float> share;  ///< Empty without a white picture.
+
+  [[nodiscard]] float share_at(int y, int x) const { return share.empty() ? 1 : share.at(y, x); }
 };
-
-std::uint16_t stored(double value) {
-  return static_cast<std::uint16_t>(std::clamp(value * kUnit + 0.5, 0.0, 65535.0));
-}
-
-/// Means over squares of `size` px; lenses with many pixels have more than views.
-cv::Mat smoothed(const Image<float>& picture, int size) {
-  cv::Mat result;
-  cv::blur(cv::Mat(picture.height(), picture.width(), CV_32F, const_cast<float*>(picture.data())),
-           result, {size, size}, {-1, -1}, cv::BORDER_REPLICATE);
-  return result;
-}
-
-/// Light divided by the share of it that vignetting leaves, of the pixel (y, x) each.
-template <class LightAt, class ShareAt>
-Devignetted divided(const PlenopticPictures& pictures, const LightAt& light_at,
-                    const ShareAt& share_at, const Progress& progress) {
-  const int height = pictures.raw.samples.height(), width = pictures.raw.samples.width();
-  Devignetted result{Image<std::uint16_t>(height, width), {}};
-  if (pictures.white) result.is_seen = Image<std::uint8_t>(height, width);
-  parallel_for(height, progress, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const double share = pictures.white ? share_at(y, x) : 1;
-      result.light.at(y, x) = stored(light_at(y, x) / std::max(share, 0.02));
-      if (pictures.white) result.is_seen.at(y, x) = share >= kDarkest;
-    }
-  });
-  return result;
-}
-
-/// A gray picture of large lenses: light and white are averaged over the step of the views first.
-Devignetted devignetted_means(const PlenopticPictures& pictures, const LensGrid& grid, int size,
-                              const Progress& progress) {
-  const auto means = [&](const Light& light, const Progress& part) {
-    Image<float> values(pictures.raw.samples.height(), pictures.raw.samples.width());
-    parallel_for(values.height(), part, [&](int y) {
-      for (int x = 0; x < values.width(); ++x) values.at(y, x) = static_cast<float>(light.at(y, x));
-    });
-    return smoothed(values, size);
-  };
-  const cv::Mat light = means(Light(pictures.raw, pictures.dark), progress.part(0, 0.4));
-  cv::Mat shade;
-  double level = 1;
-  if (pictures.white) {
-    const Light white(*pictures.white, pictures.dark);
-    shade = means(white, progress.part(0.4, 0.8));
-    level = center_levels(*pictures.white, white, grid)[0];
-  }
-  return divided(
-      pictures, [&](int y, int x) { return double{light.at<float>(y, x)}; },
-      [&](int y, int x) { return shade.at<float>(y, x) / level; }, progress.part(0.8, 1));
-}
 
 Devignetted devignetted(const PlenopticPictures& pictures, const LensGrid& grid,
                         const Progress& progress) {
+  const int height = pictures.raw.samples.height(), width = pictures.raw.samples.width();
+  Devignetted result{Image<float>(height, width), {}};
   const Light raw(pictures.raw, pictures.dark);
-  const auto light = [&](int y, int x) { return raw.at(y, x); };
-  if (!pictures.white) return divided(pictures, light, light, progress);
+  if (!pictures.white) {
+    parallel_for(height, progress, [&](int y) {
+      for (int x = 0; x < width; ++x) result.light.at(y, x) = static_cast<float>(raw.at(y, x));
+    });
+    return result;
+  }
   const Light white(*pictures.white, pictures.dark);
   const Levels levels = center_levels(*pictures.white, white, grid);
-  return divided(
-      pictures, light,
-      [&](int y, int x) { return white.at(y, x) / levels[color_at(pictures.raw.mosaic, y, x)]; },
-      progress);
+  result.share = Image<float>(height, width);
+  parallel_for(height, progress, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const double share = white.at(y, x) / levels[color_at(pictures.raw.mosaic, y, x)];
+      result.share.at(y, x) = static_cast<float>(share);
+      result.light.at(y, x) = static_cast<float>(raw.at(y, x) / std::max(share, kLeastShare));
+    }
+  });
+  return result;
 }
 
 /// Replaces pixels that are brighter or darker than all neighbors of their color by a third, with
 /// the mean of these.
-std::size_t replace_hot_pixels(Image<std::uint16_t>& light, const Image<std::uint8_t>& is_seen,
-                               Mosaic mosaic, const Progress& progress) {
+std::size_t replace_hot_pixels(Devignetted& seen, Mosaic mosaic, const Progress& progress) {
   const int reach = mosaic == Mosaic::Gray ? 1 : 2;
-  const Image<std::uint16_t> before = light;
-  std::vector<std::size_t> counts(light.height());
-  parallel_for(light.height() - 2 * reach, progress, [&](int item) {
+  const int height = seen.light.height(), width = seen.light.width();
+  std::vector<std::vector<std::pair<int, float>>> replaced(height);
+  parallel_for(height - 2 * reach, progress, [&](int item) {
     const int y = item + reach;
-    for (int x = reach; x < light.width() - reach; ++x) {
-      if (!is_seen.empty() && is_seen.at(y, x) == 0) continue;
-      double low = 65535, high = 0, sum = 0;
+    for (int x = reach; x < width - reach; ++x) {
+      float low = 1e9F, high = -1e9F, sum = 0;
       for (int k = 0; k < 9; ++k) {
         if (k == 4) continue;
-        const double value = before.at(y + (k / 3 - 1) * reach, x + (k % 3 - 1) * reach);
+        const float value = seen.light.at(y + (k / 3 - 1) * reach, x + (k % 3 - 1) * reach);
         low = std::min(low, value);
         high = std::max(high, value);
         sum += value;
       }
-      const double here = before.at(y, x);
-      if (here <= 1.35 * high + 0.03 * kUnit && here >= 0.65 * low - 0.03 * kUnit) continue;
-      light.at(y, x) = static_cast<std::uint16_t>(sum / 8);
-      ++counts[y];
+      const float here = seen.light.at(y, x);
+      const float noise = kHotMargin / std::max(seen.share_at(y, x), float(kLeastShare));
+      if (here <= 1.35F * high + noise && here >= 0.65F * low - noise) continue;
+      replaced[y].emplace_back(x, sum / 8);
     }
   });
   std::size_t count = 0;
-  for (const std::size_t each : counts) count += each;
-  return count;
-}
-
-int bayer_code(Mosaic mosaic) {
-  // OpenCV names the second and third pixel of the second row.
-  switch (mosaic) {
-    case Mosaic::Rggb:
-      return cv::COLOR_BayerBG2RGB;
-    case Mosaic::Grbg:
-      return cv::COLOR_BayerGB2RGB;
-    case Mosaic::Gbrg:
-      return cv::COLOR_BayerGR2RGB;
-    default:
-      return cv::COLOR_BayerRG2RGB;
+  for (int y = 0; y < height; ++y) {
+    for (const auto& [x, light] : replaced[y]) seen.light.at(y, x) = light;
+    count += replaced[y].size();
   }
-}
-
-Image<std::uint16_t> demosaiced(Image<std::uint16_t> light, Mosaic mosaic) {
-  if (mosaic == Mosaic::Gray) return light;
-  Image<std::uint16_t> colors(light.height(), light.width(), 3);
-  const cv::Mat from(light.height(), light.width(), CV_16U, light.data());
-  cv::Mat to(light.height(), light.width(), CV_16UC3, colors.data());
-  cv::cvtColor(from, to, bayer_code(mosaic));
-  return colors;
+  return count;
 }
 
 /// Turns linear colors of the camera into samples.
@@ -250,7 +190,7 @@ class Developer {
       return;
     }
     float balanced[3];
-    for (int c = 0; c < 3; ++c) balanced[c] = std::clamp(linear[c] * balance_[c], 0.0F, 1.0F);
+    for (int c = 0; c < 3; ++c) balanced[c] = std::min(linear[c] * balance_[c], 1.0F);
     for (int c = 0; c < 3; ++c) {
       const float* m = &matrix_[3 * c];
       out[c] = curved(m[0] * balanced[0] + m[1] * balanced[1] + m[2] * balanced[2]);
@@ -293,7 +233,27 @@ struct ViewGeometry {
   double column_step = 1;  ///< In pitches.
   PlanePoint u;            ///< On the sensor, from one view to the next.
   PlanePoint v;
+  /// To neighboring lenses, divided by the squared distance; the third is 0 on a square lattice.
+  std::array<std::array<float, 2>, 3> neighbors{};
+
+  /// Whether a place, from the center of a lens, is nearest to this lens.
+  [[nodiscard]] bool is_below_lens(float x, float y) const {
+    return std::ranges::all_of(
+        neighbors, [&](const auto& n) { return std::abs(x * n[0] + y * n[1]) <= 0.5F; });
+  }
 };
+
+void set_neighbors(const LensGrid& grid, double turn, ViewGeometry& g) {
+  const double lean = grid.lattice == LensLattice::Hexagonal ? grid.pitch_px / 2 : 0;
+  const PlanePoint flat[] = {
+      {grid.pitch_px, 0}, {lean, grid.row_distance_px}, {-lean, grid.row_distance_px}};
+  for (int k = 0; k < (lean > 0 ? 3 : 2); ++k) {
+    const auto [x, y] = flat[k];
+    const double square = x * x + y * y;
+    g.neighbors[k] = {static_cast<float>((x * std::cos(turn) - y * std::sin(turn)) / square),
+                      static_cast<float>((x * std::sin(turn) + y * std::cos(turn)) / square)};
+  }
+}
 
 ViewGeometry geometry_of(const LensGrid& grid, const DecodeOptions& options, int height,
                          int width) {
@@ -320,22 +280,26 @@ ViewGeometry geometry_of(const LensGrid& grid, const DecodeOptions& options, int
   const double turn = grid.rotation_degrees * std::numbers::pi / 180;
   g.u = {g.step_px * std::cos(turn), g.step_px * std::sin(turn)};
   g.v = {-g.u.y, g.u.x};
+  set_neighbors(grid, turn, g);
   return g;
 }
 
 /// Samples the views out of the light below the lenses.
 class Sampler {
  public:
-  Sampler(const Image<std::uint16_t>& light, const Devignetted& seen, const LensGrid& grid,
+  Sampler(const Devignetted& seen, Mosaic mosaic, const LensGrid& grid,
           const ViewGeometry& geometry, const Developer& developer)
-      : light_(light),
-        is_seen_(seen.is_seen),
+      : seen_(seen),
+        channels_(mosaic == Mosaic::Gray ? 1 : 3),
+        reach_(static_cast<float>(
+            std::max(channels_ == 1 ? 1.0 : 2.0, std::min(geometry.step_px, grid.pitch_px / 2)))),
         grid_(grid),
         geometry_(geometry),
         developer_(developer),
-        samples_({geometry.views, geometry.views}, geometry.block.rows, geometry.width,
-                 light.channels()),
-        valid_(samples_.grid(), geometry.block.rows, geometry.width) {}
+        samples_({geometry.views, geometry.views}, geometry.block.rows, geometry.width, channels_),
+        valid_(samples_.grid(), geometry.block.rows, geometry.width) {
+    for (int k = 0; k < 4; ++k) colors_[k] = color_at(mosaic, k / 2, k % 2);
+  }
 
   void run(const Progress& progress) {
     parallel_for(geometry_.block.rows, progress, [this](int row) { sample_row(row); });
@@ -369,7 +333,7 @@ class Sampler {
       line.centers.push_back(grid_.center(i, j));
     }
     place_pixels(begin - line.first, line);
-    line.light.resize(line.centers.size() * light_.channels());
+    line.light.resize(line.centers.size() * channels_);
     line.valid.resize(line.centers.size());
     const int middle = geometry_.views / 2;
     for (int v = 0; v < geometry_.views; ++v) {
@@ -396,34 +360,61 @@ class Sampler {
     }
   }
 
-  /// Bilinear samples at the same place below each lens of a row.
+  /// The same place below each lens of a row.
   void sample_lenses(const PlanePoint& offset, Line& line) const {
-    const int channels = light_.channels();
+    const bool is_below_lens = geometry_.is_below_lens(float(offset.x), float(offset.y));
+    const bool is_near_others = std::hypot(offset.x, offset.y) + reach_ * std::numbers::sqrt2 >
+                                std::min(grid_.pitch_px, grid_.row_distance_px) / 2;
     for (std::size_t i = 0; i < line.centers.size(); ++i) {
-      const double px = std::clamp(line.centers[i].x + offset.x, 0.0, light_.width() - 1.001);
-      const double py = std::clamp(line.centers[i].y + offset.y, 0.0, light_.height() - 1.001);
-      const int x = static_cast<int>(px), y = static_cast<int>(py);
-      const auto fx = static_cast<float>(px - x), fy = static_cast<float>(py - y);
-      const std::uint16_t* top = light_.row(y) + x * channels;
-      const std::uint16_t* bottom = light_.row(y + 1) + x * channels;
-      for (int c = 0; c < channels; ++c) {
-        const float upper = top[c] + fx * (float(top[c + channels]) - float(top[c]));
-        const float lower = bottom[c] + fx * (float(bottom[c + channels]) - float(bottom[c]));
-        line.light[i * channels + c] = (upper + fy * (lower - upper)) * float(1 / kUnit);
-      }
-      line.valid[i] =
-          is_inside(line.centers[i], offset) &&
-          (is_seen_.empty() || is_seen_.at(fy < 0.5F ? y : y + 1, fx < 0.5F ? x : x + 1));
+      const float share =
+          sample(line.centers[i], offset, is_near_others, &line.light[i * channels_]);
+      line.valid[i] = is_below_lens && share >= kDarkest && is_inside(line.centers[i], offset);
     }
   }
 
+  /// Light below a lens, interpolated between pixels of each color; dark pixels count less.
+  /// Returns the share of the light that vignetting leaves there.
+  float sample(const PlanePoint& center, const PlanePoint& offset, bool is_near_others,
+               float* out) const {
+    const auto px = static_cast<float>(std::clamp(center.x + offset.x, 0.0, width() - 1.0));
+    const auto py = static_cast<float>(std::clamp(center.y + offset.y, 0.0, height() - 1.0));
+    const auto first = [&](float at) { return std::max(0, static_cast<int>(at - reach_ + 1)); };
+    const int last_x = std::min(width() - 1, static_cast<int>(px + reach_));
+    const int last_y = std::min(height() - 1, static_cast<int>(py + reach_));
+    std::array<float, 3> light{}, weight{};
+    float share = 0, all = 1e-9F;
+    for (int y = first(py); y <= last_y; ++y) {
+      const float dy = (static_cast<float>(y) - py) / reach_;
+      for (int x = first(px); x <= last_x; ++x) {
+        const float dx = (static_cast<float>(x) - px) / reach_;
+        const int c = colors_[(y & 1) * 2 + (x & 1)];
+        // Green pixels are a lattice turned by 45°.
+        float w = c == 1 ? tent(dx + dy) * tent(dx - dy) : tent(dx) * tent(dy);
+        if (is_near_others && !geometry_.is_below_lens(float(x - center.x), float(y - center.y)))
+          w *= kOtherLens;
+        const float here = seen_.share_at(y, x);
+        share += w * here;
+        all += w;
+        w *= std::clamp(here / kDarkest, 0.0F, 1.0F);
+        light[c] += w * seen_.light.at(y, x);
+        weight[c] += w;
+      }
+    }
+    for (int c = 0; c < channels_; ++c) out[c] = light[c] / std::max(weight[c], 1e-9F);
+    return share / all;
+  }
+
+  static float tent(float distance) { return std::max(0.0F, 1 - std::abs(distance)); }
+  [[nodiscard]] int width() const { return seen_.light.width(); }
+  [[nodiscard]] int height() const { return seen_.light.height(); }
+
   [[nodiscard]] bool is_inside(const PlanePoint& center, const PlanePoint& offset) const {
     const double x = center.x + offset.x, y = center.y + offset.y;
-    return x >= 0 && y >= 0 && x <= light_.width() - 1 && y <= light_.height() - 1;
+    return x >= 0 && y >= 0 && x <= width() - 1 && y <= height() - 1;
   }
 
   void write_row(ViewIndex view, int row, const Line& line) {
-    const int channels = light_.channels();
+    const int channels = channels_;
     const int lenses = static_cast<int>(line.centers.size());
     std::uint16_t* out = samples_.view(view).row(row);
     std::uint8_t* valid = valid_.view(view).row(row);
@@ -444,8 +435,10 @@ class Sampler {
     }
   }
 
-  const Image<std::uint16_t>& light_;
-  const Image<std::uint8_t>& is_seen_;
+  const Devignetted& seen_;
+  int channels_;
+  float reach_;  ///< px from a place, of the pixels that are interpolated there.
+  std::array<int, 4> colors_{};
   const LensGrid& grid_;
   const ViewGeometry& geometry_;
   const Developer& developer_;
@@ -542,20 +535,13 @@ Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,
       static_cast<int>(std::lround(geometry.block.first_column / geometry.column_step));
   decoded.first_y = geometry.block.first_row;
   progress.step("removing vignetting");
-  const int mean = static_cast<int>(geometry.step_px + 0.5);
-  Devignetted seen = raw.mosaic == Mosaic::Gray && mean > 1
-                         ? devignetted_means(pictures, grid, mean | 1, progress.part(0, 0.2))
-                         : devignetted(pictures, grid, progress.part(0, 0.2));
-  decoded.hot_pixels =
-      replace_hot_pixels(seen.light, seen.is_seen, raw.mosaic, progress.part(0.2, 0.35));
+  Devignetted seen = devignetted(pictures, grid, progress.part(0, 0.2));
+  decoded.hot_pixels = replace_hot_pixels(seen, raw.mosaic, progress.part(0.2, 0.4));
   progress.check();
-  progress.step("demosaicing");
-  const Image<std::uint16_t> light = demosaiced(std::move(seen.light), raw.mosaic);
-  progress.report(0.5);
   progress.step("sampling views");
-  const Developer developer(raw.colors, light.channels(), options.is_linear);
-  Sampler sampler(light, seen, grid, geometry, developer);
-  sampler.run(progress.part(0.5, 1));
+  const Developer developer(raw.colors, raw.mosaic == Mosaic::Gray ? 1 : 3, options.is_linear);
+  Sampler sampler(seen, raw.mosaic, grid, geometry, developer);
+  sampler.run(progress.part(0.4, 1));
   ViewStack<std::uint8_t> valid = sampler.valid();
   drop_unneeded_mask(valid, decoded);
   LightFieldInfo info;

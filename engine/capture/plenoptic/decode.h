@@ -51,11 +51,13 @@ struct Decoded {
 [[nodiscard]] LensGrid find_lenses(const PlenopticPictures& pictures, const Progress& progress);
 
 /// Decodes a raw picture with the grid of its lenses: divides by the white picture, replaces hot
-/// pixels, demosaics, and samples each lens once for each view. Rows of views are rows of lenses;
-/// hexagonal rows are interpolated (Lanczos) to a square lattice whose pixel is the row distance.
+/// pixels, and samples each lens once for each view, each color between its own pixels below that
+/// lens. Rows of views are rows of lenses; hexagonal rows are interpolated (Lanczos) to a square
+/// lattice whose pixel is the row distance.
 /// Samples are uint16: 1 is the sensor's saturation at the brightest lenses' centers, times the
 /// camera's white balance and color matrix, gamma-encoded if the camera says so. Samples that
-/// the lens or the main lens shade below 0.3, and lenses cut off by the sensor, are invalid.
+/// the lens or the main lens shade below 0.3, that lie below a neighboring lens, and lenses cut off
+/// by the sensor, are invalid.
 /// A pixel right of the lens's center belongs to a view on the right. Throws InvalidInput,
 /// Cancelled.
 [[nodiscard]] Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,

@@ -27,7 +27,7 @@ class RawFixture : public WindowFixture {
     return QString::fromStdString(files.raw.string());
   }
   [[nodiscard]] QString full(const char* label) const {
-    return window.findChild<ElidedLabel*>(label)->fullText();
+    return window.findChild<FoldedLabel*>(label)->fullText();
   }
   [[nodiscard]] RawPictures& raw() const { return find<CaptureController>(window).rawPictures(); }
   [[nodiscard]] bool isRawPage() const {
@@ -80,6 +80,10 @@ class RawPicturesTest : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(f.full("raw.lenses.state").contains("hexagonal"), kScenePatience);
     QVERIFY(f.isRawPage());
     QVERIFY(f.full("raw.picture.state").contains("grbg"));
+    for (const char* state : {"raw.picture.state", "raw.white.state", "raw.lenses.state"}) {
+      const QString shown = f.window.findChild<FoldedLabel*>(state)->text();
+      QVERIFY2(!shown.contains(QChar(0x2026)), qPrintable(shown));
+    }
   }
 
   void pictureWithoutLenses_isToldAndStays() {

@@ -38,10 +38,10 @@ class PlenopticChainTest : public QObject {
               square = int(capture::CameraModel::Square);
     // Limits of disparity: noise of the sensor is what remains in it.
     QTest::newRow("F01") << f01 << 0.0 << 0.1 << 1.0 << true << 0.03;
-    QTest::newRow("F01, turned, pitch off, noise") << f01 << 0.01 << -0.5 << 1.01 << false << 0.04;
+    QTest::newRow("F01, turned, pitch off, noise") << f01 << 0.01 << -0.5 << 1.01 << false << 0.035;
     QTest::newRow("Illum") << illum << 0.0 << 0.1 << 1.0 << true << 0.03;
     QTest::newRow("square") << square << 0.0 << 0.1 << 1.0 << false << 0.03;
-    QTest::newRow("square, turned, noise") << square << 0.01 << 0.5 << 0.99 << false << 0.04;
+    QTest::newRow("square, turned, noise") << square << 0.01 << 0.5 << 0.99 << false << 0.035;
   }
   void chain_findsWhatTheCameraSaw() {
     QFETCH(int, model);
@@ -65,9 +65,13 @@ class PlenopticChainTest : public QObject {
     // Noise tilts the slopes of hexagonal arrays, whose rows are interpolated in one direction.
     QVERIFY2(errors.slope_percent <= (noise > 0 ? 2 : 1), text.c_str());
     QVERIFY2(errors.row_shift_px <= 0.05, text.c_str());
-    // Views from the border of the lens are shaded most, and what is dark is rounded.
-    QVERIFY2(errors.brightness_percent <= 6, text.c_str());
+    QVERIFY2(errors.brightness_percent <= 2, text.c_str());
     QVERIFY2(std::abs(errors.level - 1) <= 0.02, text.c_str());
+    // The corner of a hexagonal lens lies below its neighbor.
+    const LightField& field = *errors.decoded.light_field;
+    const bool is_square = camera.lattice == capture::LensLattice::Square;
+    QVERIFY(is_square || !field.is_valid({0, 0}, field.height() / 2, field.width() / 2));
+    QVERIFY(field.is_valid(field.center(), field.height() / 2, field.width() / 2));
   }
 
   // Vignetting shows the lenses of the raw picture itself, to a fraction of a pixel.
