@@ -101,6 +101,8 @@ ScoredLabels label_scene(const Scene& scene, const Scribbles& scribbles,
   found.segmentation.labels = scribbles.labels;
   found.segmentation.parameters = labeler_schema().values(parameters);
   found.segmentation.reading = scene.light_field->info().reading;
+  found.segmentation.sources_hash =
+      hash_of(LabelSources{scribbles, given ? disparity.field.get() : nullptr});
   found.scores = judge_labeling(found.segmentation.labeling->labels, scene.light_field->center(),
                                 scene.truth->labels, *scene.truth, disparity.field.get(),
                                 progress.part(0.95, 1));
@@ -135,8 +137,9 @@ void save_labels(const FoundLabels& found, const py::object& given_path, bool pr
                  bool is_overwriting) {
   const std::filesystem::path path = path_from(given_path);
   const Segmentation& made = found.segmentation;
-  check_labeling_output(path, {{}, made.parameters, found.of.input, made.reading.options},
-                        is_overwriting ? Overwrite::Yes : Overwrite::No, kByArgument);
+  check_labeling_output(
+      path, {{}, made.parameters, found.of.input, made.reading.options, made.sources_hash},
+      is_overwriting ? Overwrite::Yes : Overwrite::No, kByArgument);
   const auto stored = probabilities ? StoredProbabilities::All : StoredProbabilities::None;
   run_job(py::none(), 0, [&](const Progress& job) {
     write_segmentation(path, made, found.of.input, stored, job);
@@ -179,8 +182,8 @@ accuracy_all_views; without true labels only consistency along the rays.)")
 --
 
 Writes an HDF5 file of labels; with probabilities, four bytes more for each ray and label. Labels of
-that name are replaced if they were made with the same parameters from the same light field, others
-only with overwrite=True; what is no file of labels, never.)");
+that name are replaced if they were made with the same parameters and strokes from the same light
+field, others only with overwrite=True; what is no file of labels, never.)");
   module.def("label", label, py::arg("light_field"), py::arg("scribbles") = py::none(),
              py::kw_only(), py::arg("disparity") = py::none(), py::arg("device") = "auto",
              py::arg("threads") = 0, py::arg("progress") = py::none(),

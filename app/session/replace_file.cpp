@@ -5,6 +5,7 @@
 #include "app/session/load_scene.h"
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
+#include "engine/core/hash.h"
 #include "engine/core/text.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/base/atomic_file.h"
@@ -127,13 +128,14 @@ struct StoredRun {
   ParameterSet parameters;
   std::string source;
   Reading reading;
+  std::uint64_t sources_hash = 0;
 };
 
 StoredRun stored_run(const fs::path& path, const std::string& group) {
   const io::Hdf5Input file(path);
   const auto text = [&](const char* name) { return file.text(group, name).value_or(""); };
   return {text("method"), io::parameters_from_json(text("parameters")), text("source"),
-          io::reading_in(file, group)};
+          io::reading_in(file, group), hash_from_digits(text(io::kSourcesHash))};
 }
 
 /// How a file differs from what would replace it: "a result of epi_l"; empty if it does not.
@@ -146,6 +148,10 @@ std::string difference_of(const StoredRun& stored, const fs::path& path, const I
     return "of another light field, " + shown_source(stored.source, path);
   }
   if (!is_same_reading(stored.reading, run.reading)) return "of another reading of its views";
+  if (run.sources_hash && stored.sources_hash == 0) return "that do not tell their strokes";
+  if (run.sources_hash && stored.sources_hash != *run.sources_hash) {
+    return "of other strokes, disparity or probabilities";
+  }
   return {};
 }
 

@@ -3,8 +3,10 @@
 
 #include "engine/core/parameter.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace episcope {
@@ -27,6 +29,8 @@ struct IntendedRun {
   ParameterSet parameters;  ///< Those that are not listed have their default.
   std::string input;        ///< As typed.
   ParameterSet reading;     ///< Reading options that are set (io::given_options).
+  /// Of labels (LabelSources); none while it is not known. A file that has none is of others.
+  std::optional<std::uint64_t> sources_hash = {};
 };
 
 /// Refuses to replace anything but a result file, and one of another method, other parameters,

@@ -421,12 +421,22 @@ std::string source_text(const std::string& input, const fs::path& result) {
   return reads_as_builtin ? (fs::path(".") / relative).string() : relative;
 }
 
+bool is_there(const std::string& input, const ParameterSet& reading) {
+  if (!builtin_scene_id(input).empty()) return true;
+  std::error_code ignored;
+  if (!fs::is_directory(input, ignored)) return fs::exists(input, ignored);
+  try {
+    return !reader_of(input, io::open_schema().parse(reading)).empty();
+  } catch (const IoError&) {
+    return true;  // damaged, which opening it tells
+  }
+}
+
 std::string existing_source(const std::string& source, const fs::path& result) {
   if (source.empty() || !builtin_scene_id(source).empty()) return source;
   // An absolute path stands for itself.
-  const fs::path path = result.parent_path() / source;
-  std::error_code ignored;
-  return fs::exists(path, ignored) ? path.string() : std::string();
+  const std::string input = (result.parent_path() / source).string();
+  return is_there(input, io::read_reading(result).options) ? input : std::string();
 }
 
 std::string stated_source(const fs::path& result) {

@@ -109,6 +109,10 @@ void bring_to_focus(Estimate& estimate, const LightField& light_field, const Pro
 [[nodiscard]] std::string source_text(const std::string& input,
                                       const std::filesystem::path& result);
 
+/// Whether an input can be opened still: a folder only with a light field in it,
+/// which may be damaged.
+[[nodiscard]] bool is_there(const std::string& input, const ParameterSet& reading);
+
 /// The INPUT behind a `source` that was read from the file `result`; empty if there is none or it
 /// is not where it was.
 [[nodiscard]] std::string existing_source(const std::string& source,

@@ -120,6 +120,7 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
   stored.source = source_text(input, path);
   stored.reading = segmentation.reading;
   stored.seconds = labeling.seconds;
+  stored.sources_hash = segmentation.sources_hash;
   io::ViewProbabilities of_view;
   if (probabilities == StoredProbabilities::All && !labeling.probabilities.empty()) {
     of_view = [&labeling](ViewIndex view) { return labeling.probabilities.view(view).view(); };
@@ -212,6 +213,30 @@ std::uint64_t hash_of(const ScribbleLayer& strokes) {
     hash.add_word(static_cast<std::uint64_t>(view.u));
     const ImageView<const std::uint8_t> image = strokes.view(view);
     hash.add({reinterpret_cast<const char*>(image.data), image.size()});
+  }
+  return hash.value();
+}
+
+std::uint64_t hash_of(const LabelSources& sources) {
+  Fnv1a hash;
+  const auto add = [&hash](const auto* values, std::size_t count) {
+    hash.add({reinterpret_cast<const char*>(values), count * sizeof(*values)});
+  };
+  for (const ViewScribbles& painted : sources.strokes.views) {
+    hash.add(view_text(painted.view));
+    add(painted.labels.data(), painted.labels.size());
+  }
+  for (const LabelInfo& label : sources.strokes.labels) {
+    hash.add(fmt::format("{} {} {}", label.id, label.name, fmt::join(label.color, " ")));
+  }
+  if (sources.disparity) {
+    add(sources.disparity->disparity.data(), sources.disparity->disparity.size());
+    add(sources.disparity->valid.data(), sources.disparity->valid.size());
+  }
+  if (sources.probabilities) {
+    for (const Volume<std::uint8_t>& view : sources.probabilities->views) {
+      add(view.view().data, view.view().size());
+    }
   }
   return hash.value();
 }

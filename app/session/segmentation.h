@@ -72,7 +72,16 @@ struct Segmentation {
   ParameterSet parameters;        ///< It was made with.
   Reading reading{};              ///< How its light field was read.
   LabelFinish finish{};
+  std::uint64_t sources_hash = 0;  ///< See LabelSources; 0 = not known.
 };
+
+/// What labels are made from beside the light field and parameters.
+struct LabelSources {
+  const Scribbles& strokes;
+  const DisparityField* disparity = nullptr;          ///< Null unless the user gave one,
+  const LabelProbabilities* probabilities = nullptr;  ///< likewise.
+};
+[[nodiscard]] std::uint64_t hash_of(const LabelSources& sources);
 
 /// The labels of a view with smooth boundaries, `[y][x]`. Precondition: the labeling covers it.
 [[nodiscard]] Image<std::int32_t> finished_labels(const Labeling& labeling,

@@ -276,31 +276,26 @@ FileInfo describe_label_archive(const std::string& file) {
   return info;
 }
 
-bool is_there(const std::string& input) {
-  std::error_code ignored;
-  return !builtin_scene_id(input).empty() || fs::exists(input, ignored);
-}
-
 void add_project_scene(const ProjectScene& scene, bool is_shown, FileInfo& info) {
-  const auto gone = [](const std::string& input) {
-    return is_there(input) ? "" : ", which is not there";
-  };
+  const auto gone = [](bool is_there) { return is_there ? "" : ", which is not there"; };
+  const bool has_source = is_there(scene.input, scene.reading);
   const bool has_strokes = !scene.strokes.empty();
   info.lines.emplace_back(
       is_shown ? "shown" : "scene",
       fmt::format("{}, {}{}{}{}", scene.name, scene.input, reading_options_text(scene.reading),
-                  gone(scene.input), has_strokes ? ", with strokes" : ""));
+                  gone(has_source), has_strokes ? ", with strokes" : ""));
   Json results = Json::array();
   for (const ProjectResult& result : scene.results) {
-    const std::string file = result.file.string();
+    std::error_code ignored;
+    const bool exists = fs::exists(result.file, ignored);
     results.push_back(
-        Json::object({{"name", result.name}, {"file", file}, {"exists", is_there(file)}}));
+        Json::object({{"name", result.name}, {"file", result.file.string()}, {"exists", exists}}));
     info.lines.emplace_back("  result",
-                            result.name + ", " + result.file.filename().string() + gone(file));
+                            result.name + ", " + result.file.filename().string() + gone(exists));
   }
   info.json["scenes"].push_back(Json::object({{"name", scene.name},
                                               {"source", scene.input},
-                                              {"source_exists", is_there(scene.input)},
+                                              {"source_exists", has_source},
                                               {"reading", io::parameters_json(scene.reading)},
                                               {"shown", is_shown},
                                               {"strokes", has_strokes},

@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -82,8 +83,8 @@ bool parse(const VerbArguments& arguments, LabelRequest& request) {
               "Write labels only, as is the default");
   parser.exclude_each_other({"--write-probabilities", "--no-probabilities"});
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
-              "Replace labels made with other parameters or of another light field, and files in "
-              "the folders of --write-archive and --write-masks");
+              "Replace labels made with other parameters, from other strokes or of another light "
+              "field, and files in the folders of --write-archive and --write-masks");
   request.job.run.declare(parser, {run_schema().description("device")});
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
   const Schema<LabelerParameters> schema = labeler_schema();
@@ -128,13 +129,19 @@ void check_folders(const LabelRequest& request) {
   }
 }
 
-void check_output(const LabelRequest& request, const InputStream& from) {
-  check_hdf5_output("label", request.output);
+/// Before strokes are read, which have no hash then, and after it.
+void check_replaced(const LabelRequest& request, std::optional<std::uint64_t> sources_hash) {
   const ParameterSet reading =
       io::given_options(io::open_schema().parse(request.read.options.values()));
-  check_labeling_output(request.output,
-                        {{}, labeler_schema().values(request.parameters), request.input, reading},
-                        request.overwrite);
+  check_labeling_output(
+      request.output,
+      {{}, labeler_schema().values(request.parameters), request.input, reading, sources_hash},
+      request.overwrite);
+}
+
+void check_output(const LabelRequest& request, const InputStream& from) {
+  check_hdf5_output("label", request.output);
+  check_replaced(request, std::nullopt);
   protect_input(request.output, request.input);
   for (const std::string& file : {request.scribbles.file, request.disparity, request.given}) {
     if (!file.empty()) protect_input(request.output, file);
@@ -155,15 +162,41 @@ Scribbles load_scribbles(const LabelRequest& request, Scene& scene, Job& job) {
   return std::move(scene.scribbles);
 }
 
-Labeling label_views(Labeler& labeler, const Scribbles& scribbles, const Scene& scene,
-                     const LabelRequest& request, const Progress& progress) {
-  if (request.given.empty()) {
-    return labeler.label(scribbles, request.parameters, {{0, 0}, scene.light_field->grid()},
-                         progress);
+/// What labels are made from, as the user gave it.
+struct GivenSources {
+  Scribbles scribbles;
+  LabelingDisparity disparity;                      ///< Without a field: to be estimated.
+  std::optional<LabelProbabilities> probabilities;  ///< None: to be learnt.
+
+  [[nodiscard]] std::uint64_t hash() const {
+    return hash_of(LabelSources{.strokes = scribbles,
+                                .disparity = disparity.field.get(),
+                                .probabilities = probabilities ? &*probabilities : nullptr});
   }
-  return labeler.smooth(
-      read_all_probabilities(request.given, scene, scribbles, progress.part(0, 0.2)),
-      request.parameters, progress.part(0.2, 1));
+};
+
+GivenSources load_sources(const LabelRequest& request, Scene& scene, Job& job) {
+  const Progress& progress = job.progress();
+  GivenSources given;
+  given.scribbles = load_scribbles(request, scene, job);
+  if (!request.disparity.empty()) {
+    given.disparity = find_labeling_disparity(scene, request.parameters, request.disparity,
+                                              progress.part(0.1, 0.15));
+    note_other_source(*given.disparity.estimate, *scene.light_field, job);
+  }
+  if (!request.given.empty()) {
+    given.probabilities =
+        read_all_probabilities(request.given, scene, given.scribbles, progress.part(0.15, 0.2));
+  }
+  return given;
+}
+
+Labeling label_views(Labeler& labeler, GivenSources& given, const LabelRequest& request,
+                     GridShape grid, const Progress& progress) {
+  if (!given.probabilities) {
+    return labeler.label(given.scribbles, request.parameters, {{0, 0}, grid}, progress);
+  }
+  return labeler.smooth(std::move(*given.probabilities), request.parameters, progress);
 }
 
 /// What the archive calls features with disparity has an estimate even where labels use the truth.
@@ -258,25 +291,30 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const Progress& progress = job.progress();
   Scene scene = load_input(request.input, request.read, progress.part(0, 0.1));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
-  const Scribbles scribbles = load_scribbles(request, scene, job);
+  GivenSources given = load_sources(request, scene, job);
+  const std::uint64_t sources_hash = given.hash();
+  check_replaced(request, sources_hash);
+  const Scribbles& scribbles = given.scribbles;
   const std::string unknown = unknown_labels_text(scribbles, scene.truth->labels);
   if (!unknown.empty()) job.note(unknown);
   const Stopwatch watch;
-  const LabelingDisparity disparity = find_labeling_disparity(
-      scene, request.parameters, request.disparity, progress.part(0.1, 0.2), device);
-  if (disparity.estimate) note_other_source(*disparity.estimate, *scene.light_field, job);
+  const LabelingDisparity disparity =
+      given.disparity.field
+          ? given.disparity
+          : find_labeling_disparity(scene, request.parameters, {}, progress.part(0.1, 0.2), device);
   Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
                   disparity.confidence());
   labeler.compute_on(device);
   const auto labeling = std::make_shared<const Labeling>(
-      label_views(labeler, scribbles, scene, request, progress.part(0.2, 0.95)));
+      label_views(labeler, given, request, scene.light_field->grid(), progress.part(0.2, 0.95)));
   const double seconds = watch.seconds();
   if (!labeling->note.empty()) job.note(labeling->note);
   progress.step("writing " + request.output);
   const Segmentation segmentation{.labeling = labeling,
                                   .labels = scribbles.labels,
                                   .parameters = labeler_schema().values(request.parameters),
-                                  .reading = scene.light_field->info().reading};
+                                  .reading = scene.light_field->info().reading,
+                                  .sources_hash = sources_hash};
   write_segmentation(request.output, segmentation,
                      from.is(request.input) ? std::string() : request.input, request.probabilities,
                      progress.part(0.95, 1));

@@ -10,8 +10,10 @@
 #include "engine/io/base/foreign_content.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/base/image_header.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/choose_layout.h"
+#include "engine/io/models/labels/label_pictures.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/numpy_file.h"
@@ -24,6 +26,7 @@
 #include <memory>
 #include <set>
 #include <utility>
+#include <variant>
 
 namespace episcope::io {
 namespace {
@@ -589,6 +592,26 @@ void add_image_grid(const FolderListing& listing, CollectionEntry entry, FolderR
   if (is_counted) record.entries.push_back(std::move(entry));
 }
 
+/// Whether a picture that headers do not tell from a mosaic has so few colors that it is a drawing
+/// of labels. Large ones are not looked at: views are smaller than what holds all of them.
+bool is_drawing(const CollectionEntry& entry) {
+  constexpr double kMostPixels = 1 << 22;
+  if (!is_image_name(entry.path) || entry.probe.width > 0) return false;
+  const auto header = stated_image_header(entry.path);
+  if (!header || static_cast<double>(header->width) * header->height > kMostPixels) return false;
+  const AnyImage image = decode_image(entry.path);
+  const auto* picture = std::get_if<Image<std::uint8_t>>(&image);
+  if (!picture) return false;
+  std::set<std::uint32_t> colors;
+  const auto channels = static_cast<std::size_t>(picture->channels());
+  for (std::size_t i = 0; i < picture->size() && colors.size() <= kMostLabelColors; i += channels) {
+    std::uint32_t color = 0;
+    for (std::size_t c = 0; c < channels; ++c) color = color << 8 | picture->data()[i + c];
+    colors.insert(color);
+  }
+  return colors.size() <= kMostLabelColors;
+}
+
 }  // namespace
 
 std::optional<CollectionEntry> scan_file(const fs::path& file) {
@@ -597,6 +620,7 @@ std::optional<CollectionEntry> scan_file(const fs::path& file) {
     const FoundReader found = find_reader(file, {});
     if (!found.reader || found.path != file) return std::nullopt;
     probe(found, entry);
+    if (is_drawing(entry)) return std::nullopt;
   } catch (const NoLightField&) {
     return std::nullopt;
   } catch (const Error& error) {

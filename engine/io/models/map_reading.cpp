@@ -24,6 +24,8 @@ namespace {
 /// reading explains a map far better.
 constexpr double kFarBetterByTruth = 0.5;
 constexpr double kFarBetterByViews = 0.6;
+/// The same for turns and signs, which average no noise of a map away, as smaller scales do.
+constexpr double kFarBetterByTurns = 0.8;
 /// Share of the error of a map that says nothing above which a map explains little, and the error
 /// that is small in any scene.
 constexpr double kPoor = 0.5;
@@ -75,6 +77,10 @@ float value_by(const DisparityView& map, const MapReading& reading, const MapTar
   int column = x - border + target.left;
   const int height = reading.is_transposed ? map.disparity.width : map.disparity.height;
   const int width = reading.is_transposed ? map.disparity.height : map.disparity.width;
+  if (reading.is_resized) {
+    row = static_cast<int>((2LL * row + 1) * height / (2LL * target.height));
+    column = static_cast<int>((2LL * column + 1) * width / (2LL * target.width));
+  }
   if (reading.flip == MapFlip::Y || reading.flip == MapFlip::Both) row = height - 1 - row;
   if (reading.flip == MapFlip::X || reading.flip == MapFlip::Both) column = width - 1 - column;
   if (reading.is_transposed) std::swap(row, column);
@@ -158,6 +164,11 @@ Schema<MapReading> map_schema() {
                 "that far from the upper left corner",
                 "px"},
                {0, kWidestBorder})
+      .toggle(
+          "map-resize", &R::is_resized,
+          {"Resize maps",
+           "Bring maps of another resolution to the size of the views: a pixel has the value of "
+           "the nearest one of the map, which --map-scale may change"})
       .choice("map-crop", &R::crop,
               {"Part of maps", "Part of maps larger than the views that belongs to the views"})
       .text("map-missing", &R::missing,
@@ -202,6 +213,7 @@ std::string reading_text(const MapReading& reading) {
   if (reading.border_px > 0) {
     parts.push_back(fmt::format("a border of {} px around the map", reading.border_px));
   }
+  if (reading.is_resized) parts.emplace_back("maps resized");
   if (reading.crop == MapCrop::Corner) parts.emplace_back("the upper left of padded maps");
   if (reading.crop == MapCrop::Middle) parts.emplace_back("the middle of padded maps");
   if (!reading.missing.empty()) {
@@ -223,12 +235,16 @@ void require_possible(const MapReading& reading, const LightField* light_field,
         "a result in two layers is read as its file states; leave out the options that begin with "
         "--map-");
   }
-  const bool needs_views =
-      reading.border_px > 0 || reading.crop != MapCrop::None || reading.values == MapValues::Depth;
-  if (!light_field && needs_views) {
+  const bool needs_size =
+      reading.border_px > 0 || reading.crop != MapCrop::None || reading.is_resized;
+  if (!light_field && (needs_size || reading.values == MapValues::Depth)) {
     throw InvalidInput(
-        "--map-border, --map-crop and --map-values depth need size and camera of the light field; "
-        "name it with --truth INPUT");
+        "--map-border, --map-crop, --map-resize and --map-values depth need size and camera of the "
+        "light field; name it with --truth INPUT");
+  }
+  if (reading.is_resized && (reading.border_px > 0 || reading.crop != MapCrop::None)) {
+    throw InvalidInput(
+        "--map-resize fills the views with all of a map; leave out --map-border and --map-crop");
   }
   if (reading.values == MapValues::Depth && !light_field->info().camera.is_known()) {
     throw InvalidInput("the camera of " + light_field->info().name +
@@ -243,7 +259,9 @@ MapTarget target_of(const MapReading& reading, const LightField* light_field, in
   MapTarget target{height, width};
   if (!light_field) return target;
   target.camera = light_field->info().camera;
-  if (reading.border_px == 0 && reading.crop == MapCrop::None) return target;
+  if (reading.border_px == 0 && reading.crop == MapCrop::None && !reading.is_resized) {
+    return target;
+  }
   target.height = light_field->height();
   target.width = light_field->width();
   if (reading.crop == MapCrop::None) return target;
@@ -303,6 +321,8 @@ std::vector<MapReading> valued_readings(const LightField& light_field) {
   for (const MapUnit& unit : common_units(light_field.grid(), light_field.width())) {
     if (unit.factor != 1) factors.insert(factors.end(), {unit.factor, 1 / unit.factor});
   }
+  const int fewer_steps = std::min(light_field.grid().v, light_field.grid().u) - 1;
+  if (fewer_steps > 1) factors.push_back(1.0 / fewer_steps);
   factors.insert(factors.end(), std::begin(kMapScales), std::end(kMapScales));
   std::vector<MapReading> readings;
   for (const double sign : {1.0, -1.0}) {
@@ -502,8 +522,14 @@ std::optional<MapReading> found_by_views(const DisparityView& map, const MapEvid
     const auto errors = views.errors(map, reading);
     return errors ? errors->share() : 1.0;
   };
+  const auto weighed_share_of = [&](const MapReading& reading) {
+    const bool keeps_sizes = std::abs(reading.scale) == 1 && reading.border_px == 0 &&
+                             reading.values == MapValues::Disparity;
+    return share_of(reading) * (keeps_sizes ? kFarBetterByViews / kFarBetterByTurns : 1);
+  };
   const double limit = kFarBetterByViews * std::min(share_of({}), 1.0);
-  return least_reading(possible_readings(map, evidence.light_field, false), limit, share_of);
+  return least_reading(possible_readings(map, evidence.light_field, false), limit,
+                       weighed_share_of);
 }
 
 std::optional<double> mse_100(const DisparityView& map, const MapReading& reading,

@@ -38,12 +38,14 @@ struct MapReading {
   MapCrop crop = MapCrop::None;  ///< Maps that are larger than the views, as networks pad them.
   /// Stored values, between commas, that stand for no estimate: "-1" or "0,9999". Empty = none.
   std::string missing = {};
+  /// Maps have another resolution: their nearest pixels fill the views.
+  bool is_resized = false;
 
   friend bool operator==(const MapReading&, const MapReading&) = default;
 };
 
 /// Schema of the options, one row each: `map-transpose`, `map-flip`, `map-scale`, `map-values`,
-/// `map-border`, `map-crop`, `map-missing`.
+/// `map-border`, `map-resize`, `map-crop`, `map-missing`.
 [[nodiscard]] Schema<MapReading> map_schema();
 
 /// Options that differ from reading a map as it is, by key.
@@ -56,9 +58,10 @@ struct MapReading {
 [[nodiscard]] std::string reading_text(const MapReading& reading);
 
 /// Reads all maps of an estimate so. `light_field` tells size and camera; null = it is not known.
-/// Throws InvalidInput for a scale of 0, for an estimate in two layers, for a border, a part or
-/// depth if the light field or its camera is not known, for a part of maps smaller than views, and
-/// for missing values that are no numbers.
+/// Throws InvalidInput for a scale of 0, for an estimate in two layers, for a border, a part,
+/// another size or depth if the light field or its camera is not known, for a part of maps smaller
+/// than views, for another size with a border or a part, and for missing values that are no
+/// numbers.
 void apply_reading(const MapReading& reading, const LightField* light_field, Estimate& estimate);
 
 /// What the map of one view is compared with.
@@ -94,7 +97,7 @@ struct BetterReading {
 /// decides, over all combinations of turns and values: it must be less than half of the error as
 /// read, and of the error of the best constant. Without, the views decide alone, over turns with
 /// either sign, and values of maps that are not turned: the error of the next views must be below
-/// 0.6 of the error as read, and of the error without warping (as in put_truth_upright). Returns
+/// 0.6 (of turns and signs alone 0.8) of the error as read, and of that without warping. Returns
 /// nothing if the map is best as it is. Looks at about 10,000 pixels of the truth; linear in the
 /// pixels of the views. Precondition: the map has the size of a view.
 [[nodiscard]] std::optional<BetterReading> find_better_reading(const DisparityView& map,

@@ -199,7 +199,9 @@ Estimate read_result(const std::filesystem::path& path, GridShape grid, const st
 }
 
 Reading read_reading(const std::filesystem::path& path) {
-  return is_result_file(path) ? reading_in(Hdf5Input(path), kResultGroup) : Reading{};
+  if (std::filesystem::is_directory(path) || !has_hdf5_signature(path)) return {};
+  const Hdf5Input file(path);
+  return reading_in(file, file.has(kResultGroup) ? kResultGroup : "/");
 }
 
 bool is_result_file(const std::filesystem::path& path) {

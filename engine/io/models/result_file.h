@@ -36,8 +36,8 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
 [[nodiscard]] Estimate read_result(const std::filesystem::path& path, GridShape grid,
                                    const std::string& scene = "");
 
-/// Tells how the light field of a result was read. Unknown for results of other programs and of
-/// former versions. Throws IoError if it is an HDF5 file and damaged.
+/// Tells how the light field of a result or of labels was read. Unknown for those of other programs
+/// and of former versions. Throws IoError if it is an HDF5 file and damaged.
 [[nodiscard]] Reading read_reading(const std::filesystem::path& path);
 
 /// Whether the file is one that `write_result` wrote (an HDF5 file with the group `/estimate`).

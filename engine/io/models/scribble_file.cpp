@@ -2,6 +2,7 @@
 #include "engine/io/models/scribble_file.h"
 
 #include "engine/core/error.h"
+#include "engine/core/hash.h"
 #include "engine/core/numbers.h"
 #include "engine/core/shear.h"
 #include "engine/core/version.h"
@@ -440,6 +441,11 @@ void write_provenance(Hdf5Output& file, const StoredSegmentation& labeling) {
   file.set_text("/", "version", kVersion);
   file.set_number("/", "seconds", labeling.seconds);
   write_reading(file, "/", labeling.reading);
+  if (labeling.sources_hash != 0) {
+    file.set_text("/", kSourcesHash, hash_digits(labeling.sources_hash));
+    file.set_text("/", kSourcesHashOf,
+                  "FNV-1a of 64 bits over strokes, and over disparity or probabilities if given");
+  }
   const ViewIndex first = labeling.labels.first();
   file.set_integers(kLabels, "first_view", {first.v, first.u});
 }

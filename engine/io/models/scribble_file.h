@@ -131,14 +131,15 @@ struct StoredSegmentation {
   std::string source;  ///< Path or name of the light field.
   Reading reading{};   ///< How that was read.
   double seconds = 0;
+  std::uint64_t sources_hash = 0;  ///< Of strokes and what else was given; 0 = not known.
 };
 
 /// Writes a segmentation in canonical order of views. `LABELS` is [v][u][y][x] of integers
 /// (`write_label_maps`), or [y][x] with the attribute `view` for a single view; it has names and
 /// colors as SCRIBBLES. If `probabilities` is set, `Probabilities` is float [v][u][y][x][label] (or
 /// [y][x][label]), with the labels of StoredSegmentation::infos. Attributes of the root:
-/// `parameters`, `source`, `seconds`, `version`, `reader`, `reading`. Atomic. Throws IoError,
-/// Cancelled.
+/// `parameters`, `source`, `seconds`, `version`, `reader`, `reading`, `sources_hash`. Atomic.
+/// Throws IoError, Cancelled.
 void write_segmentation(const std::filesystem::path& path, const StoredSegmentation& labeling,
                         const ViewProbabilities& probabilities, const Progress& progress);
 
@@ -168,6 +169,11 @@ class SegmentationFile {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Attributes of the root that tell labels of other strokes apart: the digits, and what they are
+/// of.
+inline constexpr const char* kSourcesHash = "sources_hash";
+inline constexpr const char* kSourcesHashOf = "sources_hash_of";
 
 /// Whether `write_segmentation` wrote the file: it holds LABELS, but neither samples nor scribbles.
 /// Throws IoError for a damaged HDF5 file.

@@ -63,6 +63,11 @@ def test_labels_are_saved_and_replace_nothing_else(strokes, labeling, tmp_path):
     with pytest.raises(episcope.IoError, match="with --trees 16; choose another name, or pass overwrite=True"):
         others.save(tmp_path / "labels.h5")
     others.save(tmp_path / "labels.h5", overwrite=True)
+    more = strokes.copy()
+    more[strokes == strokes.max()] = 0
+    fewer = episcope.label(episcope.demo(SCENE), more, features="image", trees=8)
+    with pytest.raises(episcope.IoError, match="labels of other strokes, disparity or probabilities; choose"):
+        fewer.save(tmp_path / "labels.h5")
     (tmp_path / "other.h5").write_text("mine")
     with pytest.raises(episcope.IoError, match="not a file of labels"):
         labeling.save(tmp_path / "other.h5")

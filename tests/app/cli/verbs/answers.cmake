@@ -229,6 +229,7 @@ file(WRITE "${WORK}/work.episcope" "{\"format\": \"episcope project\", \"version
  \"scenes\": [{\"name\": \"bars\", \"source\": \"scenes/bars\", \"hash\": \"0\", \"reading\": {}, \"place\": ${place},
    \"results\": [{\"name\": \"EPI_L\", \"file\": \"whole.h5\", ${shown}}, {\"name\": \"lost\", \"file\": \"lost.h5\", ${shown}}]},
   {\"name\": \"gone\", \"source\": \"scenes/gone\", \"hash\": \"0\", \"reading\": {\"flip\": \"u\"}, \"place\": ${place}, \"results\": []}]}")
+file(MAKE_DIRECTORY "${WORK}/scenes/gone")
 expect("a project" 0 OUT "^project +2 light fields\nscene +bars, [^\n]*scenes/bars\n +result +EPI_L, whole.h5\n +result +lost, lost.h5, which is not there\nshown +gone, [^\n]*scenes/gone --flip=u, which is not there\ndate +20"
        ARGS info work.episcope)
 expect("a project as JSON" 0 ARGS info work.episcope --json)
@@ -238,5 +239,11 @@ json_is("${out}" ON scenes 0 source_exists)
 json_is("${out}" ON scenes 0 results 0 exists)
 json_is("${out}" OFF scenes 0 results 1 exists)
 json_is("${out}" ON scenes 1 shown)
+json_is("${out}" OFF scenes 1 source_exists)
+file(COPY "${WORK}/whole.h5" DESTINATION "${WORK}/left")
+file(COPY "${WORK}/scenes/bars/labels.h5" DESTINATION "${WORK}/left/scenes/bars")
+expect("a result whose light field has gone" 0 ARGS info left/whole.h5 --json)
+json_is("${out}" scenes/bars source)
+json_is("${out}" OFF source_exists)
 file(WRITE "${WORK}/broken.episcope" "{\"format\": \"episcope project\"")
 expect("a damaged project" 1 ERR "broken.episcope: " ARGS info broken.episcope)

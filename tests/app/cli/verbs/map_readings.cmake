@@ -47,6 +47,12 @@ foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
   expect("show ${file} as told" 0 ARGS show ${file} --truth lf.h5 -o told_${file}.png ${option})
 endforeach()
 
+# Another resolution: the error names the option.
+expect("a larger scene" 0 ARGS synthesize objects -o twice.h5 --views 3x3 --size 128x128)
+expect("half the resolution" 1 ERR "name that of the estimate, or bring a map .*--map-resize"
+       ARGS evaluate truth.pfm --truth twice.h5)
+expect("enlarged" 0 ARGS evaluate truth.pfm --truth twice.h5 --map-resize --json)
+
 # A number where nothing is known: told with both numbers, too.
 expect("the truth as text" 0 ARGS convert lf.h5 truth.csv)
 file(READ "${WORK}/truth.csv" rows)

@@ -81,6 +81,19 @@ expect_kept(a/view.png)
 expect("another picture when asked" 0 ARGS show a/r.h5 -o a/view.png --overwrite)
 expect_files(a labels.h5 lf.h5 r.h5 r.pfm view.png)
 
+# Nor do labels of other strokes, disparity or parameters.
+expect("strokes" 0 ARGS label a -o a/drawn.h5 --features image --regularizer view)
+expect("the same strokes" 0 ARGS label a -o a/drawn.h5 --features image --regularizer view)
+file(SHA256 "${WORK}/a/drawn.h5" before_a/drawn.h5)
+refused("a/drawn.h5: exists and holds labels of other strokes.*--overwrite" label a
+        --scribbles b/labels.h5 -o a/drawn.h5 --features image --regularizer view)
+refused("a/drawn.h5: exists and holds labels with --regularizer .*--overwrite" label a
+        -o a/drawn.h5 --features image --regularizer none)
+expect_kept(a/drawn.h5)
+expect("other strokes when asked" 0 ARGS label a --scribbles b/labels.h5 -o a/drawn.h5
+       --features image --regularizer view --overwrite)
+file(REMOVE "${WORK}/a/drawn.h5")
+
 # Maps do not say what made them.
 foreach(suffix npy pfm tiff)
   expect("estimate a ${suffix}" 0 OUT "map.${suffix}: epi_l of the center view"

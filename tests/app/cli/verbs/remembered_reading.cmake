@@ -78,8 +78,8 @@ expect_equal("a difference across focus planes" ${difference} ${raw})
 # Labels are carried along the rays of the light field as it is read now. A shear by whole pixels is
 # exact, so that the result is the same.
 function(accuracy_of variable result)
-  expect("label for ${variable}" 0 ARGS label a/lf.h5 -o labels.h5 --trees 4 --json --disparity
-         ${result})
+  expect("label for ${variable}" 0 ARGS label a/lf.h5 -o labels.h5 --trees 4 --json --overwrite
+         --disparity ${result})
   string(JSON share GET "${out}" accuracy_center)
   set(${variable} ${share} PARENT_SCOPE)
 endfunction()
@@ -125,7 +125,7 @@ expect("a flip in another form" 0 ERR "other samples[^\n]*; its own were read wi
        ARGS evaluate a/flip.h5 --truth bench)
 expect("the same flip in another form" 0 ARGS evaluate a/flip.h5 --truth bench --flip u)
 expect("labels by a flipped result" 0 ERR "other samples[^\n]*; its own were read with --flip=u\n"
-       ARGS label a/lf.h5 -o labels.h5 --disparity a/flip.h5 --trees 4)
+       ARGS label a/lf.h5 -o labels.h5 --disparity a/flip.h5 --trees 4 --overwrite)
 expect("difference from a flipped result" 0
        ERR "a/flip.h5 was read with --flip=u, that of a/plain.h5 was not"
        ARGS show a/plain.h5 -o other.png --what difference --minus a/flip.h5)

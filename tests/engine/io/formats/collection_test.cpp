@@ -144,6 +144,17 @@ class CollectionTest : public QObject {
     QCOMPARE(summary(), (QStringList{"grid:image_grid", "scene:archive"}));
   }
 
+  void drawingsOfLabels_areNoLightField() {
+    write_archive("scene");
+    Image<std::uint8_t> strokes(400, 400, 3, 255);
+    for (int i = 100; i < 300; ++i) {
+      for (int c = 0; c < 3; ++c) strokes.at(i, i, c) = c == 0 ? 255 : 0;
+    }
+    io::write_png(made("drawn") / "strokes.png", strokes.view());
+
+    QCOMPARE(summary(), QStringList{"scene:archive"});
+  }
+
   void picturesBesideScenes_areNoLightField() {
     write_grid("a");
     write_grid("b");

@@ -19,6 +19,7 @@ using io::MapValues;
 
 constexpr int kSide = 64;
 constexpr int kBorder = 6;
+constexpr int kNoise = 60;  // from end to end, in gray levels
 
 /// Maps that a person wrote or read in another way than they were meant.
 class MapReadingTest : public QObject {
@@ -132,6 +133,31 @@ class MapReadingTest : public QObject {
     QCOMPARE(QString::fromStdString(io::reading_text(found->reading)),
              QString::fromStdString(io::reading_text(mistake)));
     QVERIFY(!found->better.mse_100.has_value() && found->better.grey_levels.has_value());
+  }
+
+  void turns_areSeenByNoisyViews() {
+    const ViewStack<std::uint8_t>& clean = bytes_of(scene_);
+    ViewStack<std::uint8_t> noisy = clean.clone();
+    std::uint32_t random = 7;
+    for (std::size_t i = 0; i < noisy.size(); ++i) {
+      random = 1664525 * random + 1013904223;
+      const int noise = static_cast<int>(random >> 24) * kNoise / 255 - kNoise / 2;
+      noisy.data()[i] = static_cast<std::uint8_t>(std::clamp(clean.data()[i] + noise, 0, 255));
+    }
+    const LightField views(std::move(noisy), scene_.light_field->info());
+    const auto found = [&](const MapReading& mistake) {
+      const Estimate estimate = spoilt(mistake);
+      return io::find_better_reading(estimate.field.view(center()), {views, center()});
+    };
+
+    QVERIFY(!found({}));
+    for (const MapReading& mistake :
+         {MapReading{.flip = MapFlip::X}, MapReading{.is_transposed = true}}) {
+      const auto better = found(mistake);
+      QVERIFY(better.has_value());
+      QVERIFY(better->reading == mistake);
+      QVERIFY(*better->better.grey_levels > 0.6 * *better->as_read.grey_levels);
+    }
   }
 
   void honestMaps_areLeftAlone_data() {
@@ -283,18 +309,44 @@ class MapReadingTest : public QObject {
                              io::apply_reading({.border_px = 1, .crop = crop}, nullptr, estimate));
   }
 
+  void mapsOfAnotherResolution_fillTheViews() {
+    const LightField& views = *scene_.light_field;
+    for (const int factor : {2, -2}) {
+      Estimate estimate;
+      const int side = factor > 0 ? kSide * factor : kSide / -factor;
+      estimate.field.disparity = ViewStack<float>({1, 1}, side, side, 1, center());
+      for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+          estimate.field.disparity.view(center()).at(y, x) =
+              static_cast<float>(good(y * kSide / side, x * kSide / side));
+        }
+      }
+
+      io::apply_reading({.is_resized = true}, &views, estimate);
+
+      QCOMPARE(estimate.field.disparity.height(), kSide);
+      QCOMPARE(estimate.field.disparity.width(), kSide);
+      QVERIFY2(error_of(estimate) < 0.15, qPrintable(QString::number(error_of(estimate))));
+    }
+    Estimate estimate = spoilt({});
+    QVERIFY_THROWS_EXCEPTION(
+        InvalidInput, io::apply_reading({.border_px = 1, .is_resized = true}, &views, estimate));
+  }
+
   void impossibleReadings_areRefused() {
     Estimate estimate = spoilt({});
 
     for (const MapReading& reading :
          {MapReading{.scale = 0}, MapReading{.values = MapValues::Depth},
-          MapReading{.border_px = 1}, MapReading{.missing = "-1,none"}}) {
+          MapReading{.border_px = 1}, MapReading{.missing = "-1,none"},
+          MapReading{.is_resized = true}}) {
       QVERIFY_THROWS_EXCEPTION(InvalidInput, io::apply_reading(reading, nullptr, estimate));
     }
   }
 
   void givenOptions_areReadBack() {
-    const MapReading reading{true, MapFlip::X, -0.01, MapValues::Depth, 3, MapCrop::Middle, "0,-1"};
+    const MapReading reading{true, MapFlip::X,      -0.01,  MapValues::Depth,
+                             3,    MapCrop::Middle, "0,-1", true};
 
     QVERIFY(io::given_options(MapReading{}).empty());
     QVERIFY(io::map_schema().parse(io::given_options(reading)) == reading);
