@@ -54,6 +54,52 @@ void put_view(const Labeling& from, Labeling& into) {
   }
 }
 
+// Probabilities of labels that become one are added.
+void relabel(LabelProbabilities& probabilities, std::int32_t from, std::int32_t to) {
+  std::vector<std::int32_t> renamed = probabilities.ids;
+  std::ranges::replace(renamed, from, to);
+  std::vector<std::int32_t> ids = renamed;
+  std::ranges::sort(ids);
+  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  for (ProbabilityMap& map : probabilities.views) {
+    const VolumeView<const std::uint8_t> old = std::as_const(map).view();
+    ProbabilityMap sum(old.height, static_cast<int>(ids.size()), old.width);
+    std::fill_n(sum.view().data, sum.view().size(), std::uint8_t{0});
+    for (int l = 0; l < old.layers; ++l) {
+      const auto layer = std::ranges::find(ids, renamed[static_cast<std::size_t>(l)]) - ids.begin();
+      for (int y = 0; y < old.height; ++y) {
+        std::uint8_t* const row = sum.view().row(y, static_cast<int>(layer));
+        std::transform(row, row + old.width, old.row(y, l), row, [](int a, int b) {
+          return static_cast<std::uint8_t>(std::min(a + b, 255));
+        });
+      }
+    }
+    map = std::move(sum);
+  }
+  probabilities.ids = std::move(ids);
+}
+
+std::shared_ptr<const ScribbleLayer> relabeled(const ScribbleLayer& strokes, std::int32_t from,
+                                               std::int32_t to) {
+  auto changed = std::make_shared<ScribbleLayer>(strokes);
+  for (const ViewIndex view : strokes.painted_views()) {
+    const ImageView<std::uint8_t> own = changed->writable_view(view);
+    std::replace(own.data, own.data + own.size(), static_cast<std::uint8_t>(from),
+                 static_cast<std::uint8_t>(to));
+  }
+  return changed;
+}
+
+KnownLabeling relabeled(const KnownLabeling& known, std::int32_t from, std::int32_t to) {
+  auto labeling = copy(*known.labeling);
+  std::replace(labeling->labels.data(), labeling->labels.data() + labeling->labels.size(), from,
+               to);
+  relabel(labeling->probabilities, from, to);
+  auto input = std::make_shared<LabelingInput>(*known.input);
+  if (input->scribbles) input->scribbles = relabeled(*input->scribbles, from, to);
+  return {std::move(labeling), std::move(input)};
+}
+
 // A view that was never painted is as good as one of which all was erased.
 bool has_same_strokes(const ScribbleLayer* a, const ScribbleLayer& b, ViewIndex view) {
   const ImageView<const std::uint8_t> before = a ? a->view(view) : ImageView<const std::uint8_t>{};
@@ -354,6 +400,30 @@ void LiveLabeler::take(LabelingPtr labeling, const std::shared_ptr<const Labelin
   } else if (!is_running()) {
     state_ = LiveState::OutOfDate;
   }
+}
+
+void LiveLabeler::relabel(std::int32_t from, std::int32_t to) {
+  if (!input_) return;
+  cancel();
+  const auto renewed = [&](const Known& known) -> Known {
+    const ViewStack<std::int32_t>& labels = known.labeling->labels;
+    if (std::find(labels.data(), labels.data() + labels.size(), from) ==
+        labels.data() + labels.size()) {
+      return known;
+    }
+    Known changed = relabeled(known, from, to);
+    if (is_same(*changed.input, *input_)) changed.input = input_;
+    return changed;
+  };
+  std::list<Known> views;
+  for (const Known& each : views_) views.push_back(renewed(each));
+  if (all_.labeling) {
+    Known all = renewed(all_);
+    if (all.labeling != all_.labeling) keep_all(std::move(all));
+  }
+  views_ = std::move(views);
+  const auto is_current = [this](const Known& each) { return each.input == input_; };
+  if (is_current(all_) || std::ranges::any_of(views_, is_current)) state_ = LiveState::Idle;
 }
 
 void LiveLabeler::change(LiveState state, std::string sentence) {

@@ -91,6 +91,10 @@ class LiveLabeler {
   /// Replaces all labels by labels of all views, made from `input`. Ignored for an input of another
   /// light field.
   void take(LabelingPtr labeling, const std::shared_ptr<const LabelingInput>& input);
+  /// Gives what has label `from` label `to` in all labels, and in the strokes that they were learnt
+  /// from: what was up to date before the present input was numbered so stays up to date. Ends
+  /// what is running. Undoing it in the strokes brings back the labels of all views.
+  void relabel(std::int32_t from, std::int32_t to);
   void cancel();
 
   [[nodiscard]] const std::shared_ptr<const LabelingInput>& input() const { return input_; }

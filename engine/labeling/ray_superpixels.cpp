@@ -9,6 +9,9 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -20,8 +23,9 @@ constexpr int kIterations = 8;
 // Differences that weigh as much as the distance between two centers: SLIC's compactness.
 constexpr float kColorScale = 0.07F;
 constexpr float kDisparityScale_px = 0.12F;
-constexpr int kReach = 1;        // cells around a pixel whose superpixels it may take
-constexpr int kHiddenReach = 2;  // and around a ray that the center view does not show
+constexpr int kReach = 1;             // cells around a pixel whose superpixels it may take
+constexpr int kHiddenReach = 2;       // and around a ray that the center view does not show
+constexpr float kBorderShare = 0.5F;  // of the tolerance: contrast of a border that is crossed
 
 // Cells of a grid over the center view; the superpixel of each begins in it.
 struct Cells {
@@ -156,6 +160,13 @@ std::vector<Mean> means_of(const View& view, ImageView<const std::uint16_t> ids,
     for (float& each : mean.color) each /= pixels;
   }
   return means;
+}
+
+// Euclidean difference of two colors of as many channels as the first.
+float norm(std::span<const float> a, const float* b) {
+  float squares = 0;
+  for (std::size_t c = 0; c < a.size(); ++c) squares += (a[c] - b[c]) * (a[c] - b[c]);
+  return std::sqrt(squares);
 }
 
 template <class Visit>
@@ -295,8 +306,8 @@ RaySuperpixels::RaySuperpixels(const LightField& light_field, const DisparityFie
     const View view = read_view(light_field, disparity, center);
     divide(view, cells, progress.part(0, 0.3), own);
     means_ = means_of(view, own, cells.count());
+    connect(view.colors, own);
   }
-  connect(own);
   parallel_for(grid.count(), progress.part(0.3, 1), [&](int i) {
     const ViewIndex at = grid.view_at(i);
     if (at == center) return;
@@ -317,22 +328,35 @@ RaySuperpixels::RaySuperpixels(const LightField& light_field, const DisparityFie
   });
 }
 
-void RaySuperpixels::connect(ImageView<const std::uint16_t> center) {
+void RaySuperpixels::connect(const Image<float>& colors, ImageView<const std::uint16_t> center) {
   neighbors_.resize(means_.size());
-  const auto join = [&](std::uint16_t a, std::uint16_t b) {
+  const auto join = [&](PixelIndex at, PixelIndex to) {
+    const std::uint16_t a = center.at(at.y, at.x), b = center.at(to.y, to.x);
     if (a == b || a == kNone || b == kNone) return;
-    neighbors_[a].push_back(b);
-    neighbors_[b].push_back(a);
+    const float contrast =
+        norm({&colors.at(at.y, at.x), static_cast<std::size_t>(colors.channels())},
+             &colors.at(to.y, to.x));
+    neighbors_[a].push_back({b, contrast});
+    neighbors_[b].push_back({a, contrast});
   };
   for (int y = 0; y < center.height; ++y) {
     for (int x = 0; x < center.width; ++x) {
-      if (x > 0) join(center.at(y, x), center.at(y, x - 1));
-      if (y > 0) join(center.at(y, x), center.at(y - 1, x));
+      if (x > 0) join({y, x}, {y, x - 1});
+      if (y > 0) join({y, x}, {y - 1, x});
     }
   }
-  for (auto& each : neighbors_) {
-    std::ranges::sort(each);
-    each.erase(std::ranges::unique(each).begin(), each.end());
+  for (std::vector<Neighbor>& pairs : neighbors_) {
+    std::ranges::stable_sort(pairs, {}, &Neighbor::id);
+    std::vector<Neighbor> means;
+    for (auto begin = pairs.begin(); begin != pairs.end();) {
+      const auto end = std::find_if(begin, pairs.end(),
+                                    [&](const Neighbor& each) { return each.id != begin->id; });
+      const float sum = std::accumulate(
+          begin, end, 0.0F, [](float all, const Neighbor& each) { return all + each.contrast; });
+      means.push_back({begin->id, sum / static_cast<float>(end - begin)});
+      begin = end;
+    }
+    pairs = std::move(means);
   }
 }
 
@@ -341,20 +365,17 @@ std::vector<std::uint8_t> RaySuperpixels::alike(std::uint16_t seed, float tolera
   if (seed >= means_.size()) return selected;
   const Mean& own = means_[seed];
   const auto is_like = [&](const Mean& mean) {
-    float difference2 = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      difference2 += (mean.color[c] - own.color[c]) * (mean.color[c] - own.color[c]);
-    }
-    return difference2 <= tolerance * tolerance;
+    return norm(mean.color, own.color.data()) <= tolerance;
   };
   std::vector<std::uint16_t> open{seed};
   selected[seed] = 1;
   while (!open.empty()) {
     const std::uint16_t at = open.back();
     open.pop_back();
-    for (const std::uint16_t next : neighbors_[at]) {
+    for (const auto& [next, contrast] : neighbors_[at]) {
       const float jump = std::abs(means_[next].disparity - means_[at].disparity);
-      if (selected[next] != 0 || jump > kSamePointTolerance_px || !is_like(means_[next])) continue;
+      const bool is_border = jump > kSamePointTolerance_px || contrast > kBorderShare * tolerance;
+      if (selected[next] != 0 || is_border || !is_like(means_[next])) continue;
       selected[next] = 1;
       open.push_back(next);
     }

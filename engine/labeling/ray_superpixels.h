@@ -42,7 +42,8 @@ class RaySuperpixels {
 
   /// The superpixels of a region, `[id]`, 1 = selected: those connected to `seed` whose mean colors
   /// differ from its own by at most `tolerance`, the Euclidean norm over channels in [0, 1],
-  /// without a jump of disparity between neighbors (kSamePointTolerance_px). It has the seed at
+  /// without a jump of disparity between neighbors (kSamePointTolerance_px), nor an edge: pixels on
+  /// both sides of their border differ by at most tolerance/2 in the mean. It has the seed at
   /// least. Nothing is selected for kNone.
   [[nodiscard]] std::vector<std::uint8_t> alike(std::uint16_t seed, float tolerance) const;
 
@@ -55,11 +56,15 @@ class RaySuperpixels {
   };
 
  private:
-  void connect(ImageView<const std::uint16_t> center);
+  struct Neighbor {
+    std::uint16_t id;
+    float contrast;  ///< Of pixels on both sides of the common border, in the mean.
+  };
+  void connect(const Image<float>& colors, ImageView<const std::uint16_t> center);
 
   ViewStack<std::uint16_t> ids_;
   std::vector<Mean> means_;
-  std::vector<std::vector<std::uint16_t>> neighbors_;  // in the center view
+  std::vector<std::vector<Neighbor>> neighbors_;  // in the center view
 };
 
 }  // namespace episcope

@@ -6,6 +6,7 @@
 
 #include <QAction>
 #include <QBoxLayout>
+#include <QDropEvent>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
@@ -68,6 +69,7 @@ void LabelPalette::setUpTree() {
   tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  tree_->setDragDropMode(QAbstractItemView::InternalMove);
   tree_->header()->setMinimumSectionSize(22);
   tree_->header()->setStretchLastSection(false);
   tree_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
@@ -106,7 +108,8 @@ void LabelPalette::setLabels(const std::vector<LabelInfo>& labels) {
   for (const LabelInfo& label : labels) {
     auto* item = new QTreeWidgetItem(tree_);
     const QString name = QString::fromStdString(label.name);
-    item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsEditable);
+    item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsEditable |
+                   Qt::ItemIsDragEnabled);
     item->setData(kColor, Qt::UserRole, label.id);
     item->setIcon(kColor, swatch(label.color, palette()));
     item->setSizeHint(kColor, {0, fontMetrics().height() + kLabelRowPadding});
@@ -231,7 +234,26 @@ bool LabelPalette::eventFilter(QObject* watched, QEvent* event) {
     if (item && is_on_color && mouse->button() == Qt::LeftButton)
       emit colorRequested(label_of(item));
   }
+  // The list follows its owner: the tree moves nothing itself.
+  if (watched == tree_->viewport() && event->type() == QEvent::Drop) {
+    auto* drop = static_cast<QDropEvent*>(event);
+    drop->setDropAction(Qt::IgnoreAction);
+    drop->accept();
+    dropAt(drop->position().toPoint());
+    return true;
+  }
   return QWidget::eventFilter(watched, event);
+}
+
+// Moves the current label, which the drag began on, to the nearest border of two rows.
+void LabelPalette::dropAt(QPoint position) {
+  const int from = tree_->indexOfTopLevelItem(itemOf(current_));
+  QTreeWidgetItem* item = tree_->itemAt(position);
+  const bool is_below = item && position.y() > tree_->visualItemRect(item).center().y();
+  const int border =
+      item ? tree_->indexOfTopLevelItem(item) + (is_below ? 1 : 0) : tree_->topLevelItemCount();
+  const int by = border - from - (border > from ? 1 : 0);
+  if (from >= 0 && by != 0) emit moveRequested(current_, by);
 }
 
 // Whoever hides or locks a label does not want to paint it.

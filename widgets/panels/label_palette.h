@@ -22,7 +22,8 @@ namespace episcope {
 
 /// The labels: color, id, name, amount, visibility and lock of each, with the current one marked.
 /// A click makes a label current; a click on its color, eye or lock changes that; a double click
-/// renames it; Delete removes it. Setters never emit; user actions are signals.
+/// renames it; Delete removes it; a drag moves it in the list. Setters never emit; user actions are
+/// signals.
 class LabelPalette : public QWidget {
   Q_OBJECT
 
@@ -73,6 +74,7 @@ class LabelPalette : public QWidget {
   void filter();
   void showMarks();
   bool clickMark(QPoint position);
+  void dropAt(QPoint position);
   void updateButtons();
   [[nodiscard]] QTreeWidgetItem* itemOf(int id) const;
 

@@ -337,13 +337,24 @@ const Likeness& AnnotateController::likeness() {
   return *likeness_;
 }
 
+// Smoothed once for a view: the cursor asks for a region at each move.
+ImageView<const std::int32_t> AnnotateController::segments(const MapSource& source) {
+  const ViewIndex view = session_.view();
+  if (segments_key_.labeling.lock() != source.labeling || segments_key_.view != view ||
+      !(segments_key_.finish == source.finish)) {
+    segments_ = finished_labels(*source.labeling, source.finish, view);
+    segments_key_ = {source.labeling, source.finish, view};
+  }
+  return std::as_const(segments_).view();
+}
+
 PixelRegion AnnotateController::regionAt(PixelIndex seed) {
   const ViewIndex view = session_.view();
   if (tool_ == AnnotationTool::Wand) return wand_.region(wandAt(seed), view);
   if (panel_->fillBound() == FillBound::Segmentation) {
     const auto source = bench_.overlay.sourceOf({render::Quantity::Segmentation});
     if (source) {
-      return region_of_segment(finished_labels(*source->labeling, source->finish, view), seed);
+      return region_of_segment(segments(*source), seed);
     }
   }
   return likeness().region(seed, panel_->fillTolerance());

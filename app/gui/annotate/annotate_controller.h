@@ -6,6 +6,7 @@
 #include "app/gui/annotate/wand.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/shell/workbench.h"
+#include "app/session/quantity_map.h"
 #include "app/session/session.h"
 #include "widgets/canvas/canvas_tool.h"
 
@@ -80,6 +81,8 @@ class AnnotateController : public QObject {
   void fill(const StrokeStart& start);
   [[nodiscard]] PixelRegion regionAt(PixelIndex seed);
   [[nodiscard]] const Likeness& likeness();
+  /// The labels shown, with smooth boundaries.
+  [[nodiscard]] ImageView<const std::int32_t> segments(const MapSource& source);
   void connectFill();
   void previewFill(PixelIndex seed);
   /// Paints what the fill or the wand shows under the cursor, if anything.
@@ -111,6 +114,13 @@ class AnnotateController : public QObject {
   Wand wand_;
   LikenessKey likeness_key_;
   std::unique_ptr<const Likeness> likeness_;
+  struct SegmentsKey {
+    std::weak_ptr<const Labeling> labeling;
+    LabelFinish finish;
+    ViewIndex view;
+  };
+  SegmentsKey segments_key_;
+  Image<std::int32_t> segments_;
   double tolerance_at_press_ = 0;
   PixelIndex fill_seed_;
   bool is_fill_shown_ = false;

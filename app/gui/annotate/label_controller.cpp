@@ -229,7 +229,9 @@ void LabelController::merge() {
             const auto place = names.indexOf(chosen);
             if (place < 0 || !find(id)) return;
             const int into = ids[static_cast<std::size_t>(place)];
-            document_.edit([&](AnnotationDocument& document) { document.merge_label(id, into); });
+            const bool is_merged = document_.edit(
+                [&](AnnotationDocument& document) { document.merge_label(id, into); });
+            if (is_merged) emit labels_.relabeled(id, into);
             labels_.choose(into);
           });
   dialog->open();
@@ -270,7 +272,9 @@ void LabelController::renumber(int id, int to) {
   }
   LabelMarks marks = bench_.session.place().label_marks;
   const bool is_current = labels_.current() == id;
-  document_.edit([=](AnnotationDocument& document) { document.renumber_label(id, to); });
+  const bool is_renumbered =
+      document_.edit([=](AnnotationDocument& document) { document.renumber_label(id, to); });
+  if (is_renumbered) emit labels_.relabeled(id, to);
   if (marks.hidden.erase(id) > 0) marks.hidden.insert(to);
   bench_.session.set_label_marks(marks);
   if (is_current) labels_.choose(to);

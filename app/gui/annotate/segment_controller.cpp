@@ -32,6 +32,14 @@ KeptLabels kept_labels(const LabelingPtr& labeling, const std::vector<LabelInfo>
   return {labeling, infos, hash_of(*input.scribbles), {}};
 }
 
+// The label that one set has and another lacks; 0 if there is none.
+int only_in(const LabelSet& set, const LabelSet& other) {
+  for (const LabelInfo& label : set.labels()) {
+    if (!other.contains(label.id)) return label.id;
+  }
+  return 0;
+}
+
 }  // namespace
 
 SegmentController::SegmentController(const Workbench& bench, SegmentPanel* panel)
@@ -71,6 +79,14 @@ void SegmentController::connectDocument() {
   connect(&document_, &DocumentController::changed, this,
           [this](const DocumentChange& change) { change.views.empty() ? publish() : noteInput(); });
   connect(&bench_.labels, &LabelChoice::changed, this, &SegmentController::publish);
+  connect(&bench_.labels, &LabelChoice::relabeled, this, &SegmentController::relabel);
+  connect(&document_, &DocumentController::steppedBack, this,
+          [this](const DocumentChange&, const Edit& edit, bool is_undo) {
+            if (edit.kind != EditKind::RenumberLabel || !edit.labels) return;
+            const int before = only_in(edit.labels->before, edit.labels->after);
+            const int after = only_in(edit.labels->after, edit.labels->before);
+            is_undo ? relabel(after, before) : relabel(before, after);
+          });
   connect(&source_, &LabelingSource::changed, this, [this] {
     panel_->setSources(source_.sources(), source_.choice());
     const bool is_same =
@@ -237,6 +253,17 @@ void SegmentController::noteInput() {
   }
   publish();
   goOnWithAllViews();
+}
+
+// What was merged or has another number is so in the labels shown, too.
+void SegmentController::relabel(int from, int to) {
+  live_.relabel(from, to);
+  const ViewIndex view = session_.view();
+  if (live_.labeling(view) && live_.is_up_to_date(view)) {
+    keep(live_.labeling(view), *live_.input());
+  }
+  if (is_live_) begin();
+  publish();
 }
 
 void SegmentController::begin() {

@@ -93,6 +93,7 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] bool isComing() const;
   void update(Parts parts);
   void noteInput();
+  void relabel(int from, int to);
   void begin();
   void endWish();
   void finishAll(const LabelingPtr& labeling, const std::shared_ptr<const LabelingInput>& input);

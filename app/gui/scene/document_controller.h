@@ -180,6 +180,8 @@ class LabelChoice : public QObject {
   void regionChanged();
   /// Another label is current, or its name or color changed.
   void changed();
+  /// What was painted with label `from` has label `to` now: it was merged, or has another number.
+  void relabeled(int from, int to);
 
  private:
   void followDocument();

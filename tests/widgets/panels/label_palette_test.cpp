@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/window_test_main.h"
 #include "widgets/panels/label_palette.h"
+#include "tests/window_test_main.h"
 
+#include <QDropEvent>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMimeData>
 #include <QSignalSpy>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -62,6 +64,27 @@ class LabelPaletteTest : public QObject {
     QTest::keyClick(tree_, Qt::Key_Down);
     QCOMPARE(chosen.takeFirst()[0].toInt(), 6);
     QCOMPARE(palette_->current(), 6);
+  }
+
+  void drag_movesTheLabel_toTheNearestBorderOfRows() {
+    palette_->setLabels(labels(4));
+    QSignalSpy moves(palette_.get(), &LabelPalette::moveRequested);
+    const auto by = [&](int from, int onto, bool is_lower_half) {
+      click(from, 2);
+      const QRect row = tree_->visualItemRect(tree_->topLevelItem(onto));
+      drop({row.center().x(), is_lower_half ? row.bottom() - 2 : row.top() + 2});
+      return moves.isEmpty() ? 0 : moves.takeFirst()[1].toInt();
+    };
+    QCOMPARE(by(0, 2, true), 2);
+    QCOMPARE(by(0, 2, false), 1);
+    QCOMPARE(by(3, 0, false), -3);
+    QCOMPARE(by(3, 0, true), -2);
+    QCOMPARE(by(1, 1, true), 0);
+    QCOMPARE(by(1, 0, true), 0);
+    click(0, 2);
+    drop({40, tree_->viewport()->height() - 2});  // below all
+    QCOMPARE(moves.takeFirst(), (QVariantList{2, 3}));
+    QCOMPARE(tree_->topLevelItem(0)->text(1), QString("2"));  // the owner moves it
   }
 
   void clickOnTheColour_asksForAnother() {
@@ -161,6 +184,14 @@ class LabelPaletteTest : public QObject {
   }
 
  private:
+  void drop(QPoint at) {
+    const QMimeData none;
+    QDropEvent event(at, Qt::MoveAction, &none, Qt::LeftButton, Qt::NoModifier);
+    // QApplication delivers no drop without a drag that the system began.
+    static_cast<QObject*>(palette_.get())->eventFilter(tree_->viewport(), &event);
+    QVERIFY(event.isAccepted());
+    QCOMPARE(event.dropAction(), Qt::IgnoreAction);
+  }
   void click(int row, int column) {
     const QRect rect = tree_->visualItemRect(tree_->topLevelItem(row));
     const int x = tree_->header()->sectionViewportPosition(column) + 8;

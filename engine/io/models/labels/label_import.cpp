@@ -80,7 +80,8 @@ std::optional<ViewIndex> view_of_name(const fs::path& path, const LabelPlaces& p
   return view_of_numbers(stem, places.shape.grid);
 }
 
-/// Files that count all views by the only number that differs, in its order.
+/// Files that count all views by the only number that differs, or by two for rows and columns, in
+/// their order, wherever they begin.
 std::optional<std::vector<NamedFile>> counted(const std::vector<fs::path>& paths, GridShape grid) {
   if (static_cast<int>(paths.size()) != grid.count()) return std::nullopt;
   std::map<std::vector<long>, fs::path> by_numbers;
@@ -93,9 +94,12 @@ std::optional<std::vector<NamedFile>> counted(const std::vector<fs::path>& paths
     for (std::size_t i = 0; i < name.numbers.size(); ++i) values[i].insert(name.numbers[i]);
     by_numbers[name.numbers] = path;
   }
-  const auto varying =
-      std::ranges::count_if(values, [](const std::set<long>& each) { return each.size() > 1; });
-  if (texts.size() != 1 || varying != 1 || by_numbers.size() != paths.size()) return std::nullopt;
+  std::vector<int> varying;
+  for (const std::set<long>& each : values) {
+    if (each.size() > 1) varying.push_back(static_cast<int>(each.size()));
+  }
+  const bool is_counted = varying.size() == 1 || varying == std::vector<int>{grid.v, grid.u};
+  if (texts.size() != 1 || !is_counted || by_numbers.size() != paths.size()) return std::nullopt;
   std::vector<NamedFile> files;
   for (const auto& [numbers, path] : by_numbers) {
     files.push_back({path, grid.view_at(static_cast<int>(files.size()))});

@@ -14,6 +14,7 @@
 
 #include <QAbstractButton>
 #include <QDir>
+#include <QInputDialog>
 #include <QMessageBox>
 
 #include <variant>
@@ -106,8 +107,42 @@ class AllViewsTest : public QObject {
   void exportedLabels_areNotAskedFor();
   void labelsOfAProject_areThereAgain();
   void pixelsWithoutContent_haveNoLabel();
+  void otherNumbersAndMerges_reachTheLabelsShown();
   void disparityOfLabels_alsoCarriesStrokes();
 };
+
+// As the menu asks for them.
+void AllViewsTest::otherNumbersAndMerges_reachTheLabelsShown() {
+  AllViews f;
+  f.segmentAll();
+  const LabelingPtr before = f.all();
+  const auto count = [&](int id) {
+    const auto labels = f.labels({0, 0})->labels.view({0, 0});
+    return std::count(labels.data, labels.data + labels.size(), id);
+  };
+  const auto first = count(1), second = count(2);
+  QVERIFY(first > 0 && second > 0);
+  f.window.bench().labels.choose(1);
+
+  f.trigger("annotate.renumber_label");
+  auto* number = f.window.findChild<QInputDialog*>("renumber_label");
+  number->setIntValue(40);
+  number->accept();
+  QCOMPARE(count(40), first);
+  QVERIFY(f.segment().isSegmentationUpToDate());
+  QVERIFY(f.session().labels().labeling == f.all());
+  f.key(Qt::Key_Z, Qt::ControlModifier);
+  QVERIFY(f.all() == before);
+
+  f.window.bench().labels.choose(1);
+  f.trigger("annotate.merge_label");
+  auto* merge = f.window.findChild<QInputDialog*>("merge_labels");
+  QVERIFY(merge->comboBoxItems().front().startsWith("2"));
+  merge->accept();
+  QCOMPARE(count(2), first + second);
+  QCOMPARE(count(1), 0);
+  QVERIFY(f.segment().isSegmentationUpToDate());
+}
 
 // A stroke of a new label over a thing, far from what the others say.
 void AllViewsTest::stroke_correctsAllViews_andIsUndoneAndRedone() {

@@ -82,6 +82,8 @@ class LiveLabelerTest : public QObject {
   void otherLightField_forgetsEverything();
   void view_thatIsKnown_isThereAtOnce();
   void allViews_answerForEveryView();
+  void relabeled_stayUpToDate_andComeBack();
+  void mergedLabels_haveBothProbabilities();
   void destructor_whileRunning_isHarmless();
 };
 
@@ -237,6 +239,74 @@ void LiveLabelerTest::allViews_answerForEveryView() {
   QCOMPARE(f.live.labeling({0, 2}), all);
   QVERIFY(f.live.is_up_to_date({0, 2}));
   QVERIFY2(f.accuracy({0, 0}) > 0.8, qPrintable(QString::number(f.accuracy({0, 0}))));
+}
+
+namespace {
+
+// The same strokes, in which label 1 has another number.
+LabelingInput renumbered(LabelingInput input, std::uint8_t to) {
+  auto strokes = std::make_shared<ScribbleLayer>(*input.scribbles);
+  for (const ViewIndex view : strokes->painted_views()) {
+    const auto own = strokes->writable_view(view);
+    std::replace(own.data, own.data + own.size(), std::uint8_t{1}, to);
+  }
+  input.scribbles = std::move(strokes);
+  return input;
+}
+
+std::int64_t count_of(const LabelingPtr& labeling, std::int32_t id) {
+  return std::count(labeling->labels.data(), labeling->labels.data() + labeling->labels.size(), id);
+}
+
+}  // namespace
+
+void LiveLabelerTest::relabeled_stayUpToDate_andComeBack() {
+  Fixture f;
+  const LabelingInput before = f.input();
+  f.live.set_input(before);
+  const LabelingPtr all = label_all_views(*f.live.input(), Progress());
+  f.live.take(all, f.live.input());
+  const auto pixels = count_of(all, 1);
+  QVERIFY(pixels > 0);
+
+  f.live.set_input(renumbered(before, 40));
+  QVERIFY(!f.live.is_up_to_date({0, 2}));
+  f.live.relabel(1, 40);
+
+  QVERIFY(f.live.is_widest_up_to_date({0, 2}));
+  QCOMPARE(f.live.state(), LiveState::Idle);
+  const LabelingPtr changed = f.live.labeling({0, 2});
+  QCOMPARE(count_of(changed, 40), pixels);
+  QCOMPARE(count_of(changed, 1), 0);
+  QCOMPARE(changed->probabilities.ids.back(), 40);
+  const auto was = all->probabilities.view({0, 2}).view();
+  const auto is = changed->probabilities.view({0, 2}).view();
+  QVERIFY(std::equal(was.row(20, 0), was.row(20, 0) + was.width, is.row(20, is.layers - 1)));
+
+  f.live.set_input(before);
+  QCOMPARE(f.live.labeling({0, 2}), all);
+  QVERIFY(f.live.is_widest_up_to_date({0, 2}));
+}
+
+void LiveLabelerTest::mergedLabels_haveBothProbabilities() {
+  Fixture f;
+  f.live.set_input(f.input());
+  f.live.label(f.center);
+  QTRY_COMPARE_WITH_TIMEOUT(f.turn(), LiveState::Idle, kPatience);
+  const LabelingPtr before = f.live.labeling(f.center);
+
+  f.live.set_input(renumbered(f.input(), 2));
+  f.live.relabel(1, 2);
+
+  const LabelingPtr merged = f.live.labeling(f.center);
+  QVERIFY(f.live.is_up_to_date(f.center));
+  QCOMPARE(count_of(merged, 2), count_of(before, 1) + count_of(before, 2));
+  QCOMPARE(merged->probabilities.ids.size(), before->probabilities.ids.size() - 1);
+  const auto was = before->probabilities.views[0].view(),
+             is = merged->probabilities.views[0].view();
+  for (int x = 0; x < is.width; ++x) {
+    QCOMPARE(int{is.row(20, 0)[x]}, std::min(was.row(20, 0)[x] + was.row(20, 1)[x], 255));
+  }
 }
 
 void LiveLabelerTest::destructor_whileRunning_isHarmless() {

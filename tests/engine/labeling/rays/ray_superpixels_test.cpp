@@ -144,6 +144,26 @@ class RaySuperpixelsTest : public QObject {
     QCOMPARE(std::ranges::count(superpixels.alike(RaySuperpixels::kNone, 2), 1), 0);
   }
 
+  // Gray 130 at the left and 150 at the right, which is within the tolerance.
+  void edges_areNotCrossed_butSlopesAre() {
+    const auto reaches_right = [](bool is_slope) {
+      constexpr int kSide = 64;
+      ViewStack<std::uint8_t> samples({3, 3}, kSide, kSide);
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        const int x = static_cast<int>(i) % kSide;
+        samples.data()[i] = static_cast<std::uint8_t>(130 + (is_slope ? x / 3 : x < 32 ? 0 : 20));
+      }
+      const LightField light_field(LightField::Samples(std::move(samples)), {});
+      const DisparityField flat{ViewStack<float>({3, 3}, kSide, kSide, 1, {}, allocate_large_zeros),
+                                {}};
+      const RaySuperpixels superpixels(light_field, flat, Progress());
+      const auto ids = superpixels.ids().view({1, 1});
+      return superpixels.alike(ids.at(32, 4), kTolerance)[ids.at(32, 60)] != 0;
+    };
+    QVERIFY(reaches_right(true));
+    QVERIFY(!reaches_right(false));
+  }
+
   void pixelsWithoutContent_haveNone() {
     Scene scene = test::render("demo", 48);
     const LightField& whole = *scene.light_field;

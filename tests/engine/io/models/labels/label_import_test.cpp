@@ -194,6 +194,22 @@ class LabelImportTest : public QObject {
     QCOMPARE(row_of(labels, 3), QString("0 4 0 0 0 0"));
   }
 
+  void rowsAndColumns_mayBeginWithOne() {
+    std::vector<std::filesystem::path> files;
+    for (int i = 0; i < 9; ++i) {
+      const auto level = static_cast<std::uint8_t>(i + 1);
+      files.push_back(
+          colored("lf_" + std::to_string(i / 3 + 1) + "_" + std::to_string(i % 3 + 1) + ".png",
+                  {level, level, level}, {}));
+    }
+
+    const auto labels = io::read_label_files(files, kPlaces);
+
+    QCOMPARE(labels.scribbles.views.size(), std::size_t{9});
+    QCOMPARE(labels.scribbles.views[5].view, (ViewIndex{1, 2}));
+    QCOMPARE(row_of(labels, 5), QString("0 6 0 0 0 0"));
+  }
+
   void twoFilesOfOneView_areRefused() {
     colored("a_01_01.png", {1, 1, 1}, {});
     colored("b_01_01.png", {1, 1, 1}, {});
