@@ -121,6 +121,14 @@ Texts schema_texts() {
         CompanionKind::DepthProbabilities, CompanionKind::TrueDepthProbabilities}) {
     add(texts, companion_name(kind));
   }
+  // What readers count (FileUse).
+  for (const char* each :
+       {"depth map",      "depth maps",      "label file",    "label files", "label picture",
+        "label pictures", "light field",     "manifest",      "mosaic",      "mosaics",
+        "parameter file", "parameter files", "pose file",     "pose files",  "results",
+        "scribble file",  "scribble files",  "segmentations", "view",        "views"}) {
+    add(texts, each);
+  }
   add(texts, kNotEnoughMemory);
   add(texts, kUnknownFailure);
   return texts;

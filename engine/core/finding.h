@@ -125,6 +125,12 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "The views state {} different orientations (Exif), {} of {} orientation {}: all are taken as "
      "they are stored; if the camera was turned, turn the pictures before.",
      "Orientations (Exif) differ."},
+    {"exif.mirrored", "mirrored"},
+    {"exif.half_turn", "turned by half"},
+    {"exif.upside_down", "upside down and mirrored"},
+    {"exif.turned_mirrored", "turned and mirrored"},
+    {"exif.left", "turned by a quarter to the left"},
+    {"exif.right", "turned by a quarter to the right"},
     // Samples.
     {"samples.bits",
      "No sample of the views exceeds {} of 65535: they are taken as samples of {} bits. --levels "
@@ -377,6 +383,33 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "Processed pictures, no light field: %1", FindingLevel::Note},
     {"option.ignored", "--{} is ignored, because this is {}.", "“%1” is ignored."},
     {"scribbles.unread", "Scribbles were not read: {}"},
+    {"render.part",
+     "{} of {} views are rendered so far; shown are the {}×{} around the center. Read it again to "
+     "see more; if the rendering was stopped, the same command in Blender continues it.",
+     "Using %3×%4 views; %1 of %2 are rendered so far."},
+    {"views.cross",
+     "The views form a cross of row {} and column {} ({}): those of the {}, {}×{}, are opened, the "
+     "{} others are not used; a pattern with the number of the {} instead of {} opens these.",
+     "Using the views of the %4 of a cross."},
+    {"row", "row"},
+    {"column", "column"},
+    {"numbers.row", "row {}"},
+    {"numbers.rows", "rows {}"},
+    {"numbers.column", "column {}"},
+    {"numbers.columns", "columns {}"},
+    {"numbers.missing", "view {} is missing"},
+    {"numbers.all_missing", "{} views are missing: {}"},
+    // Results.
+    {"result.confidence", "confidence is left out: it has values beyond 0 … 1"},
+    {"result.high_resolution", "scores in high resolution are left out: {}"},
+    {"brightness.fall_off", "brightness of the views evened: fall-off {:.3f}"},
+    // Forms of light fields, and what their files are.
+    {"format.grid", "image grid ({})"},
+    {"format.archive", "archive ({})"},
+    {"format.quilt", "quilt of {} tiles, a line of views from the bottom left ({})"},
+    {"format.mosaic_up", "mosaic of {} views side by side, rows from the bottom ({})"},
+    {"format.lenslets", "mosaic of lenslets of {} px ({})"},
+    {"format.mosaic", "mosaic of {} views side by side ({})"},
 });
 
 /// The English of a code, for fmt. An unknown code is an error of the compiler.

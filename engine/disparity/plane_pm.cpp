@@ -290,7 +290,7 @@ class EqualizedViews {
     matching.range = stereo_.range;
     prepare(matching, progress.part(0.6, 1));
     if (even_) {
-      note_ = fmt::format("brightness of the views evened: fall-off {:.3f}", correction.fall_off);
+      note_ = fmt::format(finding_text("brightness.fall_off"), correction.fall_off);
     }
   }
 
@@ -359,12 +359,12 @@ double mean_cap(const LightField& lf, const StereoCosts& stereo) {
 void run_round(const LightField& lf, const PlaneParameters& parameters, const StereoCosts& stereo,
                bool is_last, Estimate& estimate, const Progress& progress) {
   progress.step("matching costs");
-  const LabelCosts costs = visible_costs(lf, stereo, progress.part(0, 0.42));
+  const LabelCosts costs = visible_costs(lf, stereo, progress.part(0, 0.1));
   const Image<float> edges = smoothness_weights(lf, stereo.view, parameters.labeling.edge_strength);
   const PlaneRefinementData data{costs, edges, mean_cap(lf, stereo)};
-  label_visible(lf, parameters, data, estimate, progress.part(0.42, is_last ? 0.75 : 0.99));
+  label_visible(lf, parameters, data, estimate, progress.part(0.1, is_last ? 0.65 : 0.99));
   const ImageView<float> map = estimate.field.disparity.view(stereo.view);
-  if (is_last) refine_by_planes(data, parameters.refinement, progress.part(0.75, 0.98), map);
+  if (is_last) refine_by_planes(data, parameters.refinement, progress.part(0.65, 0.98), map);
   if (is_last && parameters.silhouettes) {
     place_silhouettes(lf, stereo.view, progress.part(0.98, 0.99), map);
   }

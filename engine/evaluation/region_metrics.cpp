@@ -2,6 +2,7 @@
 #include "engine/evaluation/region_metrics.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 
 #include <fmt/format.h>
 
@@ -300,7 +301,7 @@ void append_high_res(const RegionInput& input, StratifiedScene scene, BenchmarkM
     };
     append_all(metrics.masked, masked_metrics(errors, border, scene, region, metrics.notes));
   } catch (const Error& error) {
-    metrics.notes.push_back(std::string("scores in high resolution are left out: ") + error.what());
+    metrics.notes.push_back(fmt::format(finding_text("result.high_resolution"), error.what()));
   }
 }
 

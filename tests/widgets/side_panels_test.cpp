@@ -17,6 +17,8 @@
 #include <QSignalSpy>
 #include <QToolButton>
 
+#include <algorithm>
+
 namespace episcope::in_side_panels_test {
 
 class SidePanelsTest : public QObject {
@@ -317,6 +319,24 @@ class SidePanelsTest : public QObject {
     QVERIFY(label->width() <= panel.width());
     QTest::mouseClick(arrow, Qt::LeftButton);
     QVERIFY(!label->isVisible());
+  }
+
+  void info_offersAnActionOnce() {
+    InfoPanel panel;
+    QAction conventions("Conventions…");
+    panel.setConventionsAction(&conventions);
+    panel.setInfo("scene", {}, {{"One thing.", {}, &conventions}, {"Another.", {}, &conventions}});
+    panel.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&panel));
+    const auto shown = [&panel] {
+      const auto buttons = panel.findChildren<QToolButton*>();
+      return std::ranges::count_if(buttons, [](const QToolButton* each) {
+        return each->isVisible() && each->text() == "Conventions…";
+      });
+    };
+    QCOMPARE(shown(), 1);
+    panel.setInfo("scene", {}, {{"Nothing to choose."}});
+    QCOMPARE(shown(), 1);
   }
 
   void info_showsTheActionOfWhatNeedsOne() {

@@ -296,9 +296,8 @@ class IntervalEditor : public ParameterEditor {
   }
   [[nodiscard]] QString automaticText() const {
     if (!hints_.is_open) return ParameterEditor::tr("Automatic");
-    return hints_.promised
-               ? ParameterEditor::tr("From the file: %1").arg(ends_text(*hints_.promised, unit_))
-               : foundText();
+    return hints_.promised ? ParameterEditor::tr("File: %1").arg(ends_text(*hints_.promised, unit_))
+                           : foundText();
   }
 
   /// Without a promise of the file, automatic is found: one of them will do.

@@ -134,6 +134,12 @@ QString other_words(const std::string& sentence) {
 }  // namespace
 
 QString finding_words(const std::string& sentence) {
+  // Two findings that are joined may look like one with a long value.
+  if (const std::size_t at = sentence.find("; "); at != std::string::npos) {
+    const auto first = known_words(sentence.substr(0, at));
+    const auto second = known_words(sentence.substr(at + 2));
+    if (first && second) return *first + "; " + *second;
+  }
   if (auto known = known_words(sentence)) return *std::move(known);
   return other_words(sentence);
 }

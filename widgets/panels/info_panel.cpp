@@ -13,6 +13,9 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 
+#include <algorithm>
+#include <iterator>
+
 namespace episcope {
 namespace {
 
@@ -91,6 +94,9 @@ void InfoPanel::setInfo(const QString& title, const std::vector<InfoRow>& rows,
   if (rows == rows_ && warnings == warnings_ && scroll_->widget()) return;
   rows_ = rows;
   warnings_ = warnings;
+  const QAction* conventions = conventions_->defaultAction();
+  conventions_->setVisible(!conventions ||
+                           !std::ranges::count(warnings, conventions, &InfoWarning::action));
   rebuild();
 }
 
@@ -100,7 +106,7 @@ void InfoPanel::changeEvent(QEvent* event) {
 }
 
 // A short line with the whole text behind its arrow; else the text, of which a click shows all.
-void InfoPanel::addWarning(const InfoWarning& warning, QGridLayout* grid) {
+void InfoPanel::addWarning(const InfoWarning& warning, QAction* action, QGridLayout* grid) {
   QWidget* body = grid->parentWidget();
   auto* line = new QWidget(body);
   auto* icon = new QLabel(line);
@@ -122,7 +128,7 @@ void InfoPanel::addWarning(const InfoWarning& warning, QGridLayout* grid) {
     layout->addWidget(text, 1, 1, 1, 2);
     layout->addWidget(makeArrow("warning", warning.brief, label, {text}), 0, 2, Qt::AlignTop);
   }
-  if (warning.action) layout->addWidget(make_button(warning.action, line), 2, 1, Qt::AlignLeft);
+  if (action) layout->addWidget(make_button(action, line), 2, 1, Qt::AlignLeft);
   grid->addWidget(line, grid->rowCount(), 0, 1, kColumns);
 }
 
@@ -168,7 +174,7 @@ void InfoPanel::addRow(const InfoRow& row, QGridLayout* grid) {
   grid->addWidget(value, line, 1, 1, has_more ? 1 : kColumns - 1);
   std::vector<QWidget*> behind;
   const auto add_below = [&](QLabel* text) {
-    grid->addWidget(text, grid->rowCount(), 1, 1, kColumns - 1);
+    grid->addWidget(text, grid->rowCount(), 0, 1, kColumns);
     behind.push_back(text);
   };
   if (!row.tip.isEmpty()) add_below(make_quiet(row.tip, "info.tip", body));
@@ -191,7 +197,12 @@ void InfoPanel::rebuild() {
   grid->setVerticalSpacing(3);
   grid->setColumnStretch(1, 1);
   // First of all: below the rows they would be out of sight.
-  for (const InfoWarning& warning : warnings_) addWarning(warning, grid);
+  for (auto warning = warnings_.begin(); warning != warnings_.end(); ++warning) {
+    // One that helps with several stands below the last of them.
+    const bool is_last = std::ranges::count(std::next(warning), warnings_.end(), warning->action,
+                                            &InfoWarning::action) == 0;
+    addWarning(*warning, is_last ? warning->action : nullptr, grid);
+  }
   for (const InfoRow& row : rows_) addRow(row, grid);
   grid->setRowStretch(grid->rowCount(), 1);
   scroll_->setWidget(body);  // Deletes the body before.

@@ -48,7 +48,8 @@ class InfoPanel : public QWidget {
   /// Shows facts; an empty title means no light field. Costs nothing without changes.
   void setInfo(const QString& title, const std::vector<InfoRow>& rows,
                const std::vector<InfoWarning>& warnings);
-  /// Command of the button beside the title, which is disabled with the action.
+  /// Command of the button below the facts, which is disabled with the action, and hidden where a
+  /// warning offers it.
   void setConventionsAction(QAction* action) { conventions_->setDefaultAction(action); }
 
  protected:
@@ -56,7 +57,7 @@ class InfoPanel : public QWidget {
 
  private:
   void rebuild();
-  void addWarning(const InfoWarning& warning, QGridLayout* grid);
+  void addWarning(const InfoWarning& warning, QAction* action, QGridLayout* grid);
   void addRow(const InfoRow& row, QGridLayout* grid);
   QToolButton* makeArrow(const QString& id, const QString& key, QLabel* value,
                          const std::vector<QWidget*>& behind);

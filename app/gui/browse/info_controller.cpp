@@ -344,6 +344,19 @@ QString by_whom(const std::string& finding, bool was_chosen) {
   return was_chosen ? InfoPanelText::tr("%1 (set by you)").arg(shown) : shown;
 }
 
+// "81 views; not used: 2 results (a.h5)".
+QString files_words(const ConventionReport& convention) {
+  static const QRegularExpression kind("(?<=\\d )[a-z]+( [a-z]+)*");
+  QString text = QString::fromStdString(files_text(convention));
+  text.replace("not used: ", InfoPanelText::tr("not used: "));
+  for (auto match = kind.match(text); match.hasMatch();) {
+    const QString words = schema_text(match.captured().toStdString());
+    text.replace(match.capturedStart(), match.capturedLength(), words);
+    match = kind.match(text, match.capturedStart() + words.size());
+  }
+  return text;
+}
+
 // Names of an image grid that were given; empty if they were found.
 QString names_text(const Reading& reading) {
   const ParameterValue* pattern = reading.find("pattern");
@@ -410,7 +423,16 @@ void add_conventions(SceneInfo& info, const CameraGrid& camera,
                          by_whom(convention.units, convention.units_were_chosen),
                          finding_words(convention.units_check), "units"});
   }
-  info.rows.push_back({InfoPanelText::tr("Format"), schema_text(convention.format), {}, "format"});
+  info.rows.push_back(
+      {InfoPanelText::tr("Format"), finding_words(convention.format), {}, "format"});
+}
+
+// Whether a warning says it, which no row repeats.
+bool is_told(const ConventionReport& convention, std::string_view codes) {
+  return std::ranges::any_of(convention.warnings, [codes](const std::string& warning) {
+    const auto finding = finding_of(warning);
+    return finding && finding->code.starts_with(codes);
+  });
 }
 
 // `gpu`: device that methods compute on; none while unknown. `conventions`: opens the dialog.
@@ -433,12 +455,12 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu, QAc
                        .value = sample_text(light_field),
                        .id = "samples",
                        .tip = finding_words(samples_text(scene))});
-  if (!light_field.valid().empty()) {
+  if (!light_field.valid().empty() && !is_told(convention, "valid.")) {
     info.rows.push_back({InfoPanelText::tr("Valid"),
                          InfoPanelText::tr("%1 %").arg(number_text(valid_percent(light_field), 1)),
                          InfoPanelText::tr("The others are dark or empty and do not count.")});
   }
-  if (!convention.gain.empty()) {
+  if (!convention.gain.empty() && !is_told(convention, "brightness.")) {
     info.rows.push_back(
         {InfoPanelText::tr("Brightness"), finding_words(convention.gain), {}, "gain"});
   }
@@ -462,8 +484,8 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu, QAc
   for (const Companion& companion : scene.companions) {
     info.rows.push_back({schema_text(companion_name(companion.kind)), utf8(companion.shape), {}});
   }
-  if (const std::string files = files_text(convention); !files.empty()) {
-    info.rows.push_back({InfoPanelText::tr("Files"), utf8(files), {}, "files"});
+  if (const QString files = files_words(convention); !files.isEmpty()) {
+    info.rows.push_back({InfoPanelText::tr("Files"), files, {}, "files"});
   }
   info.rows.push_back({InfoPanelText::tr("Source"), utf8(light_field.info().source), {}, "source"});
   info.rows.push_back({InfoPanelText::tr("GPU"),

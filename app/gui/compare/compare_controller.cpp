@@ -119,8 +119,7 @@ void CompareController::listChoices() {
   const EstimateEntry* shown = session_.side_a();
   const EstimateEntry* compared = session_.side_b();
   bar_->setChoices(choices, shown ? static_cast<quint64>(shown->id) : 0,
-                   compared ? static_cast<quint64>(compared->id) : 0,
-                   overlay_.describe(overlay_.choiceB()));
+                   compared ? static_cast<quint64>(compared->id) : 0, overlay_.nameB());
 }
 
 bool CompareController::isAvailable(CompareMode mode) const {

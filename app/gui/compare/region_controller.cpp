@@ -143,7 +143,7 @@ void RegionController::endRectangle() {
 // Rows before those of region masks are in the order of JudgedPixels.
 void RegionController::listParts() {
   regions_.clear();
-  QStringList names{tr("Whole view"), tr("Rectangle"), tr("Current label"),
+  QStringList names{tr("Whole center view"), tr("Rectangle"), tr("Current label"),
                     tr("Where all results have values"), tr("Mask from a file…")};
   if (const auto& scene = bench_.session.scene()) {
     for (const auto& [name, mask] : scene->truth->regions) {

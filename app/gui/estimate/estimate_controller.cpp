@@ -148,7 +148,9 @@ EstimateController::EstimateController(const Workbench& bench)
 // offered, not before that is decided. Photographs of the gantry are rectified first.
 void EstimateController::runFirst(const QString& input) {
   const std::string id = builtin_scene_id(input.toStdString());
-  if (is_settled_ && !id.empty() && !is_gantry(id)) run({kFirstMethod, {}, {}});
+  const OpenScene* shown = session_.find_scene(session_.generation());
+  if (!shown || !is_settled_ || id.empty() || is_gantry(id)) return;
+  runs_.run({kFirstMethod, {}, {}}, *shown, false);
 }
 
 void EstimateController::addTargets() {

@@ -201,7 +201,7 @@ MethodRuns::MethodRuns(const Workbench& bench) : bench_(bench) {
   });
 }
 
-void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
+void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene, bool was_asked_for) {
   const EstimatorInfo info = find_estimator(request.method).info;
   const QString method = QString::fromStdString(info.name);
   const quint64 job = bench_.jobs.start<FinishedEstimate>(
@@ -211,9 +211,10 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
         return run_estimator(*source(progress), find_estimator(request.method), request.parameters,
                              request.options, progress);
       },
-      [this, method, id = scene.id](const FinishedEstimate& finished) {
+      [this, method, id = scene.id, was_asked_for](const FinishedEstimate& finished) {
         const int added =
             bench_.session.add_estimate(finished.estimate, finished.display_range, id);
+        if (!was_asked_for) bench_.session.mark_saved(added);
         offerToShow(added);
         if (finished.warning.empty()) return;
         bench_.messages.warn(tr("%1: %2.").arg(method, finding_words(finished.warning)));

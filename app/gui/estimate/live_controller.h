@@ -74,8 +74,8 @@ class MethodRuns : public QObject {
  public:
   explicit MethodRuns(const Workbench& bench);
 
-  /// Loads a scene that is only on disk.
-  void run(const EstimateRequest& request, const OpenScene& scene);
+  /// Loads a scene that is only on disk. Nobody is asked to save a result that was not asked for.
+  void run(const EstimateRequest& request, const OpenScene& scene, bool was_asked_for = true);
   /// Whether a method runs, or waits, on this open scene.
   [[nodiscard]] bool isRunning(std::uint64_t scene) const;
   /// Jobs of all runs on the scene.

@@ -47,9 +47,7 @@ bool MethodRange::isWanted() const {
   const LightField& light_field = *bench_.session.light_field();
   if (light_field.grid().count() < 2) return false;
   if (bench_.session.known_range().length() == 0) return true;
-  if (light_field.info().disparity_range && finds_range(light_field, panel_.request().values)) {
-    return true;
-  }
+  if (finds_range(light_field, panel_.request().values)) return true;
   return std::ranges::any_of(bench_.session.estimates(), [&](const EstimateEntry& each) {
     return each.estimate && each.foreign_file.empty() &&
            finds_range(light_field, each.estimate->parameters);

@@ -85,6 +85,7 @@ void Overlay::updateProvided() {
 }
 
 void Overlay::leaveWhatIsGone() {
+  if (!session_.scene()) return;  // the next one may have it
   if (!isAvailable(quantity_) && !isAwaited(quantity_)) quantity_ = Quantity::View;
 }
 
@@ -140,7 +141,7 @@ void Overlay::showAvailable() {
     if (isAvailable(info.quantity)) available.push_back(info.quantity);
   }
   viewer_area_.overlayBar()->setAvailable(available);
-  viewer_area_.overlayBar()->setQuantity(chosenQuantity());
+  viewer_area_.overlayBar()->setQuantity(session_.scene() ? chosenQuantity() : Quantity::View);
   emit choiceChanged();
 }
 
@@ -312,6 +313,11 @@ QString Overlay::describe(const MapChoice& choice) const {
 
 bool Overlay::isTruthWithoutError(const MapChoice& choice) const {
   return choice.quantity == Quantity::View && render::info_of(quantity_).subject == Subject::Error;
+}
+
+QString Overlay::nameB() const {
+  const MapChoice other = choiceB();
+  return isTruthWithoutError(other) ? quantity_label(Quantity::Truth) : describe(other);
 }
 
 QString Overlay::describeB() const {

@@ -109,6 +109,8 @@ class Overlay : public QObject {
   [[nodiscard]] MapChoice choiceB() const;
   /// "error of EPI_L", "truth"; "view" without an overlay.
   [[nodiscard]] QString describe(const MapChoice& choice) const;
+  /// What B is; the truth also where only the view can be shown for it.
+  [[nodiscard]] QString nameB() const;
   /// Description of B; says so where B is the truth, which has no error to show.
   [[nodiscard]] QString describeB() const;
   /// Current colors, with edited ranges.

@@ -21,7 +21,8 @@ class SceneSwitcher;
 class ViewerArea;
 
 /// Opens light fields in the background, and asks if files leave their reading open. Shows the
-/// center view as soon as it is read; the previous scene stays until loading succeeds.
+/// center view as soon as it is read, and nothing of the light field before, which comes back if
+/// loading fails.
 class SceneOpener : public QObject {
   Q_OBJECT
 
@@ -88,7 +89,7 @@ class SceneOpener : public QObject {
   void load(const Load& load);
   void leave(const Load& load, const std::function<void()>& go_on);
   void start(const Load& load);
-  [[nodiscard]] LoadOptions loadOptions(quint64 number, const ParameterSet& given);
+  [[nodiscard]] LoadOptions loadOptions(quint64 number, const Load& load);
   void showLoading(quint64 job, double fraction);
   void finish(const Load& load, const std::shared_ptr<const Scene>& scene);
   void end(quint64 number, const Load& load);

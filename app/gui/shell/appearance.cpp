@@ -78,7 +78,8 @@ void add_theme_commands(Commands& commands) {
                       [name] {
                         const QString applied = qApp->property(kApplied).toString();
                         return name == (applied.isEmpty() ? QString("system") : applied);
-                      }});
+                      },
+                  .choice = "theme"});
   }
 }
 

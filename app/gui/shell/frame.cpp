@@ -41,10 +41,7 @@ QToolButton* make_list_of_tabs(Frame& frame, QWidget* parent) {
   QObject::connect(menu, &QMenu::aboutToShow, &frame, [&frame, menu] {
     menu->clear();
     for (const Tab& tab : frame.tabs()) {
-      QAction* action =
-          menu->addAction(tab.title, &frame, [&frame, id = tab.id] { frame.showTab(id); });
-      action->setCheckable(true);
-      action->setChecked(frame.panes().isSeen(pane_id(tab.id)));
+      menu->addAction(tab.title, &frame, [&frame, id = tab.id] { frame.showTab(id); });
     }
   });
   // No menu of the button's own, whose arrow would stand beside this one.

@@ -324,7 +324,8 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   const GridShape grid = layout.shape.grid;
   Scene scene;
   ConventionReport& report = scene.convention;
-  report.format = "archive (" + path.filename().string() + group_text(file) + ")";
+  report.format =
+      fmt::format(finding_text("format.archive"), path.filename().string() + group_text(file));
   if (const auto origin = file.text("/", kOrigin)) report.format += ", " + *origin;
   compare_sizes(file, report);
   tell_faults(file, report);

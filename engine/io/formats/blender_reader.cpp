@@ -2,6 +2,7 @@
 #include "engine/io/formats/blender_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/parallel.h"
 #include "engine/core/progress.h"
 #include "engine/io/base/files.h"
@@ -61,10 +62,8 @@ ViewCrop complete_crop(const RenderManifest& manifest) {
 /// "31 of 81 views are rendered so far; …", for the report; empty if all are.
 std::string progress_text(const RenderManifest& manifest, const ViewCrop& crop) {
   if (!crop.leaves_out()) return {};
-  return fmt::format(
-      "{} of {} views are rendered so far; shown are the {}×{} around the center. Read it "
-      "again to see more; if the rendering was stopped, the same command in Blender continues it.",
-      manifest.complete.size(), manifest.grid.count(), crop.kept.v, crop.kept.u);
+  return fmt::format(finding_text("render.part"), manifest.complete.size(), manifest.grid.count(),
+                     crop.kept.v, crop.kept.u);
 }
 
 namespace fs = std::filesystem;

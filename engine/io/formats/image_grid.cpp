@@ -157,11 +157,11 @@ std::optional<std::string> settle_axes(ViewFiles& views, LoadedViews& pixels,
 /// "image grid (out_{row}_{col}.png, snake order)", with the folder inside of what was opened.
 std::string format_of(const NamedGrid& grid, const fs::path& folder, const fs::path& source,
                       const OpenOptions& options) {
-  std::string format = "image grid (";
-  if (folder != source) format += folder.filename().string() + "/";
-  format += grid.pattern;
-  if (options.snake) format += ", snake order";
-  return format + ")";
+  std::string names;
+  if (folder != source) names += folder.filename().string() + "/";
+  names += grid.pattern;
+  if (options.snake) names += ", snake order";
+  return fmt::format(finding_text("format.grid"), names);
 }
 
 /// Throws IoError if pictures of a list are rather mosaics of views each.

@@ -280,15 +280,13 @@ std::string format_of(const MosaicLayout& layout) {
   const std::string grid = grid_text(layout.grid);
   switch (layout.kind) {
     case Mosaic::Quilt:
-      return fmt::format("quilt of {} tiles, a line of views from the bottom left ({})",
-                         grid_text(layout.tiles), layout.evidence);
+      return fmt::format(finding_text("format.quilt"), grid_text(layout.tiles), layout.evidence);
     case Mosaic::ViewsUp:
-      return fmt::format("mosaic of {} views side by side, rows from the bottom ({})", grid,
-                         layout.evidence);
+      return fmt::format(finding_text("format.mosaic_up"), grid, layout.evidence);
     case Mosaic::Lenslets:
-      return fmt::format("mosaic of lenslets of {} px ({})", grid, layout.evidence);
+      return fmt::format(finding_text("format.lenslets"), grid, layout.evidence);
     default:
-      return fmt::format("mosaic of {} views side by side ({})", grid, layout.evidence);
+      return fmt::format(finding_text("format.mosaic"), grid, layout.evidence);
   }
 }
 

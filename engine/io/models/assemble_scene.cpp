@@ -306,8 +306,9 @@ void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, Conventio
 
 void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
               const Progress& progress) {
-  bring_in_order(parts, options, scene.convention, progress.part(0, 0.3));
   show_epis(parts.samples, options);
+  bring_in_order(parts, options, scene.convention, progress.part(0, 0.3));
+  show_epis(parts.samples, options);  // in another order, perhaps
   scene.convention.files = std::move(parts.files);
   zero_nonfinite_samples(parts.samples, scene.convention);
   keep_what_was_seen(parts, options, scene.convention, progress.part(0.3, 0.7));

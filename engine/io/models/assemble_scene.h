@@ -28,8 +28,8 @@ struct SceneParts {
 
 /// Finishes reading: brings the parts into canonical order, sets samples that are not finite to 0,
 /// and stores light field and, if needed, truth in `scene`. Shows EPIs
-/// (OpenOptions::on_center_epis) once the order is known. Continues the report of `scene`. Stores
-/// the given options in the light field's `reading`. Throws Cancelled.
+/// (OpenOptions::on_center_epis) as stored, and again once the order is known. Continues the report
+/// of `scene`. Stores the given options in the light field's `reading`. Throws Cancelled.
 void assemble(SceneParts parts, const OpenOptions& options, Scene& scene, const Progress& progress);
 
 /// Whether the options state which axis of views is rows and which is columns.

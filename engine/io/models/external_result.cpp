@@ -2,6 +2,7 @@
 #include "engine/io/models/external_result.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/exchange_files.h"
@@ -238,7 +239,7 @@ void add_maps_beside(const fs::path& path, Estimate& estimate) {
   const auto is_share = [](float value) { return value >= 0 && value <= 1; };
   if (!std::all_of(confidence, confidence + estimate.confidence.size(), is_share)) {
     estimate.confidence = {};
-    estimate.notes.emplace_back("confidence is left out: it has values beyond 0 … 1");
+    estimate.notes.emplace_back(finding_text("result.confidence"));
   }
   estimate.second.disparity = read_beside(path, "disparity_second", maps);
   mark_invalid(estimate.second);

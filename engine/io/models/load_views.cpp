@@ -397,15 +397,15 @@ AnyImage upright(AnyImage stored, int orientation) {
       [&](const auto& image) -> AnyImage { return upright_image(image, orientation); }, stored);
 }
 
-const char* orientation_text(int orientation) {
-  constexpr const char* kMeanings[] = {"upright",
-                                       "mirrored",
-                                       "turned by half",
-                                       "upside down and mirrored",
-                                       "turned and mirrored",
-                                       "turned by a quarter to the left",
-                                       "turned and mirrored",
-                                       "turned by a quarter to the right"};
+std::string_view orientation_text(int orientation) {
+  constexpr std::string_view kMeanings[] = {"upright",
+                                            finding_text("exif.mirrored"),
+                                            finding_text("exif.half_turn"),
+                                            finding_text("exif.upside_down"),
+                                            finding_text("exif.turned_mirrored"),
+                                            finding_text("exif.left"),
+                                            finding_text("exif.turned_mirrored"),
+                                            finding_text("exif.right")};
   return kMeanings[orientation - 1];
 }
 

@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace episcope::io {
@@ -88,7 +89,7 @@ void require_view_memory(const std::filesystem::path& path, double bytes);
 }
 
 /// How the stored rows of pixels lie, for reports: "turned by half".
-[[nodiscard]] const char* orientation_text(int orientation);
+[[nodiscard]] std::string_view orientation_text(int orientation);
 
 /// Orientation in which to show views: the one that all files state, or 1 if they differ. `note` is
 /// a sentence for the report if samples are not stored so.

@@ -64,7 +64,7 @@ struct OpenOptions {
   /// Called on the reading thread as soon as the center view is decoded.
   std::function<void(const Image<std::uint8_t>& center_rgb, const LightFieldInfo&, GridShape)>
       on_center_view{};
-  /// Called on the reading thread once the order of views is known, before the slower checks.
+  /// Called on the reading thread once all views are there, and again once their order is known.
   std::function<void(CenterEpis)> on_center_epis{};
 
   [[nodiscard]] MapViews map_views() const {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/shell/appearance.h"
+#include "engine/core/finding.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/labels.h"
+#include "widgets/controls/text.h"
+
+#include <fmt/format.h>
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
@@ -36,7 +40,7 @@ QString unwrapped(QString text) {
   // Methods, arrays of colors, paths, the name of the light field, the program, languages.
   static const QRegularExpression names(
       "\\b(EPI|ST|PLANE)_[A-Z_]+\\b|\\b(KZ02|NET|RGGB|GRBG|GBRG|BGGR)\\b|"
-      "(/[\\w.-]+)+|\\bedge\\b|Episcope|Deutsch|English");
+      "(/[\\w.-]+)+|\\blf\\.h5\\b|\\bedge\\b|Episcope|Deutsch|English");
   static const QRegularExpression keys(
       "\\b(Ctrl|Shift|Alt|Return|Enter|Backspace|Delete|Del|Esc|Space|Home|PgUp|PgDown|Up|Down|"
       "Left|Right|"
@@ -202,6 +206,7 @@ class TranslationTest : public QObject {
   void checker_findsBareWords();
   void everyText_isTranslated();
   void textsOfEveryMethod_areTranslated();
+  void valuesOfFindings_areTranslated();
   void dialogs_areTranslated_data();
   void dialogs_areTranslated();
 
@@ -244,6 +249,21 @@ void TranslationTest::textsOfEveryMethod_areTranslated() {
     methods->setCurrentIndex(i);
     const Walk walk = seen_of(f.window);
     QCOMPARE(shown(walk.plain()), 0);
+  }
+}
+
+void TranslationTest::valuesOfFindings_areTranslated() {
+  const auto said = [](std::string_view text, const auto&... values) {
+    return fmt::format(fmt::runtime(text), values...);
+  };
+  const std::string slopes = said(finding_text("order.slopes_agree"), 0.88, 9468);
+  const std::string direction =
+      said(finding_text("order.direction"), said(finding_text("sign.occlusion"), 747, 177, 93, 32));
+  const std::string turned = said(finding_text("exif.all"), finding_text("exif.upside_down"), 4);
+  const std::string part = said(finding_text("numbers.rows"), "0, 2 … 8");
+  for (const std::string& sentence : {slopes + "; " + direction, turned, part}) {
+    const QString words = finding_words(sentence);
+    QVERIFY2(!has_word(words), qPrintable(words));
   }
 }
 

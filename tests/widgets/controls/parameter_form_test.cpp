@@ -226,8 +226,7 @@ class ParameterFormTest : public QObject {
 
   void rangeOfTheFile_isNamedAndBeginsTheOneByHand() {
     form_.setRangeHints({true, Interval{-1.5, 2}, {}});
-    QCOMPARE(sources(),
-             (QStringList{"From the file: −1.50 … 2.00 px", "Found in the images", "By hand"}));
+    QCOMPARE(sources(), (QStringList{"File: −1.50 … 2.00 px", "Found in the images", "By hand"}));
 
     choose("By hand");
 

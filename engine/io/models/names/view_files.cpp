@@ -169,12 +169,18 @@ std::optional<ViewIndex> middle_of_cross(const GridWithGaps& views, const PartOf
   return std::nullopt;
 }
 
+enum class Axis { Rows, Columns };
+
 /// "row 4", "columns 0, 2 … 8".
-std::string numbers_text(const char* what, const std::vector<long long>& all, int first, int count,
+std::string numbers_text(Axis axis, const std::vector<long long>& all, int first, int count,
                          int step) {
   std::vector<long long> values;
   for (int i = 0; i < count; ++i) values.push_back(all[static_cast<std::size_t>(first + i * step)]);
-  return fmt::format("{}{} {}", what, count == 1 ? "" : "s", NumberRun(values).text());
+  const std::string_view one =
+      axis == Axis::Rows ? finding_text("numbers.row") : finding_text("numbers.column");
+  const std::string_view several =
+      axis == Axis::Rows ? finding_text("numbers.rows") : finding_text("numbers.columns");
+  return fmt::format(fmt::runtime(count == 1 ? one : several), NumberRun(values).text());
 }
 
 }  // namespace
@@ -189,10 +195,11 @@ std::size_t GridWithGaps::missing() const {
 }
 
 std::string missing_text(const std::vector<std::string>& first, std::size_t count) {
-  if (count == 1) return "view " + first.front() + " is missing";
-  std::string text = fmt::format("{} views are missing:", count);
-  for (const std::string& each : first) (text += ' ') += each;
-  return count > first.size() ? text + " …" : text;
+  if (count == 1) return fmt::format(finding_text("numbers.missing"), first.front());
+  std::string views;
+  for (const std::string& each : first) views += (views.empty() ? "" : " ") + each;
+  if (count > first.size()) views += " …";
+  return fmt::format(finding_text("numbers.all_missing"), count, views);
 }
 
 std::string missing_text(const GridWithGaps& views) {
@@ -231,21 +238,18 @@ ViewFiles files_of_part(const GridWithGaps& views, const PartOfGrid& part) {
 
 std::string part_text(const GridWithGaps& views, const PartOfGrid& part) {
   const GridShape shape = views.shape();
-  const std::string rows = numbers_text("row", views.rows, part.first.v, part.grid.v, part.step);
+  const std::string rows =
+      numbers_text(Axis::Rows, views.rows, part.first.v, part.grid.v, part.step);
   const std::string columns =
-      numbers_text("column", views.columns, part.first.u, part.grid.u, part.step);
+      numbers_text(Axis::Columns, views.columns, part.first.u, part.grid.u, part.step);
   const std::size_t others =
       views.files.size() - views.missing() - static_cast<std::size_t>(part.grid.count());
   if (const auto middle = middle_of_cross(views, part)) {
     const bool is_row = part.grid.v == 1;
-    return fmt::format(
-        "The views form a cross of row {} and column {} ({}): those of the {}, {}×{}, are opened, "
-        "the {} others are not used; a pattern with the number of the {} instead of {} opens "
-        "these.",
-        views.rows[static_cast<std::size_t>(middle->v)],
-        views.columns[static_cast<std::size_t>(middle->u)], views.numbering,
-        is_row ? "row" : "column", part.grid.v, part.grid.u, others, is_row ? "column" : "row",
-        is_row ? "{col}" : "{row}");
+    return fmt::format(finding_text("views.cross"), views.rows[static_cast<std::size_t>(middle->v)],
+                       views.columns[static_cast<std::size_t>(middle->u)], views.numbering,
+                       is_row ? "row" : "column", part.grid.v, part.grid.u, others,
+                       is_row ? "column" : "row", is_row ? "{col}" : "{row}");
   }
   return fmt::format(
       fmt::runtime(others == 1 ? finding_text("views.part_but_one") : finding_text("views.part")),

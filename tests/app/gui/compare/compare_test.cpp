@@ -56,6 +56,7 @@ class CompareTest : public QObject {
   void truthAsB_isSaidToHaveNoError();
   void difference_isOfAAndB();
   void clickOnAMark_choosesB();
+  void errorOfOneResult_isAgainstTheTruth();
   void chosenB_staysWhenAnotherIsShown();
   void resultOfAJob_leavesAComparisonAlone();
   void rowOfTheMetricTable_showsItsResult();
@@ -201,6 +202,18 @@ void CompareTest::clickOnAMark_choosesB() {
   QCOMPARE(f.session().compared()->id, f.ids[0]);
   const auto* b = f.window.findChild<QComboBox*>("compare.b");
   QTRY_COMPARE_WITH_TIMEOUT(b->currentData().toInt(), f.ids[0], kPatience);
+}
+
+void CompareTest::errorOfOneResult_isAgainstTheTruth() {
+  Compared f({0.1F});
+  const auto* b = f.window.findChild<QComboBox*>("compare.b");
+  QTRY_COMPARE_WITH_TIMEOUT(b->placeholderText(), QString("ground truth"), kPatience);
+
+  f.trigger("overlay.error");
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().overlay.quantity(), render::Quantity::SignedError,
+                            kPatience);
+  QCOMPARE(b->placeholderText(), QString("ground truth"));
 }
 
 void CompareTest::chosenB_staysWhenAnotherIsShown() {

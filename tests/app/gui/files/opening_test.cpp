@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/files/file_controller.h"
+#include "app/gui/files/project_controller.h"
+#include "app/gui/scene/scene_switcher.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/load_scene.h"
 #include "engine/core/error.h"
@@ -12,6 +14,7 @@
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/parameter_form.h"
+#include "widgets/panels/color_bar.h"
 
 #include <QAction>
 #include <QComboBox>
@@ -71,6 +74,8 @@ class OpeningTest : public QObject {
   void openedFile_isShown();
   void folderOfASingleLightField_opensIt();
   void epis_areDrawnBeforeTheChecksEnd();
+  void preview_hidesTheLightFieldBefore();
+  void preview_givesWayToAnotherThatIsChosen();
   void readAgain_showsWhatWasWrittenMeanwhile();
   void builtinScene_isEstimatedAtOnce();
   void builtinScenes_areChosenFromAList();
@@ -123,6 +128,56 @@ void OpeningTest::epis_areDrawnBeforeTheChecksEnd() {
   QVERIFY(was_drawn);
 }
 
+void OpeningTest::preview_hidesTheLightFieldBefore() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const QString other = f.writeScene("slant", WindowFixture::smallOptions());
+  const Workbench& bench = f.window.bench();
+  const std::uint64_t before = bench.session.generation();
+  const auto* title = f.window.findChild<QLabel*>("info.title");
+  QTRY_VERIFY_WITH_TIMEOUT(bench.viewer_area.colorBar()->isVisible(), kPatience);
+  bool was_seen = false;
+  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, [&](bool is_previewing) {
+    if (!is_previewing) return;
+    was_seen = true;
+    QVERIFY(!bench.session.scene());
+    QVERIFY(!bench.viewer_area.colorBar()->isVisible());
+    QCOMPARE(title->text(), QString("Opening …"));
+    QVERIFY(!bench.commands.find("estimate.run")->isEnabled());
+    bench.jobs.cancelLane(Lane::Open);
+  });
+
+  bench.opener.open(other);
+
+  QTRY_VERIFY_WITH_TIMEOUT(was_seen, kScenePatience);
+  QTRY_COMPARE_WITH_TIMEOUT(bench.session.generation(), before, kScenePatience);
+  QTRY_VERIFY_WITH_TIMEOUT(bench.viewer_area.colorBar()->isVisible(), kPatience);
+  QVERIFY(!bench.viewer_area.isPreviewing());
+}
+
+void OpeningTest::preview_givesWayToAnotherThatIsChosen() {
+  WindowFixture f;
+  f.openSmall();
+  const QString other = f.writeScene("slant", WindowFixture::smallOptions());
+  const Workbench& bench = f.window.bench();
+  const std::uint64_t before = bench.session.generation();
+  bool was_drawn = false;
+  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, [&](bool is_previewing) {
+    if (is_previewing) {
+      bench.scenes.show(before);
+    } else {
+      was_drawn |= bench.session.generation() == before;
+    }
+  });
+
+  bench.opener.open(other);
+
+  QTRY_VERIFY_WITH_TIMEOUT(was_drawn, kScenePatience);
+  QTRY_VERIFY_WITH_TIMEOUT(bench.session.generation() != before, kScenePatience);
+  QCOMPARE(bench.session.scenes().size(), 2U);
+}
+
 void OpeningTest::folderOfASingleLightField_opensIt() {
   WindowFixture f;
   const QString file = f.path("deeper/down/lf.h5");
@@ -158,6 +213,9 @@ void OpeningTest::builtinScene_isEstimatedAtOnce() {
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 1U, kScenePatience);
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
   QVERIFY(f.window.bench().commands.find("overlay.error")->isEnabled());
+  // Nobody asked for it, so that nobody is asked to save it.
+  find<ProjectGuard>(f.window).setWorthKeeping(0);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().guards.may_leave(Leaving::Session), kPatience);
 }
 
 void OpeningTest::builtinScenes_areChosenFromAList() {

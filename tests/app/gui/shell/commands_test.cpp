@@ -78,7 +78,8 @@ void CommandsTest::exclusiveChoices_haveRadioMarks() {
   f.trigger("overlay.truth");
   const Commands& commands = f.window.bench().commands;
 
-  for (const char* id : {"overlay.none", "overlay.truth", "compare.wipe", "annotate.brush"}) {
+  for (const char* id :
+       {"overlay.none", "overlay.truth", "compare.wipe", "annotate.brush", "theme.dark"}) {
     const QActionGroup* group = commands.find(id)->actionGroup();
     QVERIFY2(group && group->isExclusive(), id);
   }
