@@ -371,7 +371,7 @@ bool is_black(const T* pixel, int channels, double limit) {
                      [&](T sample) { return static_cast<double>(sample) <= limit * kFull; });
 }
 
-struct Corner {
+struct ViewCorner {
   bool is_bottom = false;
   bool is_right = false;
 };
@@ -379,7 +379,7 @@ struct Corner {
 /// Pixels of the black wedge at a corner: row by row from the corner, runs from the side that do
 /// not grow. Empty if it is too small, or too long to be one.
 template <class T>
-std::vector<PixelIndex> wedge_at(ImageView<const T> view, Corner corner) {
+std::vector<PixelIndex> wedge_at(ImageView<const T> view, ViewCorner corner) {
   std::vector<PixelIndex> pixels;
   int longest = view.width;
   for (int j = 0; j < view.height && longest > 0; ++j) {
@@ -403,8 +403,8 @@ template <class T>
 std::vector<PixelIndex> black_wedges(ImageView<const T> center) {
   std::vector<PixelIndex> all;
   int corners = 0;
-  for (const Corner corner :
-       {Corner{false, false}, Corner{false, true}, Corner{true, false}, Corner{true, true}}) {
+  for (const ViewCorner corner : {ViewCorner{false, false}, ViewCorner{false, true},
+                                  ViewCorner{true, false}, ViewCorner{true, true}}) {
     const std::vector<PixelIndex> wedge = wedge_at(center, corner);
     corners += wedge.empty() ? 0 : 1;
     all.insert(all.end(), wedge.begin(), wedge.end());
