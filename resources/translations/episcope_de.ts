@@ -3007,6 +3007,114 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>without a white picture the lenses were found in the raw picture itself, and their vignetting remains; give one with --white</source>
         <translation>ohne Weißbild wurden die Linsen im Rohbild selbst gefunden, ihre Vignettierung bleibt; mit --white eines angeben</translation>
     </message>
+    <message>
+        <source>%1 of %2 views are rendered so far; shown are the %3×%4 around the center. Read it again to see more; if the rendering was stopped, the same command in Blender continues it.</source>
+        <translation>%1 von %2 Ansichten sind bisher gerendert; gezeigt werden die %3×%4 um die Mitte. Erneutes Lesen zeigt mehr; wurde das Rendern abgebrochen, setzt derselbe Befehl in Blender es fort.</translation>
+    </message>
+    <message>
+        <source>%1 views are missing: %2</source>
+        <translation>%1 Ansichten fehlen: %2</translation>
+    </message>
+    <message>
+        <source>The views form a cross of row %1 and column %2 (%3): those of the %4, %5×%6, are opened, the %7 others are not used; a pattern with the number of the %8 instead of %9 opens these.</source>
+        <translation>Die Ansichten bilden ein Kreuz aus Zeile %1 und Spalte %2 (%3): Die der %4, %5×%6, werden geöffnet, die %7 anderen nicht verwendet; ein Muster mit der Nummer der %8 statt %9 öffnet diese.</translation>
+    </message>
+    <message>
+        <source>Using %3×%4 views; %1 of %2 are rendered so far.</source>
+        <translation>%3×%4 Ansichten werden verwendet; %1 von %2 sind bisher gerendert.</translation>
+    </message>
+    <message>
+        <source>Using the views of the %4 of a cross.</source>
+        <translation>Die Ansichten der %4 eines Kreuzes werden verwendet.</translation>
+    </message>
+    <message>
+        <source>archive (%1)</source>
+        <translation>Archiv (%1)</translation>
+    </message>
+    <message>
+        <source>brightness of the views evened: fall-off %1</source>
+        <translation>Helligkeit der Ansichten angeglichen: Abfall %1</translation>
+    </message>
+    <message>
+        <source>column</source>
+        <translation>Spalte</translation>
+    </message>
+    <message>
+        <source>column %1</source>
+        <translation>Spalte %1</translation>
+    </message>
+    <message>
+        <source>columns %1</source>
+        <translation>Spalten %1</translation>
+    </message>
+    <message>
+        <source>confidence is left out: it has values beyond 0 … 1</source>
+        <translation>die Konfidenz bleibt aus: Sie hat Werte außerhalb von 0 … 1</translation>
+    </message>
+    <message>
+        <source>image grid (%1)</source>
+        <translation>Bildraster (%1)</translation>
+    </message>
+    <message>
+        <source>mirrored</source>
+        <translation>gespiegelt</translation>
+    </message>
+    <message>
+        <source>mosaic of %1 views side by side (%2)</source>
+        <translation>Mosaik von %1 Ansichten nebeneinander (%2)</translation>
+    </message>
+    <message>
+        <source>mosaic of %1 views side by side, rows from the bottom (%2)</source>
+        <translation>Mosaik von %1 Ansichten nebeneinander, Zeilen von unten (%2)</translation>
+    </message>
+    <message>
+        <source>mosaic of lenslets of %1 px (%2)</source>
+        <translation>Mosaik aus Linsen von %1 px (%2)</translation>
+    </message>
+    <message>
+        <source>quilt of %1 tiles, a line of views from the bottom left (%2)</source>
+        <translation>Quilt aus %1 Kacheln, eine Reihe von Ansichten von unten links (%2)</translation>
+    </message>
+    <message>
+        <source>row</source>
+        <translation>Zeile</translation>
+    </message>
+    <message>
+        <source>row %1</source>
+        <translation>Zeile %1</translation>
+    </message>
+    <message>
+        <source>rows %1</source>
+        <translation>Zeilen %1</translation>
+    </message>
+    <message>
+        <source>scores in high resolution are left out: %1</source>
+        <translation>Bewertungen in hoher Auflösung bleiben aus: %1</translation>
+    </message>
+    <message>
+        <source>turned and mirrored</source>
+        <translation>gedreht und gespiegelt</translation>
+    </message>
+    <message>
+        <source>turned by a quarter to the left</source>
+        <translation>um eine Vierteldrehung nach links gedreht</translation>
+    </message>
+    <message>
+        <source>turned by a quarter to the right</source>
+        <translation>um eine Vierteldrehung nach rechts gedreht</translation>
+    </message>
+    <message>
+        <source>turned by half</source>
+        <translation>um eine halbe Drehung gedreht</translation>
+    </message>
+    <message>
+        <source>upside down and mirrored</source>
+        <translation>kopfstehend und gespiegelt</translation>
+    </message>
+    <message>
+        <source>view %1 is missing</source>
+        <translation>Ansicht %1 fehlt</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FocusController</name>
@@ -3449,6 +3557,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Show the evidence</source>
         <translation>Zeigt den Beleg</translation>
+    </message>
+    <message>
+        <source>not used: </source>
+        <translation>nicht verwendet: </translation>
     </message>
 </context>
 <context>
@@ -5308,12 +5420,12 @@ s</translation>
         <translation>Automatisch</translation>
     </message>
     <message>
-        <source>From the file: %1</source>
-        <translation>Aus der Datei: %1</translation>
-    </message>
-    <message>
         <source>By hand</source>
         <translation>Von Hand</translation>
+    </message>
+    <message>
+        <source>File: %1</source>
+        <translation>Datei: %1</translation>
     </message>
 </context>
 <context>
@@ -6042,10 +6154,6 @@ s</translation>
 <context>
     <name>episcope::RegionController</name>
     <message>
-        <source>Whole view</source>
-        <translation>Ganze Ansicht</translation>
-    </message>
-    <message>
         <source>Rectangle</source>
         <translation>Rechteck</translation>
     </message>
@@ -6136,6 +6244,10 @@ s</translation>
     <message>
         <source>region %1</source>
         <translation>Region %1</translation>
+    </message>
+    <message>
+        <source>Whole center view</source>
+        <translation>Ganze mittlere Ansicht</translation>
     </message>
 </context>
 <context>
@@ -8037,10 +8149,6 @@ s</translation>
         <translation>ein Pixel rechts der Linsenmitte sieht von rechts</translation>
     </message>
     <message>
-        <source>demosaicing</source>
-        <translation>Farben ergänzen</translation>
-    </message>
-    <message>
         <source>finding the lenses</source>
         <translation>Linsen finden</translation>
     </message>
@@ -8075,6 +8183,78 @@ s</translation>
     <message>
         <source>processed container of a Lytro camera</source>
         <translation>Container fertiger Bilder einer Lytro-Kamera</translation>
+    </message>
+    <message>
+        <source>depth map</source>
+        <translation>Tiefenkarte</translation>
+    </message>
+    <message>
+        <source>depth maps</source>
+        <translation>Tiefenkarten</translation>
+    </message>
+    <message>
+        <source>label file</source>
+        <translation>Labeldatei</translation>
+    </message>
+    <message>
+        <source>label files</source>
+        <translation>Labeldateien</translation>
+    </message>
+    <message>
+        <source>label picture</source>
+        <translation>Labelbild</translation>
+    </message>
+    <message>
+        <source>label pictures</source>
+        <translation>Labelbilder</translation>
+    </message>
+    <message>
+        <source>light field</source>
+        <translation>Lichtfeld</translation>
+    </message>
+    <message>
+        <source>manifest</source>
+        <translation>Manifest</translation>
+    </message>
+    <message>
+        <source>mosaic</source>
+        <translation>Mosaik</translation>
+    </message>
+    <message>
+        <source>mosaics</source>
+        <translation>Mosaike</translation>
+    </message>
+    <message>
+        <source>parameter file</source>
+        <translation>Parameterdatei</translation>
+    </message>
+    <message>
+        <source>parameter files</source>
+        <translation>Parameterdateien</translation>
+    </message>
+    <message>
+        <source>pose file</source>
+        <translation>Posendatei</translation>
+    </message>
+    <message>
+        <source>pose files</source>
+        <translation>Posendateien</translation>
+    </message>
+    <message>
+        <source>results</source>
+        <translation>Ergebnisse</translation>
+    </message>
+    <message>
+        <source>scribble file</source>
+        <translation>Strichdatei</translation>
+    </message>
+    <message>
+        <source>scribble files</source>
+        <translation>Strichdateien</translation>
+    </message>
+    <message>
+        <source>segmentations</source>
+        <translation>Segmentierungen</translation>
     </message>
 </context>
 <context>
