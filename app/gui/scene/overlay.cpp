@@ -241,7 +241,7 @@ std::optional<MapSource> Overlay::sourceOf(const MapChoice& choice) const {
 }
 
 void Overlay::draw() {
-  if (viewer_area_.isPreviewing()) return;
+  if (viewer_area_.isPreviewing()) return viewer_area_.colorBar()->hide();
   const MapChoice drawn_choice = choice();
   drawMap(drawn_choice);
   viewer_area_.canvas()->setOverlay(picture_);

@@ -301,8 +301,10 @@ LoadOptions SceneOpener::loadOptions(quint64 number, const Load& load) {
       if (number != number_ || loading_job_ == 0) return;
       // Nothing that is said of another light field stands beside the preview.
       if (session_.scene()) session_.show_nothing();
-      viewer_area_.showPreview(to_qimage(std::move(*picture)),
-                               tr("%1 · reading all views …").arg(name));
+      showOnceTold(number, [this, picture, name] {
+        viewer_area_.showPreview(to_qimage(std::move(*picture)),
+                                 tr("%1 · reading all views …").arg(name));
+      });
     });
   };
   options.open.on_center_epis = [this, number,
@@ -310,12 +312,21 @@ LoadOptions SceneOpener::loadOptions(quint64 number, const Load& load) {
     auto horizontal = std::make_shared<RgbaImage>(rgba_of(epis.horizontal));
     auto vertical = std::make_shared<RgbaImage>(rgba_of(epis.vertical));
     post([this, number, horizontal, vertical] {
-      if (number != number_ || loading_job_ == 0) return;
-      viewer_area_.showPreviewEpis(to_qimage(std::move(*horizontal)),
-                                   to_qimage(std::move(*vertical)));
+      showOnceTold(number, [this, horizontal, vertical] {
+        viewer_area_.showPreviewEpis(to_qimage(std::move(*horizontal)),
+                                     to_qimage(std::move(*vertical)));
+      });
     });
   };
   return options;
+}
+
+// The session tells its changes after the current turn.
+void SceneOpener::showOnceTold(quint64 number, const std::function<void()>& show) {
+  const auto show_it = [this, number, show] {
+    if (number == number_ && loading_job_ != 0) show();
+  };
+  QMetaObject::invokeMethod(this, show_it, Qt::QueuedConnection);
 }
 
 void SceneOpener::load(const Load& load) {

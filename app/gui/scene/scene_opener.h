@@ -90,6 +90,7 @@ class SceneOpener : public QObject {
   void leave(const Load& load, const std::function<void()>& go_on);
   void start(const Load& load);
   [[nodiscard]] LoadOptions loadOptions(quint64 number, const Load& load);
+  void showOnceTold(quint64 number, const std::function<void()>& show);
   void showLoading(quint64 job, double fraction);
   void finish(const Load& load, const std::shared_ptr<const Scene>& scene);
   void end(quint64 number, const Load& load);
