@@ -24,8 +24,6 @@ namespace {
 /// reading explains a map far better.
 constexpr double kFarBetterByTruth = 0.5;
 constexpr double kFarBetterByViews = 0.6;
-/// The same for turns and signs, which average no noise of a map away, as smaller scales do.
-constexpr double kFarBetterByTurns = 0.8;
 /// Share of the error of a map that says nothing above which a map explains little, and the error
 /// that is small in any scene.
 constexpr double kPoor = 0.5;
@@ -522,14 +520,8 @@ std::optional<MapReading> found_by_views(const DisparityView& map, const MapEvid
     const auto errors = views.errors(map, reading);
     return errors ? errors->share() : 1.0;
   };
-  const auto weighed_share_of = [&](const MapReading& reading) {
-    const bool keeps_sizes = std::abs(reading.scale) == 1 && reading.border_px == 0 &&
-                             reading.values == MapValues::Disparity;
-    return share_of(reading) * (keeps_sizes ? kFarBetterByViews / kFarBetterByTurns : 1);
-  };
   const double limit = kFarBetterByViews * std::min(share_of({}), 1.0);
-  return least_reading(possible_readings(map, evidence.light_field, false), limit,
-                       weighed_share_of);
+  return least_reading(possible_readings(map, evidence.light_field, false), limit, share_of);
 }
 
 std::optional<double> mse_100(const DisparityView& map, const MapReading& reading,

@@ -97,7 +97,7 @@ struct BetterReading {
 /// decides, over all combinations of turns and values: it must be less than half of the error as
 /// read, and of the error of the best constant. Without, the views decide alone, over turns with
 /// either sign, and values of maps that are not turned: the error of the next views must be below
-/// 0.6 (of turns and signs alone 0.8) of the error as read, and of that without warping. Returns
+/// 0.6 of the error as read, and of the error without warping (as in put_truth_upright). Returns
 /// nothing if the map is best as it is. Looks at about 10,000 pixels of the truth; linear in the
 /// pixels of the views. Precondition: the map has the size of a view.
 [[nodiscard]] std::optional<BetterReading> find_better_reading(const DisparityView& map,

@@ -19,7 +19,6 @@ using io::MapValues;
 
 constexpr int kSide = 64;
 constexpr int kBorder = 6;
-constexpr int kNoise = 60;  // from end to end, in gray levels
 
 /// Maps that a person wrote or read in another way than they were meant.
 class MapReadingTest : public QObject {
@@ -133,31 +132,6 @@ class MapReadingTest : public QObject {
     QCOMPARE(QString::fromStdString(io::reading_text(found->reading)),
              QString::fromStdString(io::reading_text(mistake)));
     QVERIFY(!found->better.mse_100.has_value() && found->better.grey_levels.has_value());
-  }
-
-  void turns_areSeenByNoisyViews() {
-    const ViewStack<std::uint8_t>& clean = bytes_of(scene_);
-    ViewStack<std::uint8_t> noisy = clean.clone();
-    std::uint32_t random = 7;
-    for (std::size_t i = 0; i < noisy.size(); ++i) {
-      random = 1664525 * random + 1013904223;
-      const int noise = static_cast<int>(random >> 24) * kNoise / 255 - kNoise / 2;
-      noisy.data()[i] = static_cast<std::uint8_t>(std::clamp(clean.data()[i] + noise, 0, 255));
-    }
-    const LightField views(std::move(noisy), scene_.light_field->info());
-    const auto found = [&](const MapReading& mistake) {
-      const Estimate estimate = spoilt(mistake);
-      return io::find_better_reading(estimate.field.view(center()), {views, center()});
-    };
-
-    QVERIFY(!found({}));
-    for (const MapReading& mistake :
-         {MapReading{.flip = MapFlip::X}, MapReading{.is_transposed = true}}) {
-      const auto better = found(mistake);
-      QVERIFY(better.has_value());
-      QVERIFY(better->reading == mistake);
-      QVERIFY(*better->better.grey_levels > 0.6 * *better->as_read.grey_levels);
-    }
   }
 
   void honestMaps_areLeftAlone_data() {
