@@ -149,8 +149,8 @@ void require_comparable(const DisparityView& estimate, const DisparityView& trut
   if (a.height != b.height || a.width != b.width) {
     throw InvalidInput(
         "the estimate is " + size_text(a) + " px, but the truth is " + size_text(b) +
-        " px: they belong to different light fields; name that of the estimate, or bring "
-        "a map of another resolution to this size (--map-resize)");
+        " px: they belong to different light fields; name the light field of the "
+        "estimate, or bring a map of another resolution to this size (--map-resize)");
   }
 }
 

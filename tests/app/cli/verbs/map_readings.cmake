@@ -48,8 +48,8 @@ foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
 endforeach()
 
 # Another resolution: the error names the option.
-expect("a larger scene" 0 ARGS synthesize objects -o twice.h5 --views 3x3 --size 128x128)
-expect("half the resolution" 1 ERR "name that of the estimate, or bring a map .*--map-resize"
+expect("a larger scene" 0 ERR "labels" ARGS synthesize objects -o twice.h5 --views 3x3 --size 128x128)
+expect("half the resolution" 1 ERR "name the light field of the estimate, or bring a map .*--map-resize"
        ARGS evaluate truth.pfm --truth twice.h5)
 expect("enlarged" 0 ARGS evaluate truth.pfm --truth twice.h5 --map-resize --json)
 
